@@ -1,0 +1,97 @@
+"""The coupled dNLS equations (4) of the paper, their energy (8), and the ends of the chain.
+
+A state is a real array `y[row, 1 + site]` with the rows Re A, Im A, Re B, Im B, or only the first
+two when A = B; its sites are -M..M, or 0..M where the data are even in n. The first and the last
+column are ghosts: what the ends of the chain see beyond themselves. Neighbours are summed as
+(right + left) - 2 centre, which rounds alike under reflection, so that an even solution stays
+even to the last bit.
+"""
+
+from typing import NamedTuple
+
+from .compiled import kernel
+
+DIRICHLET, FREE, PERIODIC, MIRROR = range(4)
+ENDS = {"dirichlet": DIRICHLET, "free": FREE, "periodic": PERIODIC}
+
+
+class Chain(NamedTuple):
+    """Parameters of the equations (coupling, drive, detuning) and the kinds of the two ends."""
+
+    epsilon: float
+    gamma: float
+    omega: float
+    left: int
+    right: int
+
+
+@kernel
+def close(chain, y):
+    """Fill the ghost columns of `y` with what the ends of the chain see."""
+    n = y.shape[1] - 2
+    for row in range(y.shape[0]):
+        y[row, 0] = 0.0
+        if chain.left == FREE:
+            y[row, 0] = y[row, 1]
+        elif chain.left == PERIODIC:
+            y[row, 0] = y[row, n]
+        elif chain.left == MIRROR:
+            y[row, 0] = y[row, 2]
+        y[row, n + 1] = 0.0
+        if chain.right == FREE:
+            y[row, n + 1] = y[row, n]
+        elif chain.right == PERIODIC:
+            y[row, n + 1] = y[row, 1]
+
+
+@kernel
+def field(chain, drive, left, u, right, partner, density):
+    """Return one real part of the right-hand side of (4), `drive` being gamma (Re) or -gamma (Im)."""
+    coupling = chain.epsilon * ((right + left) - 2.0 * u)
+    return coupling + chain.omega * u + drive * (partner - u) + 0.5 * density * u
+
+
+@kernel
+def site_rates(chain, y, re, j, density, dy):
+    """Write i dA/dtau = F, that is Re A' = Im F and Im A' = -Re F, at column `j` of row pair `re`."""
+    im = re + 1
+    partner = y.shape[0] - 2 - re  # the row itself when A = B: the drive then vanishes exactly
+    gamma = chain.gamma
+    dy[re, j] = field(
+        chain, -gamma, y[im, j - 1], y[im, j], y[im, j + 1], y[partner + 1, j], density
+    )
+    dy[im, j] = -field(
+        chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[partner, j], density
+    )
+
+
+@kernel
+def modulus2(y, re, j):
+    """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
+    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+
+
+@kernel
+def rates(chain, y, dy):
+    """Write the right-hand side of equations (4) at `y` into `dy` (same shape)."""
+    close(chain, y)
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            site_rates(chain, y, re, j, modulus2(y, re, j), dy)
+
+
+@kernel
+def midpoint_rates(chain, old, new, middle, dy):
+    """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
+
+    The linear terms act on the mean state (left in `middle`), the cubic one is the mean of |A|^2
+    times the mean of A: then H(new) = H(old) exactly (Delfour, Fortin and Payre 1981).
+    """
+    for row in range(old.shape[0]):
+        for j in range(old.shape[1]):
+            middle[row, j] = 0.5 * (old[row, j] + new[row, j])
+    close(chain, middle)
+    for re in range(0, old.shape[0], 2):
+        for j in range(1, old.shape[1] - 1):
+            density = 0.5 * (modulus2(old, re, j) + modulus2(new, re, j))
+            site_rates(chain, middle, re, j, density, dy)

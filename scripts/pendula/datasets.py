@@ -1,0 +1,68 @@
+"""netCDF-4 datasets: every variable has a name for people and units, every file is whole.
+
+Writing needs netCDF4 alone, so that a simulation does not pay for importing xarray.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import netCDF4
+import numpy as np
+
+from .files import complete_or_absent
+
+
+class DatasetError(RuntimeError):
+    """A dataset that cannot be written, or read back; the message names the file."""
+
+
+class Variable(NamedTuple):
+    """Values on named dimensions, with CF-style attributes."""
+
+    dimensions: tuple[str, ...]
+    values: Any
+    long_name: str
+    units: str = "1"
+
+
+def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
+    """Write a dataset; a fault (a full disk, say) leaves no file and names the one it was."""
+    try:
+        with complete_or_absent(path) as partial:
+            with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+                file.setncatts({"Conventions": "CF-1.11", **attributes})
+                for name, variable in variables.items():
+                    _write_variable(file, name, variable)
+    except (OSError, RuntimeError) as error:
+        raise DatasetError(f"could not write {path}: {error} (is the disk full?)") from error
+
+
+def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> None:
+    values = np.asarray(variable.values)
+    for dimension, size in zip(variable.dimensions, values.shape, strict=True):
+        if dimension not in file.dimensions:
+            file.createDimension(dimension, size)
+    if values.dtype.kind == "U":
+        target = file.createVariable(name, str, variable.dimensions)
+        values = values.astype(object)
+    else:
+        compression = "zlib" if values.size > 10_000 else None
+        target = file.createVariable(name, values.dtype, variable.dimensions, compression)
+    target.long_name, target.units = variable.long_name, variable.units
+    target[...] = values
+
+
+def read(path: str | Path):
+    """Return the dataset at `path` as an xarray.Dataset in memory, its file closed."""
+    import xarray  # here, so that writing does without it
+
+    try:
+        return xarray.load_dataset(path, engine="netcdf4")
+    except FileNotFoundError:
+        raise DatasetError(f"{path} is missing: run snakemake to make it") from None
+    except (OSError, RuntimeError, ValueError) as error:
+        raise DatasetError(
+            f"{path} is damaged and cannot be read ({error}): "
+            "delete it and run snakemake to make it again"
+        ) from error

@@ -1,0 +1,140 @@
+"""Crank-Nicolson in its energy-conserving form, solved by fixed-point iteration.
+
+new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
+(J. Comput. Phys. 44 (1981) 277): second order, symmetric in time, and the energy is conserved up
+to the tolerance of the iteration. The iteration starts from an extrapolation of the last steps
+and stops when the largest change of a part falls below tolerance * max(1, |y|). Where the changes
+do not shrink, or not far enough within the allowed count, the step is cut in halves until they
+do: each cut is counted as a rejected step, and the run ends with a fault where cutting does not
+help.
+"""
+
+import numpy as np
+
+from ..compiled import copy, generic, inlined, kernel
+from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
+
+WORK = 5  # arrays of the size of a state
+SMALLEST_FRACTION = 2.0**-20
+
+
+@kernel
+def update(old, h, slope, new):
+    """Set new = old + h slope; return the largest change of a part (infinite where that fails)."""
+    change = 0.0
+    for row in range(old.shape[0]):
+        for j in range(1, old.shape[1] - 1):
+            value = old[row, j] + h * slope[row, j]
+            if not abs(value) < np.inf:  # comparisons would pass over a NaN
+                return np.inf
+            change = max(change, abs(value - new[row, j]))
+            new[row, j] = value
+    return change
+
+
+@kernel
+def size(y):
+    """Return the largest absolute value of a part, or 1 where all are smaller."""
+    largest = 1.0
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            largest = max(largest, abs(y[row, j]))
+    return largest
+
+
+@kernel
+def extrapolate(old, increment, previous, new):
+    """Guess `new` from the increments of the last two steps."""
+    for row in range(old.shape[0]):
+        for j in range(old.shape[1]):
+            new[row, j] = old[row, j] + (2.0 * increment[row, j] - previous[row, j])
+
+
+@kernel
+def accept(old, new, increment, previous):
+    """Shift the increments by one step and move on to `new`."""
+    for row in range(old.shape[0]):
+        for j in range(old.shape[1]):
+            previous[row, j] = increment[row, j]
+            increment[row, j] = new[row, j] - old[row, j]
+            old[row, j] = new[row, j]
+
+
+@kernel
+def is_finite(y):
+    """Return whether no part of `y` is infinite or NaN."""
+    for row in range(y.shape[0]):
+        for j in range(y.shape[1]):
+            if not abs(y[row, j]) < np.inf:
+                return False
+    return True
+
+
+def build(mean_rates, observe):
+    """Return the solver of y' = rates, given their mean over a step; see the package.
+
+    The distance between two outputs is covered in equal steps, none longer than `step`.
+    """
+
+    @generic
+    def iterate(system, old, new, h, scratch, tolerance, most):
+        """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
+        last = np.inf
+        enough = tolerance * size(old)
+        for count in range(1, most + 1):
+            mean_rates(system, old, new, scratch[0], scratch[1])
+            change = update(old, h, scratch[1], new)
+            if change <= enough:
+                return True, count
+            if count > 2 and not change < last:
+                return False, count
+            last = change
+        return False, most
+
+    @generic
+    def cut(system, old, new, h, scratch, tolerance, most):
+        """Cover `h` in equal parts, halved until the iteration contracts; return the counts."""
+        fraction, covered = 0.5, 0.0
+        cuts, evaluations = 1, 0
+        while covered < 1.0:
+            copy(old, new)
+            good, count = iterate(system, old, new, fraction * h, scratch, tolerance, most)
+            evaluations += count
+            if good:
+                copy(new, old)
+                covered += fraction
+            else:
+                fraction *= 0.5
+                cuts += 1
+                if fraction < SMALLEST_FRACTION:
+                    return False, cuts, evaluations
+        return True, cuts, evaluations
+
+    @inlined
+    def solve(system, y, times, controls, work, record):
+        step, tolerance, most = controls
+        new, increment, previous, scratch = work[0], work[1], work[2], work[3:]
+        steps = rejected = evaluations = 0
+        for i in range(times.size):
+            span = times[i] - times[max(i - 1, 0)]
+            parts = int(np.ceil(span / step * (1.0 - 1e-12)))
+            for part in range(parts):
+                h = span / parts
+                extrapolate(y, increment, previous, new)
+                good, count = iterate(system, y, new, h, scratch, tolerance, int(most))
+                evaluations += count
+                if good:
+                    accept(y, new, increment, previous)
+                else:
+                    good, cuts, count = cut(system, y, new, h, scratch, tolerance, int(most))
+                    rejected += cuts
+                    evaluations += count
+                if not good:
+                    status = NO_CONTRACTION if is_finite(y) else NOT_FINITE
+                    at = times[i - 1] + part * span / parts
+                    return Outcome(status, at, steps, rejected, evaluations)
+                steps += 1
+            observe(system, y, i, record)
+        return Outcome(DONE, times[-1], steps, rejected, evaluations)
+
+    return solve

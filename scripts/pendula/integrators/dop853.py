@@ -1,0 +1,177 @@
+"""DOP853, the explicit Runge-Kutta method of order eight of Hairer, Norsett and Wanner.
+
+Its error estimate combines those of orders five and three, its seventh-order interpolant takes
+three more stages, evaluated only in steps that hold an output. One thing differs from dop853.f:
+errors are measured by the largest component (a complex number's modulus), not by the root mean
+square, so that a half chain takes the same steps as the whole.
+"""
+
+from math import sqrt
+
+import numpy as np
+
+from ..compiled import copy, generic, inlined, kernel
+from .dop853_stages import combine
+from .dop853_tableau import D4, D5, D6, D7, E3, E5
+from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
+
+WORK = 25  # arrays of the size of a state
+
+
+@kernel
+def size2(y, re, j):
+    """Return the squared modulus of the complex component stored in rows `re` and `re` + 1."""
+    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+
+
+@kernel
+def largest(v, y, w, rtol, atol):
+    """Return the largest modulus in `v`, each relative to atol + rtol max(|y|, |w|)."""
+    worst2 = 0.0
+    for re in range(0, v.shape[0], 2):
+        for j in range(1, v.shape[1] - 1):
+            scale = atol + rtol * sqrt(max(size2(y, re, j), size2(w, re, j)))
+            ratio2 = size2(v, re, j) / (scale * scale)
+            if not ratio2 <= worst2:  # a NaN must not pass for no error
+                if not ratio2 < np.inf:
+                    return np.inf
+                worst2 = ratio2
+    return sqrt(worst2)
+
+
+@kernel
+def weigh(k, e, out):
+    """Write the combination of stages 1 and 6 to 12 that an error estimate is made of."""
+    for row in range(out.shape[0]):
+        for j in range(1, out.shape[1] - 1):
+            first = e[0] * k[0, row, j] + e[1] * k[5, row, j] + e[2] * k[6, row, j]
+            second = e[3] * k[7, row, j] + e[4] * k[8, row, j] + e[5] * k[9, row, j]
+            out[row, j] = first + second + e[6] * k[10, row, j] + e[7] * k[11, row, j]
+
+
+@kernel
+def step_error(y, w, h, k, scratch, rtol, atol):
+    """Return the error of a step in units of the tolerance."""
+    weigh(k, E5, scratch)
+    fifth = largest(scratch, y, w, rtol, atol)
+    weigh(k, E3, scratch)
+    third = largest(scratch, y, w, rtol, atol)
+    if not fifth + third < np.inf:
+        return np.inf
+    if fifth == 0.0:
+        return 0.0
+    return h * fifth * fifth / sqrt(fifth * fifth + 0.01 * third * third)
+
+
+@kernel
+def prepare_interpolant(y, w, h, k, c):
+    """Write the coefficients c[0..6] of the interpolant over the step from `y` to `w`."""
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            change = w[row, j] - y[row, j]
+            c[0, row, j] = change
+            c[1, row, j] = h * k[0, row, j] - change
+            c[2, row, j] = 2.0 * change - h * (k[12, row, j] + k[0, row, j])
+    for m, d in enumerate((D4, D5, D6, D7)):
+        for row in range(y.shape[0]):
+            for j in range(1, y.shape[1] - 1):
+                total = d[0] * k[0, row, j]
+                for s in range(5, 16):
+                    total += d[s - 4] * k[s, row, j]
+                c[3 + m, row, j] = h * total
+
+
+@kernel
+def interpolate(x, y, c, out):
+    """Write the interpolant at the fraction `x` of the step into `out`."""
+    z = 1.0 - x
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            inner = c[3, row, j] + x * (c[4, row, j] + z * (c[5, row, j] + x * c[6, row, j]))
+            outer = c[0, row, j] + z * (c[1, row, j] + x * (c[2, row, j] + z * inner))
+            out[row, j] = y[row, j] + x * outer
+
+
+@kernel
+def eighth_root(x):
+    """Return x^(1/8) by square roots, whose bits are the same everywhere."""
+    return sqrt(sqrt(sqrt(x)))
+
+
+@kernel
+def euler_step(y, slope):
+    """Return a first guess of the step from the sizes of the state and of its rate."""
+    return 0.01 * y / slope if min(y, slope) > 1e-5 else 1e-6
+
+
+def build(rates, observe):
+    """Return the solver of y' = rates; see the package for its arguments."""
+
+    @generic
+    def initial_step(system, y, k, w, rtol, atol, longest):
+        """Return the starting step of Hairer, Norsett and Wanner (section II.4)."""
+        size, slope = largest(y, y, y, rtol, atol), largest(k[0], y, y, rtol, atol)
+        h = min(longest, euler_step(size, slope))
+        for row in range(y.shape[0]):
+            for j in range(y.shape[1]):
+                w[row, j] = y[row, j] + h * k[0, row, j]
+        rates(system, w, k[1])
+        for row in range(y.shape[0]):
+            for j in range(y.shape[1]):
+                w[row, j] = k[1, row, j] - k[0, row, j]
+        steepest = max(slope, largest(w, y, y, rtol, atol) / h)
+        if steepest <= 1e-15:
+            return min(longest, max(1e-6, 1e-3 * h))
+        return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
+
+    @inlined
+    def solve(system, y, times, controls, work, record):
+        rtol, atol = controls
+        t, end = times[0], times[-1]
+        k, c, w, scratch = work[:16], work[16:23], work[23], work[24]
+        y_flat, k_flat = y.reshape(-1), k.reshape(16, -1)
+        w_flat, scratch_flat = w.reshape(-1), scratch.reshape(-1)
+        rates(system, y, k[0])
+        h = initial_step(system, y, k, w, rtol, atol, end - t)
+        i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
+        observe(system, y, i, record)
+        i += 1
+        steps, rejected, evaluations = 0, 0, 2
+        most_growth = 6.0
+        while i < times.size:
+            h = min(h, end - t)
+            if h <= 4.0 * np.spacing(max(abs(t), 2.0**-1022)):
+                return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
+            for stage in range(2, 14):
+                combine(stage, y_flat, h, k_flat, w_flat)
+                rates(system, w, k[stage - 1])
+            evaluations += 12
+            error = step_error(y, w, h, k, scratch, rtol, atol)
+            growth = 0.9 / eighth_root(error) if error > 0.0 else 6.0
+            if not error <= 1.0:
+                if error == np.inf and h < 1e-9:
+                    return Outcome(NOT_FINITE, t, steps, rejected, evaluations)
+                h *= max(1 / 3, growth)
+                rejected += 1
+                most_growth = 1.0
+                continue
+            t_new = end if h == end - t else t + h
+            if times[i] <= t_new:
+                for stage in range(14, 17):
+                    combine(stage, y_flat, h, k_flat, scratch_flat)
+                    rates(system, scratch, k[stage - 1])
+                evaluations += 3
+                prepare_interpolant(y, w, h, k, c)
+            while i < times.size and times[i] <= t_new:
+                interpolate((times[i] - t) / h, y, c, scratch)
+                observe(system, scratch, i, record)
+                i += 1
+            copy(w, y)
+            copy(k[12], k[0])
+            t = t_new
+            steps += 1
+            h *= min(most_growth, max(1 / 3, growth))
+            most_growth = 6.0
+        return Outcome(DONE, t, steps, rejected, evaluations)
+
+    return solve

@@ -1,0 +1,171 @@
+"""MATLAB's ode45: the Dormand-Prince 5(4) pair under ode45's own step control.
+
+The pair is from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19; the error norm, the
+initial step and the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci.
+Comput. 18 (1997) 1; outputs between steps come from the pair's quartic interpolant.
+# ASSUME: the paper's unknowns are MATLAB complex numbers, so that the error of a component is the
+# modulus of a complex number, relative to the larger modulus at the two ends of the step.
+"""
+
+from math import sqrt
+
+import numpy as np
+
+from ..compiled import copy, inlined, kernel
+from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
+
+WORK = 9  # arrays of the size of a state
+# b - b^ of the pair: what the two solutions differ by
+E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
+
+
+@kernel
+def combine(stage, y, h, k, w):
+    """Write the argument of stage 2 to 7 into `w`; that of stage 7 is the fifth-order solution.
+
+    `y` and `w` are flat, `k[stage - 1]` holds the slopes found so far.
+    """
+    k1, k2, k3, k4, k5, k6 = k[0], k[1], k[2], k[3], k[4], k[5]
+    size = y.size
+    if stage == 2:
+        for i in range(size):
+            w[i] = y[i] + h * (1 / 5 * k1[i])
+    elif stage == 3:
+        for i in range(size):
+            w[i] = y[i] + h * (3 / 40 * k1[i] + 9 / 40 * k2[i])
+    elif stage == 4:
+        for i in range(size):
+            w[i] = y[i] + h * (44 / 45 * k1[i] - 56 / 15 * k2[i] + 32 / 9 * k3[i])
+    elif stage == 5:
+        for i in range(size):
+            w[i] = y[i] + h * (
+                19372 / 6561 * k1[i] - 25360 / 2187 * k2[i]
+                + 64448 / 6561 * k3[i] - 212 / 729 * k4[i]
+            )  # fmt: skip
+    elif stage == 6:
+        for i in range(size):
+            w[i] = y[i] + h * (
+                9017 / 3168 * k1[i] - 355 / 33 * k2[i] + 46732 / 5247 * k3[i]
+                + 49 / 176 * k4[i] - 5103 / 18656 * k5[i]
+            )  # fmt: skip
+    else:
+        for i in range(size):
+            w[i] = y[i] + h * (
+                35 / 384 * k1[i] + 500 / 1113 * k3[i] + 125 / 192 * k4[i]
+                - 2187 / 6784 * k5[i] + 11 / 84 * k6[i]
+            )  # fmt: skip
+
+
+@kernel
+def relative_error(y, w, k, threshold):
+    """Return the largest error of a complex component per unit step, as ode45 measures it."""
+    floor = threshold * threshold
+    worst = 0.0
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            error2 = 0.0
+            for row in (re, re + 1):
+                part = (
+                    E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
+                    + E5 * k[4, row, j] + E6 * k[5, row, j] + E7 * k[6, row, j]
+                )  # fmt: skip
+                error2 += part * part
+            before = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+            after = w[re, j] * w[re, j] + w[re + 1, j] * w[re + 1, j]
+            ratio2 = error2 / max(before, after, floor)
+            if not ratio2 <= worst:  # a NaN must not pass for no error
+                if not ratio2 < np.inf:
+                    return np.inf
+                worst = ratio2
+    return sqrt(worst)
+
+
+@kernel
+def interpolate(s, y, h, k, out):
+    """Write the quartic interpolant at the fraction `s` of the step from `y` into `out`."""
+    s2, s3, s4 = s * s, s * s * s, s * s * s * s
+    b1 = s - 183 / 64 * s2 + 37 / 12 * s3 - 145 / 128 * s4
+    b3 = 1500 / 371 * s2 - 1000 / 159 * s3 + 1000 / 371 * s4
+    b4 = -125 / 32 * s2 + 125 / 12 * s3 - 375 / 64 * s4
+    b5 = 9477 / 3392 * s2 - 729 / 106 * s3 + 25515 / 6784 * s4
+    b6 = -11 / 7 * s2 + 11 / 3 * s3 - 55 / 28 * s4
+    b7 = 3 / 2 * s2 - 4 * s3 + 5 / 2 * s4
+    for row in range(y.shape[0]):
+        for j in range(1, y.shape[1] - 1):
+            slope = b1 * k[0, row, j] + b3 * k[2, row, j] + b4 * k[3, row, j]
+            slope += b5 * k[4, row, j] + b6 * k[5, row, j] + b7 * k[6, row, j]
+            out[row, j] = y[row, j] + h * slope
+
+
+@kernel
+def initial_step(y, slope, threshold, rtol, longest):
+    """Return ode45's first step: about 0.8 rtol^(1/5) over the largest relative rate."""
+    rate2 = 0.0
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            size2 = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+            slope2 = slope[re, j] * slope[re, j] + slope[re + 1, j] * slope[re + 1, j]
+            rate2 = max(rate2, slope2 / max(size2, threshold * threshold))
+    rate = sqrt(rate2) / (0.8 * rtol**0.2)
+    return 1.0 / rate if longest * rate > 1.0 else longest
+
+
+@kernel
+def spacing(t):
+    """Return the shortest step that MATLAB allows at time t: 16 eps(t)."""
+    return 16.0 * np.spacing(max(abs(t), 2.0**-1022))
+
+
+def build(rates, observe):
+    """Return the solver of y' = rates; see the package for its arguments."""
+
+    @inlined
+    def solve(system, y, times, controls, work, record):
+        rtol, atol = controls
+        threshold = atol / rtol
+        t, end = times[0], times[-1]
+        longest = 0.1 * (end - t)
+        k, w, out = work[:7], work[7], work[8]
+        y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
+        rates(system, y, k[0])
+        h = initial_step(y, k[0], threshold, rtol, min(longest, times[1] - times[0]))
+        i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
+        observe(system, y, i, record)
+        i += 1
+        steps, rejected, evaluations = 0, 0, 1
+        while i < times.size:
+            shortest = spacing(t)
+            h = min(longest, max(shortest, h))
+            if 1.1 * h >= end - t:
+                h = end - t
+            failed = False
+            while True:
+                for stage in range(2, 8):
+                    combine(stage, y_flat, h, k_flat, w_flat)
+                    rates(system, w, k[stage - 1])
+                evaluations += 6
+                error = h * relative_error(y, w, k, threshold)
+                if error <= rtol:
+                    break
+                if h <= shortest:
+                    status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
+                    return Outcome(status, t, steps, rejected, evaluations)
+                shrink = 0.5 if failed else max(0.1, 0.8 * (rtol / error) ** 0.2)
+                h = max(shortest, h * shrink)
+                rejected += 1
+                failed = True
+            t_new = end if h == end - t else t + h
+            while i < times.size and times[i] <= t_new:
+                interpolate((times[i] - t) / h, y, h, k, out)
+                observe(system, out, i, record)
+                i += 1
+            copy(w, y)
+            copy(k[6], k[0])
+            t = t_new
+            steps += 1
+            if not failed:
+                stretch = 1.25 * (error / rtol) ** 0.2
+                h = h / stretch if stretch > 0.2 else 5.0 * h
+        return Outcome(DONE, t, steps, rejected, evaluations)
+
+    return solve

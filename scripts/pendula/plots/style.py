@@ -1,0 +1,130 @@
+"""One place for how figures look (sizes, text, colours of the quantities) and how they are saved."""
+
+import ast
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+SINGLE, DOUBLE = 3.4, 7.0
+"""Widths of one and of two columns of a journal page, in inches."""
+
+RED, BLUE = "#e8402f", "#123b8c"
+"""The paper's two colours, of a lightness so different that they stay apart in grey."""
+
+COLOURS = {
+    "A": RED,
+    "B": BLUE,
+    "l2": RED,
+    "linf": BLUE,
+    "ode45": "#111111",
+    "crank_nicolson": "#e0a100",
+    "dop853": "#16876b",
+}
+SOLVER_NAMES = {"ode45": "ode45", "crank_nicolson": "Crank\N{EN DASH}Nicolson", "dop853": "DOP853"}
+
+# the library's own defaults first: a reader's matplotlibrc must not change the figures
+_RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "axes.formatter.use_mathtext": True,
+    "lines.linewidth": 0.7,
+    "legend.frameon": False,
+    "legend.handlelength": 2,
+    "pdf.fonttype": 42,
+    "savefig.dpi": 300,
+}
+
+styled = matplotlib.rc_context(_RC)
+"""Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
+
+
+@styled
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure of this size in inches that arranges its own margins."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def name_legend(figure: Figure, axes: Axes) -> None:
+    """Put one legend for all panels above them; its lines are thick enough to show their colour."""
+    handles, labels = axes.get_legend_handles_labels()
+    legend = figure.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+    for line in legend.get_lines():
+        line.set_linewidth(max(1.6, line.get_linewidth()))
+
+
+def name_case(case: xr.Dataset) -> str:
+    """Return the detuning and the initial data of one case as they are written in its panel."""
+    omega = rf"$\Omega = {float(case['omega']):g}$"
+    return f"{omega},  {name_initial(str(case['initial'].values))}"
+
+
+def name_initial(initial: str) -> str:
+    """Return initial data such as "{0: [1, 0.1]}" (site: [A, B]) as written in a panel."""
+    sites = {int(site): pair for site, pair in ast.literal_eval(initial).items()}
+    if len(sites) != 1:
+        return f"data on {len(sites)} sites"
+    ((site, (a, b)),) = sites.items()
+    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({_name_number(a)}, {_name_number(b)})$"
+
+
+def _name_number(value: float | str) -> str:
+    number = complex(value)
+    return f"{number:g}" if number.imag else f"{number.real:g}"
+
+
+def join(datasets: list[xr.Dataset], names: list[str], dim: str, title: str) -> xr.Dataset:
+    """Stack datasets along a new dimension, keeping of their attributes Omega and initial data."""
+    stacked = xr.concat(
+        [data.drop_attrs(deep=False) for data in datasets],
+        xr.Variable(dim, names, {"long_name": title, "units": "1"}),
+        join="outer",
+        combine_attrs="override",
+        coords="minimal",
+        compat="override",
+    )
+    omegas = [float(data.attrs["omega"]) for data in datasets]
+    initials = [data.attrs["initial"] for data in datasets]
+    stacked["omega"] = (dim, omegas, {"long_name": "detuning Omega", "units": "1"})
+    stacked["initial"] = (dim, initials, {"long_name": "initial {site: [A, B]}", "units": "1"})
+    return stacked
+
+
+@styled
+def save(figure: Figure, data: xr.Dataset, png: Path, pdf: Path, netcdf: Path) -> None:
+    """Write the figure twice and its data once: all complete or none, the same bytes every time."""
+    undated = {"CreationDate": None, "Creator": None, "Producer": None}
+    with _replacing(png) as new_png, _replacing(pdf) as new_pdf, _replacing(netcdf) as new_netcdf:
+        figure.savefig(new_png, format="png", metadata={"Software": None})
+        figure.savefig(new_pdf, format="pdf", metadata=undated)
+        data.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
+
+
+@contextmanager
+def _replacing(path: Path) -> Iterator[Path]:
+    path = Path(path)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        yield partial
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)

@@ -1,0 +1,102 @@
+"""From the parameters of a case to its trajectory."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .chain import Chain
+from .integrators.outcome import DONE, FAULTS, Outcome
+from .lattice import Reduction, choose_ends, find_reduction, pack, place, spread, unpack
+from .observables import Record, blank_record
+from .solvers import SOLVERS
+
+
+class IntegrationError(RuntimeError):
+    """A run that could not reach its end time with the digits that were asked for."""
+
+
+class Trajectory(NamedTuple):
+    """What a solver made of a case; components are A, B and sites -M..M throughout."""
+
+    tau: np.ndarray  # (time,)
+    linf: np.ndarray  # (component, time)
+    l2: np.ndarray  # (component, time)
+    energy: np.ndarray  # (time,)
+    modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
+    final: np.ndarray  # (component, site), complex amplitudes at the end time
+    outcome: Outcome
+
+
+def output_times(end_time: float, output_step: float) -> np.ndarray:
+    """Return 0, ..., end_time in equal steps; integers among them are exact."""
+    count = round(end_time / output_step)
+    return end_time * np.arange(count + 1) / count
+
+
+def simulate(
+    *,
+    epsilon: float,
+    gamma: float,
+    omega: float,
+    half_width: int,
+    boundary: str,
+    initial: dict[int, tuple[complex, complex]],
+    end_time: float,
+    output_step: float,
+    solver: dict,
+    snapshot_every: int = 0,
+) -> Trajectory:
+    """Integrate the case and reduce it to observables at the output times.
+
+    `solver` is {"name": ..., **controls}; `snapshot_every` keeps |A_n|, |B_n| at each so many
+    outputs. Raises IntegrationError where the solver gives up.
+    """
+    amplitudes = place(initial, half_width)
+    return integrate(
+        (epsilon, gamma, omega),
+        boundary,
+        amplitudes,
+        find_reduction(amplitudes),
+        output_times(end_time, output_step),
+        solver,
+        snapshot_every,
+    )
+
+
+def integrate(
+    constants: tuple[float, float, float],
+    boundary: str,
+    amplitudes: np.ndarray,
+    reduction: Reduction,
+    times: np.ndarray,
+    solver: dict,
+    snapshot_every: int = 0,
+) -> Trajectory:
+    """Integrate amplitudes (2, N) under (epsilon, gamma, omega), reduced as `reduction` says."""
+    method = SOLVERS[solver["name"]]
+    chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
+    y = pack(amplitudes, reduction)
+    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), snapshot_every)
+    controls = tuple(float(solver[name]) for name in method.controls)
+    work = np.zeros((method.work, *y.shape))
+    outcome = method.run(chain, y, times, controls, work, record)
+    if outcome.status != DONE:
+        raise IntegrationError(
+            f"{solver['name']} stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}"
+        )
+    return _collect(times, record, y, reduction, outcome)
+
+
+def _collect(
+    times: np.ndarray, record: Record, y: np.ndarray, reduction: Reduction, outcome: Outcome
+) -> Trajectory:
+    both = Reduction(even=False, synchronised=reduction.synchronised)
+    return Trajectory(
+        times,
+        spread(record.linf, both),
+        spread(record.l2, both),
+        record.energy,
+        spread(record.modulus, reduction),
+        unpack(y, reduction),
+        outcome,
+    )

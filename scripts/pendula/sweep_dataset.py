@@ -1,0 +1,27 @@
+"""A sweep as a dataset."""
+
+import numpy as np
+
+from .datasets import Variable
+from .sweeps import QUANTITIES, STATISTICS, Sweep
+
+
+def name_window(window: tuple[float, float]) -> str:
+    """Return a window as the datasets name it: "[10, 50]"."""
+    return f"[{window[0]:g}, {window[1]:g}]"
+
+
+def as_variables(sweep: Sweep, half_widths: list[int], windows) -> dict[str, Variable]:
+    """Return the variables of a sweep's dataset."""
+    axes = ("half_width", "quantity", "statistic", "window")
+    names = [name_window(window) for window in windows]
+    return {
+        "half_width": Variable(
+            ("half_width",), np.asarray(half_widths), "half-width M of the chain of 2M + 1 pairs"
+        ),
+        "quantity": Variable(("quantity",), list(QUANTITIES), "pendulum of each pair, or both"),
+        "statistic": Variable(("statistic",), list(STATISTICS), "reduction over the window"),
+        "window": Variable(("window",), names, "window of slow time, both ends included"),
+        "l2": Variable(axes, sweep.l2, "l2 norm over the chain"),
+        "linf": Variable(axes, sweep.linf, "l-infinity norm over the chain"),
+    }

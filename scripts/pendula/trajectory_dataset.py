@@ -1,0 +1,69 @@
+"""A trajectory as a dataset."""
+
+import json
+
+import numpy as np
+
+from . import __version__
+from .datasets import Variable
+from .simulation import Trajectory
+
+COMPONENTS = Variable(("component",), ["A", "B"], "pendulum of each pair")
+
+
+def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
+    """Return the variables of a trajectory's dataset."""
+    series = ("component", "tau")
+    variables = {
+        "tau": Variable(("tau",), trajectory.tau, "slow time"),
+        "component": COMPONENTS,
+        "linf": Variable(series, trajectory.linf, "l-infinity norm over the chain"),
+        "l2": Variable(series, trajectory.l2, "l2 norm over the chain"),
+        "energy": Variable(("tau",), trajectory.energy, "conserved energy H of equation (8)"),
+    }
+    if snapshot_every:
+        reach = trajectory.modulus.shape[1] // 2
+        variables |= {
+            "site": Variable(("site",), np.arange(-reach, reach + 1), "site of the chain"),
+            "snapshot_tau": Variable(
+                ("snapshot",), trajectory.tau[::snapshot_every], "slow time of the snapshots"
+            ),
+            "modulus": Variable(
+                ("component", "site", "snapshot"),
+                trajectory.modulus.astype(np.float32),
+                "modulus of the amplitude on a site",
+            ),
+        }
+    return variables
+
+
+def as_attributes(name: str, problem: dict) -> dict:
+    """Return the attributes that say which problem was solved and how: no dates, no hosts."""
+    solver = problem["solver"]
+    plain = {key: problem[key] for key in sorted(problem) if key not in ("solver", "initial")}
+    return {
+        "case": name,
+        **plain,
+        "initial": write_initial(problem["initial"]),
+        "solver": solver["name"],
+        **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
+        "version": __version__,
+    }
+
+
+def count_work(outcomes: list) -> dict:
+    """Return the work of one run, or of many, as attributes."""
+    return {
+        "steps": sum(outcome.steps for outcome in outcomes),
+        "rejected_steps": sum(outcome.rejected for outcome in outcomes),
+        "right_hand_sides": sum(outcome.evaluations for outcome in outcomes),
+    }
+
+
+def write_initial(initial: dict) -> str:
+    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
+    return json.dumps({str(site): [_plain(z) for z in pair] for site, pair in initial.items()})
+
+
+def _plain(z: complex) -> float | str:
+    return z.real if z.imag == 0 else str(z).strip("()")

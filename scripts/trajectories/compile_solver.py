@@ -1,0 +1,28 @@
+"""Compile a solver's kernels once, so that parallel jobs find them in the cache."""
+
+from pathlib import Path
+
+from pendula.compiled import sources_digest
+from pendula.simulation import simulate
+
+
+def compile_solver(kernels: str, solver: dict) -> None:
+    """Run the solver over a short time, then record which library it was compiled from."""
+    simulate(
+        epsilon=1.0,
+        gamma=1.0,
+        omega=0.0,
+        half_width=1,
+        boundary="dirichlet",
+        initial={0: (1.0, 0.1)},
+        end_time=0.1,
+        output_step=0.05,
+        solver=solver,
+    )
+    Path(kernels).write_text(f"{sources_digest()}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(compile_solver, snakemake)  # noqa: F821
