@@ -47,7 +47,9 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, boundary):
         assert half == norms(chain_for(boundary, WHOLE), pack(z, WHOLE), row)
 
 
-@pytest.mark.parametrize(("times", "every", "snapshots"), [(11, 5, 3), (10, 5, 2), (11, 0, 0), (1, 7, 1)])
+@pytest.mark.parametrize(
+    ("times", "every", "snapshots"), [(11, 5, 3), (10, 5, 2), (11, 0, 0), (1, 7, 1)]
+)
 def test_a_record_has_room_for_every_snapshot(times, every, snapshots):
     record = blank_record(2, 7, times, every)
     assert record.modulus.shape == (2, 7, snapshots)

@@ -1,39 +1,32 @@
-"""The two decorators of every compiled function, and a cache that cannot be stale.
+"""The decorators of every compiled function, and a cache that cannot be stale.
 
 numba's on-disk cache notices a change in the file of a cached function, but not in the files of
-the functions that it calls. So the cache lives in a folder named after the text of the whole
-library: any edit starts an empty one. No kernel uses fastmath: without it no operation is
-reordered or contracted, and +, -, *, / and sqrt give the same bits on every processor.
+the functions that it calls. So each kernel is kept in a folder named after the text of its module
+and of all that the module imports: an edit of any of them starts an empty one. No kernel uses
+fastmath: without it no operation is reordered or contracted, and +, -, *, / and sqrt give the
+same bits on every processor.
 """
 
-import hashlib
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numba
 
-LIBRARY = Path(__file__).parent
+from .sources import digest_of_modules
 
 
-def sources_digest(folder: Path = LIBRARY) -> str:
-    """Return a hash of every module that a kernel could depend on (all but the plots)."""
-    digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*.py")):
-        if "plots" not in path.relative_to(folder).parts:
-            digest.update(path.relative_to(folder).as_posix().encode())
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+def kernel(function: Callable) -> Callable:
+    """Compile a function of plain values and keep the machine code on disk."""
+    module = Path(function.__code__.co_filename).resolve()
+    root = os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent / "__pycache__"
+    usual = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(Path(root) / f"kernels-{digest_of_modules(module)[:16]}")
+    try:
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    finally:
+        numba.config.CACHE_DIR = usual
 
-
-def _cache_folder() -> str:
-    root = os.environ.get("NUMBA_CACHE_DIR") or LIBRARY / "__pycache__"
-    return str(Path(root) / f"kernels-{sources_digest()}")
-
-
-numba.config.CACHE_DIR = _cache_folder()
-
-kernel = numba.njit(cache=True, error_model="numpy", nogil=True)
-"""Compile a function of plain values and keep the machine code on disk."""
 
 generic = numba.njit(error_model="numpy", nogil=True)
 """Compile a function built around given functions: it is kept with the kernel that calls it."""

@@ -4,7 +4,7 @@ import difflib
 
 from pydantic import BaseModel, ValidationError
 
-from .parameters import Case, Configuration, Sweep
+from .parameters import Case, Configuration, Drawn, Sweep
 from .solver_parameters import CrankNicolson, Dop853, Ode45, Solvers
 
 SOLVERS = {model.model_fields["name"].default: model for model in (Ode45, CrankNicolson, Dop853)}
@@ -68,7 +68,7 @@ def _describe(fault: dict) -> str:
         return f"{where}.name: is missing; it must be one of {', '.join(SOLVERS)}"
     values = {"input": fault["input"], **fault.get("ctx", {})}
     text = WORDS[kind].format(**values) if kind in WORDS else fault["msg"]
-    separator = "." if kind in ("grid", "site", "window", "repeated") else ": "
+    separator = "." if kind in ("grid", "site", "window", "repeated", "drawn") else ": "
     return f"{where}{separator}{text}"
 
 
@@ -98,6 +98,8 @@ def _model_at(place: tuple) -> type[BaseModel]:
         return Configuration
     if place[0] == "solvers":
         return SOLVERS[place[1]] if len(place) == 3 else Solvers
+    if place[-2] == "draw":
+        return Drawn
     if "solver" in place[:-1]:
         return SOLVERS[place[place.index("solver") + 1]]
     return {"cases": Case, "sweeps": Sweep}[place[0]]

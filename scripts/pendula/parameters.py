@@ -50,12 +50,20 @@ class Case(Model):
         return self
 
 
+class Drawn(Model):
+    """The windows whose maximum and whose mean a figure shows."""
+
+    max: Window
+    mean: Window
+
+
 class Sweep(Model):
     """A case repeated over half-widths, with its norms reduced over windows of time."""
 
     case: str
     half_widths: Annotated[list[Annotated[Whole, Field(ge=0)]], Field(min_length=1)]
     windows: Annotated[list[Window], Field(min_length=1)] = [(10, 40), (10, 50), (10, 70)]
+    draw: Drawn | None = None
     solver: Solver | None = None
 
     @model_validator(mode="after")
@@ -69,7 +77,14 @@ class Sweep(Model):
                 )
         if len(set(self.half_widths)) < len(self.half_widths):
             raise PydanticCustomError("repeated", "half_widths: the same half-width stands twice")
+        if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
+            raise PydanticCustomError("drawn", "draw: takes windows that stand under windows only")
         return self
+
+    @property
+    def drawn(self) -> Drawn:
+        """What a figure shows where the configuration does not say: the first window."""
+        return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
 
 
 def _with_controls(item: Any, shared: Any) -> Any:

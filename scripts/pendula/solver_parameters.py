@@ -16,7 +16,7 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
 
 def _no_bool(value: Any) -> Any:
     if isinstance(value, bool):
-        raise PydanticCustomError("number", "is {value}, not a number", {"value": value})
+        raise PydanticCustomError("number", "is {value}, not a number", {"value": str(value)})
     return value
 
 

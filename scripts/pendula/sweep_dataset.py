@@ -3,12 +3,8 @@
 import numpy as np
 
 from .datasets import Variable
+from .naming import name_window
 from .sweeps import QUANTITIES, STATISTICS, Sweep
-
-
-def name_window(window: tuple[float, float]) -> str:
-    """Return a window as the datasets name it: "[10, 50]"."""
-    return f"[{window[0]:g}, {window[1]:g}]"
 
 
 def as_variables(sweep: Sweep, half_widths: list[int], windows) -> dict[str, Variable]:

@@ -1,11 +1,10 @@
 """A trajectory as a dataset."""
 
-import json
-
 import numpy as np
 
 from . import __version__
 from .datasets import Variable
+from .naming import write_initial
 from .simulation import Trajectory
 
 COMPONENTS = Variable(("component",), ["A", "B"], "pendulum of each pair")
@@ -58,12 +57,3 @@ def count_work(outcomes: list) -> dict:
         "rejected_steps": sum(outcome.rejected for outcome in outcomes),
         "right_hand_sides": sum(outcome.evaluations for outcome in outcomes),
     }
-
-
-def write_initial(initial: dict) -> str:
-    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
-    return json.dumps({str(site): [_plain(z) for z in pair] for site, pair in initial.items()})
-
-
-def _plain(z: complex) -> float | str:
-    return z.real if z.imag == 0 else str(z).strip("()")

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from pendula.compiled import sources_digest
+from pendula import solvers
 from pendula.simulation import simulate
+from pendula.sources import digest_of_modules
 
 
 def compile_solver(kernels: str, solver: dict) -> None:
-    """Run the solver over a short time, then record which library it was compiled from."""
+    """Run the solver over a short time, then record what it was compiled from."""
     simulate(
         epsilon=1.0,
         gamma=1.0,
@@ -19,7 +20,8 @@ def compile_solver(kernels: str, solver: dict) -> None:
         output_step=0.05,
         solver=solver,
     )
-    Path(kernels).write_text(f"{sources_digest()}\n", encoding="utf-8")
+    digest = digest_of_modules(Path(solvers.__file__).resolve())
+    Path(kernels).write_text(f"{digest}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

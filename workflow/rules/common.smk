@@ -1,4 +1,4 @@
-# What every rule needs: the validated configuration, the code records, and the environment of jobs.
+# What the rules share: the validated configuration, the code records, the environment of jobs.
 import os
 import sys
 
@@ -8,11 +8,15 @@ sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
 from code_records import code
 from pendula.faults import ConfigurationError, load
+from pendula.naming import name_window
 
-# Jobs find the library and nothing of the user's: one thread each, since jobs run in parallel.
-os.environ["PYTHONPATH"] = f"{workflow.basedir}/scripts"
-for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[threads] = "1"
+# Jobs find the library, and use one thread each, since they run in parallel.
+os.environ.update(
+    PYTHONPATH=f"{workflow.basedir}/scripts",
+    OMP_NUM_THREADS="1",
+    OPENBLAS_NUM_THREADS="1",
+    MKL_NUM_THREADS="1",
+)
 
 try:
     SETTINGS = load(config)
@@ -23,6 +27,10 @@ PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+
+absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
+if absent:
+    raise WorkflowError(f"the figures need these cases and sweeps: {', '.join(sorted(absent))}")
 
 
 def own_solver(problem):
@@ -45,5 +53,20 @@ def kernels_of_sweep(wildcards):
     return f"results/kernels/{own_solver(sweep_problem(wildcards))}.txt"
 
 
+def drawn_windows(sweep):
+    drawn = SETTINGS.sweeps[sweep].drawn
+    return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
+
+
 def figure(name):
-    return [f"results/figures/{name}.{kind}" for kind in ("png", "pdf", "nc")]
+    kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
+    return {key: f"results/figures/{name}.{ending}" for key, ending in kinds.items()}
+
+
+def trajectories_by_all_solvers():
+    own = {case: own_solver(SETTINGS.problem(case)) for case in PAPER_CASES}
+    return [
+        f"results/trajectories/{case}{'' if solver == own[case] else f'.{solver}'}.nc"
+        for case in PAPER_CASES
+        for solver in ALL_SOLVERS
+    ]

@@ -2,18 +2,19 @@
 
 
 rule compile_solver:
+    "Compile a solver before the jobs that share it"
     input:
         code=code("trajectories/compile_solver.py"),
     output:
         kernels="results/kernels/{solver}.txt",
-    params:
-        solver=lambda wildcards: getattr(SETTINGS.solvers, wildcards.solver).model_dump(),
     log:
         "results/logs/kernels/{solver}.log",
-    conda:
-        "../envs/pinned.yaml"
     wildcard_constraints:
         solver="|".join(ALL_SOLVERS),
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        solver=lambda wildcards: getattr(SETTINGS.solvers, wildcards.solver).model_dump(),
     message:
         "Compiling {wildcards.solver}"
     script:
@@ -21,20 +22,21 @@ rule compile_solver:
 
 
 rule trajectory:
+    "results/trajectories/{case}.nc, and {case}.{solver}.nc by another solver"
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=ancient(kernels_of_trajectory),
+        kernels=kernels_of_trajectory,
     output:
         trajectory="results/trajectories/{case}.nc",
+    log:
+        "results/logs/trajectories/{case}.log",
+    wildcard_constraints:
+        case="|".join(SETTINGS.cases),
+    conda:
+        "../envs/pinned.yaml"
     params:
         name="{case}",
         problem=trajectory_problem,
-    log:
-        "results/logs/trajectories/{case}.log",
-    conda:
-        "../envs/pinned.yaml"
-    wildcard_constraints:
-        case="|".join(SETTINGS.cases),
     message:
         "Integrating {wildcards.case} by its own solver"
     script:

@@ -12,7 +12,7 @@ NORMS = {"linf": r"$\ell^\infty$ norm", "l2": r"$\ell^2$ norm"}
 def gather(small: xr.Dataset, large: xr.Dataset) -> xr.Dataset:
     """Return the norms of two trajectories, small and large data, as one dataset."""
     cases = [case[["linf", "l2"]] for case in (small, large)]
-    return style.join(cases, ["small", "large"], "data", "size of the initial data")
+    return style.join(cases, ["small", "large"], "amplitude", "size of the initial data")
 
 
 @style.styled
@@ -20,8 +20,8 @@ def draw(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue."""
     figure = style.new_figure(style.DOUBLE, 4.0)
     panels = figure.subplots(2, 2, sharex=True)
-    for row, size in zip(panels, data["data"].values, strict=True):
-        case = data.sel(data=size)
+    for row, size in zip(panels, data["amplitude"].values, strict=True):
+        case = data.sel(amplitude=size)
         for axes, name in zip(row, NORMS, strict=True):
             _draw_panel(axes, case, name)
     for axes in panels[-1]:

@@ -18,7 +18,7 @@ def gather(small: xr.Dataset, large: xr.Dataset) -> xr.Dataset:
         .swap_dims(snapshot="snapshot_tau")
         for case in (small, large)
     ]
-    return style.join(cases, ["small", "large"], "data", "size of the initial data")
+    return style.join(cases, ["small", "large"], "amplitude", "size of the initial data")
 
 
 @style.styled
@@ -26,8 +26,8 @@ def draw(data: xr.Dataset) -> Figure:
     """Draw |A_n| left and |B_n| right, small data above and large below, one scale a row."""
     figure = style.new_figure(style.DOUBLE, 4.2)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
-    for row, size in zip(panels, data["data"].values, strict=True):
-        _draw_row(figure, row, data.sel(data=size))
+    for row, size in zip(panels, data["amplitude"].values, strict=True):
+        _draw_row(figure, row, data.sel(amplitude=size))
     for axes in panels[-1]:
         axes.set_xlabel(r"$\tau$")
     for axes in panels[:, 0]:

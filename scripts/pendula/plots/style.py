@@ -1,17 +1,15 @@
-"""One place for how figures look (sizes, text, colours of the quantities) and how they are saved."""
+"""One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
 import ast
-import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import matplotlib
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+
+from ..files import complete_or_absent
 
 SINGLE, DOUBLE = 3.4, 7.0
 """Widths of one and of two columns of a journal page, in inches."""
@@ -56,7 +54,6 @@ styled = matplotlib.rc_context(_RC)
 """Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
 
 
-@styled
 def new_figure(width: float, height: float) -> Figure:
     """Return an empty figure of this size in inches that arranges its own margins."""
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -110,21 +107,17 @@ def join(datasets: list[xr.Dataset], names: list[str], dim: str, title: str) -> 
 
 
 @styled
-def save(figure: Figure, data: xr.Dataset, png: Path, pdf: Path, netcdf: Path) -> None:
-    """Write the figure twice and its data once: all complete or none, the same bytes every time."""
-    undated = {"CreationDate": None, "Creator": None, "Producer": None}
-    with _replacing(png) as new_png, _replacing(pdf) as new_pdf, _replacing(netcdf) as new_netcdf:
+def save(
+    figure: Figure, data: xr.Dataset, png: str | Path, pdf: str | Path, netcdf: str | Path
+) -> None:
+    """Write the figure twice and its data once: whole files, the same bytes every time."""
+    with (
+        complete_or_absent(png) as new_png,
+        complete_or_absent(pdf) as new_pdf,
+        complete_or_absent(netcdf) as new_netcdf,
+    ):
         figure.savefig(new_png, format="png", metadata={"Software": None})
+        undated = {"CreationDate": None, "Creator": None, "Producer": None}
         figure.savefig(new_pdf, format="pdf", metadata=undated)
-        data.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        yield partial
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+        stated = data.assign_attrs(Conventions="CF-1.11")
+        stated.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")

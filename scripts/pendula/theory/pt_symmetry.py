@@ -119,6 +119,7 @@ def check_pt_form(constants, sites: int, end_time: float, seed: int = 3) -> dict
 
 def pt_energy_error(constants, boundary: str, w: np.ndarray) -> float:
     """Return the largest |i u' - dK/d(conj v)| or |i v' - dK/d(conj u)| for K = H / 8."""
+
     def energy(z):
         return total_energy(constants, boundary, from_pt(z)) / 8.0
 

@@ -1,12 +1,7 @@
-"""Short runs of the full chain for the checks: many at once, on as many threads as there are.
+"""What the checks share: the library's equations on complex amplitudes, short runs, random data.
 
-The kernels release the interpreter's lock, so threads share the work without copies. The solver
-is dop853 at tolerances tight enough that no check measures the solver instead of the paper.
+The solver is dop853 at tolerances so tight that no check measures it instead of the paper.
 """
-
-import os
-from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 
 import numpy as np
 
@@ -52,21 +47,6 @@ def squared_norm(l2: np.ndarray) -> np.ndarray:
 def mean_spacing(count: int, span: float) -> np.ndarray:
     """Return `count` + 1 equal output times from 0 to `span`."""
     return span * np.arange(count + 1) / count
-
-
-def run_many(tasks: list[dict]) -> list[Trajectory]:
-    """Integrate many cases, each a dictionary of the arguments of `run`, in the order given."""
-    workers = min(os.cpu_count() or 1, max(1, len(tasks)))
-    with ThreadPoolExecutor(workers) as pool:
-        chunk = max(1, len(tasks) // (8 * workers))
-        batches = [tasks[i : i + chunk] for i in range(0, len(tasks), chunk)]
-        done = pool.map(partial(map_batch, run), batches)
-        return [trajectory for batch in done for trajectory in batch]
-
-
-def map_batch(function, batch: list[dict]) -> list:
-    """Apply a function to each dictionary of arguments: one thread's share of the work."""
-    return [function(**arguments) for arguments in batch]
 
 
 def random_amplitudes(rng: np.random.Generator, sites: int, norm: float) -> np.ndarray:

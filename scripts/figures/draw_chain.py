@@ -1,0 +1,16 @@
+"""Fig 1: the chain of coupled pendula pairs, as a drawing."""
+
+from pendula.plots import chain_drawing
+from pendula.plots.style import save
+
+
+def draw_chain(png: str, pdf: str, data: str) -> None:
+    """Draw the chain and write the coordinates that were drawn."""
+    drawn = chain_drawing.gather()
+    save(chain_drawing.draw(drawn), drawn, png, pdf, data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_chain, snakemake)  # noqa: F821

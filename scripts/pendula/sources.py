@@ -1,0 +1,58 @@
+"""Which modules a file depends on, by reading imports; needs the standard library only."""
+
+import ast
+import hashlib
+from functools import cache
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent.parent
+"""The folder that is on the path: packages and modules are found below it."""
+
+
+def modules_of(file: Path) -> list[Path]:
+    """Return the file and every module below scripts/ that it imports, at any depth."""
+    found, waiting = set(), [file]
+    while waiting:
+        module = waiting.pop()
+        if module not in found:
+            found.add(module)
+            waiting.extend(_imports_of(module))
+    return sorted(found)
+
+
+@cache
+def digest_of(file: Path) -> str:
+    """Return the SHA-256 of a file's content."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+@cache
+def digest_of_modules(file: Path) -> str:
+    """Return one hash of a module and of all that it imports."""
+    text = "".join(
+        f"{digest_of(module)} {module.relative_to(SCRIPTS)}\n" for module in modules_of(file)
+    )
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+@cache
+def _imports_of(file: Path) -> frozenset[Path]:
+    names = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = file.relative_to(SCRIPTS).parts[: -node.level] if node.level else ()
+            base = ".".join([*package, *([node.module] if node.module else [])])
+            names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
+    return frozenset(path for name in names for path in _files_of(name))
+
+
+def _files_of(name: str) -> list[Path]:
+    """Return the files that importing `name` executes: the module and its packages."""
+    parts = name.split(".")
+    paths = []
+    for depth in range(1, len(parts) + 1):
+        folder = SCRIPTS.joinpath(*parts[:depth])
+        paths += [folder / "__init__.py", folder.with_suffix(".py")]
+    return [path for path in paths if path.is_file()]

@@ -1,0 +1,83 @@
+"""Deciding functions for Section 2: the equations, their forms and symmetries."""
+
+from .verdicts import Finding, judge, number, undecided, within_tolerance
+
+
+def hamiltonian(gradient) -> Finding:
+    """(7), (8): the right-hand side is the gradient of the energy, for each kind of ends."""
+    return within_tolerance(gradient, "error")
+
+
+def conserved(conservation) -> Finding:
+    """(8): H is constant along the flow."""
+    return within_tolerance(conservation, "energy_drift")
+
+
+def pt_form(pt) -> Finding:
+    """(9), (10): the equivalent form."""
+    return within_tolerance(pt, "rates", "trajectory")
+
+
+def pt_energy(pt) -> Finding:
+    """The PT form is Hamiltonian with a modified energy: H / 8, with u and v crosswise."""
+    return within_tolerance(pt, "energy_gradient")
+
+
+def pt_symmetry(pt) -> Finding:
+    """(11): invariance under P and T, which holds for their product."""
+    measured = {name: pt[name].max() for name in ("pt", "p_alone", "t_alone")}
+    alone = min(measured["p_alone"], measured["t_alone"])
+    caveat = ""
+    if alone > 1e-6:
+        caveat = "P and T together are a symmetry; either alone misses by 2 gamma max(|u|, |v|)"
+    limit = pt["pt"].attrs["tolerance"]
+    return judge(measured, f"pt <= {limit:.1g}", measured["pt"] <= limit, caveat)
+
+
+def exchange(symmetries) -> Finding:
+    """The equations do not change under A <-> B."""
+    return within_tolerance(symmetries, "exchange")
+
+
+def synchronised(symmetries, opposite) -> Finding:
+    """(5): A = B reduces (4) to the scalar dNLS, on which the drive has no effect."""
+    finding = within_tolerance(symmetries, "synchrony", "norm_drift", "scalar")
+    departure = number(opposite, "departure")
+    return finding._replace(measured=finding.measured | {"opposite_departure": departure})
+
+
+def no_gauge(conservation) -> Finding:
+    """The equations are not gauge-invariant."""
+    defect = float(conservation["gauge_defect"].max())
+    return judge({"gauge_defect": defect}, "gauge_defect > 1e-3", defect > 1e-3)
+
+
+def one_integral(conservation) -> Finding:
+    """The energy is the only integral of motion."""
+    measured = {"l2_change": conservation["l2_change"].max()}
+    return undecided(
+        measured, "numbers show that the l2 norm is not conserved, not that nothing else is"
+    )
+
+
+def slow_time(expansion) -> Finding:
+    """(4): the amplitudes move with tau = mu^2 t / 2."""
+    order = number(expansion, "order", reading="mu^2 t / 2")
+    measured = {"order": order, "smallest_error": expansion["error"].values[-1, 0]}
+    return judge(measured, "2.5 <= order in mu <= 3.5", abs(order - 3.0) <= 0.5)
+
+
+def printed_time(expansion) -> Finding:
+    """(3): the amplitudes are written as functions of mu^2 t."""
+    order = number(expansion, "order", reading="mu^2 t")
+    measured = {"order": order, "smallest_error": expansion["error"].values[-1, 1]}
+    fails = f"read so, the error falls only as mu^{order:.1f}, not as mu^3"
+    return judge(measured, "2.5 <= order in mu <= 3.5", abs(order - 3.0) <= 0.5, fails=fails)
+
+
+def drive_sign(expansion) -> Finding:
+    """(2): D = 2 gamma mu^2 cos 2 omega t leads to + gamma in (4)."""
+    right = number(expansion, "order", reading="mu^2 t / 2")
+    wrong = number(expansion, "order", reading="mu^2 t / 2, opposite drive")
+    measured = {"order": right, "order_opposite": wrong}
+    return judge(measured, "order > 2.5 for this sign alone", right > 2.5 > wrong)

@@ -1,0 +1,86 @@
+"""Small systems in the calling convention of the integrators, which know nothing of chains.
+
+The oscillator of van der Pol, x'' = mu (1 - x^2) x' - x, is one complex component z = x + i x';
+large mu has sudden turns, and negative mu blows up. The Riccati equation x' = p x + q x^2 has
+solutions in closed form, and so has Crank-Nicolson for q = 0.
+"""
+
+import numpy as np
+from pendula.compiled import generic
+from pendula.integrators import crank_nicolson, dop853, ode45
+from scipy.integrate import solve_ivp
+
+START = 2.0 + 0.5j
+
+
+@generic
+def oscillate(mu, y, dy):
+    dy[0, 1] = y[1, 1]
+    dy[1, 1] = mu * (1.0 - y[0, 1] * y[0, 1]) * y[1, 1] - y[0, 1]
+
+
+@generic
+def riccati(factors, old, new, middle, dy):
+    for row in range(2):
+        mean = 0.5 * (old[row, 1] + new[row, 1])
+        dy[row, 1] = factors[0] * mean + factors[1] * mean * mean
+
+
+@generic
+def keep(system, y, i, record):
+    record[0, i] = y[0, 1]
+    record[1, i] = y[1, 1]
+
+
+solve_ode45 = ode45.build(oscillate, keep)
+solve_dop853 = dop853.build(oscillate, keep)
+solve_crank_nicolson = crank_nicolson.build(riccati, keep)
+
+
+@generic
+def run_ode45(system, y, times, controls, work, record):
+    return solve_ode45(system, y, times, controls, work, record)
+
+
+@generic
+def run_dop853(system, y, times, controls, work, record):
+    return solve_dop853(system, y, times, controls, work, record)
+
+
+@generic
+def run_crank_nicolson(system, y, times, controls, work, record):
+    return solve_crank_nicolson(system, y, times, controls, work, record)
+
+
+METHODS = {
+    "ode45": (run_ode45, ode45.WORK),
+    "dop853": (run_dop853, dop853.WORK),
+    "crank_nicolson": (run_crank_nicolson, crank_nicolson.WORK),
+}
+
+
+def run(name, system, times, controls, start=START):
+    """Return z at the output times (NaN where none was reached), the final z, and the outcome."""
+    method, work = METHODS[name]
+    y = np.zeros((2, 3))
+    y[:, 1] = start.real, start.imag
+    record = np.full((2, len(times)), np.nan)
+    controls = tuple(map(float, controls))
+    outcome = method(system, y, np.asarray(times, float), controls, np.zeros((work, 2, 3)), record)
+    return record[0] + 1j * record[1], complex(y[0, 1], y[1, 1]), outcome
+
+
+def oscillator(mu):
+    """Return dz/dt of the oscillator as a function of z, in plain NumPy."""
+    return lambda z: z.imag + 1j * (mu * (1 - z.real**2) * z.imag - z.real)
+
+
+def accurate(mu, times, start=START):
+    """Return z of the oscillator at the output times, by SciPy with tight tolerances."""
+
+    def slope(_, z):
+        return oscillator(mu)(z)
+
+    span = times[0], times[-1]
+    tight = {"method": "DOP853", "rtol": 3e-14, "atol": 1e-14}
+    return solve_ivp(slope, span, [start], t_eval=times, **tight).y[0]

@@ -1,0 +1,197 @@
+"""dop853: Hairer's coefficients, its order, its step control, and the paper's cases."""
+
+import numpy as np
+import plain
+import pytest
+import systems
+from oracle import CASES, SOLVERS, random_chain, slope
+from pendula.integrators import dop853
+from pendula.integrators import dop853_tableau as tableau
+from pendula.integrators.outcome import DONE
+from pendula.lattice import Reduction, place
+from pendula.simulation import integrate, output_times, simulate
+from scipy.integrate._ivp import dop853_coefficients as published
+from trees import defect
+
+WHOLE = Reduction(even=False, synchronised=False)
+
+
+@pytest.fixture(scope="module")
+def matrix():
+    """Return the coefficients of all 16 stages, read off the compiled code with unit slopes."""
+    a = np.zeros((16, 16))
+    for stage in range(2, 17):
+        dop853.combine(stage, np.zeros(16), 1.0, np.eye(16), a[stage - 1])
+    return a
+
+
+def unit_slopes():
+    """Return slopes of 16 stages, each alone in a column of its own."""
+    k = np.zeros((16, 2, 18))
+    k[:, 0, 1:17] = np.eye(16)
+    return k
+
+
+def interpolation_weights(fraction, solution):
+    """Return the weights of the interpolant over a step that ends with the weights `solution`."""
+    y, w, out, c = np.zeros((2, 18)), np.zeros((2, 18)), np.zeros((2, 18)), np.zeros((7, 2, 18))
+    w[0, 1:17] = solution
+    dop853.prepare_interpolant(y, w, 1.0, unit_slopes(), c)
+    dop853.interpolate(fraction, y, c, out)
+    return out[0, 1:17]
+
+
+def error_weights(row):
+    out = np.zeros((2, 18))
+    dop853.weigh(unit_slopes(), row, out)
+    return out[0, 1:17]
+
+
+def test_every_stage_has_the_published_coefficients(matrix):
+    np.testing.assert_array_equal(matrix, published.A)
+
+
+@pytest.mark.parametrize("name", ["E3", "E5"])
+def test_error_estimates_have_the_published_coefficients(name):
+    expected = np.append(getattr(published, name), [0.0, 0.0, 0.0])
+    np.testing.assert_array_equal(error_weights(getattr(tableau, name)), expected)
+
+
+def test_the_interpolant_has_the_published_coefficients():
+    c = np.zeros((7, 2, 18))
+    dop853.prepare_interpolant(np.zeros((2, 18)), np.zeros((2, 18)), 1.0, unit_slopes(), c)
+    np.testing.assert_array_equal(c[3:, 0, 1:17], published.D)
+
+
+def test_the_solution_is_of_order_eight(matrix):
+    assert defect(matrix, matrix[12], 8) < 1e-13
+    assert defect(matrix, matrix[12], 9) > 1e-8
+
+
+def test_the_error_estimates_are_of_orders_five_and_three(matrix):
+    fifth, third = error_weights(tableau.E5), error_weights(tableau.E3)
+    assert defect(matrix, fifth, 5, expected=0.0) < 1e-13
+    assert defect(matrix, third, 3, expected=0.0) < 1e-13
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.1, 0.5, 0.9, 1.0])
+def test_the_interpolant_is_of_order_seven_everywhere(matrix, fraction):
+    b = interpolation_weights(fraction, matrix[12])
+    assert defect(matrix, b, 7, fraction) < 1e-13
+
+
+def test_the_error_combines_two_estimates_in_the_largest_component():
+    rng = np.random.default_rng(0)
+    k, y, w = rng.normal(size=(16, 4, 5)), rng.normal(size=(4, 5)), rng.normal(size=(4, 5))
+    z, new = (u[0::2, 1:-1] + 1j * u[1::2, 1:-1] for u in (y, w))
+    stages = k[:13, 0::2, 1:-1] + 1j * k[:13, 1::2, 1:-1]
+    scale = 0.3 + 0.2 * plain.larger(z, new)
+    e5, e3 = (
+        np.max(np.abs(np.tensordot(e, stages, 1)) / scale) for e in (published.E5, published.E3)
+    )
+    expected = 0.7 * e5**2 / np.sqrt(e5**2 + 0.01 * e3**2)
+    actual = dop853.step_error(y, w, 0.7, k, np.zeros((4, 5)), 0.2, 0.3)
+    assert actual == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("stage", [0, 11])
+def test_a_nan_is_never_a_small_error(stage):
+    k, y = np.zeros((16, 2, 4)), np.ones((2, 4))
+    k[stage, 1, 2] = np.nan
+    assert dop853.step_error(y, y, 0.1, k, np.zeros((2, 4)), 1e-6, 1e-6) == np.inf
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-5, 1e-10])
+def test_step_control_is_the_published_one_on_the_chain(rtol):
+    z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (1.0, 1.0, -4.0)
+    solver = {"name": "dop853", "rtol": rtol, "atol": 1e-2 * rtol}
+    fast = integrate(numbers, "free", z, WHOLE, times, solver)
+    final, steps, rejected = plain.dop853(
+        lambda u: slope(u, numbers, "free"), z, times, rtol, 1e-2 * rtol
+    )
+    assert (fast.outcome.steps, fast.outcome.rejected) == (steps, rejected)
+    assert fast.outcome.evaluations == 2 + 12 * (steps + rejected) + 3 * 2
+    np.testing.assert_allclose(fast.final, final, atol=1e-8)
+
+
+@pytest.mark.parametrize("mu", [1.0, 30.0, 100.0])
+def test_step_control_is_the_published_one_through_rejected_steps(mu):
+    times = np.linspace(0.0, 20.0, 3)
+    _, final, outcome = systems.run("dop853", mu, times, (1e-4, 1e-6))
+    start = np.array([systems.START])
+    expected, steps, rejected = plain.dop853(systems.oscillator(mu), start, times, 1e-4, 1e-6)
+    assert (outcome.steps, outcome.rejected) == (steps, rejected)
+    assert rejected > 3
+    assert final == pytest.approx(expected[0], rel=1e-8)
+
+
+def test_a_system_at_rest_lets_the_step_grow_sixfold():
+    _, _, outcome = systems.run("dop853", 1.0, [0.0, 10.0], (1e-6, 1e-6), start=0j)
+    # 1e-6 (6^n - 1) / 5 first passes 10 at n = 10
+    assert (outcome.steps, outcome.rejected) == (10, 0)
+
+
+def test_a_single_step_errs_by_its_ninth_power_or_less():
+    errors = np.zeros(2)
+    for i, times in enumerate(([0.0, 0.3], [0.0, 0.15])):
+        for start in (2 + 0.5j, 1 - 1j, 0.5 + 2j, -1 + 1.5j):
+            _, final, outcome = systems.run("dop853", 1.0, times, (1e3, 1e3), start)
+            assert outcome.steps == 1
+            errors[i] += abs(final - systems.accurate(1.0, times, start)[-1])
+    assert 8.8 < np.log2(errors[0] / errors[1]) < 10.0
+
+
+def test_outputs_between_steps_are_as_good_as_the_steps():
+    times = np.linspace(0.0, 10.0, 1001)
+    values, final, outcome = systems.run("dop853", 1.0, times, (1e-10, 1e-10))
+    assert outcome.steps < 100  # most outputs are interpolated
+    np.testing.assert_allclose(values, systems.accurate(1.0, times), atol=1e-9)
+    assert values[-1] == pytest.approx(final, rel=1e-14)
+
+
+def test_sites_at_rest_do_not_change_the_steps():
+    """A root-mean-square norm would be diluted by them; without coupling nothing else could."""
+    wide = np.zeros((2, 41), complex)
+    wide[:, 20] = 2.0, 1.0
+    runs = [
+        integrate((0.0, 1.0, -4.0), "free", z, WHOLE, output_times(3.0, 1.0), SOLVERS["dop853"])
+        for z in (wide[:, 20:21], wide)
+    ]
+    assert runs[0].outcome == runs[1].outcome
+    np.testing.assert_array_equal(runs[0].final[:, 0], runs[1].final[:, 20])
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_papers_cases_agree_with_scipy(case, scipy_solution):
+    omega, pair = CASES[case]
+    run = simulate(
+        epsilon=1.0,
+        gamma=1.0,
+        omega=omega,
+        half_width=30,
+        boundary="dirichlet",
+        initial={0: pair},
+        end_time=5.0,
+        output_step=0.025,
+        solver={"name": "dop853", "rtol": 1e-13, "atol": 1e-13},
+    )
+    assert np.linalg.norm(run.final - scipy_solution(case, 5.0)) < 1e-9
+
+
+@pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
+def test_a_tenth_of_the_tolerance_makes_a_tenth_of_the_error(case, scipy_solution):
+    z = place({0: CASES[case][1]}, 30)
+    numbers, times = (1.0, 1.0, CASES[case][0]), output_times(5.0, 0.025)
+    errors = []
+    for tolerance in (1e-9, 1e-10):
+        solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+        final = integrate(numbers, "dirichlet", z, WHOLE, times, solver).final
+        errors.append(np.abs(final - scipy_solution(case, 5.0)).max())
+    assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.3)
+
+
+def test_a_solution_that_blows_up_is_reported_where_it_does():
+    times = np.linspace(0.0, 10.0, 41)
+    values, _, outcome = systems.run("dop853", -1.0, times, (1e-7, 1e-9), start=3.0 + 1.0j)
+    assert outcome.status != DONE
+    np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)

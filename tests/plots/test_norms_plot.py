@@ -1,0 +1,60 @@
+"""Figures 2-4 and the pictures beside them."""
+
+import numpy as np
+import pytest
+from pendula.plots import norms, spacetime, style
+
+
+@pytest.fixture(scope="module")
+def panels(gathered):
+    return np.reshape(norms.draw(gathered["norms"]).axes, (2, 2))
+
+
+def test_gather_returns_what_the_trajectories_hold(make_trajectory):
+    small, large = make_trajectory(), make_trajectory(scale=5.0)
+    data = norms.gather(small, large)
+    for name in ("linf", "l2"):
+        assert (data[name].sel(amplitude="small") == small[name]).all()
+        assert (data[name].sel(amplitude="large") == large[name]).all()
+
+
+def test_panels_stand_as_in_the_paper(gathered, panels):
+    data = gathered["norms"]
+    for row, amplitude in enumerate(["small", "large"]):
+        for column, name in enumerate(["linf", "l2"]):
+            lines = panels[row, column].get_lines()
+            assert [line.get_color() for line in lines] == [style.RED, style.BLUE]
+            for line, component in zip(lines, ["A", "B"], strict=True):
+                expected = data[name].sel(amplitude=amplitude, component=component)
+                assert np.array_equal(line.get_ydata(), expected)
+
+
+def test_axes_say_what_they_show(panels):
+    assert [axes.get_ylabel() for axes in panels[0]] == [r"$\ell^\infty$ norm", r"$\ell^2$ norm"]
+    assert [axes.get_xlabel() for axes in panels[1]] == [r"$\tau$"] * 2
+    assert all(r"\Omega = 8" in axes.get_title("left") for axes in panels.flat)
+
+
+def test_no_curve_leaves_its_panel(gathered, panels):
+    for axes in panels.flat:
+        low, high = axes.get_ylim()
+        values = np.concatenate([line.get_ydata() for line in axes.get_lines()])
+        assert low <= values.min() and values.max() <= high
+
+
+def test_runs_of_different_lengths_are_drawn_whole(make_trajectory):
+    figure = norms.draw(norms.gather(make_trajectory(), make_trajectory(end_time=7.0)))
+    ends = [axes.get_lines()[0].get_xdata()[-1] for axes in figure.axes]
+    assert ends == [5.0, 5.0, 7.0, 7.0]
+
+
+def test_spacetime_shows_the_moduli_site_by_site(gathered, make_trajectory):
+    figure = spacetime.draw(gathered["spacetime"])
+    images = [axes.images[0] for axes in figure.axes if axes.images]
+    modulus = make_trajectory()["modulus"]
+    for image, component in zip(images[:2], ["A", "B"], strict=True):
+        assert np.array_equal(image.get_array(), modulus.sel(component=component))
+        assert (image.origin, image.get_extent()) == ("lower", [-0.5, 5.5, -2.5, 2.5])
+        assert image.get_clim() == (0, float(modulus.max()))
+    titles = [axes.get_title("left") for axes in figure.axes[:4]]
+    assert [title[:7] for title in titles] == ["$|A_n|$", "$|B_n|$"] * 2

@@ -1,0 +1,73 @@
+"""How figures are saved, and how cases are named in them."""
+
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_rgb
+from pendula.plots import style
+
+NAMES = ("figure.png", "figure.pdf", "figure.nc")
+
+
+@pytest.fixture
+def data():
+    attributes = {"long_name": "height", "units": "1"}
+    return xr.Dataset({"height": ("place", [0.0, 2.0, 1.0], attributes)})
+
+
+def save(folder, data, drawn=None):
+    folder.mkdir(exist_ok=True)
+    figure = style.new_figure(1, 1)
+    figure.add_subplot().plot((data if drawn is None else drawn)["height"])
+    paths = [folder / name for name in NAMES]
+    style.save(figure, data, *paths)
+    return [path.read_bytes() for path in paths]
+
+
+def test_saving_twice_writes_the_same_bytes(data, tmp_path):
+    first = save(tmp_path / "one", data)
+    time.sleep(1.1)  # a date in seconds would now differ
+    assert save(tmp_path / "two", data) == first
+
+
+def test_saved_files_hold_no_date_and_no_trace_of_the_program(data, tmp_path):
+    png, pdf, _ = save(tmp_path, data)
+    assert b"Software" not in png
+    assert b"CreationDate" not in pdf
+
+
+def test_the_saved_data_are_those_given(data, tmp_path):
+    save(tmp_path, data)
+    saved = xr.load_dataset(tmp_path / "figure.nc")
+    xr.testing.assert_equal(saved, data)
+    assert saved["height"].attrs == data["height"].attrs
+    assert saved.attrs == {"Conventions": "CF-1.11"}
+
+
+def test_a_fault_leaves_older_files_as_they_were_and_no_others(data, tmp_path):
+    before = save(tmp_path, data)
+    with pytest.raises((TypeError, ValueError)):
+        save(tmp_path, data.assign(bad=((), object())), drawn=-data)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(NAMES)
+    assert [(tmp_path / name).read_bytes() for name in NAMES] == before
+
+
+@pytest.mark.parametrize(
+    ("initial", "name"),
+    [
+        ('{"0": [1.0, 0.1]}', "$(A_{0}, B_{0}) = (1, 0.1)$"),
+        ("{0: [5, 1]}", "$(A_{0}, B_{0}) = (5, 1)$"),
+        ('{"-3": [2.0, "-0.3+0.4j"]}', "$(A_{-3}, B_{-3}) = (2, -0.3+0.4j)$"),
+        ('{"0": [1.0, 1.0], "3": [1.0, 1.0]}', "data on 2 sites"),
+    ],
+)
+def test_initial_data_are_named_by_site_and_values(initial, name):
+    assert style.name_initial(initial) == name
+
+
+@pytest.mark.parametrize(("one", "other"), [("A", "B"), ("l2", "linf"), ("ode45", "dop853")])
+def test_colours_stay_apart_in_grey(one, other):
+    greys = [np.dot((0.3, 0.59, 0.11), to_rgb(style.COLOURS[name])) for name in (one, other)]
+    assert abs(greys[0] - greys[1]) > 0.2

@@ -1,0 +1,53 @@
+"""The project agrees with itself: pins, records of code, and words that must not stand in it."""
+
+import ast
+import re
+from pathlib import Path
+
+import code_records
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def test_the_conda_environment_has_the_same_pins():
+    pins = (ROOT / "environment.txt").read_text().split()
+    conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
+    assert conda["dependencies"][-1]["pip"] == pins
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
+
+
+def test_a_record_lists_the_modules_that_a_script_reaches(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = Path(code_records.code("trajectories/simulate_case.py")).read_text()
+    files = {line.split()[1] for line in text.splitlines()}
+    assert {
+        "environment.txt",
+        "scripts/job.py",
+        "scripts/trajectories/simulate_case.py",
+        "scripts/pendula/chain.py",
+        "scripts/pendula/integrators/dop853_tableau.py",
+    } <= files
+    assert not any("plots" in file or "parameters" in file for file in files)
+
+
+def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    record = Path(code_records.code("figures/draw_chain.py"))
+    before = record.stat().st_mtime_ns
+    assert code_records.code("figures/draw_chain.py") == record.as_posix()
+    assert record.stat().st_mtime_ns == before
+
+
+@pytest.mark.parametrize("script", sorted(p.name for p in (ROOT / "scripts").glob("*/*.py")))
+def test_scripts_touch_snakemake_only_under_the_main_guard(script):
+    (path,) = [p for p in (ROOT / "scripts").glob(f"*/{script}") if p.name == script][:1]
+    if path.parent.name == "pendula":
+        assert "snakemake." not in path.read_text()
+        return
+    tree = ast.parse(path.read_text())
+    guard = tree.body[-1]
+    inside = {id(node) for node in ast.walk(guard)}
+    names = [n for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == "snakemake"]
+    assert names and all(id(name) in inside for name in names)

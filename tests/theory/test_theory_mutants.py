@@ -1,0 +1,76 @@
+"""Wrong equations make checks fail: each mutant changes one place of the library's text."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+LIBRARY = Path(__file__).parents[2] / "scripts" / "pendula"
+MUTANTS = Path(__file__).parent / "mutants.py"
+
+MUTATIONS = {
+    "sign of the cubic term": ("chain.py", "+ 0.5 * density * u", "- 0.5 * density * u"),
+    "factor of the cubic term": ("chain.py", "+ 0.5 * density * u", "+ density * u"),
+    "sign of the coupling": ("chain.py", "return coupling +", "return -coupling +"),
+    "sign of Omega": ("chain.py", "+ chain.omega * u", "- chain.omega * u"),
+    "sign of the drive": ("chain.py", "+ drive * (partner - u)", "- drive * (partner - u)"),
+    "twice gamma": ("chain.py", "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
+    "drive without the own part": ("chain.py", "drive * (partner - u)", "drive * partner"),
+    "drive not conjugated": ("chain.py", "chain, -gamma, y[im", "chain, gamma, y[im"),
+    "free ends for Dirichlet": ("chain.py", "chain.left == FREE", "chain.left <= FREE"),
+    "Dirichlet ends for free": ("chain.py", "chain.right == FREE", "chain.right == MIRROR"),
+    "ring joined wrongly": ("chain.py", "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
+    "lost end bonds": ("energy.py", "chain.left != PERIODIC", "False"),
+    "twice the bonds": ("energy.py", "chain.epsilon * on_bonds", "2 * chain.epsilon * on_bonds"),
+    "sign of the drive's energy": ("energy.py", "total -= chain.gamma", "total += chain.gamma"),
+    "quartic term": ("energy.py", "0.25 * density", "0.5 * density"),
+}  # fmt: skip
+
+CONSISTENT = {
+    "twice gamma in both": [
+        ("chain.py", "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
+        ("energy.py", "total -= chain.gamma", "total -= 2.0 * chain.gamma"),
+    ],
+    "sign of gamma in both": [
+        ("chain.py", "+ drive * (partner - u)", "- drive * (partner - u)"),
+        ("energy.py", "total -= chain.gamma", "total += chain.gamma"),
+    ],
+    "free ends in both": [
+        ("chain.py", "chain.left == FREE", "chain.left <= FREE"),
+        ("chain.py", "chain.right == FREE", "chain.right <= FREE"),
+    ],
+}
+
+
+def failing_check(folder, edits) -> str:
+    """Return the first check that fails on a library with these edits, run as plain Python."""
+    scripts = folder / "scripts"
+    skip = shutil.ignore_patterns("__pycache__", "plots")
+    shutil.copytree(LIBRARY, scripts / "pendula", ignore=skip)
+    for name, old, new in edits:
+        path = scripts / "pendula" / name
+        text = path.read_text(encoding="utf-8")
+        assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {name}"
+        path.write_text(text.replace(old, new), encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(scripts), "NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, "-W", "ignore", str(MUTANTS)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_the_library_itself_passes(tmp_path):
+    assert failing_check(tmp_path, []) == "none"
+
+
+@pytest.mark.parametrize("name", MUTATIONS)
+def test_mutant_is_caught(name, tmp_path):
+    assert failing_check(tmp_path, [MUTATIONS[name]]) != "none"
+
+
+@pytest.mark.parametrize("name", CONSISTENT)
+def test_mutant_of_equations_and_energy_alike_is_caught(name, tmp_path):
+    assert failing_check(tmp_path, CONSISTENT[name]) != "none"

@@ -1,0 +1,39 @@
+"""Running the real snakemake from the tests."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def snakemake(project: Path, directory: Path, *arguments: str) -> subprocess.CompletedProcess:
+    """Run snakemake on the quick configuration of `project`, with its results in `directory`."""
+    configuration = project / "config" / "quick.yaml"
+    command = command_of(project, directory, configuration, *arguments)
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def command_of(project: Path, directory: Path, configuration: Path, *arguments: str) -> list[str]:
+    """Return the command; --configfile takes all that follows it, so it stands last."""
+    options = ["--snakefile", project / "Snakefile", "--directory", directory]
+    words = [sys.executable, "-m", "snakemake", *arguments, *options, "--configfile", configuration]
+    return [str(word) for word in words]
+
+
+def planned(project: Path, directory: Path, *arguments: str) -> dict[str, int]:
+    """Return the number of jobs of each rule that snakemake would run."""
+    result = snakemake(project, directory, "--dry-run", *arguments)
+    assert result.returncode == 0, result.stdout + result.stderr
+    text = result.stdout + result.stderr
+    if "Nothing to be done" in text:
+        return {}
+    table = text[text.index("Job stats:") :].split("\n\n")[0].splitlines()[3:]
+    return {row.split()[0]: int(row.split()[1]) for row in table if row.split()[0] != "total"}
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    """Replace the one place in a file where `old` stands."""
+    text = path.read_text()
+    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path}"
+    path.write_text(text.replace(old, new))

@@ -1,0 +1,117 @@
+"""Bad input and accidents: a clear message, a non-zero exit, and no half-written result."""
+
+import signal
+import subprocess
+import time
+
+import pytest
+import yaml
+from helpers import ROOT, command_of, edit, planned, snakemake
+
+
+def run_with(tmp_path, settings, *arguments):
+    """Run snakemake with a configuration of one's own beside the project's."""
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(yaml.safe_dump(settings))
+    return subprocess.run(
+        command_of(ROOT, tmp_path, mine, *arguments), capture_output=True, text=True
+    )
+
+
+def test_a_bad_configuration_stops_before_any_job(tmp_path):
+    settings = {"cases": {"mine": {"omgea": 3, "half_width": -2, "solver": "dop835"}}, "swepes": {}}
+    result = run_with(tmp_path, settings)
+    assert result.returncode != 0
+    for part in (
+        "cases.mine.omega: is missing",
+        "cases.mine.omgea: is not a known key; did you mean 'omega'?",
+        "cases.mine.half_width: is -2; it must be at least 0",
+        "did you mean 'dop853'?",
+        "swepes: is not a known key; did you mean 'sweeps'?",
+    ):
+        assert part in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not (tmp_path / "results/trajectories").exists()
+
+
+def test_a_case_of_ones_own_needs_a_few_lines(tmp_path):
+    settings = {
+        "cases": {
+            "mine": {
+                "omega": 6.5,
+                "gamma": 0.7,
+                "epsilon": 1.3,
+                "half_width": 20,
+                "boundary": "dirichlet",
+                "initial": {0: [2.0, "-0.3+0.4j"], 3: [0.5, 0.0]},
+                "end_time": 4,
+                "solver": "dop853",
+            }
+        }
+    }
+    result = run_with(tmp_path, settings, "results/trajectories/mine.nc")
+    assert result.returncode == 0, result.stderr
+    import xarray as xr
+
+    with xr.open_dataset(tmp_path / "results/trajectories/mine.nc") as data:
+        assert data.attrs["gamma"] == 0.7 and data.attrs["solver"] == "dop853"
+        assert float(data["l2"].sel(component="A").isel(tau=0)) == pytest.approx(4.25**0.5)
+        assert float(data["linf"].sel(component="B").isel(tau=0)) == pytest.approx(0.5)
+
+
+def test_a_failing_job_shows_its_traceback_on_the_screen_and_in_its_log(tmp_path):
+    settings = {"cases": {"wild": {"omega": 0, "initial": {0: ["1e200", 0]}, "end_time": 1}}}
+    result = run_with(tmp_path, settings, "results/trajectories/wild.nc")
+    log = (tmp_path / "results/logs/trajectories/wild.log").read_text()
+    assert result.returncode != 0
+    for text in (result.stderr, log):
+        assert "Traceback" in text and "IntegrationError: ode45 stopped at tau = 0" in text
+    assert not (tmp_path / "results/trajectories/wild.nc").exists()
+
+
+def test_a_damaged_dataset_is_named_with_the_way_out(finished):
+    dataset = finished / "results/trajectories/fig3_small.nc"
+    dataset.write_bytes(dataset.read_bytes()[:1000])
+    (finished / "results/figures/fig3.png").unlink()
+    result = snakemake(ROOT, finished, "fig3")
+    assert result.returncode != 0
+    assert "results/trajectories/fig3_small.nc is damaged" in result.stderr
+    assert "delete it and run snakemake" in result.stderr
+    dataset.unlink()
+    assert snakemake(ROOT, finished, "fig3").returncode == 0
+
+
+def test_a_missing_dataset_is_made_again(finished):
+    (finished / "results/trajectories/fig3_small.dop853.nc").unlink()
+    jobs = planned(ROOT, finished)
+    assert jobs["trajectory_by_solver"] == 1 and "trajectory" not in jobs and "sweep" not in jobs
+
+
+def test_an_interrupted_run_continues(finished, clone):
+    """Stop the run during a sweep that takes long: what was finished stays, the rest is made."""
+    edit(clone / "config/quick.yaml", "fig5_left: &short\n    half_widths: [4, 6, 8]",
+         "fig5_left: &short\n    half_widths: [4, 6, 8, 3000, 3001, 3002, 3003]")  # fmt: skip
+    command = command_of(clone, finished, clone / "config/quick.yaml", "fig5")
+    log = finished / "results/logs/sweeps/fig5_left.log"
+    log.unlink()
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    for _ in range(600):
+        if log.exists() and "half-width 8 done (3 of 7)" in log.read_text():
+            break
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode != 0
+    assert not list(finished.glob("results/sweeps/.*"))
+    jobs = planned(clone, finished, "fig5")
+    assert "fig5" in jobs and jobs["sweep"] >= 1 and "trajectory" not in jobs
+    edit(clone / "config/quick.yaml", ", 3000, 3001, 3002, 3003]", "]")
+    assert snakemake(clone, finished, "fig5").returncode == 0
+
+
+def test_the_list_of_targets_explains_itself(finished):
+    result = snakemake(ROOT, finished, "--list")
+    assert "Figs 5 and 6: norms against half-width" in result.stdout
+    assert all(f"\nfig{n} (" in result.stdout for n in range(1, 7))

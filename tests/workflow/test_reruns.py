@@ -1,0 +1,92 @@
+"""What reruns after a change, and what does not: asked of the real snakemake."""
+
+import os
+import shutil
+
+import pytest
+from helpers import edit, planned, snakemake
+
+SIMULATIONS = {"trajectory", "trajectory_by_solver", "sweep", "sweep_by_solver"}
+PLOTS = {f"fig{n}" for n in range(1, 7)} | {"spacetime", "energy_drift", "solver_agreement"}
+
+
+def test_nothing_is_to_be_done_after_a_full_run(finished, clone):
+    """The clone is newer than every result: only its content counts."""
+    assert planned(clone, finished) == {}
+
+
+def test_touching_every_file_changes_nothing(finished, clone):
+    for path in [*clone.rglob("*"), *finished.glob("results/code/*")]:
+        os.utime(path)
+    assert planned(clone, finished) == {}
+
+
+def test_results_moved_beside_a_new_clone_are_taken_as_they_are(finished, clone, tmp_path):
+    """Even without Snakemake's own records, as after unpacking an archive."""
+    shutil.copytree(finished / "results", tmp_path / "new" / "results")
+    assert planned(clone, tmp_path / "new") == {}
+
+
+def test_a_new_omega_reruns_its_case_and_the_figures_that_show_it(finished, clone):
+    edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
+    jobs = planned(clone, finished)
+    assert jobs.pop("trajectory") == 1 and jobs.pop("trajectory_by_solver") == 2
+    shown_in = {"fig4", "spacetime", "energy_drift", "solver_agreement", "solver_table", "all"}
+    assert set(jobs) == shown_in and set(jobs.values()) == {1}
+
+
+def test_a_new_omega_reaches_the_sweep_of_its_case(finished, clone):
+    edit(clone / "config/config.yaml", "{<<: *small, omega: 0}", "{<<: *small, omega: 0.5}")
+    jobs = planned(clone, finished)
+    assert jobs["sweep"] == jobs["sweep_by_solver"] == 1 and "fig5" in jobs and "fig6" not in jobs
+
+
+def test_the_plot_style_reruns_plots_only(finished, clone):
+    edit(clone / "scripts/pendula/plots/style.py", '"savefig.dpi": 300', '"savefig.dpi": 200')
+    jobs = planned(clone, finished)
+    assert set(jobs) & SIMULATIONS == set() and jobs.keys() >= PLOTS and jobs["spacetime"] == 3
+
+
+def test_one_plot_reruns_alone(finished, clone):
+    (clone / "scripts/pendula/plots/spacetime.py").open("a").write("# changed\n")
+    assert set(planned(clone, finished)) == {"spacetime", "all"}
+
+
+@pytest.mark.parametrize("module", ["chain.py", "energy.py", "compiled.py"])
+def test_the_equations_rerun_every_simulation(finished, clone, module):
+    (clone / "scripts/pendula" / module).open("a").write("# changed\n")
+    jobs = planned(clone, finished)
+    assert jobs["trajectory"] == 6 and jobs["trajectory_by_solver"] == 12
+    assert jobs["sweep"] == jobs["sweep_by_solver"] == 4
+
+
+def test_a_pin_reruns_everything(finished, clone):
+    pins = clone / "environment.txt"
+    pins.write_text(pins.read_text() + "another==1.0\n")
+    jobs = planned(clone, finished)
+    assert jobs.keys() >= SIMULATIONS | PLOTS | {"compile_solver"}
+
+
+def test_a_change_taken_back_changes_nothing(finished, clone):
+    chain = clone / "scripts/pendula/chain.py"
+    text = chain.read_text()
+    chain.write_text(text + "# changed\n")
+    assert planned(clone, finished)
+    chain.write_text(text)
+    assert planned(clone, finished) == {}
+
+
+def test_an_edit_of_the_equations_reaches_the_numbers(finished, clone, tmp_path):
+    """A stale cache of compiled kernels would give the old numbers."""
+    import xarray as xr
+
+    target = "results/trajectories/fig2_small.dop853.nc"
+    run = tmp_path / "run"
+    assert snakemake(clone, run, target).returncode == 0
+    with xr.open_dataset(run / target) as before:
+        drift_before = abs(before["energy"] - before["energy"][0]).max()
+    edit(clone / "scripts/pendula/chain.py", "+ 0.5 * density * u", "+ 0.25 * density * u")
+    assert snakemake(clone, run, target).returncode == 0
+    with xr.open_dataset(run / target) as after:
+        drift_after = abs(after["energy"] - after["energy"][0]).max()
+    assert drift_before < 1e-9 < 1e-3 < drift_after

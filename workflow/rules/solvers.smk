@@ -1,0 +1,63 @@
+# The paper's two solvers side by side, against one of high order.
+
+
+rule energy_drift:
+    "How well each solver conserves the energy, beside the paper's claim"
+    input:
+        code=code("figures/draw_energy.py"),
+        trajectories=trajectories_by_all_solvers(),
+    output:
+        **figure("energy_drift"),
+    log:
+        "results/logs/figures/energy_drift.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=ALL_SOLVERS,
+    message:
+        "Drawing how well the energy is conserved"
+    script:
+        "../../scripts/figures/draw_energy.py"
+
+
+rule solver_agreement:
+    "Until when the solvers draw the same curves"
+    input:
+        code=code("figures/draw_agreement.py"),
+        trajectories=trajectories_by_all_solvers(),
+    output:
+        **figure("solver_agreement"),
+    log:
+        "results/logs/figures/solver_agreement.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=ALL_SOLVERS,
+    message:
+        "Drawing until when the solvers agree"
+    script:
+        "../../scripts/figures/draw_agreement.py"
+
+
+rule solver_table:
+    "The same in numbers, with the sweeps: results/tables/solvers.md"
+    input:
+        code=code("tables/compare_solvers.py"),
+        energy="results/figures/energy_drift.nc",
+        agreement="results/figures/solver_agreement.nc",
+        first=expand("results/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS),
+        second=expand("results/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
+    output:
+        table="results/tables/solvers.md",
+    log:
+        "results/logs/tables/solvers.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        sweeps=PAPER_SWEEPS,
+    message:
+        "Tabling energy drift and agreement of the solvers"
+    script:
+        "../../scripts/tables/compare_solvers.py"
