@@ -35,7 +35,20 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
                 for name, variable in variables.items():
                     _write_variable(file, name, variable)
     except (OSError, RuntimeError) as error:
-        raise DatasetError(f"could not write {path}: {error} (is the disk full?)") from error
+        raise _not_written(path, error) from error
+
+
+def save(path: str | Path, dataset) -> None:
+    """Write an xarray.Dataset in the same way."""
+    try:
+        with complete_or_absent(path) as partial:
+            dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
+    except (OSError, RuntimeError) as error:
+        raise _not_written(path, error) from error
+
+
+def _not_written(path: str | Path, error: Exception) -> DatasetError:
+    return DatasetError(f"could not write {path}: {error} (is the disk full?)")
 
 
 def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> None:

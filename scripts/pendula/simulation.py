@@ -72,7 +72,12 @@ def integrate(
     solver: dict,
     snapshot_every: int = 0,
 ) -> Trajectory:
-    """Integrate amplitudes (2, N) under (epsilon, gamma, omega), reduced as `reduction` says."""
+    """Integrate amplitudes (2, N) under (epsilon, gamma, omega), reduced as `reduction` says.
+
+    Raises ValueError where N is even: the kernels count sites in pairs around a centre.
+    """
+    if amplitudes.shape[1] % 2 == 0:
+        raise ValueError(f"a chain has an odd number of sites, not {amplitudes.shape[1]}")
     method = SOLVERS[solver["name"]]
     chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
     y = pack(amplitudes, reduction)
