@@ -19,6 +19,10 @@ FIGURES = [
     *("fig5", "fig6"),
     # The paper's second solver, and its claim that the energy is conserved
     *("solver_agreement", "energy_drift"),
+    # Lemma 1: where the chain at rest is unstable, and how fast it leaves
+    *("stability_chart", "growth_rates"),
+    # Theorems 1 to 3: observed norms against their bounds
+    "bounds",
 ]
 
 
@@ -30,7 +34,10 @@ rule all:
         expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/checks/{name}.nc", name=CHECKS),
+        "results/claims.json",
         "results/tables/solvers.md",
+        "results/tables/claims.md",
 
 
 rule figures:
@@ -39,8 +46,17 @@ rule figures:
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
 
 
+rule theory:
+    "The checks of the paper's theory, the ledger of its claims, and their figures"
+    input:
+        expand("results/checks/{name}.nc", name=CHECKS),
+        expand("results/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
+        "results/claims.json",
+
+
 include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/solvers.smk"
+include: "workflow/rules/theory.smk"
 include: "workflow/rules/benchmarks.smk"

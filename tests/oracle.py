@@ -85,7 +85,8 @@ def chains(draw, widths=(0, 3), even=False, synchronised=False):
     """Draw complex amplitudes on a chain of any half-width in the range."""
     half_width = draw(st.integers(*widths))
     shape = (2, 2, 2 * half_width + 1)
-    parts = draw(arrays(float, shape, elements=st.floats(-2, 2, width=32)))
+    # thirds, because the sums of simple numbers would not round at all
+    parts = draw(arrays(float, shape, elements=st.floats(-6, 6, width=32))) / 3
     return symmetrise(parts[0] + 1j * parts[1], even, synchronised)
 
 

@@ -63,7 +63,10 @@ def test_the_projects_own_configuration_is_valid(name):
         ({"initial": {}}, "cases.mine.initial: is empty; give at least 1"),
         ({"end_time": 0}, "cases.mine.end_time: is 0; it must be greater than 0"),
         ({"end_time": 1.01}, "end_time: 1.01 is not a whole number of output steps of 0.025"),
-        ({"solver": "ode54"}, "cases.mine.solver: there is no solver 'ode54'; did you mean 'ode45'"),
+        (
+            {"solver": "ode54"},
+            "cases.mine.solver: there is no solver 'ode54'; did you mean 'ode45'",
+        ),
         ({"solver": {"name": "ode45", "rtoll": 1}}, "cases.mine.solver.rtoll: is not a known key"),
         ({"solver": {"name": "ode45", "rtol": -1}}, "cases.mine.solver.rtol: is -1"),
         ({"solver": {"rtol": 1e-3}}, "cases.mine.solver.name: is missing"),

@@ -153,6 +153,7 @@ def test_outputs_include_both_ends_and_exact_integers():
     assert len(times) == 2801
     np.testing.assert_array_equal(times[::40], np.arange(71))
     np.testing.assert_allclose(np.diff(times), 0.025, rtol=1e-11)
+    assert output_times(3.0, 1 / 49)[49] == 1.0  # although 49 * (1 / 49) is not 1
 
 
 @each_solver

@@ -11,9 +11,7 @@ def draw_energy(
     trajectories: list[str], cases: list[str], solvers: list[str], png: str, pdf: str, data: str
 ) -> None:
     """Draw the drift of the energy; `trajectories` run over cases, then solvers."""
-    drawn = energy.gather(
-        dict(zip(product(cases, solvers), map(read, trajectories), strict=True))
-    )
+    drawn = energy.gather(dict(zip(product(cases, solvers), map(read, trajectories), strict=True)))
     save(energy.draw(drawn), drawn, png, pdf, data)
 
 

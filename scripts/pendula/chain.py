@@ -46,23 +46,21 @@ def close(chain, y):
 
 @kernel
 def field(chain, drive, left, u, right, partner, density):
-    """Return one real part of the right-hand side of (4), `drive` being gamma (Re) or -gamma (Im)."""
+    """Return one part of the right-hand side of (4); `drive` is gamma for Re, -gamma for Im."""
     coupling = chain.epsilon * ((right + left) - 2.0 * u)
     return coupling + chain.omega * u + drive * (partner - u) + 0.5 * density * u
 
 
 @kernel
 def site_rates(chain, y, re, j, density, dy):
-    """Write i dA/dtau = F, that is Re A' = Im F and Im A' = -Re F, at column `j` of row pair `re`."""
+    """Write i dA/dtau = F at column `j` of row pair `re`: Re A' = Im F and Im A' = -Re F."""
     im = re + 1
     partner = y.shape[0] - 2 - re  # the row itself when A = B: the drive then vanishes exactly
     gamma = chain.gamma
     dy[re, j] = field(
         chain, -gamma, y[im, j - 1], y[im, j], y[im, j + 1], y[partner + 1, j], density
     )
-    dy[im, j] = -field(
-        chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[partner, j], density
-    )
+    dy[im, j] = -field(chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[partner, j], density)
 
 
 @kernel

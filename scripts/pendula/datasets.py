@@ -29,13 +29,16 @@ class Variable(NamedTuple):
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
     """Write a dataset; a fault (a full disk, say) leaves no file and names the one it was."""
     try:
-        with complete_or_absent(path) as partial:
-            with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-                file.setncatts({"Conventions": "CF-1.11", **attributes})
-                for name, variable in variables.items():
-                    _write_variable(file, name, variable)
+        with complete_or_absent(path) as partial, _created(partial) as file:
+            file.setncatts({"Conventions": "CF-1.11", **attributes})
+            for name, variable in variables.items():
+                _write_variable(file, name, variable)
     except (OSError, RuntimeError) as error:
         raise _not_written(path, error) from error
+
+
+def _created(path: Path) -> netCDF4.Dataset:
+    return netCDF4.Dataset(path, "w", format="NETCDF4")
 
 
 def save(path: str | Path, dataset) -> None:

@@ -26,7 +26,9 @@ def _as_complex(value: Any) -> complex:
         number = complex(value.replace(" ", "") if isinstance(value, str) else _no_bool(value))
     except (TypeError, ValueError):
         raise PydanticCustomError(
-            "complex", 'is {value}, not a complex number such as "-0.3+0.4j"', {"value": repr(value)}
+            "complex",
+            'is {value}, not a complex number such as "-0.3+0.4j"',
+            {"value": repr(value)},
         ) from None
     if not abs(number) < float("inf"):
         raise PydanticCustomError("finite", "is {value}, which is not finite", {"value": value})

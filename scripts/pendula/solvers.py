@@ -38,6 +38,8 @@ class Solver(NamedTuple):
 
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
-    "crank_nicolson": Solver(run_crank_nicolson, ("step", "tolerance", "iterations"), crank_nicolson.WORK),
+    "crank_nicolson": Solver(
+        run_crank_nicolson, ("step", "tolerance", "iterations"), crank_nicolson.WORK
+    ),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
 }

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import xarray
-
 from pendula.datasets import read
 from pendula.files import complete_or_absent
 
@@ -69,9 +68,9 @@ def agreement_section(data: xarray.Dataset) -> list[str]:
         "",
         "## Agreement of the trajectories",
         "",
-        f"The first tau at which the norms of two solvers differ by {visible:.0%} of full scale, and",
-        "the largest difference. Once a pair has parted in a chaotic case, it stays so: the curves",
-        "are then two different solutions of the same kind.",
+        f"The first tau at which the norms of two solvers differ by {visible:.0%} of full scale,",
+        "and the largest difference. Once a pair has parted in a chaotic case, it stays so: the",
+        "curves are then two different solutions of the same kind.",
         "",
         *head("case", *(str(pair) for pair in data["pair"].values)),
     ]

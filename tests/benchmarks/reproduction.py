@@ -1,4 +1,4 @@
-"""How long the whole reproduction takes: from nothing, with compiled kernels, and with nothing to do.
+"""How long the whole reproduction takes: from nothing, warm, and with nothing to do.
 
 Run as `python tests/benchmarks/reproduction.py`; it works on a copy of the project in a temporary
 folder and prints two tables.

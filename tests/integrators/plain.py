@@ -78,7 +78,7 @@ def dop853(f, z, times, rtol, atol):
         e5, e3 = (np.max(np.abs(np.tensordot(e, k, 1)) / scale) for e in (dop.E5, dop.E3))
         error = h * e5**2 / np.sqrt(e5**2 + 0.01 * e3**2)
         factor = max(1 / 3, 0.9 * error ** (-1 / 8))
-        if error > 1:
+        if not error <= 1:
             rejected, most, h = rejected + 1, 1.0, h * factor
             continue
         t, z, slope, steps = t + h, new, k[12], steps + 1

@@ -48,6 +48,12 @@ def test_later_steps_solve_it_too():
     np.testing.assert_allclose(at_once, one_by_one, atol=1e-12)
 
 
+def test_the_last_two_steps_spare_iterations_in_the_next():
+    z = random_chain(3)
+    costs = [run(z, [0.0, n * 0.005]).outcome.evaluations for n in (1, 40)]
+    assert costs[1] / 40 < costs[0] - 0.5
+
+
 def test_the_order_is_two():
     times = [0.0, 2.0]
     finals = [run(large(), times, step=h).final for h in (0.01, 0.005, 0.0025, 0.00125)]

@@ -94,9 +94,7 @@ def test_an_interrupted_run_continues(finished, clone):
     command = command_of(clone, finished, clone / "config/quick.yaml", "fig5")
     log = finished / "results/logs/sweeps/fig5_left.log"
     log.unlink()
-    process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     for _ in range(600):
         if log.exists() and "half-width 8 done (3 of 7)" in log.read_text():
             break

@@ -9,6 +9,7 @@ sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 from code_records import code
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
+from pendula.theory.groups import GROUPS, OBSERVED
 
 # Jobs find the library, and use one thread each, since they run in parallel.
 os.environ.update(
@@ -27,6 +28,7 @@ PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
 if absent:

@@ -12,6 +12,7 @@ help.
 import numpy as np
 
 from ..compiled import copy, generic, inlined, kernel
+from ..reductions import largest_of_rows
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
 
 WORK = 5  # arrays of the size of a state
@@ -20,16 +21,16 @@ SMALLEST_FRACTION = 2.0**-20
 
 @kernel
 def update(old, h, slope, new):
-    """Set new = old + h slope; return the largest change of a part (infinite where that fails)."""
-    change = 0.0
+    """Set new = old + h slope; return the largest change of a part, NaN where there is one.
+
+    `slope` is overwritten by the changes.
+    """
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
             value = old[row, j] + h * slope[row, j]
-            if not abs(value) < np.inf:  # comparisons would pass over a NaN
-                return np.inf
-            change = max(change, abs(value - new[row, j]))
+            slope[row, j] = abs(value - new[row, j])
             new[row, j] = value
-    return change
+    return largest_of_rows(slope, old.shape[0])
 
 
 @kernel
@@ -86,7 +87,7 @@ def build(mean_rates, observe):
             change = update(old, h, scratch[1], new)
             if change <= enough:
                 return True, count
-            if count > 2 and not change < last:
+            if not change < np.inf or (count > 2 and change >= last):
                 return False, count
             last = change
         return False, most

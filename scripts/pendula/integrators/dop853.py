@@ -11,6 +11,7 @@ from math import sqrt
 import numpy as np
 
 from ..compiled import copy, generic, inlined, kernel
+from ..reductions import largest_of_rows
 from .dop853_stages import combine
 from .dop853_tableau import D4, D5, D6, D7, E3, E5
 from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
@@ -19,43 +20,37 @@ WORK = 25  # arrays of the size of a state
 
 
 @kernel
-def size2(y, re, j):
-    """Return the squared modulus of the complex component stored in rows `re` and `re` + 1."""
-    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-
-
-@kernel
-def largest(v, y, w, rtol, atol):
+def weighted_norm(v, y, w, rtol, atol, scratch):
     """Return the largest modulus in `v`, each relative to atol + rtol max(|y|, |w|)."""
-    worst2 = 0.0
     for re in range(0, v.shape[0], 2):
+        im = re + 1
         for j in range(1, v.shape[1] - 1):
-            scale = atol + rtol * sqrt(max(size2(y, re, j), size2(w, re, j)))
-            ratio2 = size2(v, re, j) / (scale * scale)
-            if not ratio2 <= worst2:  # a NaN must not pass for no error
-                if not ratio2 < np.inf:
-                    return np.inf
-                worst2 = ratio2
-    return sqrt(worst2)
+            before = y[re, j] * y[re, j] + y[im, j] * y[im, j]
+            after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
+            scale = atol + rtol * sqrt(max(before, after))
+            scratch[re // 2, j] = (v[re, j] * v[re, j] + v[im, j] * v[im, j]) / (scale * scale)
+    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
 
 
 @kernel
 def weigh(k, e, out):
-    """Write the combination of stages 1 and 6 to 12 that an error estimate is made of."""
-    for row in range(out.shape[0]):
-        for j in range(1, out.shape[1] - 1):
-            first = e[0] * k[0, row, j] + e[1] * k[5, row, j] + e[2] * k[6, row, j]
-            second = e[3] * k[7, row, j] + e[4] * k[8, row, j] + e[5] * k[9, row, j]
-            out[row, j] = first + second + e[6] * k[10, row, j] + e[7] * k[11, row, j]
+    """Write the combination of stages 1 and 6 to 12 that an error estimate is made of (flat)."""
+    k1, k6, k7, k8, k9, k10, k11, k12 = k[0], k[5], k[6], k[7], k[8], k[9], k[10], k[11]
+    for i in range(out.size):
+        out[i] = (
+            e[0] * k1[i] + e[1] * k6[i] + e[2] * k7[i] + e[3] * k8[i]
+            + e[4] * k9[i] + e[5] * k10[i] + e[6] * k11[i] + e[7] * k12[i]
+        )  # fmt: skip
 
 
 @kernel
-def step_error(y, w, h, k, scratch, rtol, atol):
-    """Return the error of a step in units of the tolerance."""
-    weigh(k, E5, scratch)
-    fifth = largest(scratch, y, w, rtol, atol)
-    weigh(k, E3, scratch)
-    third = largest(scratch, y, w, rtol, atol)
+def step_error(y, w, h, k, v, scratch, rtol, atol):
+    """Return the error of a step in units of the tolerance; `v` and `scratch` are work space."""
+    k_flat, v_flat = k.reshape(16, -1), v.reshape(-1)
+    weigh(k_flat, E5, v_flat)
+    fifth = weighted_norm(v, y, w, rtol, atol, scratch)
+    weigh(k_flat, E3, v_flat)
+    third = weighted_norm(v, y, w, rtol, atol, scratch)
     if not fifth + third < np.inf:
         return np.inf
     if fifth == 0.0:
@@ -110,7 +105,8 @@ def build(rates, observe):
     @generic
     def initial_step(system, y, k, w, rtol, atol, longest):
         """Return the starting step of Hairer, Norsett and Wanner (section II.4)."""
-        size, slope = largest(y, y, y, rtol, atol), largest(k[0], y, y, rtol, atol)
+        size = weighted_norm(y, y, y, rtol, atol, w)
+        slope = weighted_norm(k[0], y, y, rtol, atol, w)
         h = min(longest, euler_step(size, slope))
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
@@ -119,7 +115,7 @@ def build(rates, observe):
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
                 w[row, j] = k[1, row, j] - k[0, row, j]
-        steepest = max(slope, largest(w, y, y, rtol, atol) / h)
+        steepest = max(slope, weighted_norm(w, y, y, rtol, atol, k[2]) / h)
         if steepest <= 1e-15:
             return min(longest, max(1e-6, 1e-3 * h))
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
@@ -140,13 +136,13 @@ def build(rates, observe):
         most_growth = 6.0
         while i < times.size:
             h = min(h, end - t)
-            if h <= 4.0 * np.spacing(max(abs(t), 2.0**-1022)):
+            if not h > 4.0 * np.spacing(max(abs(t), 2.0**-1022)):  # also where h is NaN
                 return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
             for stage in range(2, 14):
                 combine(stage, y_flat, h, k_flat, w_flat)
                 rates(system, w, k[stage - 1])
             evaluations += 12
-            error = step_error(y, w, h, k, scratch, rtol, atol)
+            error = step_error(y, w, h, k, scratch, c[0], rtol, atol)
             growth = 0.9 / eighth_root(error) if error > 0.0 else 6.0
             if not error <= 1.0:
                 if error == np.inf and h < 1e-9:

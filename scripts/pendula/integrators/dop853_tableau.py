@@ -7,9 +7,7 @@ are not zero are kept; the comment on each row names the stages they multiply.
 """
 
 # A2: stages 1
-A2 = (
-    0.05260015195876773,
-)
+A2 = (0.05260015195876773,)
 # A3: stages 1, 2
 A3 = (
     0.0197250569845379,

@@ -12,6 +12,7 @@ from math import sqrt
 import numpy as np
 
 from ..compiled import copy, inlined, kernel
+from ..reductions import largest_of_rows
 from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
 
 WORK = 9  # arrays of the size of a state
@@ -57,27 +58,28 @@ def combine(stage, y, h, k, w):
 
 
 @kernel
-def relative_error(y, w, k, threshold):
-    """Return the largest error of a complex component per unit step, as ode45 measures it."""
+def relative_error(y, w, k, threshold, scratch):
+    """Return the largest error of a complex component per unit step, as ode45 measures it.
+
+    It is relative to the larger modulus at the two ends of the step, but at least `threshold`;
+    it is NaN or infinite where the step overflowed.
+    """
     floor = threshold * threshold
-    worst = 0.0
+    k1, k3, k4, k5, k6, k7 = k[0], k[2], k[3], k[4], k[5], k[6]
     for re in range(0, y.shape[0], 2):
-        for j in range(1, y.shape[1] - 1):
-            error2 = 0.0
-            for row in (re, re + 1):
-                part = (
-                    E1 * k[0, row, j] + E3 * k[2, row, j] + E4 * k[3, row, j]
-                    + E5 * k[4, row, j] + E6 * k[5, row, j] + E7 * k[6, row, j]
+        im = re + 1
+        for row in (re, im):
+            for j in range(1, y.shape[1] - 1):
+                scratch[row, j] = (
+                    E1 * k1[row, j] + E3 * k3[row, j] + E4 * k4[row, j]
+                    + E5 * k5[row, j] + E6 * k6[row, j] + E7 * k7[row, j]
                 )  # fmt: skip
-                error2 += part * part
-            before = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-            after = w[re, j] * w[re, j] + w[re + 1, j] * w[re + 1, j]
-            ratio2 = error2 / max(before, after, floor)
-            if not ratio2 <= worst:  # a NaN must not pass for no error
-                if not ratio2 < np.inf:
-                    return np.inf
-                worst = ratio2
-    return sqrt(worst)
+        for j in range(1, y.shape[1] - 1):
+            before = y[re, j] * y[re, j] + y[im, j] * y[im, j]
+            after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
+            error = scratch[re, j] * scratch[re, j] + scratch[im, j] * scratch[im, j]
+            scratch[re // 2, j] = error / max(max(before, after), floor)
+    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
 
 
 @kernel
@@ -144,7 +146,7 @@ def build(rates, observe):
                     combine(stage, y_flat, h, k_flat, w_flat)
                     rates(system, w, k[stage - 1])
                 evaluations += 6
-                error = h * relative_error(y, w, k, threshold)
+                error = h * relative_error(y, w, k, threshold, out)
                 if error <= rtol:
                     break
                 if h <= shortest:

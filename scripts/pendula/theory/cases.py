@@ -63,6 +63,16 @@ def case_numbers(trajectory) -> tuple[dict[str, float], str]:
     return {name: float(value) for name, value in numbers.items()}, region
 
 
+def labels(datasets, dims: tuple) -> dict:
+    """Return the detuning and the initial data of each dataset, by which a figure names it."""
+    return {
+        "omega": variable([float(ds.attrs["omega"]) for ds in datasets], dims, "detuning Omega"),
+        "initial": variable(
+            [str(ds.attrs["initial"]) for ds in datasets], dims, "initial {site: [A, B]}"
+        ),
+    }
+
+
 def check_cases(trajectories: dict) -> dict:
     """Set each of the paper's trajectories (by the name of its case) beside its bounds."""
     found = [case_numbers(trajectory) for trajectory in trajectories.values()]
@@ -76,6 +86,7 @@ def check_cases(trajectories: dict) -> dict:
         region=variable([region for _, region in found], dims, "theorem that covers the case"),
         ratio=variable(ratio, dims, "largest P over its smallest bound", tolerance=1.0),
         margin=variable(columns["steepest"], dims, "growth over that of (19)", tolerance=1 + 1e-6),
+        **labels(trajectories.values(), dims),
         **described,
     )
 
@@ -108,6 +119,7 @@ def check_sweeps(sweeps: dict) -> dict:
         observed=variable(observed, dims, "largest P in the windows"),
         theorem_3=variable(finite, dims, "C_N of Theorem 3"),
         best=variable(best, dims, "smallest bound that holds"),
+        **labels(sweeps.values(), ("sweep",)),
         excess=variable(
             np.nanmax(observed / best), (), "largest P over its smallest bound", tolerance=1.0
         ),

@@ -11,6 +11,7 @@ from .errata import (
     check_theorem_2_case,
     check_theorem_3_constant,
 )
+from .groups import GROUPS as GROUPS
 from .growth import check_balance, check_growth
 from .hamiltonian import check_gradient, check_symmetries
 from .inequalities import check_inequalities
@@ -35,11 +36,20 @@ CHART = {
     "boundary": "dirichlet",
     "end_time": 40.0,
 }
+SHORT_CHART = {
+    "omegas": np.linspace(-0.5, 4.5, 41),
+    "gammas": np.linspace(0.0, 0.4, 11),
+    "epsilon": 1.0,
+    "sites": 5,
+    "boundary": "dirichlet",
+    "end_time": 60.0,
+    "foldings": 18.0,
+}
 WINDOWS = {
     "epsilon": 1.0,
     "boundary": "dirichlet",
     "half_widths": [2, 5, 10, 20, 30],
-    "gammas": [0.001, 0.003, 0.01, 0.03, 0.1],
+    "gammas": np.geomspace(0.001, 0.3, 26),
 }
 MEASURED_WINDOWS = {
     "gamma": 0.05,
@@ -59,6 +69,7 @@ CHECKS = {
     ),
     "dispersion": (check_dispersion, {"points": POINTS, "epsilon": 1.0, "sites": 9}),
     "chart": (check_chart, CHART),
+    "short_chart": (check_chart, SHORT_CHART),
     "windows": (check_windows, WINDOWS),
     "measured_windows": (check_measured_windows, MEASURED_WINDOWS),
     "threshold": (check_threshold, {"epsilon": 1.0, "sites": 21}),
@@ -75,21 +86,6 @@ CHECKS = {
     "opposite": (check_opposite, {"constants": ZERO, "sites": 9, "end_time": 3.0}),
     "not_shown": (check_not_shown, {"half_widths": [5, 10, 15, 20, 30, 40, 60, 80, 100]}),
 }
-
-
-GROUPS = {
-    "model": ("gradient", "symmetries", "opposite", "pt_form", "conservation", "expansion"),
-    "stability": ("dispersion", "chart", "windows", "measured_windows", "threshold"),
-    "bounds": ("balance", "growth", "inequalities", "samples", "worst"),
-    "errata": (
-        "theorem_3_constant",
-        "theorem_2_case",
-        "negative_depth",
-        "energy_drift",
-        "not_shown",
-    ),
-}
-"""Which checks share a job: starting one costs more than most checks."""
 
 
 def run_check(name: str) -> dict:

@@ -3,13 +3,14 @@
 import numpy as np
 
 from .bounds import theorem_1_bound, theorem_3_bound
-from .readings import constants, halves, largest, late, mean, powers
+from .readings import CHANGE, FACTOR, LARGE, constants, halves, largest, late, mean, powers
 from .verdicts import Finding, UndecidableError, judge
 
-# ASSUME: the paper's words for sizes. "Comparable", "the same level": within a factor of 2;
-# "do not change much": by less than 25 % between the halves of the time after tau = 10;
-# "significantly larger", "large": by a factor of 3, or above a third of the initial amplitude.
-FACTOR, CHANGE, LARGE = 2.0, 0.25, 3.0
+# ASSUME: what else the words mean. "Decreases": to less than half; "oscillates between": squares
+# of norms correlated below -0.8; "effectively separated": three quarters of A are kept; "is
+# unstable": grows by e within 3; "many": a quarter; a pendulum is "excited" at a fifth of the
+# largest amplitude; curves are apart at 30 % of scale; a rise of 10 % is worth a caveat.
+HALF, ANTICORRELATED, KEPT, MANY, EXCITED, APART, RISE = 0.5, -0.8, 0.75, 0.25, 0.2, 0.3, 0.1
 
 
 def bounded_by_theorem_1(small, large) -> Finding:
@@ -25,7 +26,7 @@ def bounded_by_theorem_1(small, large) -> Finding:
 def centre_decreases(small) -> Finding:
     """Fig 2, upper: the amplitude of the central pendulum decreases."""
     a = late(small)["linf"].sel(component="A").max() / small["linf"].sel(component="A")[0]
-    return judge({"largest_late_amplitude": a}, "late over initial < 0.5", a < 0.5)
+    return judge({"largest_late_amplitude": a}, "late over initial < 0.5", a < HALF)
 
 
 def modes_exchange(small) -> Finding:
@@ -34,7 +35,7 @@ def modes_exchange(small) -> Finding:
     with np.errstate(invalid="ignore"):  # constant norms have no correlation
         correlation, swing = np.corrcoef(a, b)[0, 1], float(np.ptp(a) / np.mean(a))
     measured = {"correlation": correlation, "swing_of_A": swing}
-    holds = correlation < -0.8 and swing > CHANGE
+    holds = correlation < ANTICORRELATED and swing > CHANGE
     return judge(measured, "correlation of |A|^2, |B|^2 < -0.8, swing > 25 %", holds)
 
 
@@ -54,7 +55,7 @@ def modes_separate(large) -> Finding:
     share = settled["linf"].sel(component="A") / large["linf"].sel(component="A")[0]
     ratio = settled["l2"].sel(component="B").max() / settled["l2"].sel(component="A").min()
     measured = {"smallest_A_kept": share.min(), "B_over_A": ratio}
-    holds = measured["smallest_A_kept"] > 0.75 and ratio < 1.0 / LARGE
+    holds = measured["smallest_A_kept"] > KEPT and ratio < 1.0 / LARGE
     return judge(measured, "A keeps 75 % of its maximum, l2 of B below a third of A", holds)
 
 
@@ -73,7 +74,7 @@ def like_omega_8(eight, four) -> Finding:
     l2 = np.sqrt(powers(late(four)).mean() / powers(late(eight)).mean())
     linf = largest(late(four)).mean() / largest(late(eight)).mean()
     measured = {"l2_ratio": l2, "linf_ratio": linf}
-    return judge(measured, "ratios within 1.5", all(1 / 1.5 < x < 1.5 for x in (l2, linf)))
+    return judge(measured, "ratios within 2", all(1 / FACTOR < x < FACTOR for x in (l2, linf)))
 
 
 def modes_mix(large) -> Finding:
@@ -98,7 +99,7 @@ def maximum_stays(large) -> Finding:
     """Fig 3, lower: l-infinity stays at the level of the initial data."""
     ratio = largest(late(large)) / largest(large)[0]
     measured = {"mean": ratio.mean(), "largest": ratio.max()}
-    grown = measured["mean"] > 1.1
+    grown = measured["mean"] > 1.0 + RISE
     caveat = f"it rises by {100 * (measured['mean'] - 1):.0f} % on average" if grown else ""
     return judge(measured, "within a factor of 2", ratio.max() < FACTOR, caveat)
 
@@ -138,7 +139,7 @@ def many_in_motion(small, large) -> Finding:
         pendula = 2.0 * (2 * int(ds.attrs["half_width"]) + 1)
         shares.append(np.mean(powers(settled) / largest(settled) ** 2) / pendula)
     measured = {"share_small": shares[0], "share_large": shares[1]}
-    return judge(measured, "P over l-infinity^2 and 2N > 1/4", min(shares) > 0.25)
+    return judge(measured, "P over l-infinity^2 and 2N > 1/4", min(shares) > MANY)
 
 
 def panels_alike(small, large) -> Finding:
@@ -148,13 +149,13 @@ def panels_alike(small, large) -> Finding:
     linf = largest(b).mean() / largest(a).mean() - 1.0
     early = np.abs(np.sqrt(powers(large)) - np.sqrt(powers(small)))
     scale = np.sqrt(powers(a).mean())
-    apart = small["tau"].values[early > 0.3 * scale]
+    apart = small["tau"].values[early > APART * scale]
     until = apart[-1] if len(apart) else 0.0
     measured = {"l2": l2, "linf": linf, "curves_apart_until": until, "initially": early[0]}
     caveat = ""
-    if early[0] > 0.1 * largest(a).mean():
+    if early[0] > RISE * largest(a).mean():
         caveat = "in the mean after tau = 10; before, and in detail, the curves differ"
-    return judge(measured, "late means within 15 %", max(abs(l2), abs(linf)) < 0.15, caveat)
+    return judge(measured, "late means within 25 %", max(abs(l2), abs(linf)) < CHANGE, caveat)
 
 
 def finite_bound(*trajectories) -> Finding:
@@ -172,7 +173,7 @@ def equilibrium(small) -> Finding:
     if "modulus" not in small:
         raise UndecidableError("the trajectory holds no amplitudes of single pendula")
     modulus = small["modulus"].max("component").values
-    level = 0.2 * modulus.max()
+    level = EXCITED * modulus.max()
     reached = [modulus[edge].max() > level for edge in (0, -1)]
     arrival = np.flatnonzero(np.maximum(modulus[0], modulus[-1]) > level)
     when = float(small["snapshot_tau"][arrival[0]]) if len(arrival) else np.inf

@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from .readings import largest, powers
+from .readings import CHANGE, largest, powers
 from .verdicts import Finding, UndecidableError, judge
 
-# ASSUME: "up to the order of 10^-k" allows up to ten times that number.
-ORDER = 10.0
+# ASSUME: "up to the order of 10^-k" allows up to twice that number, as in the table of solvers.
+ORDER = 2.0
+# ASSUME: two curves part for the eye at one per cent of full scale.
+VISIBLE = 0.01
 
 
 def drift(trajectory) -> float:
@@ -19,9 +21,8 @@ def energy_kept(order: float, trajectories) -> Finding:
     """Return the finding of an energy claim over the cases it names."""
     measured = {str(ds.attrs["case"]): drift(ds) for ds in trajectories}
     failing = [name for name, value in measured.items() if value > ORDER * order]
-    holds = len(failing) < len(measured)
-    caveat = f"not for {', '.join(failing)}" if failing else ""
-    return judge(measured, f"|H - H(0)| <= {ORDER * order:.0e}", holds, caveat)
+    fails = f"not for {', '.join(failing)}, by a solver whose tolerances the paper does not give"
+    return judge(measured, f"|H - H(0)| <= {ORDER * order:.0e}", not failing, fails=fails)
 
 
 def energy_small(*trajectories) -> Finding:
@@ -34,7 +35,7 @@ def energy_large(*trajectories) -> Finding:
     return energy_kept(1e-4, trajectories)
 
 
-def parting_time(one, other, share: float = 0.01) -> float:
+def parting_time(one, other, share: float = VISIBLE) -> float:
     """Return when the l2 or l-infinity norms differ by `share` of full scale; inf if never."""
     apart = np.zeros(one.sizes["tau"], bool)
     for name in ("l2", "linf"):
@@ -66,7 +67,7 @@ def solvers_agree(*trajectories) -> Finding:
     if apart:
         first = min(apart.values())
         caveat = f"{', '.join(apart)} part by 1 % from tau = {first:.1f} on; their means agree"
-    return judge(measured, "mean norms of the second half within 20 %", difference < 0.2, caveat)
+    return judge(measured, "mean norms of the second half within 25 %", difference < CHANGE, caveat)
 
 
 def sweeps_agree(*sweeps) -> Finding:
@@ -83,8 +84,11 @@ def sweeps_agree(*sweeps) -> Finding:
         name, difference = str(one.attrs["case"]), np.abs(b / a - 1.0)
         measured[f"largest_{name}"] = difference.max()
         measured[f"median_{name}"] = np.median(difference)
-    chaotic = [k for k, v in measured.items() if k.startswith("largest_") and v > 0.01]
-    names = ", ".join(name.removeprefix("largest_") for name in chaotic)
-    caveat = f"{names}: single points differ, since the motion is chaotic" if chaotic else ""
-    medians = [value for name, value in measured.items() if name.startswith("median_")]
-    return judge(measured, "median difference of points < 20 %", max(medians) < 0.2, caveat)
+    differ = {name: value for name, value in measured.items() if name.startswith("largest_")}
+    visible = [name.removeprefix("largest_") for name in differ if differ[name] > VISIBLE]
+    apart = [name.removeprefix("largest_") for name in differ if not differ[name] < CHANGE]
+    caveat = f"points of {', '.join(visible)} differ visibly: the motion is chaotic there"
+    typical = max((measured[f"median_{name}"] for name in apart), default=0.0)
+    fails = f"points of {', '.join(apart)} differ by more, half of them below {100 * typical:.2g} %"
+    text = "every point within 25 %"
+    return judge(measured, text, not apart, caveat if visible else "", fails)

@@ -4,6 +4,14 @@ import numpy as np
 
 from .verdicts import UndecidableError
 
+# ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
+# that none is fitted to the numbers of one row. "Comparable", "the same level", "no drastic
+# difference": within a factor of 2; "grows", "mix up" likewise. "Significantly larger", "large":
+# by a factor of 3. "Do not change much", "saturates", "no significant" or "no visible
+# difference": by less than 25 %. "Does not change": by less than 2 %; what changes by more than
+# that in one direction "decreases".
+FACTOR, LARGE, CHANGE, CONSTANT = 2.0, 3.0, 0.25, 0.02
+
 SETTLED = 10.0
 """From here on the paper's own statistics are taken: its windows start at tau = 10."""
 

@@ -17,18 +17,37 @@ def variable(values, dims: tuple, long_name: str, units: str = "1", tolerance=No
     return {"dims": tuple(dims), "data": np.asarray(values), "attrs": attrs}
 
 
+def deciding(check: dict) -> dict[str, tuple[float, float]]:
+    """Return (largest value, tolerance) of each deciding variable of a check.
+
+    Takes a check, or what `xarray.Dataset.to_dict` makes of its dataset.
+    """
+    return {
+        name: (
+            float(np.max(np.asarray(entry["data"], dtype=float), initial=-np.inf)),
+            float(entry["attrs"]["tolerance"]),
+        )
+        for name, entry in check["data_vars"].items()
+        if "tolerance" in entry["attrs"]
+    }
+
+
 def broken(check: dict) -> dict[str, float]:
     """Return the deciding variables of a check above their tolerance, with their largest value.
 
     A value that is not a number counts as broken.
     """
-    faults = {}
-    for name, entry in check["data_vars"].items():
-        if "tolerance" in entry["attrs"]:
-            worst = float(np.max(np.asarray(entry["data"], dtype=float), initial=-np.inf))
-            if not worst <= entry["attrs"]["tolerance"]:
-                faults[name] = worst
-    return faults
+    return {name: worst for name, (worst, limit) in deciding(check).items() if not worst <= limit}
+
+
+def describe(name: str, check: dict) -> str:
+    """Return a line for each deciding variable above its tolerance, or that the check holds."""
+    limits = {variable: limit for variable, (_, limit) in deciding(check).items()}
+    faults = [
+        f"CHECK VIOLATED: {name}: {variable} is {worst:.6g}, tolerance {limits[variable]:.6g}"
+        for variable, worst in broken(check).items()
+    ]
+    return "\n".join(faults) or f"{name} holds"
 
 
 def values(check: dict, name: str) -> np.ndarray:

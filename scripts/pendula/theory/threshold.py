@@ -64,24 +64,40 @@ def check_threshold(epsilon: float, sites: int, omegas=(-4.0, 8.0)) -> dict:
     band's edge is one wave number. A finite Dirichlet chain is stable there, its threshold being
     higher.
     """
-    times = np.array([5.0, 10.0, 20.0])
-    long_times = np.array([100.0, 200.0, 400.0, 800.0])
-    ratio, gap, l2, linf = [], [], [], []
+    times = np.array([2.5, 5.0, 10.0, 20.0, 40.0])
+    long_times = 25.0 * 2.0 ** np.arange(6)
+    ratio, thresholds, spreading = [], [], []
     for omega in omegas:
         mode = 0 if omega < 0 else sites - 1
         gamma, ratios = threshold_run(epsilon, omega, sites, "dirichlet", mode, times)
         ratio.append(ratios)
-        gap.append(gamma - float(gamma_0(omega, epsilon)))
-        norms = spreading_norms(epsilon, omega, long_times, 8192)
-        l2.append(exponent(long_times, norms[0]))
-        linf.append(exponent(long_times, norms[1]))
-    dims = ("omega",)
+        thresholds.append(gamma)
+        spreading.append(spreading_norms(epsilon, omega, long_times, 8192))
+    thresholds, dims = np.array(thresholds), ("omega",)
+    l2, linf = ([exponent(long_times, norms[i]) for norms in spreading] for i in range(2))
+    gap = thresholds - gamma_0(np.asarray(omegas, float), epsilon)
     return table(
         "Growth exactly at the threshold of Lemma 1",
-        {"omega": np.asarray(omegas, float), "tau": times},
+        {
+            "omega": np.asarray(omegas, float),
+            "tau": times,
+            "norm": ["l2", "linf"],
+            "long_tau": long_times,
+        },
         ratio=variable(ratio, ("omega", "tau"), "growth of the threshold mode over 4 gamma tau"),
         error=variable(
             np.abs(np.array(ratio) - 1.0).max(axis=1), dims, "its distance to one", tolerance=1e-8
+        ),
+        grown=variable(
+            4.0 * thresholds[:, None] * times * np.array(ratio),
+            ("omega", "tau"),
+            "growth of the threshold mode, |Im D| / |D(0)|",
+        ),
+        threshold=variable(thresholds, dims, "threshold of the finite chain"),
+        spreading=variable(
+            spreading,
+            ("omega", "norm", "long_tau"),
+            "norm of D at gamma_0 on the infinite chain from one site D = 1 + i",
         ),
         finite_gap=variable(gap, dims, "threshold of the finite chain minus gamma_0"),
         l2_exponent=variable(l2, dims, "power of tau in l2 on the infinite chain at gamma_0"),

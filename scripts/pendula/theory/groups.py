@@ -1,0 +1,26 @@
+"""Which checks share a job: starting one costs more than most checks.
+
+Apart from the catalogue, so that the workflow can read it without importing the checks.
+"""
+
+GROUPS = {
+    "model": ("gradient", "symmetries", "opposite", "pt_form", "conservation", "expansion"),
+    "stability": (
+        "dispersion",
+        "chart",
+        "short_chart",
+        "windows",
+        "measured_windows",
+        "threshold",
+    ),
+    "bounds": ("balance", "growth", "inequalities", "samples", "worst"),
+    "errata": (
+        "theorem_3_constant",
+        "theorem_2_case",
+        "negative_depth",
+        "energy_drift",
+        "not_shown",
+    ),
+}
+OBSERVED = ("cases", "sweeps")
+"""The checks of the paper's own trajectories and sweeps, which need their datasets."""

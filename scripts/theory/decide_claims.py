@@ -1,0 +1,91 @@
+"""Decide every claim of the paper by the datasets at hand: the ledger, and a table to read."""
+
+import json
+from collections import Counter
+from pathlib import Path
+
+from pendula.datasets import read
+from pendula.files import complete_or_absent
+from pendula.theory.ledger import evaluate, needed
+from pendula.theory.tables import broken, deciding, describe
+from pendula.theory.verdicts import Verdict
+
+
+def decide_claims(
+    datasets: list[str], names: list[str], makers: dict[str, str], ledger: str, table: str
+) -> None:
+    """Write the ledger as JSON and as Markdown, in the order of the paper.
+
+    `names` are those of `datasets` as the claims know them, `makers` the rule that makes each.
+    """
+    absent = set(needed()) - set(names)
+    if absent:
+        raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
+    sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
+    rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources)]
+    checks = {name: ds.to_dict() for name, ds in sources.items() if name.startswith("checks/")}
+    write(ledger, json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False))
+    write(table, "\n".join([*claims_section(rows), *checks_section(checks)]))
+    print(", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items()))
+    for name, check in checks.items():
+        if broken(check):
+            print(describe(name.removeprefix("checks/"), check))
+
+
+def write(path: str, text: str) -> None:
+    with complete_or_absent(path) as partial:
+        Path(partial).write_text(f"{text}\n", encoding="utf-8")
+
+
+def rules_of(row: dict, makers: dict[str, str]) -> list[str]:
+    """Return the rules whose datasets decide a row."""
+    return list(dict.fromkeys(makers[name] for name in row["decided_by"]))
+
+
+def tally(rows: list[dict]) -> dict[str, int]:
+    """Return how many rows have each verdict, every verdict named."""
+    counts = Counter(row["verdict"] for row in rows)
+    return {str(verdict): counts[verdict] for verdict in Verdict}
+
+
+def line(*cells: str) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def head(*cells: str) -> list[str]:
+    return [line(*cells), line(*("---" for _ in cells))]
+
+
+def claims_section(rows: list[dict]) -> list[str]:
+    """Return the claims with their verdicts and what these rest on."""
+    lines = ["# What the paper says, and what the numbers say", ""]
+    lines += [f"- {verdict}: {count}" for verdict, count in tally(rows).items()]
+    lines += ["", *head("where", "claim", "verdict", "measured", "criterion", "because", "data")]
+    for row in rows:
+        measured = ", ".join(f"{key} = {shown(value)}" for key, value in row["measured"].items())
+        data = ", ".join(row["decided_by"])
+        cells = (row["verdict"], measured, row["tolerance"], row["because"], data)
+        lines.append(line(row["place"], row["says"], *cells))
+    return lines
+
+
+def shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def checks_section(checks: dict[str, dict]) -> list[str]:
+    """Return every number that a check is held to, beside its tolerance."""
+    lines = ["", "# The checks", "", *head("check", "quantity", "largest", "tolerance", "holds")]
+    for name, check in checks.items():
+        faults = broken(check)
+        for variable, (worst, limit) in deciding(check).items():
+            title = f"{variable}: {check['data_vars'][variable]['attrs']['long_name']}"
+            cells = (title, f"{worst:.3g}", f"{limit:.10g}", "NO" if variable in faults else "yes")
+            lines.append(line(name.removeprefix("checks/"), *cells))
+    return lines
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(decide_claims, snakemake)  # noqa: F821

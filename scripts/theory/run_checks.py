@@ -1,0 +1,24 @@
+"""Run a group of checks and write each as a dataset, whether it holds or not."""
+
+import xarray
+from pendula.datasets import save
+from pendula.theory.catalogue import run_check
+from pendula.theory.tables import describe
+
+
+def run_checks(datasets: list[str], checks: list[str], kernels: list[str] | tuple = ()) -> None:
+    """Write the numbers of each of `checks` to the path of the same place in `datasets`.
+
+    A check that does not hold does not stop the run: it is said here and in the table of claims,
+    and it turns the verdicts that rest on it.
+    """
+    for name, path in zip(checks, datasets, strict=True):
+        check = run_check(name)
+        print(describe(name, check))
+        save(path, xarray.Dataset.from_dict(check))
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(run_checks, snakemake)  # noqa: F821
