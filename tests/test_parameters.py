@@ -117,6 +117,6 @@ def test_a_named_solver_takes_the_shared_controls_and_a_given_one_its_own():
             "solvers": {"dop853": {"rtol": 1e-9}},
         }
     )
-    assert settings.problem("named")["solver"] == {"name": "dop853", "rtol": 1e-9, "atol": 1e-12}
+    assert settings.problem("named")["solver"] == {"name": "dop853", "rtol": 1e-9, "atol": 1e-13}
     assert settings.problem("given")["solver"] == {"name": "dop853", "rtol": 1e-9, "atol": 1e-3}
     assert settings.problem("named", "ode45")["solver"]["name"] == "ode45"

@@ -7,7 +7,7 @@ import numpy as np
 
 from .chain import MIRROR, modulus2
 from .compiled import kernel
-from .energy import energy
+from .energy import energy_in
 
 
 class Record(NamedTuple):
@@ -18,6 +18,7 @@ class Record(NamedTuple):
     energy: np.ndarray  # (time,)
     modulus: np.ndarray  # (component, site, snapshot)
     every: int
+    scratch: np.ndarray  # (2, column), for the energy
 
 
 def blank_record(components: int, sites: int, times: int, every: int) -> Record:
@@ -29,6 +30,7 @@ def blank_record(components: int, sites: int, times: int, every: int) -> Record:
         np.empty(times),
         np.empty((components, sites, snapshots)),
         every,
+        np.empty((2, sites + 2)),
     )
 
 
@@ -57,4 +59,4 @@ def observe(chain, y, i, record):
         if record.every > 0 and i % record.every == 0:
             for j in range(1, y.shape[1] - 1):
                 record.modulus[k, j - 1, i // record.every] = sqrt(modulus2(y, 2 * k, j))
-    record.energy[i] = energy(chain, y)
+    record.energy[i] = energy_in(chain, y, record.scratch)

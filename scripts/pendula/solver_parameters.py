@@ -53,8 +53,8 @@ class Dop853(Model):
     """The explicit Runge-Kutta method of order eight, for accuracy."""
 
     name: Literal["dop853"] = "dop853"
-    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-12
-    atol: Positive = 1e-12
+    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-13
+    atol: Positive = 1e-13
 
 
 class CrankNicolson(Model):

@@ -29,9 +29,7 @@ def digest_of(file: Path) -> str:
 @cache
 def digest_of_modules(file: Path) -> str:
     """Return one hash of a module and of all that it imports."""
-    text = "".join(
-        f"{digest_of(module)} {module.relative_to(SCRIPTS)}\n" for module in modules_of(file)
-    )
+    text = "".join(f"{digest_of(module)} {module.name}\n" for module in modules_of(file))
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
 
 HALF_WIDTHS = [5, 10, 20]
 WINDOWS = ["[10, 50]", "[10, 70]", "[10, 40]"]
@@ -74,15 +75,30 @@ def make_sweep():
 @pytest.fixture(scope="session")
 def gathered(make_trajectory, trajectories, make_sweep):
     """Return what every module draws: {module name: dataset}."""
-    from pendula.plots import agreement, chain_drawing, energy, norms, spacetime, sweeps
+    from pendula.plots import (
+        agreement,
+        bounds,
+        chain_drawing,
+        energy,
+        growth_rates,
+        norms,
+        spacetime,
+        stability_chart,
+    )
+    from pendula.plots import sweeps as sweep_plot
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     panels = (make_sweep(-4.0), make_sweep(0.0))
+    long, short = chart(), short_chart()
+    points = [(8, 1), (-4, 1), (0, 1)]
     return {
         "agreement": agreement.gather(trajectories),
         "chain_drawing": chain_drawing.gather(),
         "energy": energy.gather(trajectories),
         "norms": norms.gather(*pair),
         "spacetime": spacetime.gather(*pair),
-        "sweeps": sweeps.gather(*panels, "[10, 70]", "[10, 40]"),
+        "sweeps": sweep_plot.gather(*panels, "[10, 70]", "[10, 40]"),
+        "stability_chart": stability_chart.gather(long, short, windows(), points),
+        "growth_rates": growth_rates.gather(long, short, threshold()),
+        "bounds": bounds.gather(cases(), sweeps(), samples(), worst()),
     }

@@ -9,7 +9,10 @@ import xarray as xr
 from matplotlib.text import Text
 from pendula.plots import style
 
-MODULES = ["agreement", "chain_drawing", "energy", "norms", "spacetime", "sweeps"]
+MODULES = [
+    *("agreement", "bounds", "chain_drawing", "energy", "growth_rates", "norms", "spacetime"),
+    *("stability_chart", "sweeps"),
+]
 
 
 def draw(module, data):

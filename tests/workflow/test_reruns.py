@@ -32,7 +32,8 @@ def test_a_new_omega_reruns_its_case_and_the_figures_that_show_it(finished, clon
     jobs = planned(clone, finished)
     assert jobs.pop("trajectory") == 1 and jobs.pop("trajectory_by_solver") == 2
     shown_in = {"fig4", "spacetime", "energy_drift", "solver_agreement", "solver_table", "all"}
-    assert set(jobs) == shown_in and set(jobs.values()) == {1}
+    assert jobs.keys() >= shown_in and jobs["spacetime"] == 1
+    assert not jobs.keys() & {"fig1", "fig2", "fig3", "fig5", "fig6", "sweep", "sweep_by_solver"}
 
 
 def test_a_new_omega_reaches_the_sweep_of_its_case(finished, clone):

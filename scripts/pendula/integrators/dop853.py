@@ -14,7 +14,7 @@ from ..compiled import copy, generic, inlined, kernel
 from ..reductions import largest_of_rows
 from .dop853_stages import combine
 from .dop853_tableau import D4, D5, D6, D7, E3, E5
-from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
+from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 WORK = 25  # arrays of the size of a state
 
@@ -59,6 +59,19 @@ def step_error(y, w, h, k, v, scratch, rtol, atol):
 
 
 @kernel
+def combine_all(k, d, h, out):
+    """Write h times the combination of stages 1 and 6 to 16 with weights `d` (flat)."""
+    k1, k6, k7, k8, k9, k10 = k[0], k[5], k[6], k[7], k[8], k[9]
+    k11, k12, k13, k14, k15, k16 = k[10], k[11], k[12], k[13], k[14], k[15]
+    for i in range(out.size):
+        out[i] = h * (
+            d[0] * k1[i] + d[1] * k6[i] + d[2] * k7[i] + d[3] * k8[i]
+            + d[4] * k9[i] + d[5] * k10[i] + d[6] * k11[i] + d[7] * k12[i]
+            + d[8] * k13[i] + d[9] * k14[i] + d[10] * k15[i] + d[11] * k16[i]
+        )  # fmt: skip
+
+
+@kernel
 def prepare_interpolant(y, w, h, k, c):
     """Write the coefficients c[0..6] of the interpolant over the step from `y` to `w`."""
     for row in range(y.shape[0]):
@@ -67,13 +80,11 @@ def prepare_interpolant(y, w, h, k, c):
             c[0, row, j] = change
             c[1, row, j] = h * k[0, row, j] - change
             c[2, row, j] = 2.0 * change - h * (k[12, row, j] + k[0, row, j])
-    for m, d in enumerate((D4, D5, D6, D7)):
-        for row in range(y.shape[0]):
-            for j in range(1, y.shape[1] - 1):
-                total = d[0] * k[0, row, j]
-                for s in range(5, 16):
-                    total += d[s - 4] * k[s, row, j]
-                c[3 + m, row, j] = h * total
+    k_flat = k.reshape(16, -1)
+    combine_all(k_flat, D4, h, c[3].reshape(-1))
+    combine_all(k_flat, D5, h, c[4].reshape(-1))
+    combine_all(k_flat, D6, h, c[5].reshape(-1))
+    combine_all(k_flat, D7, h, c[6].reshape(-1))
 
 
 @kernel
@@ -134,19 +145,22 @@ def build(rates, observe):
         i += 1
         steps, rejected, evaluations = 0, 0, 2
         most_growth = 6.0
+        overflowed = not h < np.inf
+        shortest = SMALLEST_PART * (end - t)
         while i < times.size:
-            h = min(h, end - t)
-            if not h > 4.0 * np.spacing(max(abs(t), 2.0**-1022)):  # also where h is NaN
-                return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
+            if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
+                h = end - t
+            if not h > shortest:  # also where h is NaN
+                status = NOT_FINITE if overflowed else STEP_TOO_SMALL
+                return Outcome(status, t, steps, rejected, evaluations)
             for stage in range(2, 14):
                 combine(stage, y_flat, h, k_flat, w_flat)
                 rates(system, w, k[stage - 1])
             evaluations += 12
             error = step_error(y, w, h, k, scratch, c[0], rtol, atol)
+            overflowed = error == np.inf
             growth = 0.9 / eighth_root(error) if error > 0.0 else 6.0
             if not error <= 1.0:
-                if error == np.inf and h < 1e-9:
-                    return Outcome(NOT_FINITE, t, steps, rejected, evaluations)
                 h *= max(1 / 3, growth)
                 rejected += 1
                 most_growth = 1.0

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..compiled import copy, inlined, kernel
 from ..reductions import largest_of_rows
-from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL, Outcome
+from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 WORK = 9  # arrays of the size of a state
 # b - b^ of the pair: what the two solutions differ by
@@ -126,7 +126,7 @@ def build(rates, observe):
         rtol, atol = controls
         threshold = atol / rtol
         t, end = times[0], times[-1]
-        longest = 0.1 * (end - t)
+        longest, refused = 0.1 * (end - t), SMALLEST_PART * (end - t)
         k, w, out = work[:7], work[7], work[8]
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
         rates(system, y, k[0])
@@ -140,6 +140,8 @@ def build(rates, observe):
             h = min(longest, max(shortest, h))
             if 1.1 * h >= end - t:
                 h = end - t
+            elif not h > refused:  # also where h is NaN
+                return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
             failed = False
             while True:
                 for stage in range(2, 8):
@@ -149,7 +151,7 @@ def build(rates, observe):
                 error = h * relative_error(y, w, k, threshold, out)
                 if error <= rtol:
                     break
-                if h <= shortest:
+                if not h > shortest:
                     status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
                     return Outcome(status, t, steps, rejected, evaluations)
                 shrink = 0.5 if failed else max(0.1, 0.8 * (rtol / error) ** 0.2)

@@ -4,8 +4,11 @@ from typing import NamedTuple
 
 DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION = range(4)
 
+SMALLEST_PART = 1e-10
+"""A step shorter than this part of the run is refused: the run would not end."""
+
 FAULTS = {
-    STEP_TOO_SMALL: "the step fell below the spacing of floating-point numbers",
+    STEP_TOO_SMALL: "the step fell below what rounding or the length of the run allows",
     NOT_FINITE: "the state is no longer finite",
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
 }

@@ -4,8 +4,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from . import style
+from .sweeps import TICKS
 
 BOUNDS = {
     "theorem_1": (">", "#16876b", "Theorem 1"),
@@ -34,7 +36,8 @@ def gather(
     )
     drawn = samples[["ratio"]].rename(ratio="sampled")
     searched = worst[["worst", "small_data"]].rename(question="family")
-    return xr.merge([seen, swept, drawn, searched], combine_attrs="drop")
+    searched["family"].attrs = drawn["family"].attrs
+    return xr.merge([seen, swept, drawn, searched], combine_attrs="drop_conflicts")
 
 
 @style.styled
@@ -55,7 +58,7 @@ def draw(data: xr.Dataset) -> Figure:
 
 
 def _put_legend(part: SubFigure, axes: Axes) -> None:
-    look = {"ncols": 3, "columnspacing": 1.0, "handlelength": 1.5, "handletextpad": 0.3}
+    look = {"ncols": 3, "columnspacing": 0.8, "handlelength": 1.3, "handletextpad": 0.3}
     part.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **look)
 
 
@@ -75,6 +78,7 @@ def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
     axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
     axes.set_ylim(rows[-1] + 0.5, -0.5)
     axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel(POWER)
 
 
@@ -116,5 +120,9 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.plot(m, sweep["swept_observed"], "o", color=style.RED, markersize=3, label="largest seen")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_major_locator(FixedLocator(TICKS))
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("half-width $M$")
     axes.set_title(_name(sweep["swept_omega"], sweep["swept_initial"]), loc="left")

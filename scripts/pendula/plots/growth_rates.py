@@ -27,12 +27,12 @@ def gather(chart: xr.Dataset, short_chart: xr.Dataset, threshold: xr.Dataset) ->
         row["chain"] = ("cell", np.full(row.sizes["cell"], name))
         row["sites"] = ("cell", np.full(row.sizes["cell"], int(cells["sites"])))
         rows.append(row)
-    joined = xr.concat(rows, "cell", combine_attrs="drop").reset_coords()
+    joined = xr.concat(rows, "cell", combine_attrs="drop_conflicts").reset_coords()
     joined["chain"].attrs = {"long_name": "chart to which a cell belongs", "units": "1"}
     joined["sites"].attrs = {"long_name": "number of sites N", "units": "1"}
     names = {"omega": "threshold_omega"}
     growth = threshold[["grown", "threshold", "spreading"]].rename(names)
-    return xr.merge([joined, growth], combine_attrs="drop")
+    return xr.merge([joined, growth], combine_attrs="drop_conflicts")
 
 
 @style.styled

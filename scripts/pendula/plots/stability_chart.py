@@ -28,7 +28,9 @@ def gather(
     short = short_chart[VARIABLES]
     renamed = {name: f"short_{name}" for name in (*short.data_vars, *short.coords)}
     closing = windows[["share"]].rename(gamma="window_gamma")
-    data = xr.merge([chart[VARIABLES], short.rename(renamed), closing], combine_attrs="drop")
+    data = xr.merge(
+        [chart[VARIABLES], short.rename(renamed), closing], combine_attrs="drop_conflicts"
+    )
     omegas, gammas = np.array(points, float).reshape(-1, 2).T
     for name, values in (("point_omega", omegas), ("point_gamma", gammas)):
         about = {"long_name": f"{name.removeprefix('point_')} of the paper's cases", "units": "1"}

@@ -1,0 +1,125 @@
+"""The checks, the ledger and their figures, as the quick run makes them."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from helpers import ROOT, planned, snakemake
+from pendula.theory.claims import CLAIMS
+from pendula.theory.groups import GROUPS, OBSERVED
+from pendula.theory.ledger import needed
+from pendula.theory.tables import broken, table, variable
+from pendula.theory.verdicts import Verdict
+from theory import run_checks
+
+CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
+CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_observed"}
+FIGURES = {"stability_chart", "growth_rates", "bounds"}
+
+
+def ledger_of(folder):
+    return json.loads((folder / "results/claims.json").read_text())
+
+
+def test_every_check_is_written_and_holds(finished):
+    for name in CHECKS:
+        with xr.open_dataset(finished / f"results/checks/{name}.nc") as check:
+            assert check.attrs["title"]
+            assert all({"long_name", "units"} <= v.attrs.keys() for v in check.variables.values())
+            assert broken(check.to_dict()) == {}, name
+
+
+def test_figures_of_the_theory_are_there_with_their_data(finished):
+    for name in FIGURES:
+        assert (finished / f"results/figures/{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert (finished / f"results/figures/{name}.pdf").read_bytes().startswith(b"%PDF")
+        with xr.open_dataset(finished / f"results/figures/{name}.nc") as data:
+            assert data.data_vars
+
+
+def test_the_ledger_has_every_row_with_every_field(finished):
+    rows = ledger_of(finished)
+    assert [row["name"] for row in rows] == [claim.name for claim in CLAIMS] and len(rows) >= 30
+    for row in rows:
+        assert row["place"] and row["says"] and row["function"]
+        assert row["verdict"] in set(Verdict)
+        assert all((finished / f"results/{name}.nc").exists() for name in row["decided_by"])
+        if row["verdict"] == Verdict.UNDECIDED:
+            assert row["because"]
+        else:
+            assert row["measured"] and row["tolerance"]
+
+
+def test_the_ledger_names_the_rules_that_decide(finished):
+    rules = {row["name"]: row["rules"] for row in ledger_of(finished)}
+    assert rules["hamiltonian"] == ["check_model"]
+    assert rules["growth_bound"] == ["check_bounds", "trajectory"]
+    assert rules["second_solver_sweeps"] == ["sweep", "sweep_by_solver"]
+
+
+def test_short_runs_leave_sweeps_undecided_and_theorems_decided(finished):
+    verdicts = {row["name"]: row["verdict"] for row in ledger_of(finished)}
+    assert verdicts["fig6_grows"] == Verdict.UNDECIDED
+    assert verdicts["theorem_1"] == Verdict.CONFIRMED
+    assert verdicts["theorem_3_proof"] == Verdict.NOT_REPRODUCED
+
+
+def test_the_table_shows_every_claim_and_every_tolerance(finished):
+    text = (finished / "results/tables/claims.md").read_text()
+    assert all(f"| {claim.place} |" in text for claim in CLAIMS)
+    assert all(f"| {name} |" in text for name in ("gradient", "worst", "chart"))
+    assert "| NO |" not in text
+    rows = [line.replace("\\|", "") for line in text.splitlines() if line.startswith("|")]
+    assert {row.count("|") for row in rows} == {8, 6}
+
+
+def test_all_that_the_claims_need_is_an_input(finished):
+    assert all((finished / f"results/{name}.nc").exists() for name in needed())
+
+
+def test_a_violated_check_is_written_and_named(tmp_path, monkeypatch, capsys):
+    check = table("wrong", {}, error=variable(2.0, (), "error", tolerance=1.0))
+    monkeypatch.setattr(run_checks, "run_check", lambda name: check)
+    run_checks.run_checks([str(tmp_path / "wrong.nc")], ["wrong"])
+    assert "CHECK VIOLATED: wrong: error is 2, tolerance 1" in capsys.readouterr().out
+    assert xr.load_dataset(tmp_path / "wrong.nc")["error"] == 2.0
+
+
+def test_a_violated_check_turns_its_claim(finished):
+    path = finished / "results/checks/gradient.nc"
+    check = xr.load_dataset(path)
+    check["error"] = xr.full_like(check["error"], np.nan)
+    check.to_netcdf(path)
+    result = snakemake(ROOT, finished, "results/claims.json")
+    log = (finished / "results/logs/claims.log").read_text()
+    assert result.returncode == 0, result.stderr
+    for text in (result.stderr, log):
+        assert "CHECK VIOLATED: gradient: error is nan" in text
+    (row,) = [row for row in ledger_of(finished) if row["name"] == "hamiltonian"]
+    assert row["verdict"] == Verdict.NOT_REPRODUCED
+    assert "| NO |" in (finished / "results/tables/claims.md").read_text()
+
+
+def test_the_ledger_is_the_same_every_time(finished):
+    before = (finished / "results/claims.json").read_bytes()
+    assert snakemake(ROOT, finished, "--forcerun", "claims", "--", "theory").returncode == 0
+    assert (finished / "results/claims.json").read_bytes() == before
+
+
+@pytest.mark.parametrize("module", ["bounds.py", "catalogue.py"])
+def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone, module):
+    (clone / "scripts/pendula/theory" / module).open("a").write("# changed\n")
+    jobs = set(planned(clone, finished))
+    without = {"check_observed"} if module == "catalogue.py" else set()
+    assert jobs == (CHECK_RULES - without) | FIGURES | {"claims", "all"}
+
+
+def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
+    (clone / "scripts/pendula/theory/claims_norms.py").open("a").write("# changed\n")
+    assert set(planned(clone, finished)) == {"claims", "all"}
+
+
+def test_an_edit_of_a_figure_of_the_theory_reruns_it_alone(finished, clone):
+    (clone / "scripts/pendula/plots/growth_rates.py").open("a").write("# changed\n")
+    assert set(planned(clone, finished)) == {"growth_rates", "all"}
