@@ -7,6 +7,7 @@ from pathlib import Path
 import code_records
 import pytest
 import yaml
+from pendula.faults import load
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -51,3 +52,26 @@ def test_scripts_touch_snakemake_only_under_the_main_guard(script):
     inside = {id(node) for node in ast.walk(guard)}
     names = [n for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == "snakemake"]
     assert names and all(id(name) in inside for name in names)
+
+
+def test_the_case_shown_in_the_readme_is_valid():
+    blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    settings = {}
+    for block in blocks:
+        settings |= yaml.safe_load(block)
+    loaded = load(settings)
+    assert loaded.problem("mine")["initial"] == {0: (2, -0.3 + 0.4j), 3: (0.5, 0)}
+    assert loaded.sweeps["mine_wider"].case == "mine"
+
+
+def test_the_files_that_the_readme_shows_exist():
+    links = re.findall(r"\]\(([^)#:]+)\)", (ROOT / "README.md").read_text())
+    assert links and all((ROOT / link).exists() for link in links)
+
+
+def test_ci_finds_the_test_command_of_the_readme():
+    """The command stands alone between the mark and the end of its block."""
+    text = (ROOT / "README.md").read_text()
+    (block,) = re.findall(r"<!-- test command -->\n```\n(.*?)\n```", text)
+    assert block.startswith("python3 -m venv") and block.endswith("-m pytest")
+    assert "<!-- test command -->" in (ROOT / ".ci/run").read_text()

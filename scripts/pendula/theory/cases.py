@@ -15,8 +15,7 @@ from .bounds import (
     theorem_3_bound,
     widened_bound,
 )
-from .growth import growth_margin
-from .readings import constants, powers
+from .readings import constants, growth_margin, powers
 from .runs import TIGHT, squared_norm, total_energy
 from .tables import table, variable
 

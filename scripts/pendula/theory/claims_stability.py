@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .growth import growth_margin
+from .readings import growth_margin
 from .verdicts import Finding, judge, number, within_tolerance
 
 # ASSUME: what the charts resolve: bounded beats change a slope by 6 / tau at most, here tau = 40;

@@ -5,7 +5,6 @@ the pendula themselves only the second leaves an error of order mu^3.
 """
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from .pt_symmetry import laplacian
 from .runs import right_hand_side, run
@@ -29,6 +28,8 @@ def pendula_run(constants, mu: float, boundary: str, amplitudes: np.ndarray, tim
     Run 0 has the drive as it is, run 1 with the opposite sign. The velocity keeps the slow rate
     of the amplitudes, so that the data err by mu^3 only.
     """
+    from scipy.integrate import solve_ivp  # here, so that the other checks do without it
+
     epsilon, gamma, omega = constants
     frequency = np.sqrt(1.0 + mu * mu * omega)
     slow = 0.5 * mu * mu * right_hand_side(constants, boundary, amplitudes)
