@@ -1,14 +1,26 @@
-"""Figs 2 to 4: norms of A and B against time, for small and for large initial data."""
+"""Figs 2 to 4: norms of A and B against time, and beside them where the chain moves."""
 
 from pendula.datasets import read
-from pendula.plots import norms
+from pendula.plots import norms, spacetime
 from pendula.plots.style import save
 
 
-def draw_norms(small: str, large: str, png: str, pdf: str, data: str) -> None:
-    """Draw the norms of two trajectories and write what was drawn."""
-    drawn = norms.gather(read(small), read(large))
+def draw_norms(
+    small: str,
+    large: str,
+    png: str,
+    pdf: str,
+    data: str,
+    spacetime_png: str,
+    spacetime_pdf: str,
+    spacetime_data: str,
+) -> None:
+    """Draw the trajectories of small and of large data, and write what was drawn."""
+    trajectories = read(small), read(large)
+    drawn = norms.gather(*trajectories)
     save(norms.draw(drawn), drawn, png, pdf, data)
+    drawn = spacetime.gather(*trajectories)
+    save(spacetime.draw(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""Lemma 1 as a chart: where the chain at rest is unstable, and how fast it leaves."""
+"""Lemma 1: the stability chart, and measured growth rates against predicted ones."""
 
 from pendula.datasets import read
-from pendula.plots import stability_chart
+from pendula.plots import growth_rates, stability_chart
 from pendula.plots.style import save
 
 
@@ -9,14 +9,21 @@ def draw_stability(
     chart: str,
     short_chart: str,
     windows: str,
+    threshold: str,
     points: list[tuple[float, float]],
     png: str,
     pdf: str,
     data: str,
+    growth_png: str,
+    growth_pdf: str,
+    growth_data: str,
 ) -> None:
-    """Draw the chart with the paper's `points` (Omega, gamma) and write what was drawn."""
-    drawn = stability_chart.gather(read(chart), read(short_chart), read(windows), points)
+    """Draw the chart with the paper's `points` (Omega, gamma), and the growth rates."""
+    charts = read(chart), read(short_chart)
+    drawn = stability_chart.gather(*charts, read(windows), points)
     save(stability_chart.draw(drawn), drawn, png, pdf, data)
+    drawn = growth_rates.gather(*charts, read(threshold))
+    save(growth_rates.draw(drawn), drawn, growth_png, growth_pdf, growth_data)
 
 
 if __name__ == "__main__":

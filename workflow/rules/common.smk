@@ -60,9 +60,9 @@ def drawn_windows(sweep):
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
 
 
-def figure(name):
+def figure(name, prefix=""):
     kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
-    return {key: f"results/figures/{name}.{ending}" for key, ending in kinds.items()}
+    return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
 
 
 def trajectories_by_all_solvers():

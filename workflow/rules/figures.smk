@@ -26,6 +26,7 @@ rule fig2:
         large="results/trajectories/fig2_large.nc",
     output:
         **figure("fig2"),
+        **figure("fig2_spacetime", "spacetime_"),
     log:
         "results/logs/figures/fig2.log",
     conda:
@@ -43,6 +44,7 @@ use rule fig2 as fig3 with:
         large="results/trajectories/fig3_large.nc",
     output:
         **figure("fig3"),
+        **figure("fig3_spacetime", "spacetime_"),
     log:
         "results/logs/figures/fig3.log",
     message:
@@ -56,6 +58,7 @@ use rule fig2 as fig4 with:
         large="results/trajectories/fig4_large.nc",
     output:
         **figure("fig4"),
+        **figure("fig4_spacetime", "spacetime_"),
     log:
         "results/logs/figures/fig4.log",
     message:
@@ -97,23 +100,3 @@ use rule fig5 as fig6 with:
         norms=["l2"],
     message:
         "Drawing Fig 6, norms against half-width for large data"
-
-
-rule spacetime:
-    "Beside Figs 2, 3 and 4: |A_n| and |B_n| over sites and time"
-    input:
-        code=code("figures/draw_spacetime.py"),
-        small="results/trajectories/{figure}_small.nc",
-        large="results/trajectories/{figure}_large.nc",
-    output:
-        **figure("{figure}_spacetime"),
-    log:
-        "results/logs/figures/{figure}_spacetime.log",
-    wildcard_constraints:
-        figure="fig[234]",
-    conda:
-        "../envs/pinned.yaml"
-    message:
-        "Drawing where the chain moves in {wildcards.figure}"
-    script:
-        "../../scripts/figures/draw_spacetime.py"

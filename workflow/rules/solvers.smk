@@ -1,44 +1,25 @@
 # The paper's two solvers side by side, against one of high order.
 
 
-rule energy_drift:
-    "How well each solver conserves the energy, beside the paper's claim"
+rule solver_figures:
+    "How well each solver conserves the energy, and until when they draw the same curves"
     input:
-        code=code("figures/draw_energy.py"),
+        code=code("figures/draw_solvers.py"),
         trajectories=trajectories_by_all_solvers(),
     output:
-        **figure("energy_drift"),
-    log:
-        "results/logs/figures/energy_drift.log",
-    conda:
-        "../envs/pinned.yaml"
-    params:
-        cases=PAPER_CASES,
-        solvers=ALL_SOLVERS,
-    message:
-        "Drawing how well the energy is conserved"
-    script:
-        "../../scripts/figures/draw_energy.py"
-
-
-rule solver_agreement:
-    "Until when the solvers draw the same curves"
-    input:
-        code=code("figures/draw_agreement.py"),
-        trajectories=trajectories_by_all_solvers(),
-    output:
+        **figure("energy_drift", "energy_"),
         **figure("solver_agreement"),
     log:
-        "results/logs/figures/solver_agreement.log",
+        "results/logs/figures/solvers.log",
     conda:
         "../envs/pinned.yaml"
     params:
         cases=PAPER_CASES,
         solvers=ALL_SOLVERS,
     message:
-        "Drawing until when the solvers agree"
+        "Drawing how the solvers conserve the energy, and until when they agree"
     script:
-        "../../scripts/figures/draw_agreement.py"
+        "../../scripts/figures/draw_solvers.py"
 
 
 rule solver_table:

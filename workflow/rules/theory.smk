@@ -1,92 +1,47 @@
 # The paper's theory on numbers: the checks, the ledger of its claims, and figures that show them.
 
 
-def checks(*names):
-    return [f"results/checks/{name}.nc" for name in names]
-
-
-def trajectories(solver=""):
-    return [f"results/trajectories/{case}{solver}.nc" for case in PAPER_CASES]
-
-
-def sweeps(solver=""):
-    return [f"results/sweeps/{sweep}{solver}.nc" for sweep in PAPER_SWEEPS]
-
-
-def makers():
-    """Return the rule that makes each dataset below results/, by its name without the ending."""
-    by_rule = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
-        "check_observed": checks(*OBSERVED),
-        "trajectory": trajectories(),
-        "trajectory_by_solver": trajectories(".crank_nicolson"),
-        "sweep": sweeps(),
-        "sweep_by_solver": sweeps(".crank_nicolson"),
-    }
-    return {
-        path.removeprefix("results/").removesuffix(".nc"): rule
-        for rule, paths in by_rule.items()
-        for path in paths
-    }
-
-
-def points_of_paper():
-    """Return (Omega, gamma) of the paper's cases in units of epsilon, once each."""
-    problems = [SETTINGS.problem(case) for case in PAPER_CASES if SETTINGS.problem(case)["epsilon"]]
-    return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
-
-
-rule check_model:
-    "Section 2: Hamiltonian structure, symmetries, conservation, the expansion"
+rule check_equations:
+    "Section 2: structure, symmetries, expansion; and the errors and gaps of the paper"
     input:
         code=code("theory/run_checks.py"),
         kernels=expand("results/kernels/{solver}.txt", solver=["ode45", "dop853"]),
     output:
-        datasets=checks(*GROUPS["model"]),
+        datasets=checks(*GROUPS["equations"]),
     log:
-        "results/logs/checks/model.log",
+        "results/logs/checks/equations.log",
+    priority: 5
     conda:
         "../envs/pinned.yaml"
     params:
-        checks=GROUPS["model"],
+        checks=GROUPS["equations"],
     message:
         "Checking the equations, their symmetries and their expansion"
     script:
         "../../scripts/theory/run_checks.py"
 
 
-use rule check_model as check_stability with:
+use rule check_equations as check_stability with:
     output:
         datasets=checks(*GROUPS["stability"]),
     log:
         "results/logs/checks/stability.log",
-    threads: 2
     params:
         checks=GROUPS["stability"],
     message:
         "Checking Lemma 1: dispersion, thresholds, measured growth rates"
 
 
-use rule check_model as check_bounds with:
+use rule check_equations as check_bounds with:
     output:
         datasets=checks(*GROUPS["bounds"]),
     log:
         "results/logs/checks/bounds.log",
-    threads: 2
+    priority: 6
     params:
         checks=GROUPS["bounds"],
     message:
         "Checking Lemma 2 and Theorems 1 to 3 on random and on the worst data"
-
-
-use rule check_model as check_errata with:
-    output:
-        datasets=checks(*GROUPS["errata"]),
-    log:
-        "results/logs/checks/errata.log",
-    params:
-        checks=GROUPS["errata"],
-    message:
-        "Checking the errors and gaps of the paper"
 
 
 rule check_observed:
@@ -132,44 +87,27 @@ rule claims:
         "../../scripts/theory/decide_claims.py"
 
 
-rule stability_chart:
+rule stability_figures:
     "Lemma 1: where the chain at rest is unstable, and how fast it leaves"
     input:
         code=code("figures/draw_stability.py"),
         chart="results/checks/chart.nc",
         short_chart="results/checks/short_chart.nc",
         windows="results/checks/windows.nc",
+        threshold="results/checks/threshold.nc",
     output:
         **figure("stability_chart"),
+        **figure("growth_rates", "growth_"),
     log:
-        "results/logs/figures/stability_chart.log",
+        "results/logs/figures/stability.log",
     conda:
         "../envs/pinned.yaml"
     params:
         points=points_of_paper(),
     message:
-        "Drawing the stability chart"
+        "Drawing the stability chart and the growth rates"
     script:
         "../../scripts/figures/draw_stability.py"
-
-
-rule growth_rates:
-    "Lemma 1: measured against predicted growth rates, and growth at the threshold"
-    input:
-        code=code("figures/draw_growth.py"),
-        chart="results/checks/chart.nc",
-        short_chart="results/checks/short_chart.nc",
-        threshold="results/checks/threshold.nc",
-    output:
-        **figure("growth_rates"),
-    log:
-        "results/logs/figures/growth_rates.log",
-    conda:
-        "../envs/pinned.yaml"
-    message:
-        "Drawing measured against predicted growth rates"
-    script:
-        "../../scripts/figures/draw_growth.py"
 
 
 rule bounds:

@@ -117,6 +117,7 @@ def save(
         complete_or_absent(netcdf) as new_netcdf,
     ):
         figure.savefig(new_png, format="png", metadata={"Software": None})
+        figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         figure.savefig(new_pdf, format="pdf", metadata=undated)
         stated = data.assign_attrs(Conventions="CF-1.11")

@@ -3,9 +3,6 @@
 One call from Python per run would cost as much as the run for a few sites.
 """
 
-from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
-
 import numpy as np
 
 from ..chain import ENDS, Chain
@@ -16,8 +13,6 @@ from ..lattice import pack
 from ..observables import blank_record
 from ..solvers import run_dop853
 from .runs import FULL, QUICK
-
-THREADS = 2  # the cores that the full reproduction counts on; the results do not depend on it
 
 
 @kernel
@@ -39,14 +34,6 @@ def run_batch(constants, ends, states, times, controls, work, record, powers, en
             powers[i, t] = a * a + b * b if reached else np.inf
 
 
-def run_share(constants, ends, states, times, solver, powers, energies):
-    """Run one thread's share of a batch with work arrays of its own."""
-    record = blank_record(2, states.shape[2] - 2, len(times), 0)
-    work = np.zeros((dop853.WORK, *states.shape[1:]))
-    controls = (float(solver["rtol"]), float(solver["atol"]))
-    run_batch(constants, ends, states, times, controls, work, record, powers, energies)
-
-
 def run_powers(constants, boundaries, amplitudes, times, solver=QUICK):
     """Return P = |A|^2 + |B|^2 of each run at each time, (run, time), and H of each, (run,).
 
@@ -58,15 +45,8 @@ def run_powers(constants, boundaries, amplitudes, times, solver=QUICK):
     ends = np.array([ENDS[name] for name in boundaries])
     times = np.asarray(times, float)
     powers, energies = np.empty((len(states), len(times))), np.empty(len(states))
-    cuts = np.linspace(0, len(states), THREADS + 1).astype(int)
-    with ThreadPoolExecutor(THREADS) as pool:
-        shares = [
-            pool.submit(
-                run_share, constants[i:j], ends[i:j], states[i:j], times, solver, powers[i:j],
-                energies[i:j],
-            )
-            for i, j in pairwise(cuts)
-        ]  # fmt: skip
-        for share in shares:
-            share.result()
+    record = blank_record(2, states.shape[2] - 2, len(times), 0)
+    work = np.zeros((dop853.WORK, *states.shape[1:]))
+    controls = (float(solver["rtol"]), float(solver["atol"]))
+    run_batch(constants, ends, states, times, controls, work, record, powers, energies)
     return powers, energies

@@ -1,0 +1,36 @@
+# What the theory rules take in: the names of checks, trajectories and sweeps as paths.
+
+
+def checks(*names):
+    return [f"results/checks/{name}.nc" for name in names]
+
+
+def trajectories(solver=""):
+    return [f"results/trajectories/{case}{solver}.nc" for case in PAPER_CASES]
+
+
+def sweeps(solver=""):
+    return [f"results/sweeps/{sweep}{solver}.nc" for sweep in PAPER_SWEEPS]
+
+
+def makers():
+    """Return the rule that makes each dataset below results/, by its name without the ending."""
+    by_rule = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
+        "check_observed": checks(*OBSERVED),
+        "trajectory": trajectories(),
+        "trajectory_by_solver": trajectories(".crank_nicolson"),
+        "sweep": sweeps(),
+        "sweep_by_solver": sweeps(".crank_nicolson"),
+    }
+    return {
+        path.removeprefix("results/").removesuffix(".nc"): rule
+        for rule, paths in by_rule.items()
+        for path in paths
+    }
+
+
+def points_of_paper():
+    """Return (Omega, gamma) of the paper's cases in units of epsilon, once each."""
+    problems = [SETTINGS.problem(case) for case in PAPER_CASES]
+    problems = [problem for problem in problems if problem["epsilon"]]
+    return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
