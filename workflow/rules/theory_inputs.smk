@@ -15,7 +15,7 @@ def sweeps(solver=""):
 
 def makers():
     """Return the rule that makes each dataset below results/, by its name without the ending."""
-    by_rule = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
+    made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
         "trajectory": trajectories(),
         "trajectory_by_solver": trajectories(".crank_nicolson"),
@@ -24,7 +24,7 @@ def makers():
     }
     return {
         path.removeprefix("results/").removesuffix(".nc"): rule
-        for rule, paths in by_rule.items()
+        for rule, paths in made_by.items()
         for path in paths
     }
 
