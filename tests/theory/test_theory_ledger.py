@@ -118,7 +118,7 @@ FLIPS = {
     "fig2_maxima": ("trajectories/fig2_small", after("linf", 4.0, 30)),
     "fig2_separate": ("trajectories/fig2_large", after("l2", 5.0, 20, "B")),
     "fig2_alone": ("trajectories/fig2_large", after("linf", 6.0, 20, "B")),
-    "fig3_alike": ("trajectories/fig3_small", after("l2", 3.0, 20)),
+    "fig3_alike": ("trajectories/fig3_small", after("l2", 5.0, 20)),
     "fig3_mix": ("trajectories/fig3_large", after("l2", 0.2, 10, "B")),
     "fig3_excited": ("trajectories/fig3_large", scaled("l2", 0.2, tau=slice(1, None))),
     "fig3_maximum": ("trajectories/fig3_large", after("linf", 3.0, 20)),

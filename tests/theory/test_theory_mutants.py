@@ -25,18 +25,18 @@ MUTATIONS = {
     "ring joined wrongly": ("chain.py", "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
     "lost end bonds": ("energy.py", "chain.left != PERIODIC", "False"),
     "twice the bonds": ("energy.py", "chain.epsilon * on_bonds", "2 * chain.epsilon * on_bonds"),
-    "sign of the drive's energy": ("energy.py", "total -= chain.gamma", "total += chain.gamma"),
-    "quartic term": ("energy.py", "0.25 * density", "0.5 * density"),
+    "sign of the drive's energy": ("energy.py", "drive = chain.gamma", "drive = -chain.gamma"),
+    "quartic term": ("energy.py", "out[j] = density * (0.25", "out[j] = density * (0.5"),
 }  # fmt: skip
 
 CONSISTENT = {
     "twice gamma in both": [
         ("chain.py", "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
-        ("energy.py", "total -= chain.gamma", "total -= 2.0 * chain.gamma"),
+        ("energy.py", "drive = chain.gamma", "drive = 2.0 * chain.gamma"),
     ],
     "sign of gamma in both": [
         ("chain.py", "+ drive * (partner - u)", "- drive * (partner - u)"),
-        ("energy.py", "total -= chain.gamma", "total += chain.gamma"),
+        ("energy.py", "drive = chain.gamma", "drive = -chain.gamma"),
     ],
     "free ends in both": [
         ("chain.py", "chain.left == FREE", "chain.left <= FREE"),
