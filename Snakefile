@@ -30,7 +30,7 @@ rule all:
     "Everything: datasets, figures and tables"
     input:
         expand("results/trajectories/{case}.nc", case=SETTINGS.cases),
-        trajectories_by_all_solvers(),
+        expand("results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
         expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),

@@ -1,32 +1,30 @@
-"""Integrate one case on chains of many half-widths into a sweep dataset."""
+"""Integrate one case on chains of many half-widths, by one solver or several."""
 
-from pendula import datasets
+from pendula.datasets import write
 from pendula.sweep_dataset import as_variables
 from pendula.sweeps import sweep
 from pendula.trajectory_dataset import as_attributes, count_work
 
 
 def sweep_case(
-    statistics: str,
+    datasets: list[str],
     name: str,
-    problem: dict,
+    problems: list[dict],
     half_widths: list[int],
     windows: list[tuple[float, float]],
-    kernels: str = "",
+    kernels: list[str] | tuple = (),
 ) -> None:
-    """Sweep `problem` over `half_widths` and write maxima and means over `windows`."""
-
-    def progress(message: str) -> None:
-        print(f"{name} ({problem['solver']['name']}): {message}")
-
-    result = sweep(problem, half_widths, windows, progress)
-    attributes = as_attributes(name, problem)
-    del attributes["half_width"]
-    datasets.write(
-        statistics,
-        as_variables(result, half_widths, windows),
-        {**attributes, **count_work(result.outcomes)},
-    )
+    """Sweep each of `problems` over `half_widths`; write maxima and means over `windows`."""
+    for path, problem in zip(datasets, problems, strict=True):
+        label = f"{name} ({problem['solver']['name']})"
+        result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
+        attributes = as_attributes(name, problem)
+        del attributes["half_width"]
+        write(
+            path,
+            as_variables(result, half_widths, windows),
+            {**attributes, **count_work(result.outcomes)},
+        )
 
 
 if __name__ == "__main__":

@@ -1,20 +1,24 @@
-"""Integrate one case into its trajectory dataset."""
+"""Integrate one case, by one solver or by several, into a trajectory dataset each."""
 
-from pendula import datasets
+from pendula.datasets import write
 from pendula.simulation import simulate
 from pendula.trajectory_dataset import as_attributes, as_variables, count_work
 
 
-def simulate_case(trajectory: str, name: str, problem: dict, kernels: str = "") -> None:
-    """Simulate `problem` (the arguments of `simulate`) and write its observables."""
-    result = simulate(**problem)
-    if problem["solver"]["name"] == "crank_nicolson" and result.outcome.rejected:
-        print(f"{name}: the iteration did not contract; {result.outcome.rejected} steps were cut")
-    datasets.write(
-        trajectory,
-        as_variables(result, problem["snapshot_every"]),
-        {**as_attributes(name, problem), **count_work([result.outcome])},
-    )
+def simulate_case(
+    datasets: list[str], name: str, problems: list[dict], kernels: list[str] | tuple = ()
+) -> None:
+    """Simulate each of `problems` (the arguments of `simulate`) and write its observables."""
+    for path, problem in zip(datasets, problems, strict=True):
+        result = simulate(**problem)
+        if problem["solver"]["name"] == "crank_nicolson" and result.outcome.rejected:
+            cut = result.outcome.rejected
+            print(f"{name}: the iteration did not contract; {cut} steps were cut")
+        write(
+            path,
+            as_variables(result, problem["snapshot_every"]),
+            {**as_attributes(name, problem), **count_work([result.outcome])},
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 """One finished quick run, and copies of the project to change."""
 
+import fcntl
+import os
 import shutil
 from pathlib import Path
 
@@ -11,10 +13,16 @@ PARTS = ("Snakefile", "workflow", "scripts", "config", "profiles", "environment.
 
 @pytest.fixture(scope="session")
 def full_run(tmp_path_factory) -> Path:
-    """Return a folder with the results of a full run of config/quick.yaml."""
-    directory = tmp_path_factory.mktemp("full_run")
-    result = snakemake(ROOT, directory)
-    assert result.returncode == 0, result.stdout + result.stderr
+    """Return a folder with the results of a full run of config/quick.yaml, one for all workers."""
+    parallel = "PYTEST_XDIST_WORKER" in os.environ
+    base = tmp_path_factory.getbasetemp()
+    directory = (base.parent if parallel else base) / "full_run"
+    directory.mkdir(exist_ok=True)
+    with open(directory / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (directory / "results/claims.json").exists():
+            result = snakemake(ROOT, directory)
+            assert result.returncode == 0, result.stdout + result.stderr
     return directory
 
 

@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import yaml
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -11,6 +13,16 @@ def snakemake(project: Path, directory: Path, *arguments: str) -> subprocess.Com
     """Run snakemake on the quick configuration of `project`, with its results in `directory`."""
     configuration = project / "config" / "quick.yaml"
     command = command_of(project, directory, configuration, *arguments)
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def snakemake_with(
+    settings: dict, project: Path, directory: Path, *arguments: str
+) -> subprocess.CompletedProcess:
+    """Run snakemake with a configuration of one's own beside the project's."""
+    mine = directory / "mine.yaml"
+    mine.write_text(yaml.safe_dump(settings))
+    command = command_of(project, directory, mine, *arguments)
     return subprocess.run(command, capture_output=True, text=True)
 
 

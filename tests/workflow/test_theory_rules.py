@@ -56,7 +56,7 @@ def test_the_ledger_names_the_rules_that_decide(finished):
     rules = {row["name"]: row["rules"] for row in ledger_of(finished)}
     assert rules["hamiltonian"] == ["check_equations"]
     assert rules["growth_bound"] == ["check_bounds", "trajectory"]
-    assert rules["second_solver_sweeps"] == ["sweep", "sweep_by_solver"]
+    assert rules["second_solver_sweeps"] == ["sweep"]
 
 
 def test_short_runs_leave_sweeps_undecided_and_theorems_decided(finished):

@@ -28,6 +28,8 @@ PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
+OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
@@ -35,24 +37,28 @@ if absent:
     raise WorkflowError(f"the figures need these cases and sweeps: {', '.join(sorted(absent))}")
 
 
-def own_solver(problem):
-    return problem["solver"]["name"]
+def one_of(names):
+    return "|".join(names) or "(?!)"  # an empty pattern would match any name, this one matches none
 
 
-def trajectory_problem(wildcards):
-    return SETTINGS.problem(wildcards.case, wildcards.get("solver"))
+def kernels(*solvers):
+    return [f"results/kernels/{solver}.txt" for solver in solvers]
 
 
-def sweep_problem(wildcards):
-    return SETTINGS.swept_problem(wildcards.sweep, wildcards.get("solver"))
+def by_solvers(stem, solvers):
+    return [f"{stem}.nc", *(f"{stem}.{solver}.nc" for solver in solvers)]
 
 
-def kernels_of_trajectory(wildcards):
-    return f"results/kernels/{own_solver(trajectory_problem(wildcards))}.txt"
+def trajectory_problems(case, solvers=()):
+    return [SETTINGS.problem(case, solver) for solver in (None, *solvers)]
 
 
-def kernels_of_sweep(wildcards):
-    return f"results/kernels/{own_solver(sweep_problem(wildcards))}.txt"
+def own_sweep_solver(wildcards):
+    return SETTINGS.swept_problem(wildcards.sweep)["solver"]["name"]
+
+
+def sweep_problems(sweep, solvers=()):
+    return [SETTINGS.swept_problem(sweep, solver) for solver in (None, *solvers)]
 
 
 def drawn_windows(sweep):
@@ -63,12 +69,3 @@ def drawn_windows(sweep):
 def figure(name, prefix=""):
     kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
     return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
-
-
-def trajectories_by_all_solvers():
-    own = {case: own_solver(SETTINGS.problem(case)) for case in PAPER_CASES}
-    return [
-        f"results/trajectories/{case}{'' if solver == own[case] else f'.{solver}'}.nc"
-        for case in PAPER_CASES
-        for solver in ALL_SOLVERS
-    ]

@@ -5,7 +5,9 @@ rule solver_figures:
     "How well each solver conserves the energy, and until when they draw the same curves"
     input:
         code=code("figures/draw_solvers.py"),
-        trajectories=trajectories_by_all_solvers(),
+        trajectories=expand(
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
+        ),
     output:
         **figure("energy_drift", "energy_"),
         **figure("solver_agreement"),

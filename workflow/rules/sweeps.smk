@@ -2,37 +2,42 @@
 
 
 rule sweep:
-    "results/sweeps/{sweep}.nc, and {sweep}.{solver}.nc by another solver"
+    "A sweep of the paper: {sweep}.nc by its own solver, {sweep}.crank_nicolson.nc by the second"
     input:
         code=code("sweeps/sweep_case.py"),
-        kernels=kernels_of_sweep,
+        kernels=lambda wildcards: kernels(own_sweep_solver(wildcards), "crank_nicolson"),
     output:
-        statistics="results/sweeps/{sweep}.nc",
+        datasets=by_solvers("results/sweeps/{sweep}", ["crank_nicolson"]),
     log:
         "results/logs/sweeps/{sweep}.log",
     wildcard_constraints:
-        sweep="|".join(SETTINGS.sweeps),
+        sweep=one_of(PAPER_SWEEPS),
     priority: 10
     conda:
         "../envs/pinned.yaml"
     params:
         name="{sweep}",
-        problem=sweep_problem,
+        problems=lambda wildcards: sweep_problems(wildcards.sweep, ["crank_nicolson"]),
         half_widths=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].half_widths,
         windows=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].windows,
     message:
-        "Sweeping {wildcards.sweep} over half-widths by its own solver"
+        "Sweeping {wildcards.sweep} over half-widths by both solvers of the paper"
     script:
         "../../scripts/sweeps/sweep_case.py"
 
 
-use rule sweep as sweep_by_solver with:
+use rule sweep as own_sweep with:
+    input:
+        code=code("sweeps/sweep_case.py"),
+        kernels=lambda wildcards: kernels(own_sweep_solver(wildcards)),
     output:
-        statistics="results/sweeps/{sweep}.{solver}.nc",
-    log:
-        "results/logs/sweeps/{sweep}.{solver}.log",
+        datasets=["results/sweeps/{sweep}.nc"],
     wildcard_constraints:
-        sweep="|".join(SETTINGS.sweeps),
-        solver="|".join(ALL_SOLVERS),
+        sweep=one_of(OWN_SWEEPS),
+    params:
+        name="{sweep}",
+        problems=lambda wildcards: sweep_problems(wildcards.sweep),
+        half_widths=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].half_widths,
+        windows=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].windows,
     message:
-        "Sweeping {wildcards.sweep} over half-widths by {wildcards.solver}"
+        "Sweeping {wildcards.sweep} over half-widths by its own solver"

@@ -17,10 +17,8 @@ def makers():
     """Return the rule that makes each dataset below results/, by its name without the ending."""
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
-        "trajectory": trajectories(),
-        "trajectory_by_solver": trajectories(".crank_nicolson"),
-        "sweep": sweeps(),
-        "sweep_by_solver": sweeps(".crank_nicolson"),
+        "trajectory": trajectories() + trajectories(".crank_nicolson"),
+        "sweep": sweeps() + sweeps(".crank_nicolson"),
     }
     return {
         path.removeprefix("results/").removesuffix(".nc"): rule

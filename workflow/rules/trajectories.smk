@@ -10,7 +10,8 @@ rule compile_solver:
     log:
         "results/logs/kernels/{solver}.log",
     wildcard_constraints:
-        solver="|".join(ALL_SOLVERS),
+        solver=one_of(ALL_SOLVERS),
+    priority: 20
     conda:
         "../envs/pinned.yaml"
     params:
@@ -22,34 +23,55 @@ rule compile_solver:
 
 
 rule trajectory:
-    "results/trajectories/{case}.nc, and {case}.{solver}.nc by another solver"
+    "A case of the paper: {case}.nc by its own solver, and {case}.{solver}.nc by each"
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=kernels_of_trajectory,
+        kernels=kernels(*ALL_SOLVERS),
     output:
-        trajectory="results/trajectories/{case}.nc",
+        datasets=by_solvers("results/trajectories/{case}", ALL_SOLVERS),
     log:
         "results/logs/trajectories/{case}.log",
     wildcard_constraints:
-        case="|".join(SETTINGS.cases),
+        case=one_of(PAPER_CASES),
     conda:
         "../envs/pinned.yaml"
     params:
         name="{case}",
-        problem=trajectory_problem,
+        problems=lambda wildcards: trajectory_problems(wildcards.case, ALL_SOLVERS),
     message:
-        "Integrating {wildcards.case} by its own solver"
+        "Integrating {wildcards.case} by every solver"
     script:
         "../../scripts/trajectories/simulate_case.py"
 
 
-use rule trajectory as trajectory_by_solver with:
+use rule trajectory as own_trajectory with:
+    input:
+        code=code("trajectories/simulate_case.py"),
+        kernels=lambda wildcards: kernels(SETTINGS.cases[wildcards.case].solver.name),
     output:
-        trajectory="results/trajectories/{case}.{solver}.nc",
+        datasets=["results/trajectories/{case}.nc"],
+    wildcard_constraints:
+        case=one_of(OWN_CASES),
+    params:
+        name="{case}",
+        problems=lambda wildcards: trajectory_problems(wildcards.case),
+    message:
+        "Integrating {wildcards.case} by its own solver"
+
+
+use rule own_trajectory as own_trajectory_by_solver with:
+    input:
+        code=code("trajectories/simulate_case.py"),
+        kernels=kernels("{solver}"),
+    output:
+        datasets=["results/trajectories/{case}.{solver}.nc"],
     log:
         "results/logs/trajectories/{case}.{solver}.log",
     wildcard_constraints:
-        case="|".join(SETTINGS.cases),
-        solver="|".join(ALL_SOLVERS),
+        case=one_of(OWN_CASES),
+        solver=one_of(ALL_SOLVERS),
+    params:
+        name="{case}",
+        problems=lambda wildcards: [SETTINGS.problem(wildcards.case, wildcards.solver)],
     message:
         "Integrating {wildcards.case} by {wildcards.solver}"

@@ -2,11 +2,11 @@
 
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
 (J. Comput. Phys. 44 (1981) 277): second order, symmetric in time, and the energy is conserved up
-to the tolerance of the iteration. The iteration starts from an extrapolation of the last steps
-and stops when the largest change of a part falls below tolerance * max(1, |y|). Where the changes
-do not shrink, or not far enough within the allowed count, the step is cut in halves until they
-do: each cut is counted as a rejected step, and the run ends with a fault where cutting does not
-help.
+to the tolerance of the iteration. The iteration starts from the extrapolation of the last six
+steps by a polynomial, and stops when the largest change of a part falls below
+tolerance * max(1, |y|), |y| taken at the last output. Where the changes do not shrink, or not far
+enough within the allowed count, the step is cut in halves until they do: each cut is counted as a
+rejected step, and the run ends with a fault where cutting does not help.
 """
 
 import numpy as np
@@ -15,7 +15,8 @@ from ..compiled import copy, generic, inlined, kernel
 from ..reductions import largest_of_rows
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
 
-WORK = 5  # arrays of the size of a state
+PAST = 6
+WORK = 3 + PAST  # arrays of the size of a state
 SMALLEST_FRACTION = 2.0**-20
 
 
@@ -44,19 +45,22 @@ def size(y):
 
 
 @kernel
-def extrapolate(old, increment, previous, new):
-    """Guess `new` from the increments of the last two steps."""
+def extrapolate(old, past, latest, new):
+    """Guess `new` from the last six increments; `latest` is the place of the newest in the ring."""
+    a, b, c = past[latest], past[latest - 1], past[latest - 2]
+    d, e, f = past[latest - 3], past[latest - 4], past[latest - 5]
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):
-            new[row, j] = old[row, j] + (2.0 * increment[row, j] - previous[row, j])
+            odd = 6.0 * (a[row, j] + e[row, j]) + 20.0 * c[row, j]
+            even = 15.0 * (b[row, j] + d[row, j]) + f[row, j]
+            new[row, j] = old[row, j] + (odd - even)
 
 
 @kernel
-def accept(old, new, increment, previous):
-    """Shift the increments by one step and move on to `new`."""
+def accept(old, new, increment):
+    """Keep the increment of this step and move on to `new`."""
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):
-            previous[row, j] = increment[row, j]
             increment[row, j] = new[row, j] - old[row, j]
             old[row, j] = new[row, j]
 
@@ -78,10 +82,9 @@ def build(mean_rates, observe):
     """
 
     @generic
-    def iterate(system, old, new, h, scratch, tolerance, most):
+    def iterate(system, old, new, h, scratch, enough, most):
         """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
         last = np.inf
-        enough = tolerance * size(old)
         for count in range(1, most + 1):
             mean_rates(system, old, new, scratch[0], scratch[1])
             change = update(old, h, scratch[1], new)
@@ -93,13 +96,13 @@ def build(mean_rates, observe):
         return False, most
 
     @generic
-    def cut(system, old, new, h, scratch, tolerance, most):
+    def cut(system, old, new, h, scratch, enough, most):
         """Cover `h` in equal parts, halved until the iteration contracts; return the counts."""
         fraction, covered = 0.5, 0.0
         cuts, evaluations = 1, 0
         while covered < 1.0:
             copy(old, new)
-            good, count = iterate(system, old, new, fraction * h, scratch, tolerance, most)
+            good, count = iterate(system, old, new, fraction * h, scratch, enough, most)
             evaluations += count
             if good:
                 copy(new, old)
@@ -114,20 +117,22 @@ def build(mean_rates, observe):
     @inlined
     def solve(system, y, times, controls, work, record):
         step, tolerance, most = controls
-        new, increment, previous, scratch = work[0], work[1], work[2], work[3:]
-        steps = rejected = evaluations = 0
+        new, scratch, past = work[0], work[1:3], work[3:]
+        next_past = steps = rejected = evaluations = 0
         for i in range(times.size):
             span = times[i] - times[max(i - 1, 0)]
             parts = int(np.ceil(span / step * (1.0 - 1e-12)))
+            enough = tolerance * size(y)
             for part in range(parts):
                 h = span / parts
-                extrapolate(y, increment, previous, new)
-                good, count = iterate(system, y, new, h, scratch, tolerance, int(most))
+                extrapolate(y, past, next_past - 1, new)
+                good, count = iterate(system, y, new, h, scratch, enough, int(most))
                 evaluations += count
                 if good:
-                    accept(y, new, increment, previous)
+                    accept(y, new, past[next_past])
+                    next_past = (next_past + 1) % PAST
                 else:
-                    good, cuts, count = cut(system, y, new, h, scratch, tolerance, int(most))
+                    good, cuts, count = cut(system, y, new, h, scratch, enough, int(most))
                     rejected += cuts
                     evaluations += count
                 if not good:

@@ -7,6 +7,7 @@ import matplotlib
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 
 from ..files import complete_or_absent
@@ -42,12 +43,11 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "ytick.major.width": 0.6,
     "xtick.minor.width": 0.4,
     "ytick.minor.width": 0.4,
-    "axes.formatter.use_mathtext": True,
     "lines.linewidth": 0.7,
     "legend.frameon": False,
     "legend.handlelength": 2,
     "pdf.fonttype": 42,
-    "savefig.dpi": 300,
+    "figure.dpi": 300,
 }
 
 styled = matplotlib.rc_context(_RC)
@@ -116,9 +116,10 @@ def save(
         complete_or_absent(pdf) as new_pdf,
         complete_or_absent(netcdf) as new_netcdf,
     ):
-        figure.savefig(new_png, format="png", metadata={"Software": None})
+        # not savefig, which draws everything once more to find out what it will draw
+        figure.canvas.print_png(new_png, metadata={"Software": None})
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
-        figure.savefig(new_pdf, format="pdf", metadata=undated)
+        FigureCanvasPdf(figure).print_pdf(new_pdf, metadata=undated)
         stated = data.assign_attrs(Conventions="CF-1.11")
         stated.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
