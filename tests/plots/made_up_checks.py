@@ -103,5 +103,10 @@ def samples():
 def worst():
     one = ("question",)
     return dataset(
-        {"question": FAMILIES}, worst=(one, [0.7, 0.3, 0.95]), small_data=(one, [0.75, 0.3, 1.0])
+        {"question": [f"{name}, dirichlet" for name in FAMILIES] + ["theorem_1, periodic"]},
+        worst=(one, [0.7, 0.3, 0.95, 0.6]),
+        small_data=(one, [0.75, 0.3, 1.0, 0.65]),
+        family=(one, [*FAMILIES, FAMILIES[0]]),
+        boundary=(one, ["dirichlet"] * 3 + ["periodic"]),
+        sites=((), 3),
     )

@@ -81,7 +81,9 @@ def test_bounds_draw_all_samples_and_the_worst(gathered):
     samples = bounds.draw(gathered["bounds"]).axes[1]
     clouds = [line for line in samples.get_lines() if line.get_marker() == "."]
     assert sum(len(cloud.get_xdata()) for cloud in clouds) == 24
-    assert labelled(samples)["worst found"].get_xdata().tolist() == [0.7, 0.3, 0.95]
+    lines = labelled(samples)
+    assert lines["worst, chain of 3"].get_xdata().tolist() == [0.7, 0.3, 0.95]
+    assert lines["worst, ring of 3"].get_xydata().tolist() == [[0.6, 0.0]]
 
 
 def test_bounds_draw_each_sweep_in_its_panel(gathered):

@@ -117,7 +117,7 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone,
 
 
 def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
-    (clone / "scripts/pendula/theory/claims_norms.py").open("a").write("# changed\n")
+    (clone / "scripts/pendula/theory/claims/figure_2.py").open("a").write("# changed\n")
     assert set(planned(clone, finished)) == {"claims", "all"}
 
 

@@ -22,6 +22,10 @@ FAMILIES = {
     "theorem_2_widened": "Theorem 2\nwith bonds",
     "theorem_3": "Theorem 3",
 }
+SEARCHES = {
+    "dirichlet": {"color": style.RED, "label": "chain"},
+    "periodic": {"color": style.RED, "markerfacecolor": "white", "label": "ring"},
+}
 POWER = r"$P = \|A\|^2 + \|B\|^2$"
 
 
@@ -35,8 +39,9 @@ def gather(
         {name: f"swept_{name}" for name in (*named, "theorem_3", "best")}
     )
     drawn = samples[["ratio"]].rename(ratio="sampled")
-    searched = worst[["worst", "small_data"]].rename(question="family")
-    searched["family"].attrs = drawn["family"].attrs
+    searched = worst[["worst", "small_data", "family", "boundary", "sites"]].rename(
+        {name: f"searched_{name}" for name in ("family", "boundary", "sites")}
+    )
     return xr.merge([seen, swept, drawn, searched], combine_attrs="drop_conflicts")
 
 
@@ -52,14 +57,18 @@ def draw(data: xr.Dataset) -> Figure:
     for axes, name in zip(panels, data["sweep"].values, strict=True):
         _draw_sweep(axes, data.sel(sweep=name))
     panels[0].set_ylabel(f"largest {POWER}")
-    for part, axes in ((left, left.axes[0]), (right, right.axes[0]), (below, panels[0])):
-        _put_legend(part, axes)
+    for part, axes, columns in (
+        (left, left.axes[0], 3),
+        (right, right.axes[0], 2),
+        (below, panels[0], 3),
+    ):
+        _put_legend(part, axes, columns)
     return figure
 
 
-def _put_legend(part: SubFigure, axes: Axes) -> None:
-    look = {"ncols": 3, "columnspacing": 0.8, "handlelength": 1.3, "handletextpad": 0.3}
-    part.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **look)
+def _put_legend(part: SubFigure, columns: int) -> None:
+    look = {"ncols": columns, "columnspacing": 0.8, "handlelength": 1.3, "handletextpad": 0.3}
+    part.legend(*part.axes[0].get_legend_handles_labels(), loc="outside upper center", **look)
 
 
 def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
@@ -99,11 +108,17 @@ def _draw_samples(axes: Axes, data: xr.Dataset) -> None:
     for row, family in zip(rows, data["family"].values, strict=True):
         ratio = data["sampled"].sel(family=family).values.ravel()
         height = row + np.linspace(-0.32, 0.32, len(ratio))
-        label = "random data" if row == 0 else None
+        label = r"random data, any $\epsilon$, $\gamma$" if row == 0 else None
         axes.plot(ratio, height, ".", color="0.62", markersize=2.5, label=label)
-    tiny = {"markersize": 16, "markeredgewidth": 1.2, "color": "black", "label": "known limit"}
-    axes.plot(data["small_data"], rows, "|", **tiny)
-    axes.plot(data["worst"], rows, "D", color=style.RED, markersize=4, label="worst found")
+    searched = list(data["family"].values).index
+    for boundary, look in SEARCHES.items():
+        runs = data.isel(question=data["searched_boundary"].values == boundary)
+        places = [searched(family) for family in runs["searched_family"].values]
+        label = f"worst, {look['label']} of {int(data['searched_sites'])}"
+        tiny = {"markersize": 16, "markeredgewidth": 1.2, "color": "black"}
+        axes.plot(runs["small_data"], places, "|", **tiny)
+        axes.plot(runs["worst"], places, "D", markersize=4, **{**look, "label": label})
+    axes.plot([], [], "|", **{**tiny, "markersize": 9}, label="its limit for tiny data")
     axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
     axes.set_yticks(rows, [FAMILIES[name] for name in data["family"].values])
     axes.invert_yaxis()

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from .claims import CLAIMS, Claim
+from .claims import CLAIMS
+from .claims.row import Claim
 from .verdicts import Finding, UndecidableError, undecided
 
 

@@ -10,7 +10,7 @@ from .verdicts import UndecidableError
 # by a factor of 3. "Do not change much", "saturates", "no significant" or "no visible
 # difference": by less than 25 %. "Does not change": by less than 2 %; what changes by more than
 # that in one direction "decreases".
-FACTOR, LARGE, CHANGE, CONSTANT = 2.0, 3.0, 0.25, 0.02
+FACTOR, MUCH, CHANGE, CONSTANT = 2.0, 3.0, 0.25, 0.02
 
 SETTLED = 10.0
 """From here on the paper's own statistics are taken: its windows start at tau = 10."""

@@ -1,38 +1,13 @@
-"""Deciding functions for what Section 5 says of the solvers: energy and agreement."""
+"""Section 5, end: the figures by the paper's second solver."""
 
 import numpy as np
 
-from .readings import CHANGE, largest, powers
-from .verdicts import Finding, UndecidableError, judge
+from ..readings import CHANGE, largest, powers
+from ..verdicts import Finding, UndecidableError, judge
+from .row import LARGE, SMALL, SWEEPS, by_second, claim
 
-# ASSUME: "up to the order of 10^-k" allows up to twice that number, as in the table of solvers.
-ORDER = 2.0
 # ASSUME: two curves part for the eye at one per cent of full scale.
 VISIBLE = 0.01
-
-
-def drift(trajectory) -> float:
-    """Return the largest |H - H(0)| of a trajectory."""
-    energy = trajectory["energy"].values
-    return float(np.abs(energy - energy[0]).max())
-
-
-def energy_kept(order: float, trajectories) -> Finding:
-    """Return the finding of an energy claim over the cases it names."""
-    measured = {str(ds.attrs["case"]): drift(ds) for ds in trajectories}
-    failing = [name for name, value in measured.items() if value > ORDER * order]
-    fails = f"not for {', '.join(failing)}, by a solver whose tolerances the paper does not give"
-    return judge(measured, f"|H - H(0)| <= {ORDER * order:.0e}", not failing, fails=fails)
-
-
-def energy_small(*trajectories) -> Finding:
-    """H is kept to the order of 1e-6 for the smaller data."""
-    return energy_kept(1e-6, trajectories)
-
-
-def energy_large(*trajectories) -> Finding:
-    """H is kept to the order of 1e-4 for the larger data."""
-    return energy_kept(1e-4, trajectories)
 
 
 def parting_time(one, other, share: float = VISIBLE) -> float:
@@ -54,6 +29,12 @@ def late_difference(one, other) -> float:
     return float(max(abs(l2 - 1.0), abs(linf - 1.0)))
 
 
+@claim(
+    "second_solver",
+    "Section 5, end",
+    "Figs 2 to 4 come out of the second solver without significant differences.",
+    (*SMALL, *LARGE, *by_second(*SMALL, *LARGE)),
+)
 def solvers_agree(*trajectories) -> Finding:
     """The second solver gave no significant differences: first all by one, then by the other."""
     half = len(trajectories) // 2
@@ -70,6 +51,12 @@ def solvers_agree(*trajectories) -> Finding:
     return judge(measured, "mean norms of the second half within 25 %", difference < CHANGE, caveat)
 
 
+@claim(
+    "second_solver_sweeps",
+    "Section 5, end",
+    "So do Figs 5 and 6.",
+    (*SWEEPS, *by_second(*SWEEPS)),
+)
 def sweeps_agree(*sweeps) -> Finding:
     """The second solver reproduces Figs 5 and 6."""
     half = len(sweeps) // 2
