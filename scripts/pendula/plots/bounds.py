@@ -57,12 +57,8 @@ def draw(data: xr.Dataset) -> Figure:
     for axes, name in zip(panels, data["sweep"].values, strict=True):
         _draw_sweep(axes, data.sel(sweep=name))
     panels[0].set_ylabel(f"largest {POWER}")
-    for part, axes, columns in (
-        (left, left.axes[0], 3),
-        (right, right.axes[0], 2),
-        (below, panels[0], 3),
-    ):
-        _put_legend(part, axes, columns)
+    for part, columns in ((left, 3), (right, 2), (below, 3)):
+        _put_legend(part, columns)
     return figure
 
 
