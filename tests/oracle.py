@@ -11,6 +11,7 @@ BOUNDARIES = ("dirichlet", "free", "periodic")
 SOLVERS = {
     "ode45": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
     "dop853": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
+    "taylor": {"name": "taylor", "rtol": 1e-12, "atol": 1e-12},
     "crank_nicolson": {
         "name": "crank_nicolson",
         "step": 0.005,
@@ -48,6 +49,21 @@ def slope(z, constants, boundary):
     coupled = epsilon * z @ laplacian(z.shape[1], boundary).T
     drive = gamma * (np.conj(z[::-1]) - np.conj(z))
     return -1j * (coupled + omega * z + drive + 0.5 * np.abs(z) ** 2 * z)
+
+
+def power_series(z, constants, boundary, order):
+    """Return the power series (order + 1, 2, N) of the solution of equation (4) from z."""
+    epsilon, gamma, omega = constants
+    matrix = laplacian(z.shape[1], boundary)
+    c = np.zeros((order + 1, *z.shape), complex)
+    c[0] = z
+    for k in range(order):
+        pairs = [(i, j) for i in range(k + 1) for j in range(k + 1 - i)]
+        cubic = sum(c[i] * c[j] * c[k - i - j].conj() for i, j in pairs)
+        linear = epsilon * c[k] @ matrix.T + omega * c[k]
+        drive = gamma * (c[k, ::-1] - c[k]).conj()
+        c[k + 1] = -1j * (linear + drive + 0.5 * cubic) / (k + 1)
+    return c
 
 
 def hamiltonian(z, constants, boundary):

@@ -11,7 +11,12 @@ from pendula.simulation import IntegrationError, integrate, output_times, simula
 
 WHOLE = Reduction(even=False, synchronised=False)
 TIMES = output_times(1.0, 0.25)
-CLOSE = {"ode45": 1e-4, "dop853": 1e-8, "crank_nicolson": 1e-8}  # over a unit of time, worst case
+CLOSE = {  # over a unit of time, worst case
+    "ode45": 1e-4,
+    "dop853": 1e-8,
+    "taylor": 1e-8,
+    "crank_nicolson": 1e-8,
+}
 each_solver = pytest.mark.parametrize("name", SOLVERS)
 each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
 
@@ -96,7 +101,8 @@ def test_where_a_equals_b_the_norm_is_conserved(name, z, numbers, boundary):
 
 
 @pytest.mark.parametrize(
-    ("name", "drift"), [("ode45", 1e-3), ("dop853", 1e-9), ("crank_nicolson", 1e-9)]
+    ("name", "drift"),
+    [("ode45", 1e-3), ("dop853", 1e-9), ("taylor", 1e-9), ("crank_nicolson", 1e-9)],
 )
 @given(z=chains(), numbers=constants, boundary=boundaries)
 @settings(max_examples=20)

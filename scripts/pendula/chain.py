@@ -45,10 +45,16 @@ def close(chain, y):
 
 
 @kernel
-def field(chain, drive, left, u, right, partner, density):
-    """Return one part of the right-hand side of (4); `drive` is gamma for Re, -gamma for Im."""
+def linear_field(chain, drive, left, u, right, partner):
+    """Return the linear terms of one part of (4); `drive` is gamma for Re, -gamma for Im."""
     coupling = chain.epsilon * ((right + left) - 2.0 * u)
-    return coupling + chain.omega * u + drive * (partner - u) + 0.5 * density * u
+    return coupling + chain.omega * u + drive * (partner - u)
+
+
+@kernel
+def field(chain, drive, left, u, right, partner, density):
+    """Return one part of the right-hand side of (4)."""
+    return linear_field(chain, drive, left, u, right, partner) + 0.5 * density * u
 
 
 @kernel

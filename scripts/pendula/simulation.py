@@ -83,13 +83,22 @@ def integrate(
     y = pack(amplitudes, reduction)
     record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), snapshot_every)
     controls = tuple(float(solver[name]) for name in method.controls)
-    work = np.zeros((method.work, *y.shape))
+    work = aligned((method.work, *y.shape))
     outcome = method.run(chain, y, times, controls, work, record)
     if outcome.status != DONE:
         raise IntegrationError(
             f"{solver['name']} stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}"
         )
     return _collect(times, record, y, reduction, outcome)
+
+
+def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:
+    """Return zeros that start on a cache line: loads that cross lines cost a quarter more."""
+    count = int(np.prod(shape))
+    spare = bytes_ // 8
+    memory = np.zeros(count + spare)
+    first = -memory.ctypes.data % bytes_ // 8
+    return memory[first : first + count].reshape(shape)
 
 
 def _collect(

@@ -57,6 +57,14 @@ class Dop853(Model):
     atol: Positive = 1e-13
 
 
+class Taylor(Model):
+    """The Taylor method, for the last digits."""
+
+    name: Literal["taylor"] = "taylor"
+    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-15
+    atol: Positive = 1e-15
+
+
 class CrankNicolson(Model):
     """The energy-conserving Crank-Nicolson scheme with fixed-point iteration."""
 
@@ -72,6 +80,7 @@ class Solvers(Model):
     ode45: Ode45 = Ode45()
     crank_nicolson: CrankNicolson = CrankNicolson()
     dop853: Dop853 = Dop853()
+    taylor: Taylor = Taylor()
 
 
-Solver = Annotated[Ode45 | CrankNicolson | Dop853, Field(discriminator="name")]
+Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor, Field(discriminator="name")]

@@ -4,13 +4,16 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from .chain import midpoint_rates, rates
+from .chain_series import next_coefficient
 from .compiled import kernel
-from .integrators import crank_nicolson, dop853, ode45
+from .integrators import crank_nicolson, dop853, ode45, taylor
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
 solve_dop853 = dop853.build(rates, observe)
 solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
+
+solve_taylor = taylor.build(next_coefficient, observe)
 
 
 @kernel
@@ -28,6 +31,11 @@ def run_crank_nicolson(chain, y, times, controls, work, record):
     return solve_crank_nicolson(chain, y, times, controls, work, record)
 
 
+@kernel
+def run_taylor(chain, y, times, controls, work, record):
+    return solve_taylor(chain, y, times, controls, work, record)
+
+
 class Solver(NamedTuple):
     """A compiled run, its controls in the order in which it takes them, its work arrays."""
 
@@ -42,4 +50,5 @@ SOLVERS = {
         run_crank_nicolson, ("step", "tolerance", "iterations"), crank_nicolson.WORK
     ),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
+    "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
 }

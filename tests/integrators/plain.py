@@ -1,7 +1,7 @@
-"""The published step control of the two explicit methods, plainly, for complex arrays.
+"""The published step control of the explicit methods, plainly, for complex arrays.
 
-The coefficients are SciPy's, so that nothing here is shared with the library. Each function
-returns the final state and the numbers of accepted and of rejected steps.
+The Runge-Kutta coefficients are SciPy's, so that nothing here is shared with the library. Each
+method returns the final state and the numbers of accepted and, if any, of rejected steps.
 """
 
 import numpy as np
@@ -84,3 +84,15 @@ def dop853(f, z, times, rtol, atol):
         t, z, slope, steps = t + h, new, k[12], steps + 1
         h, most = h * min(most, factor), 6.0
     return z, steps, rejected
+
+
+def taylor(series, z, times, rtol, atol, order):
+    """Sum power series over steps that their last two terms allow (Jorba and Zou 2005)."""
+    t, end, steps = times[0], times[-1], 0
+    while t < end:
+        c = series(z, order)
+        allowed = atol + rtol * np.max(np.abs(z))
+        radii = [(allowed / np.max(np.abs(c[p]))) ** (1 / p) for p in (order - 1, order)]
+        h = min(*radii, end - t)
+        z, t, steps = np.tensordot(h ** np.arange(order + 1), c, 1), t + h, steps + 1
+    return z, steps

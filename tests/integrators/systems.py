@@ -7,7 +7,7 @@ solutions in closed form, and so has Crank-Nicolson for q = 0.
 
 import numpy as np
 from pendula.compiled import generic
-from pendula.integrators import crank_nicolson, dop853, ode45
+from pendula.integrators import crank_nicolson, dop853, ode45, taylor
 from scipy.integrate import solve_ivp
 
 START = 2.0 + 0.5j
@@ -17,6 +17,19 @@ START = 2.0 + 0.5j
 def oscillate(mu, y, dy):
     dy[0, 1] = y[1, 1]
     dy[1, 1] = mu * (1.0 - y[0, 1] * y[0, 1]) * y[1, 1] - y[0, 1]
+
+
+@generic
+def continue_oscillation(mu, series, k):
+    """Write the coefficient of order k + 1 from those before; density[k] is that of x^2."""
+    c, square = series.c, series.density
+    square[k, 0, 1] = cubic = 0.0
+    for j in range(k + 1):
+        square[k, 0, 1] += c[j, 0, 1] * c[k - j, 0, 1]
+    for j in range(k + 1):
+        cubic += square[j, 0, 1] * c[k - j, 1, 1]
+    c[k + 1, 0, 1] = c[k, 1, 1] / (k + 1)
+    c[k + 1, 1, 1] = (mu * (c[k, 1, 1] - cubic) - c[k, 0, 1]) / (k + 1)
 
 
 @generic
@@ -34,6 +47,7 @@ def keep(system, y, i, record):
 
 solve_ode45 = ode45.build(oscillate, keep)
 solve_dop853 = dop853.build(oscillate, keep)
+solve_taylor = taylor.build(continue_oscillation, keep)
 solve_crank_nicolson = crank_nicolson.build(riccati, keep)
 
 
@@ -48,6 +62,11 @@ def run_dop853(system, y, times, controls, work, record):
 
 
 @generic
+def run_taylor(system, y, times, controls, work, record):
+    return solve_taylor(system, y, times, controls, work, record)
+
+
+@generic
 def run_crank_nicolson(system, y, times, controls, work, record):
     return solve_crank_nicolson(system, y, times, controls, work, record)
 
@@ -55,6 +74,7 @@ def run_crank_nicolson(system, y, times, controls, work, record):
 METHODS = {
     "ode45": (run_ode45, ode45.WORK),
     "dop853": (run_dop853, dop853.WORK),
+    "taylor": (run_taylor, taylor.WORK),
     "crank_nicolson": (run_crank_nicolson, crank_nicolson.WORK),
 }
 

@@ -26,8 +26,14 @@ COLOURS = {
     "ode45": "#111111",
     "crank_nicolson": "#e0a100",
     "dop853": "#16876b",
+    "taylor": "#7b4fa3",
 }
-SOLVER_NAMES = {"ode45": "ode45", "crank_nicolson": "Crank\N{EN DASH}Nicolson", "dop853": "DOP853"}
+SOLVER_NAMES = {
+    "ode45": "ode45",
+    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
+    "dop853": "DOP853",
+    "taylor": "Taylor",
+}
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {

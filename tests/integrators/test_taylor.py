@@ -1,0 +1,117 @@
+"""taylor: its recurrences against plain ones, its order, its step control, the paper's cases."""
+
+import numpy as np
+import plain
+import pytest
+import systems
+from hypothesis import given
+from hypothesis import strategies as st
+from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
+from pendula.integrators import taylor
+from pendula.integrators.outcome import DONE
+from pendula.lattice import Reduction, place
+from pendula.simulation import integrate, output_times
+
+WHOLE = Reduction(even=False, synchronised=False)
+TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
+
+
+@given(st.floats(1e-300, 1e300), st.sampled_from([15, 16, 24]))
+def test_the_root_has_four_digits(x, n):
+    assert taylor.root(x, n) == pytest.approx(x ** (1 / n), rel=1e-4)
+
+
+@pytest.mark.parametrize("x", [0.0, np.inf])
+def test_the_root_of_nothing_and_of_infinity(x):
+    assert taylor.root(x, 16) == x
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4, 5, 16])
+def test_the_sum_of_a_series_is_numpys(order):
+    rng = np.random.default_rng(order)
+    series, total = rng.normal(size=(order + 1, 6)), np.zeros(6)
+    taylor.evaluate(series, -0.7, total)
+    np.testing.assert_allclose(total, np.polynomial.polynomial.polyval(-0.7, series), rtol=1e-13)
+
+
+def test_a_single_step_errs_by_one_power_more_than_its_order():
+    errors = np.zeros(2)
+    for i, times in enumerate(([0.0, 0.5], [0.0, 0.4])):
+        for start in (2 + 0.5j, 1 - 1j, 0.5 + 2j, -1 + 1.5j):
+            _, final, outcome = systems.run("taylor", 1.0, times, (1e9, 1e9), start)
+            assert outcome.steps == 1
+            errors[i] += abs(final - systems.accurate(1.0, times, start)[-1])
+    order = np.log(errors[0] / errors[1]) / np.log(0.5 / 0.4)
+    assert taylor.ORDER + 0.5 < order < taylor.ORDER + 2.5
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("rtol", [1e-4, 1e-8, 1e-12])
+def test_step_control_is_that_of_jorba_and_zou(boundary, rtol):
+    z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 3.0, 3), (0.7, 1.3, -4.0)
+    solver = {"name": "taylor", "rtol": rtol, "atol": 1e-2 * rtol}
+    fast = integrate(numbers, boundary, z, WHOLE, times, solver)
+    final, steps = plain.taylor(
+        lambda u, order: power_series(u, numbers, boundary, order),
+        z, times, rtol, 1e-2 * rtol, taylor.ORDER,
+    )  # fmt: skip
+    assert fast.outcome == (DONE, 3.0, steps, 0, taylor.ORDER * steps)
+    np.testing.assert_allclose(fast.final, final, atol=1e-11 + rtol)
+
+
+def test_outputs_between_steps_are_as_good_as_the_steps():
+    times = np.linspace(0.0, 10.0, 1001)
+    values, final, outcome = systems.run("taylor", 1.0, times, (1e-12, 1e-12))
+    assert outcome.steps < 100  # most outputs lie between steps
+    np.testing.assert_allclose(values, systems.accurate(1.0, times), atol=1e-11)
+    assert values[-1] == final
+
+
+@pytest.mark.parametrize("outputs", [3, 7, 1001])
+def test_outputs_do_not_change_the_steps(outputs):
+    _, final, _ = systems.run("taylor", 1.0, np.linspace(0.0, 10.0, outputs), (1e-9, 1e-9))
+    assert final == systems.run("taylor", 1.0, [0.0, 10.0], (1e-9, 1e-9))[1]
+
+
+def test_sites_at_rest_do_not_change_the_steps():
+    wide = np.zeros((2, 41), complex)
+    wide[:, 20] = 2.0, 1.0
+    runs = [
+        integrate((0.0, 1.0, -4.0), "free", z, WHOLE, output_times(3.0, 1.0), SOLVERS["taylor"])
+        for z in (wide[:, 20:21], wide)
+    ]
+    assert runs[0].outcome == runs[1].outcome
+    np.testing.assert_array_equal(runs[0].final[:, 0], runs[1].final[:, 20])
+
+
+def test_a_system_at_rest_is_done_in_one_step():
+    _, final, outcome = systems.run("taylor", 1.0, [0.0, 10.0], (1e-6, 1e-6), start=0j)
+    assert (outcome.status, outcome.steps, final) == (DONE, 1, 0j)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_papers_cases_agree_with_scipy(case, scipy_solution):
+    z = place({0: CASES[case][1]}, 30)
+    times = output_times(5.0, 0.025)
+    final = integrate((1.0, 1.0, CASES[case][0]), "dirichlet", z, WHOLE, times, TIGHT).final
+    assert np.linalg.norm(final - scipy_solution(case, 5.0)) < 1e-9
+
+
+@pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
+def test_the_error_follows_the_tolerance(case, scipy_solution):
+    z, numbers = place({0: CASES[case][1]}, 30), (1.0, 1.0, CASES[case][0])
+    tolerances, errors = 10.0 ** -np.arange(4.0, 11.0), []
+    for tolerance in tolerances:
+        solver = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
+        final = integrate(numbers, "dirichlet", z, WHOLE, output_times(5.0, 5.0), solver).final
+        errors.append(np.abs(final - scipy_solution(case, 5.0)).max())
+    slope, _ = np.polyfit(np.log(tolerances), np.log(errors), 1)
+    assert slope == pytest.approx(1.0, abs=0.25)
+    assert np.all(errors < 2 * tolerances)
+
+
+def test_a_solution_that_blows_up_is_reported_where_it_does():
+    times = np.linspace(0.0, 10.0, 41)
+    values, _, outcome = systems.run("taylor", -1.0, times, (1e-7, 1e-9), start=3.0 + 1.0j)
+    assert outcome.status != DONE
+    np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)
