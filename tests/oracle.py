@@ -12,6 +12,7 @@ SOLVERS = {
     "ode45": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
     "dop853": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
     "taylor": {"name": "taylor", "rtol": 1e-12, "atol": 1e-12},
+    "splitting": {"name": "splitting", "step": 0.005},
     "crank_nicolson": {
         "name": "crank_nicolson",
         "step": 0.005,

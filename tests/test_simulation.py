@@ -15,6 +15,7 @@ CLOSE = {  # over a unit of time, worst case
     "ode45": 1e-4,
     "dop853": 1e-8,
     "taylor": 1e-8,
+    "splitting": 1e-7,
     "crank_nicolson": 1e-8,
 }
 each_solver = pytest.mark.parametrize("name", SOLVERS)
@@ -102,7 +103,13 @@ def test_where_a_equals_b_the_norm_is_conserved(name, z, numbers, boundary):
 
 @pytest.mark.parametrize(
     ("name", "drift"),
-    [("ode45", 1e-3), ("dop853", 1e-9), ("taylor", 1e-9), ("crank_nicolson", 1e-9)],
+    [
+        ("ode45", 1e-3),
+        ("dop853", 1e-9),
+        ("taylor", 1e-9),
+        ("splitting", 1e-7),
+        ("crank_nicolson", 1e-9),
+    ],
 )
 @given(z=chains(), numbers=constants, boundary=boundaries)
 @settings(max_examples=20)

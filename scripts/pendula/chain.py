@@ -7,6 +7,7 @@ column are ghosts: what the ends of the chain see beyond themselves. Neighbours 
 even to the last bit.
 """
 
+from math import cos, sin
 from typing import NamedTuple
 
 from .compiled import kernel
@@ -82,6 +83,39 @@ def rates(chain, y, dy):
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             site_rates(chain, y, re, j, modulus2(y, re, j), dy)
+
+
+@kernel
+def linear_rates(chain, y, dy):
+    """Write the linear terms of the right-hand side at `y` into `dy`."""
+    close(chain, y)
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            site_rates(chain, y, re, j, 0.0, dy)
+
+
+@kernel
+def linear_radius(chain):
+    """Return a bound of the linear terms at a state whose largest modulus is one."""
+    return 4.0 * abs(chain.epsilon) + abs(chain.omega) + 2.0 * abs(chain.gamma)
+
+
+@kernel
+def turn(y, h):
+    """Carry `y` along the cubic terms alone, which turn each amplitude at a rate of its own.
+
+    Return whether none turned by a radian or more: no splitting could follow that.
+    """
+    resolved = True
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            angle = 0.5 * h * modulus2(y, re, j)
+            resolved &= abs(angle) < 1.0
+            c, s = cos(angle), sin(angle)
+            u, v = y[re, j], y[re + 1, j]
+            y[re, j] = c * u + s * v
+            y[re + 1, j] = c * v - s * u
+    return resolved
 
 
 @kernel

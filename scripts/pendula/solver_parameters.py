@@ -65,6 +65,13 @@ class Taylor(Model):
     atol: Positive = 1e-15
 
 
+class Splitting(Model):
+    """The symplectic splitting of order six, for the energy over long times."""
+
+    name: Literal["splitting"] = "splitting"
+    step: Positive = 0.0125
+
+
 class CrankNicolson(Model):
     """The energy-conserving Crank-Nicolson scheme with fixed-point iteration."""
 
@@ -81,6 +88,7 @@ class Solvers(Model):
     crank_nicolson: CrankNicolson = CrankNicolson()
     dop853: Dop853 = Dop853()
     taylor: Taylor = Taylor()
+    splitting: Splitting = Splitting()
 
 
-Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor, Field(discriminator="name")]
+Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Splitting, Field(discriminator="name")]

@@ -3,17 +3,17 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .chain import midpoint_rates, rates
+from .chain import linear_radius, linear_rates, midpoint_rates, rates, turn
 from .chain_series import next_coefficient
 from .compiled import kernel
-from .integrators import crank_nicolson, dop853, ode45, taylor
+from .integrators import crank_nicolson, dop853, ode45, splitting, taylor
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
 solve_dop853 = dop853.build(rates, observe)
 solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
-
 solve_taylor = taylor.build(next_coefficient, observe)
+solve_splitting = splitting.build(linear_rates, linear_radius, turn, observe)
 
 
 @kernel
@@ -36,6 +36,11 @@ def run_taylor(chain, y, times, controls, work, record):
     return solve_taylor(chain, y, times, controls, work, record)
 
 
+@kernel
+def run_splitting(chain, y, times, controls, work, record):
+    return solve_splitting(chain, y, times, controls, work, record)
+
+
 class Solver(NamedTuple):
     """A compiled run, its controls in the order in which it takes them, its work arrays."""
 
@@ -51,4 +56,5 @@ SOLVERS = {
     ),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
+    "splitting": Solver(run_splitting, ("step",), splitting.WORK),
 }

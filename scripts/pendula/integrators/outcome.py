@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION = range(4)
+DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG = range(5)
 
 SMALLEST_PART = 1e-10
 """A step shorter than this part of the run is refused: the run would not end."""
@@ -11,6 +11,7 @@ FAULTS = {
     STEP_TOO_SMALL: "the step fell below what rounding or the length of the run allows",
     NOT_FINITE: "the state is no longer finite",
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
+    STEP_TOO_LONG: "the step is too long for amplitudes that large, or they are not finite",
 }
 
 

@@ -27,12 +27,14 @@ COLOURS = {
     "crank_nicolson": "#e0a100",
     "dop853": "#16876b",
     "taylor": "#7b4fa3",
+    "splitting": "#5aa7d6",
 }
 SOLVER_NAMES = {
     "ode45": "ode45",
     "crank_nicolson": "Crank\N{EN DASH}Nicolson",
     "dop853": "DOP853",
     "taylor": "Taylor",
+    "splitting": "BM6 splitting",
 }
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures

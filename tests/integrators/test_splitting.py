@@ -1,0 +1,109 @@
+"""splitting: its order, its symmetry in time, and flows that are exact."""
+
+import numpy as np
+import pytest
+from oracle import CASES, laplacian, random_chain, slope
+from pendula.chain import Chain, linear_radius, linear_rates, turn
+from pendula.integrators import splitting
+from pendula.integrators.outcome import DONE
+from pendula.lattice import Reduction, choose_ends, pack, place, unpack
+from pendula.simulation import IntegrationError, integrate, output_times
+from scipy.linalg import expm
+
+WHOLE = Reduction(even=False, synchronised=False)
+NUMBERS = (0.7, 1.3, -4.0)
+
+
+def run(z, step, end=1.0, outputs=1, numbers=NUMBERS):
+    solver = {"name": "splitting", "step": step}
+    return integrate(numbers, "dirichlet", z, WHOLE, np.linspace(0.0, end, outputs + 1), solver)
+
+
+def test_the_parts_of_a_step_add_up_and_read_the_same_backwards():
+    assert 2 * splitting.FLOWS[0] + splitting.FLOWS[1:].sum() == pytest.approx(1.0, abs=1e-15)
+    assert splitting.TURNS.sum() == pytest.approx(1.0, abs=1e-15)
+    np.testing.assert_array_equal(splitting.TURNS, splitting.TURNS[::-1])
+    np.testing.assert_array_equal(splitting.FLOWS[1:], splitting.FLOWS[:0:-1])
+
+
+def test_the_error_falls_with_the_sixth_power_of_the_step():
+    z = random_chain(3)
+    exact = integrate(
+        NUMBERS, "dirichlet", z, WHOLE, output_times(1.0, 1.0),
+        {"name": "dop853", "rtol": 1e-14, "atol": 1e-14},
+    ).final  # fmt: skip
+    errors = [np.abs(run(z, 1 / n).final - exact).max() for n in (20, 40, 80)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert np.all((orders > 5.7) & (orders < 6.6))
+
+
+def test_a_step_is_undone_by_the_step_of_the_conjugate():
+    z = 2 * random_chain(3)
+    there = run(z, 0.1).final  # far from accurate, but symmetric in time
+    np.testing.assert_allclose(np.conj(run(np.conj(there), 0.1).final), z, atol=1e-12)
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
+@pytest.mark.parametrize("step", [0.01, 1.0])
+def test_the_linear_flow_is_exact(boundary, step):
+    """Tiny data move by the linear terms alone; in real parts, by a matrix exponential."""
+    z = 1e-9 * random_chain(2)
+    epsilon, gamma, omega = NUMBERS
+    lattice = np.kron(np.eye(2), epsilon * laplacian(5, boundary) + omega * np.eye(5))
+    drive = gamma * np.kron([[-1, 1], [1, -1]], np.eye(5))
+    # i z' = (lattice) z + (drive) conj(z)
+    matrix = np.block(
+        [[np.zeros((10, 10)), lattice - drive], [-lattice - drive, np.zeros((10, 10))]]
+    )
+    parts = expm(matrix) @ np.concatenate([z.ravel().real, z.ravel().imag])
+    final = integrate(
+        NUMBERS, boundary, z, WHOLE, output_times(1.0, 1.0), {"name": "splitting", "step": step}
+    ).final
+    np.testing.assert_allclose(final.ravel(), parts[:10] + 1j * parts[10:], atol=1e-22)
+
+
+def test_the_turn_is_the_exact_flow_of_the_cubic_terms():
+    z = random_chain(2)
+    y = pack(z, WHOLE)
+    turn(y, 0.3)
+    np.testing.assert_allclose(unpack(y, WHOLE), z * np.exp(-0.15j * np.abs(z) ** 2), rtol=1e-14)
+
+
+def test_linear_rates_are_the_equations_at_vanishing_data():
+    z = random_chain(2)
+    chain = Chain(*NUMBERS, *choose_ends("free", WHOLE))
+    y = pack(z, WHOLE)
+    dy = np.zeros_like(y)
+    linear_rates(chain, y, dy)
+    expected = slope(1e-9 * z, NUMBERS, "free") / 1e-9
+    np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-12, atol=1e-12)
+    assert np.abs(expected).max() <= linear_radius(chain) * np.abs(z).max()
+
+
+@pytest.mark.parametrize("x", [1e-3, 0.1, 1.0, 10.0])
+def test_terms_left_out_of_the_exponential_do_not_matter(x):
+    terms = splitting.count_terms(x)
+    kept = np.cumprod(np.concatenate([[1.0], x / np.arange(1.0, terms + 1)])).sum()
+    assert kept == pytest.approx(np.exp(x), rel=1e-15)
+
+
+def test_outputs_inside_a_step_shorten_it():
+    z = random_chain(2)
+    assert run(z, 0.3, end=1.0, outputs=1).outcome.steps == 4
+    assert run(z, 0.3, end=1.0, outputs=5).outcome.steps == 5
+    assert run(z, 0.1, end=1.0, outputs=10).outcome.steps == 10
+
+
+def test_the_energy_of_a_regular_case_errs_but_does_not_drift():
+    omega, pair = CASES["fig3_small"]
+    energy = run(place({0: pair}, 8), 0.05, 400.0, 4000, (1.0, 1.0, omega)).energy
+    error = np.abs(energy - energy[0])
+    assert error.max() < 1e-7
+    assert error[2000:].max() < 1.5 * error[:2000].max()
+
+
+@pytest.mark.parametrize("size", [20.0, 1e100, 1e200, np.nan])
+def test_amplitudes_too_large_for_the_step_are_reported(size):
+    with pytest.raises(IntegrationError, match="step is too long"):
+        run(size * random_chain(2), 0.1)
+    assert run(random_chain(2), 0.1).outcome.status == DONE
