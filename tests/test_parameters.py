@@ -20,7 +20,7 @@ def fault_of(**case) -> str:
     return line
 
 
-def test_what_is_left_out_takes_the_papers_value():
+def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():
     problem = load({"cases": {"mine": {"omega": 8}}}).problem("mine")
     assert problem == {
         "omega": 8.0,
@@ -31,7 +31,7 @@ def test_what_is_left_out_takes_the_papers_value():
         "initial": {0: (1 + 0j, 0.1 + 0j)},
         "end_time": 50.0,
         "output_step": 0.025,
-        "solver": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
+        "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
         "snapshot_every": 0,
     }
 

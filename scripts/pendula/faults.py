@@ -5,11 +5,11 @@ import difflib
 from pydantic import BaseModel, ValidationError
 
 from .parameters import Case, Configuration, Drawn, Sweep
-from .solver_parameters import CrankNicolson, Dop853, Ode45, Solvers, Splitting, Taylor
+from .solver_parameters import Auto, CrankNicolson, Dop853, Ode45, Solvers, Taylor
 
 SOLVERS = {
     model.model_fields["name"].default: model
-    for model in (Ode45, CrankNicolson, Dop853, Taylor, Splitting)
+    for model in (Ode45, CrankNicolson, Dop853, Taylor, Auto)
 }
 HINTS = {
     "N": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",

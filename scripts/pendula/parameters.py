@@ -6,7 +6,17 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from .solver_parameters import Complex, Model, Name, Number, Ode45, Positive, Solver, Solvers, Whole
+from .solver_parameters import (
+    Complex,
+    Model,
+    Name,
+    Number,
+    Positive,
+    Solver,
+    Solvers,
+    Taylor,
+    Whole,
+)
 
 Window = tuple[Number, Number]
 
@@ -28,7 +38,7 @@ class Case(Model):
     end_time: Positive = 50.0
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
-    solver: Solver = Ode45()
+    solver: Solver = Taylor()
 
     @model_validator(mode="after")
     def _consistent(self) -> "Case":
@@ -111,7 +121,7 @@ class Configuration(Model):
         if not isinstance(raw, dict):
             return raw
         sections = {}
-        for section, default in (("cases", {"solver": "ode45"}), ("sweeps", {})):
+        for section, default in (("cases", {"solver": "taylor"}), ("sweeps", {})):
             if isinstance(raw.get(section), dict):
                 sections[section] = {
                     name: _with_controls({**default, **item}, raw.get("solvers") or {})

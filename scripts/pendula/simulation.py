@@ -1,9 +1,11 @@
 """From the parameters of a case to its trajectory."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from .automatic import refine
 from .chain import Chain
 from .integrators.outcome import DONE, FAULTS, Outcome
 from .lattice import Reduction, choose_ends, find_reduction, pack, place, spread, unpack
@@ -25,6 +27,7 @@ class Trajectory(NamedTuple):
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
     final: np.ndarray  # (component, site), complex amplitudes at the end time
     outcome: Outcome
+    solver: dict  # {"name": ..., **controls} of the run
 
 
 def output_times(end_time: float, output_step: float) -> np.ndarray:
@@ -48,19 +51,29 @@ def simulate(
 ) -> Trajectory:
     """Integrate the case and reduce it to observables at the output times.
 
-    `solver` is {"name": ..., **controls}; `snapshot_every` keeps |A_n|, |B_n| at each so many
-    outputs. Raises IntegrationError where the solver gives up.
+    `solver` is {"name": ..., **controls}, or {"name": "auto", "error": ...}; `snapshot_every`
+    keeps |A_n|, |B_n| at each so many outputs. Raises IntegrationError where the solver gives up.
     """
     amplitudes = place(initial, half_width)
-    return integrate(
-        (epsilon, gamma, omega),
-        boundary,
-        amplitudes,
-        find_reduction(amplitudes),
-        output_times(end_time, output_step),
-        solver,
-        snapshot_every,
-    )
+    times = output_times(end_time, output_step)
+    reduction, constants = find_reduction(amplitudes), (epsilon, gamma, omega)
+
+    def run(controls: dict) -> Trajectory:
+        return integrate(
+            constants, boundary, amplitudes, reduction, times, controls, snapshot_every
+        )
+
+    return _run_to_error(run, solver["error"]) if solver["name"] == "auto" else run(solver)
+
+
+def _run_to_error(run: Callable[[dict], Trajectory], error: float) -> Trajectory:
+    """Return the run that keeps `error`; its controls say what was asked for and estimated."""
+    try:
+        trajectory, controls, estimate = refine(run, error)
+    except ArithmeticError as fault:
+        raise IntegrationError(f"auto: {fault}") from None
+    asked = {"requested_error": error, "estimated_error": estimate}
+    return trajectory._replace(solver={**controls, **asked})
 
 
 def integrate(
@@ -89,7 +102,7 @@ def integrate(
         raise IntegrationError(
             f"{solver['name']} stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}"
         )
-    return _collect(times, record, y, reduction, outcome)
+    return _collect(times, record, y, reduction, outcome)._replace(solver=solver)
 
 
 def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:
@@ -113,4 +126,5 @@ def _collect(
         spread(record.modulus, reduction),
         unpack(y, reduction),
         outcome,
+        {},
     )

@@ -61,15 +61,15 @@ class Taylor(Model):
     """The Taylor method, for the last digits."""
 
     name: Literal["taylor"] = "taylor"
-    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-15
-    atol: Positive = 1e-15
+    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-14
+    atol: Positive = 1e-14
 
 
-class Splitting(Model):
-    """The symplectic splitting of order six, for the energy over long times."""
+class Auto(Model):
+    """A solver picked by the error of the norms, relative to their largest, and held to it."""
 
-    name: Literal["splitting"] = "splitting"
-    step: Positive = 0.0125
+    name: Literal["auto"] = "auto"
+    error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
 
 
 class CrankNicolson(Model):
@@ -88,7 +88,7 @@ class Solvers(Model):
     crank_nicolson: CrankNicolson = CrankNicolson()
     dop853: Dop853 = Dop853()
     taylor: Taylor = Taylor()
-    splitting: Splitting = Splitting()
+    auto: Auto = Auto()
 
 
-Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Splitting, Field(discriminator="name")]
+Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Auto, Field(discriminator="name")]

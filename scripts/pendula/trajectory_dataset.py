@@ -36,9 +36,8 @@ def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Varia
     return variables
 
 
-def as_attributes(name: str, problem: dict) -> dict:
-    """Return the attributes that say which problem was solved and how: no dates, no hosts."""
-    solver = problem["solver"]
+def as_attributes(name: str, problem: dict, solver: dict) -> dict:
+    """Return the attributes that say what was solved, and by which controls: no dates, no hosts."""
     plain = {key: problem[key] for key in sorted(problem) if key not in ("solver", "initial")}
     return {
         "case": name,

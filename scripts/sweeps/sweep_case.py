@@ -18,7 +18,7 @@ def sweep_case(
     for path, problem in zip(datasets, problems, strict=True):
         label = f"{name} ({problem['solver']['name']})"
         result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
-        attributes = as_attributes(name, problem)
+        attributes = as_attributes(name, problem, problem["solver"])
         del attributes["half_width"]
         write(
             path,

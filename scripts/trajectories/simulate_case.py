@@ -17,7 +17,7 @@ def simulate_case(
         write(
             path,
             as_variables(result, problem["snapshot_every"]),
-            {**as_attributes(name, problem), **count_work([result.outcome])},
+            {**as_attributes(name, problem, result.solver), **count_work([result.outcome])},
         )
 
 

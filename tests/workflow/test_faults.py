@@ -57,7 +57,7 @@ def test_a_failing_job_shows_its_traceback_on_the_screen_and_in_its_log(tmp_path
     log = (tmp_path / "results/logs/trajectories/wild.log").read_text()
     assert result.returncode != 0
     for text in (result.stderr, log):
-        assert "Traceback" in text and "IntegrationError: ode45 stopped at tau = 0" in text
+        assert "Traceback" in text and "IntegrationError: taylor stopped at tau = 0" in text
     assert not (tmp_path / "results/trajectories/wild.nc").exists()
 
 

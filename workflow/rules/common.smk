@@ -9,6 +9,7 @@ sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 from code_records import code
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
+from pendula.speed.regimes import REGIMES
 from pendula.theory.groups import GROUPS, OBSERVED
 
 # Jobs find the library, and use one thread each, since they run in parallel.
@@ -25,11 +26,13 @@ except ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
-ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]
+ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]  # that every case of the paper is integrated by
+AUTOMATIC = ["dop853", "taylor"]  # that `auto` chooses from
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
+SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
@@ -42,7 +45,10 @@ def one_of(names):
 
 
 def kernels(*solvers):
-    return [f"results/kernels/{solver}.txt" for solver in solvers]
+    compiled = [
+        name for solver in solvers for name in (AUTOMATIC if solver == "auto" else [solver])
+    ]
+    return [f"results/kernels/{name}.txt" for name in compiled]
 
 
 def by_solvers(stem, solvers):

@@ -10,7 +10,7 @@ rule compile_solver:
     log:
         "results/logs/kernels/{solver}.log",
     wildcard_constraints:
-        solver=one_of(ALL_SOLVERS),
+        solver=one_of([*ALL_SOLVERS, "taylor"]),
     priority: 20
     conda:
         "../envs/pinned.yaml"
@@ -62,14 +62,14 @@ use rule trajectory as own_trajectory with:
 use rule own_trajectory as own_trajectory_by_solver with:
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=kernels("{solver}"),
+        kernels=lambda wildcards: kernels(wildcards.solver),
     output:
         datasets=["results/trajectories/{case}.{solver}.nc"],
     log:
         "results/logs/trajectories/{case}.{solver}.log",
     wildcard_constraints:
         case=one_of(OWN_CASES),
-        solver=one_of(ALL_SOLVERS),
+        solver=one_of([*ALL_SOLVERS, *AUTOMATIC, "auto"]),
     params:
         name="{case}",
         problems=lambda wildcards: [SETTINGS.problem(wildcards.case, wildcards.solver)],

@@ -1,0 +1,1 @@
+"""Speed against error: this project's solvers and other people's on the paper's cases."""

@@ -1,0 +1,83 @@
+"""The dataset of speed against error, on a short run of one case."""
+
+import numpy as np
+import pytest
+from pendula.datasets import read, write
+from pendula.plots import work_precision
+from pendula.simulation import integrate, output_times
+from pendula.speed import ladder, work
+from pendula.speed.contestants import OURS
+from pendula.speed.tables import write_tables
+from pendula.speed.tasks import set_task
+
+PROBLEM = {
+    "epsilon": 1.0,
+    "gamma": 1.0,
+    "omega": -4.0,
+    "half_width": 4,
+    "boundary": "dirichlet",
+    "initial": {0: (1.0, 0.1)},
+}
+TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ladder, "ENOUGH", 0.0)
+        task = set_task("fig3_small", PROBLEM, 2.0)
+        exact = integrate(
+            task.constants,
+            "dirichlet",
+            task.amplitudes,
+            task.reduction,
+            output_times(2, 0.025),
+            TIGHT,
+        )
+        task, peer = task._replace(exact=exact.final), {"someone": OURS["ode45"]}
+        norms = {"fig3_small": (exact.linf, exact.l2)}
+        said = []
+        variables = work.measure([task], norms, peer, said.append)
+    path = tmp_path_factory.mktemp("work") / "work.nc"
+    write(path, variables, {"absent": "another one is not installed"})
+    assert said[0] == "fig3_small: ode45" and len(said) == 6
+    return read(path)
+
+
+def test_every_solver_reaches_the_reference(measured):
+    case = measured.sel(case="fig3_small")
+    for solver in ("ode45", "dop853", "taylor", "splitting"):
+        assert float(case["error"].sel(contestant=solver).min()) < 1e-11
+        assert float(case["norm_error"].sel(solver=solver).min()) < 1e-11
+        assert float(case["energy_drift"].sel(solver=solver).min()) < 1e-11
+    assert float(case["error"].sel(contestant="crank_nicolson").min()) < 1e-4
+
+
+def test_times_and_errors_stand_together(measured):
+    timed, erred = np.isfinite(measured["seconds"]), np.isfinite(measured["error"])
+    assert bool((timed == erred).all())
+    assert bool((measured["least"] <= measured["seconds"]).where(timed, True).all())
+    assert bool((measured["seconds"] <= measured["most"]).where(timed, True).all())
+
+
+def test_the_pair_is_compared_below_the_target(measured):
+    pair = measured.sel(case="fig3_small", peer="someone")
+    assert float(pair["peer_error"]) <= 1e-10 and float(pair["our_error"]) <= 1e-10
+    assert pair["our_best"].item() in ("dop853", "taylor")
+    assert 1.0 < float(pair["ratio"]) < 100.0
+
+
+def test_the_table_gives_every_time_beside_its_error(measured):
+    page = write_tables(measured)
+    rows = [line for line in page.splitlines() if line.startswith("| taylor")]
+    assert len(rows) == int(np.isfinite(measured["seconds"].sel(contestant="taylor")).sum())
+    assert "Not measured: another one is not installed." in page
+    assert "errors" in next(line for line in page.splitlines() if line.startswith("| ode45 |"))
+
+
+def test_the_figure_draws_every_contestant(measured):
+    data = work_precision.gather(measured, "regular")
+    figure = work_precision.draw(data)
+    axes = figure.axes[0]
+    assert len(axes.get_lines()) == len(OURS) + 1 + 1  # a peer, and the line of the target
+    assert axes.get_xscale() == axes.get_yscale() == "log"
