@@ -1,0 +1,51 @@
+# The paper's six cases in multiprecision arithmetic, to verify every other solver against; not
+# part of the full run. The only rule that needs heyoka: `pip install heyoka==7.13.2` first.
+# `cp results/reference/*.nc tests/baseline/reference/` then accepts what it made.
+from pendula.reference.verify import BITS
+
+SNAPSHOTS = [1, 2, 5, 10, 20, 30, 40, 50, 70]  # tau of the states that are kept
+# Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
+REFERENCES = [*PAPER_CASES, "fig4_small.double"]
+
+
+def reference_problem(wildcards):
+    drawn = [SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS]
+    ends = [
+        end
+        for sweep in drawn
+        if sweep.case == wildcards.case
+        for _, end in (sweep.drawn.max, sweep.drawn.mean)
+    ]
+    end_time = max([SETTINGS.cases[wildcards.case].end_time, *ends])
+    return SETTINGS.problem(wildcards.case, end_time=end_time)
+
+
+rule reference:
+    "Verified trajectories of the paper's cases, in multiprecision"
+    input:
+        expand("results/reference/{name}.nc", name=REFERENCES),
+
+
+rule reference_case:
+    "One case, integrated twice: {case}{numbers}.nc"
+    input:
+        code=code("reference/integrate_reference.py"),
+    output:
+        dataset="results/reference/{case}{numbers}.nc",
+    log:
+        "results/logs/reference/{case}{numbers}.log",
+    wildcard_constraints:
+        case=one_of(PAPER_CASES),
+        numbers=r"(\.double)?",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        name="{case}",
+        problem=reference_problem,
+        snapshots=SNAPSHOTS,
+        bits=lambda wildcards: BITS[wildcards.case],
+        decimal=lambda wildcards: not wildcards.numbers,
+    message:
+        "Integrating {wildcards.case}{wildcards.numbers} twice in multiprecision"
+    script:
+        "../../scripts/reference/integrate_reference.py"
