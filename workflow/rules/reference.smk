@@ -38,7 +38,7 @@ rule reference_case:
         case=one_of(PAPER_CASES),
         numbers=r"(\.double)?",
     conda:
-        "../envs/pinned.yaml"
+        "../envs/reference.yaml"
     params:
         name="{case}",
         problem=reference_problem,

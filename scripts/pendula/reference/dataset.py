@@ -11,7 +11,7 @@ from .verify import Discrepancy
 MIRRORED = Reduction(even=True, synchronised=False)
 
 
-def as_variables(run: Run, snapshots: list[float], apart: Discrepancy) -> dict[str, Variable]:
+def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
     """Return the variables; times are exact, `amplitude` may start any run as an exact state."""
     series = ("component", "tau")
     reach = run.amplitude.shape[2] - 1
@@ -26,9 +26,7 @@ def as_variables(run: Run, snapshots: list[float], apart: Discrepancy) -> dict[s
         ),
         "part": Variable(("part",), ["re", "im"], "part of the amplitude"),
         "site": Variable(("site",), np.arange(-reach, reach + 1), "site of the chain"),
-        "snapshot_tau": Variable(
-            ("snapshot",), np.array(snapshots, float), "slow time of the snapshots"
-        ),
+        "snapshot_tau": Variable(("snapshot",), run.snapshot_tau, "slow time of the snapshots"),
         "amplitude": Variable(
             ("part", "component", "site", "snapshot"), _amplitude(run), "amplitude on a site"
         ),

@@ -39,8 +39,8 @@ def right_hand_side(heyoka, constants: Constants, half_width: int) -> list[tuple
 def _field(heyoka, constants, drive, rows, row, n, density):
     """Return one part of the right-hand side; `drive` is gamma for Re, -gamma for Im."""
     sites, partner = rows[row], rows[(row + 2) % 4]
-    # site -1 is site 1; site M + 1 is at rest
-    neighbours = [sites[abs(n - 1)], sites[n + 1]] if n + 1 < len(sites) else [sites[n - 1]]
+    # site -1 moves as site 1, site M + 1 is at rest
+    neighbours = [sites[m] for m in (abs(n - 1), n + 1) if m < len(sites)]
     own = constants.omega - constants.epsilon - constants.epsilon - drive
     return heyoka.sum(
         [

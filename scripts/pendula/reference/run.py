@@ -16,6 +16,7 @@ class Run(NamedTuple):
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     energy: np.ndarray  # (time,)
+    snapshot_tau: np.ndarray  # (snapshot,), doubles
     amplitude: np.ndarray  # (snapshot, row, site), rows Re A, Im A, Re B, Im B
     bits: int
     order: int
@@ -42,37 +43,35 @@ def start(problem: dict, numbers: Numbers) -> np.ndarray:
 
 
 def integrate(problem: dict, snapshots: list[float], bits: int, decimal: bool = True) -> Run:
-    """Integrate a case with `bits` bits and a tolerance of half a unit in their last place.
+    """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
 
-    `problem` holds the arguments of pendula.simulation.simulate; the solver is not used. Outputs
-    are at the doubles that `output_times` returns. `decimal` is explained by Numbers. Raises
-    IntegrationError where heyoka does not reach the end, ValueError as `start` does.
+    `problem` holds the arguments of pendula.simulation.simulate, of which the solver is not used.
+    Outputs are at the doubles that `output_times` returns; those among `snapshots` keep the state.
+    `decimal` is explained by Numbers. Raises IntegrationError where heyoka does not reach the end,
+    ValueError as `start` does.
     """
     numbers = Numbers(bits, decimal)
     constants = Constants(*(numbers.given(problem[key]) for key in Constants._fields))
-    state = start(problem, numbers)
     times = output_times(problem["end_time"], problem["output_step"])
-    stepper = numbers.heyoka.taylor_adaptive(
-        right_hand_side(numbers.heyoka, constants, problem["half_width"]),
-        state.ravel(),
-        time=numbers.exact(0.0),
-        fp_type=numbers.heyoka.real,
-        prec=bits,
-        compact_mode=True,  # else the functions it compiles are far too long
-        tol=numbers.exact(2.0**-bits),
-    )
+    kept = np.isin(times, snapshots)
+    stepper = _stepper(numbers, constants, start(problem, numbers))
     outcome, _, _, steps, _, states = stepper.propagate_grid(numbers.exactly(times))
     if outcome != numbers.heyoka.taylor_outcome.time_limit:
         raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
-    states = states.reshape(-1, *state.shape)
-    kept = states[[round(tau / problem["output_step"]) for tau in snapshots]]
-    return Run(
-        times,
-        *norms(states),
-        energy(constants, states),
-        kept,
-        bits,
-        stepper.order,
-        2.0**-bits,
-        steps,
+    states = states.reshape(len(times), 4, -1)
+    energies = energy(constants, states)
+    observed = (times, *norms(states), energies, times[kept], states[kept])
+    return Run(*observed, bits, stepper.order, float(stepper.tol), steps)
+
+
+def _stepper(numbers: Numbers, constants: Constants, state: np.ndarray):
+    """Return heyoka's adaptive Taylor method, which chooses its order from the tolerance."""
+    return numbers.heyoka.taylor_adaptive(
+        right_hand_side(numbers.heyoka, constants, state.shape[1] - 1),
+        state.ravel(),
+        time=numbers.exact(0.0),
+        fp_type=numbers.heyoka.real,
+        prec=numbers.bits,
+        tol=numbers.exact(2.0**-numbers.bits),
+        compact_mode=True,  # else it compiles every site by itself, for minutes
     )
