@@ -8,18 +8,6 @@ SNAPSHOTS = [1, 2, 5, 10, 20, 30, 40, 50, 70]  # tau of the states that are kept
 REFERENCES = [*PAPER_CASES, "fig4_small.double"]
 
 
-def reference_problem(wildcards):
-    drawn = [SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS]
-    ends = [
-        end
-        for sweep in drawn
-        if sweep.case == wildcards.case
-        for _, end in (sweep.drawn.max, sweep.drawn.mean)
-    ]
-    end_time = max([SETTINGS.cases[wildcards.case].end_time, *ends])
-    return SETTINGS.problem(wildcards.case, end_time=end_time)
-
-
 rule reference:
     "Verified trajectories of the paper's cases, in multiprecision"
     input:
@@ -41,7 +29,7 @@ rule reference_case:
         "../envs/reference.yaml"
     params:
         name="{case}",
-        problem=reference_problem,
+        problem=lambda wildcards: reference_problem(wildcards.case),
         snapshots=SNAPSHOTS,
         bits=lambda wildcards: BITS[wildcards.case],
         decimal=lambda wildcards: not wildcards.numbers,
