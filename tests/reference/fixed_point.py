@@ -34,7 +34,7 @@ def laplacian(u):
 
 
 def power_series(re, im, omega, order, bits):
-    """Return the series (order + 1, 2, N) of Re and Im, at epsilon = gamma = 1."""
+    """Return the series (order + 1, 2, N) of Re and Im, at epsilon = gamma = 1, `omega` an int."""
     a, b, density = (np.zeros((order + 1, *re.shape), object) for _ in range(3))
     a[0], b[0] = re, im
     for k in range(order):
@@ -62,7 +62,7 @@ def advance(re, im, omega, steps_per_unit, order, bits):
 def integrate(pair, omega, end, *, half_width=14, steps_per_unit=40, order=32, bits=128):
     """Return complex amplitudes (2, 2M + 1) at time `end`, each rounded once to double.
 
-    To tau = 1 the defaults give the sites -8..8 of a longer chain to 1e-20, the norms too.
+    To tau = 1 the defaults give the sites -4..4 of a longer chain to 1e-22, the norms too.
     """
     re, im = begin(pair, half_width, bits)
     for _ in range(round(end * steps_per_unit)):
