@@ -72,6 +72,13 @@ def drawn_windows(sweep):
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
 
 
+def reference_problem(case):
+    sweeps = [SETTINGS.sweeps[name] for name in PAPER_SWEEPS]
+    drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
+    ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
+    return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
+
+
 def figure(name, prefix=""):
     kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
     return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
