@@ -20,7 +20,7 @@ end
 u = {start};
 f = @(tau, u) rates(tau, u, {n}, {epsilon!r}, {gamma!r}, {omega!r});
 options = odeset("RelTol", {rtol!r}, "AbsTol", {atol!r}, "Refine", 1);
-ode45(f, [0, {short!r}], u, options);
+[tau, y] = ode45(f, [0, {short!r}], u, options);
 tic;
 [tau, y] = ode45(f, [0, {end_time!r}], u, options);
 seconds = toc;
