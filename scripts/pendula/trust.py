@@ -57,7 +57,7 @@ def horizons(trajectories: dict[str, xr.Dataset], reference: xr.Dataset) -> xr.D
         for run in trajectories.values()
     ]
     data = xr.concat(curves, solver).to_dataset()
-    level = xr.Variable("level", list(LEVELS), {"long_name": "when two curves are apart"})
+    level = xr.Variable("level", list(LEVELS), {"long_name": "when curves are apart", "units": "1"})
     lost = [first_above(data["difference"], value) for value in LEVELS.values()]
     data["horizon"] = xr.concat(lost, level).assign_attrs(
         long_name="first tau at which a norm is off by the level", units="1"

@@ -26,7 +26,8 @@ except ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
-ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]  # that every case of the paper is integrated by
+COMPARED = [*PAPER_SOLVERS, "dop853"]  # in the figures of the paper's claims about its solvers
+ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 AUTOMATIC = ["dop853", "taylor"]  # that `auto` chooses from
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
@@ -49,6 +50,10 @@ def kernels(*solvers):
         name for solver in solvers for name in (AUTOMATIC if solver == "auto" else [solver])
     ]
     return [f"results/kernels/{name}.txt" for name in compiled]
+
+
+def references(*cases):
+    return [f"{workflow.basedir}/tests/baseline/reference/{case}.nc" for case in cases]
 
 
 def by_solvers(stem, solvers):

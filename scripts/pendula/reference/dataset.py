@@ -46,7 +46,7 @@ def as_case(name: str, problem: dict, run: Run, check: Run, apart: Discrepancy, 
     """Return the attributes: the case, the controls of both runs, what they agree on."""
     problem = {key: value for key, value in problem.items() if key != "snapshot_every"}
     return {
-        **as_attributes(name, {**problem, "solver": {"name": "heyoka", **_controls(run)}}),
+        **as_attributes(name, problem, {"name": "heyoka", **_controls(run)}),
         **{f"second_run_{key}": value for key, value in _controls(check).items()},
         "parameters_mean": "the printed decimals" if decimal else "the doubles nearest to them",
         "energy_drift": apart.energy_drift,
