@@ -20,7 +20,7 @@ def gather(trajectories: by_case.Trajectories, references: dict[str, xr.Dataset]
     data = by_case.stack(
         trajectories, {case: found["difference"] for case, found in curves.items()}
     )
-    case = xr.Variable("case", cases)
+    case = xr.Variable("case", cases, data["case"].attrs)
     data["horizon"] = xr.concat([found["horizon"] for found in curves.values()], case)
     data["size"] = next(iter(curves.values()))["size"]
     return data
