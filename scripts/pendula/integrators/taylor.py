@@ -40,21 +40,30 @@ def size(y, scratch):
 
 
 @kernel
+def power(x, n):
+    """Return x^n for a whole n: written `x**n` it would be the C library's, with bits of its own."""
+    product = 1.0
+    for _ in range(n):
+        product *= x
+    return product
+
+
+@kernel
 def root(x, n):
     """Return the n-th root of x in [0, inf] to 4 digits by *, / and -: the same bits everywhere."""
     if not 0.0 < x < np.inf:
         return x
     guess = 1.0
-    while guess**n < x:
+    while power(guess, n) < x:
         guess *= 2.0
-    while (0.5 * guess) ** n >= x:
+    while power(0.5 * guess, n) >= x:
         guess *= 0.5
     # now within a factor of two above: halve the distance of the logarithms four times
     for factor in (0.7071067811865476, 0.8408964152537145, 0.9170040432046712, 0.9576032806985737):
-        if (factor * guess) ** n >= x:
+        if power(factor * guess, n) >= x:
             guess *= factor
     for _ in range(3):  # Newton's iteration
-        guess -= (guess - x / guess ** (n - 1)) / n
+        guess -= (guess - x / power(guess, n - 1)) / n
     return guess
 
 
