@@ -38,6 +38,7 @@ rule all:
         "results/claims.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",
+        "results/tables/hard_cases.md",
 
 
 rule figures:
@@ -60,4 +61,5 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/solvers.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
+include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/speed.smk"

@@ -17,6 +17,8 @@ from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 ORDER = 16
 WORK = 2 * (ORDER + 1) + 1  # arrays of the size of a state
+SQUARES = 1e-280
+"""Below this, squares lose digits or vanish."""
 
 
 class Series(NamedTuple):
@@ -32,16 +34,20 @@ class Series(NamedTuple):
 
 @kernel
 def size(y, scratch):
-    """Return the largest modulus of a component."""
+    """Return the largest modulus of a component, or where its square vanishes the largest part."""
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             scratch[re // 2, j] = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
+    square = largest_of_rows(scratch, y.shape[0] // 2)
+    if square < SQUARES:
+        copy(y, scratch)
+        return largest_of_rows(scratch, y.shape[0])
+    return sqrt(square)
 
 
 @kernel
 def power(x, n):
-    """Return x^n for a whole n: written `x**n` it would be the C library's, with bits of its own."""
+    """Return x^n for a whole n; `x**n` would be the C library's, whose last bits vary."""
     product = 1.0
     for _ in range(n):
         product *= x
