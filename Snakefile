@@ -40,6 +40,7 @@ rule all:
         "results/claims.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",
+        "results/tables/hard_cases.md",
 
 
 rule figures:
@@ -64,4 +65,5 @@ include: "workflow/rules/reference.smk"
 include: "workflow/rules/trust.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
+include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/speed.smk"

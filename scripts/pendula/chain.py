@@ -104,6 +104,8 @@ def linear_radius(chain):
 def turn(y, h):
     """Carry `y` along the cubic terms alone, which turn each amplitude at a rate of its own.
 
+    Sine and cosine are the C library's: their last bits may differ from machine to machine.
+
     Return whether none turned by a radian or more: no splitting could follow that.
     """
     resolved = True

@@ -7,6 +7,7 @@ import numpy as np
 
 from .automatic import refine
 from .chain import Chain
+from .feasibility import find_obstacle
 from .integrators.outcome import DONE, FAULTS, Outcome
 from .lattice import Reduction, choose_ends, find_reduction, pack, place, spread, unpack
 from .observables import Record, blank_record
@@ -87,10 +88,14 @@ def integrate(
 ) -> Trajectory:
     """Integrate amplitudes (2, N) under (epsilon, gamma, omega), reduced as `reduction` says.
 
-    Raises ValueError where N is even: the kernels count sites in pairs around a centre.
+    Raises ValueError where N is even (the kernels count sites in pairs around a centre), and
+    IntegrationError where the run would not end, gives up, or its result is not finite.
     """
     if amplitudes.shape[1] % 2 == 0:
         raise ValueError(f"a chain has an odd number of sites, not {amplitudes.shape[1]}")
+    obstacle = find_obstacle(constants, amplitudes, float(times[-1] - times[0]), solver)
+    if obstacle:
+        raise _stopped(solver, times[0], obstacle)
     method = SOLVERS[solver["name"]]
     chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
     y = pack(amplitudes, reduction)
@@ -99,10 +104,15 @@ def integrate(
     work = aligned((method.work, *y.shape))
     outcome = method.run(chain, y, times, controls, work, record)
     if outcome.status != DONE:
-        raise IntegrationError(
-            f"{solver['name']} stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}"
-        )
+        raise _stopped(solver, outcome.time, FAULTS[outcome.status])
+    for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
+        if not np.isfinite(values).all():
+            raise _stopped(solver, outcome.time, "the state, its norms or its energy overflow")
     return _collect(times, record, y, reduction, outcome)._replace(solver=solver)
+
+
+def _stopped(solver: dict, time: float, reason: str) -> IntegrationError:
+    return IntegrationError(f"{solver['name']} stopped at tau = {time:.6g}: {reason}")
 
 
 def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:

@@ -3,10 +3,10 @@
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
 (J. Comput. Phys. 44 (1981) 277): second order, symmetric in time, and the energy is conserved up
 to the tolerance of the iteration. The iteration starts from the extrapolation of the last six
-steps by a polynomial, and stops when the largest change of a part falls below
-tolerance * max(1, |y|), |y| taken at the last output. Where the changes do not shrink, or not far
-enough within the allowed count, the step is cut in halves until they do: each cut is counted as a
-rejected step, and the run ends with a fault where cutting does not help.
+steps by a polynomial, and stops when the largest change of a part falls below tolerance * |y|,
+|y| the largest part at the last output. Where the changes do not shrink, or not far enough within
+the allowed count, the step is cut in halves until they do: each cut is counted as a rejected step,
+and the run ends with a fault where cutting does not help.
 """
 
 import numpy as np
@@ -36,8 +36,8 @@ def update(old, h, slope, new):
 
 @kernel
 def size(y):
-    """Return the largest absolute value of a part, or 1 where all are smaller."""
-    largest = 1.0
+    """Return the largest absolute value of a part."""
+    largest = 0.0
     for row in range(y.shape[0]):
         for j in range(1, y.shape[1] - 1):
             largest = max(largest, abs(y[row, j]))

@@ -147,6 +147,8 @@ def build(rates, observe):
         most_growth = 6.0
         overflowed = not h < np.inf
         shortest = SMALLEST_PART * (end - t)
+        if h <= shortest:  # a first guess only: data at rest would otherwise be refused
+            h = 2.0 * shortest
         while i < times.size:
             if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
                 h = end - t

@@ -5,6 +5,9 @@ initial step and the step control follow Shampine and Reichelt, The MATLAB ODE S
 Comput. 18 (1997) 1; outputs between steps come from the pair's quartic interpolant.
 # ASSUME: the paper's unknowns are MATLAB complex numbers, so that the error of a component is the
 # modulus of a complex number, relative to the larger modulus at the two ends of the step.
+
+Steps come from powers of 1/5 by the C library, as in MATLAB: their last bit, and with it that of
+the trajectory, may differ from machine to machine.
 """
 
 from math import sqrt

@@ -4,8 +4,10 @@ from typing import NamedTuple
 
 DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG = range(5)
 
-SMALLEST_PART = 1e-10
-"""A step shorter than this part of the run is refused: the run would not end."""
+MOST_STEPS = 1e9
+"""More steps are refused: the run would take hours or never end."""
+SMALLEST_PART = 1.0 / MOST_STEPS
+"""A step shorter than this part of the run is refused."""
 
 FAULTS = {
     STEP_TOO_SMALL: "the step fell below what rounding or the length of the run allows",

@@ -2,7 +2,8 @@
 
 Journal of Computational and Applied Mathematics 142 (2002) 313, table 2. A step alternates between
 the flow of the linear terms, summed as a power series to the last digit, and the exact flow of the
-others: each is symplectic, so that the energy errs but does not drift.
+others: each is symplectic, so that the energy errs but does not drift. Sines and cosines of the
+C library make the last bits depend on the machine.
 """
 
 import numpy as np

@@ -18,6 +18,8 @@ from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 ORDER = 16
 ARRAYS = 2 * (ORDER + 1) + 1
 WORK = 3 * ARRAYS  # arrays of the size of a state: rows of one site grow from 3 to 8 columns
+SQUARES = 1e-280
+"""Below this, squares lose digits or vanish."""
 
 
 class Series(NamedTuple):
@@ -48,15 +50,35 @@ def lay_out(work, y):
 
 
 @kernel
+def rest(y, scratch):
+    """Write zeros beyond the last site."""
+    for row in range(y.shape[0]):
+        for j in range(y.shape[1] - 1, scratch.shape[1]):
+            scratch[row, j] = 0.0
+
+
+@kernel
 def size(y, scratch):
-    """Return the largest modulus of a component."""
+    """Return the largest modulus of a component, or where its square vanishes the largest part."""
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             scratch[re // 2, j] = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-        for j in range(y.shape[1], scratch.shape[1]):
-            scratch[re // 2, j] = 0.0
-        scratch[re // 2, y.shape[1] - 1] = 0.0
-    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
+    rest(y, scratch)
+    square = largest_of_rows(scratch, y.shape[0] // 2)
+    if square < SQUARES:
+        copy(y, scratch)
+        rest(y, scratch)
+        return largest_of_rows(scratch, y.shape[0])
+    return sqrt(square)
+
+
+@kernel
+def power(x, n):
+    """Return x^n for a whole n; `x**n` would be the C library's, whose last bits vary."""
+    product = 1.0
+    for _ in range(n):
+        product *= x
+    return product
 
 
 @kernel
@@ -65,16 +87,16 @@ def root(x, n):
     if not 0.0 < x < np.inf:
         return x
     guess = 1.0
-    while guess**n < x:
+    while power(guess, n) < x:
         guess *= 2.0
-    while (0.5 * guess) ** n >= x:
+    while power(0.5 * guess, n) >= x:
         guess *= 0.5
     # now within a factor of two above: halve the distance of the logarithms four times
     for factor in (0.7071067811865476, 0.8408964152537145, 0.9170040432046712, 0.9576032806985737):
-        if (factor * guess) ** n >= x:
+        if power(factor * guess, n) >= x:
             guess *= factor
     for _ in range(3):  # Newton's iteration
-        guess -= (guess - x / guess ** (n - 1)) / n
+        guess -= (guess - x / power(guess, n - 1)) / n
     return guess
 
 

@@ -1,0 +1,24 @@
+"""Run the hard cases: a dataset of what each solver made of them, and a table to read."""
+
+from pathlib import Path
+
+from pendula.datasets import write
+from pendula.files import complete_or_absent
+from pendula.torture.table import outcomes, page, variables
+
+
+def run_hard_cases(data: str, table: str, kernels: list[str] | tuple = ()) -> None:
+    """Write both; a row that does not end as expected is said here and marked in the table."""
+    results = outcomes()
+    write(data, variables(results), {"title": "Hard cases for the solvers"})
+    with complete_or_absent(table) as partial:
+        Path(partial).write_text(f"{page(results)}\n", encoding="utf-8")
+    for result in results:
+        if not result.sound:
+            print(f"NOT AS EXPECTED: {result.case}, {result.solver}: {result.error:.3g} ")
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(run_hard_cases, snakemake)  # noqa: F821

@@ -1,0 +1,45 @@
+"""A solver made slightly wrong is seen: comparison with SciPy's solution has the teeth for it."""
+
+import numpy as np
+import pytest
+from pendula import simulation, solvers
+from pendula.chain import rates
+from pendula.integrators import dop853, dop853_stages
+from pendula.lattice import Reduction, place
+from pendula.observables import observe
+from pendula.simulation import integrate, output_times
+
+CASE, TAU = "fig2_large", 5.0
+TIGHT = {"name": "dop853", "rtol": 1e-13, "atol": 1e-13}
+
+
+def error(exact) -> float:
+    """Return the largest error of a component at the end."""
+    data, even = place({0: (5.0, 1.0)}, 30), Reduction(even=True, synchronised=False)
+    times = output_times(TAU, TAU)
+    final = integrate((1.0, 1.0, 8.0), "dirichlet", data, even, times, TIGHT).final
+    return float(np.abs(final - exact).max())
+
+
+@pytest.fixture
+def wrong_dop853(monkeypatch):
+    """Put in place of dop853 one whose last weight is wrong in the seventh digit."""
+    weights = list(dop853_stages.A13)
+    weights[-1] *= 1.0 + 1e-7
+    # compiled afresh from the plain function: the cached kernel has the right weights built in
+    namespace = {**vars(dop853_stages), "A13": tuple(weights)}
+    plain = dop853_stages.combine.py_func
+    changed = type(plain)(plain.__code__, namespace)
+    import numba
+
+    monkeypatch.setattr(dop853, "combine", numba.njit(error_model="numpy")(changed))
+    wrong = numba.njit(error_model="numpy")(dop853.build(rates, observe).py_func)
+    monkeypatch.setitem(simulation.SOLVERS, "dop853", solvers.SOLVERS["dop853"]._replace(run=wrong))
+
+
+def test_the_right_solver_agrees_with_scipy(scipy_solution):
+    assert error(scipy_solution(CASE, TAU)) < 1e-9
+
+
+def test_one_weight_wrong_in_the_seventh_digit_is_seen(wrong_dop853, scipy_solution):
+    assert error(scipy_solution(CASE, TAU)) > 1e-8

@@ -1,0 +1,19 @@
+# What the solvers do where they are most likely to fail.
+
+
+rule hard_cases:
+    "Hard cases: digits with their error, or a refusal in words, of every solver"
+    input:
+        code=code("torture/run_hard_cases.py"),
+        kernels=kernels(*ALL_SOLVERS, "taylor"),
+    output:
+        data="results/checks/hard_cases.nc",
+        table="results/tables/hard_cases.md",
+    log:
+        "results/logs/checks/hard_cases.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Running the solvers on hard cases"
+    script:
+        "../../scripts/torture/run_hard_cases.py"
