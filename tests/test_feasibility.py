@@ -66,7 +66,7 @@ def test_a_result_that_overflows_is_no_result(name):
     """Amplitudes of 1e80 can be followed for a moment, but their energy overflows."""
     controls = SOLVERS[name] | ({"step": 1e-162} if "step" in SOLVERS[name] else {})
     controls |= {"atol": 1e70} if "atol" in controls else {}
-    with pytest.raises(IntegrationError, match="overflow|finite|unit of time|step fell"):
+    with pytest.raises(IntegrationError, match=r"overflow|finite|unit of time|step fell"):
         integrate(
             NUMBERS, "dirichlet", 1e80 * random_chain(1), WHOLE, np.array([0.0, 1e-160]), controls
         )
