@@ -5,7 +5,12 @@ from pendula.datasets import write
 
 
 def measure_symmetry(
-    data: str, problems: dict[str, dict], size: float, members: int, seed: int
+    data: str,
+    problems: dict[str, dict],
+    size: float,
+    members: int,
+    seed: int,
+    kernels: list[str] | tuple = (),
 ) -> None:
     """Follow the odd part of each case, alone and with perturbations of relative `size`."""
     attributes = {"perturbation": size, "members": members, "seed": seed}

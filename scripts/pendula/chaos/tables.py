@@ -33,6 +33,9 @@ def largest_exponents(problems: dict[str, dict], end_time: float) -> dict[str, V
             tau=(runs[0][0].tau, "slow time"),
         ),
         "stretch": Variable(series, stretch, "logarithm of the growth of a small change"),
+        "size": Variable(
+            ("case", "tau"), [even.size for even, _ in runs], "l2 norm of the solution"
+        ),
         "amplification": Variable(
             ("case", "tau"), amplified, "logarithm of relative error per error made a unit of tau"
         ),
@@ -57,9 +60,9 @@ def parting_times(problems: dict[str, dict], tolerances, growth: dict) -> dict[s
         seen.append([parting.predict(tau, log, e) for e in made])
         measured.append(found.time)
         rounding.append(parting.predict(tau, log, parting.ROUNDING))
-    grid = ("case", "tolerance")
+    grid = ("case", "rtol")
     return {
-        **_coordinates(tolerance=(np.asarray(tolerances), "tolerance of dop853")),
+        **_coordinates(rtol=(np.asarray(tolerances), "tolerance of dop853")),
         "parting_bound": Variable(
             grid, bound, "parting with the tolerance made at each step", "tau"
         ),
