@@ -18,7 +18,7 @@ MEDIAN = {"color": "#a32214", "lw": 1.0}
 MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
 OWN = {"color": style.BLUE, "lw": 0.6}
 OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
-NORM = r"$\ell^2$ of $(A, B)$"
+NORM = r"$\ell^2$ norm"
 
 
 def gather(
@@ -65,6 +65,7 @@ def draw(data: xr.Dataset) -> Figure:
     for axes, name in zip(below, data["sweep"].values, strict=True):
         _draw_sweep(axes, data.sel(sweep=name))
     above[0].set_ylabel(NORM)
+    above[0].set_ylim(bottom=0)
     figure.legend(handles=_legend(), loc="outside upper center", ncols=3)
     return figure
 
@@ -76,7 +77,6 @@ def _draw_bands(axes: Axes, case: xr.Dataset) -> None:
     axes.plot(case["tau"], case["l2"].sel(quantile=0.5), **MEDIAN)
     axes.plot(case["tau"], case["run"], **OWN)
     axes.set_xlim(0, float(case["tau"].max()))
-    axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\tau$")
     axes.set_title(style.name_case(case), loc="left")
 
@@ -93,7 +93,7 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.set_ylim(bottom=0)
     axes.set_xlabel("half-width $M$")
-    axes.set_ylabel(f"max of {NORM} on {sweep['swept_window'].item()}")
+    axes.set_ylabel(f"largest {NORM} on {sweep['swept_window'].item()}")
     labels = {"swept_omega": "omega", "swept_initial": "initial"}
     axes.set_title(style.name_case(sweep[list(labels)].rename(labels)), loc="left")
 
@@ -107,6 +107,5 @@ def _legend() -> list:
         *bands,
         Line2D([], [], label="median", **MEDIAN),
         Line2D([], [], label="mean and standard deviation", **MEAN),
-        Line2D([], [], label="the paper's solver, one run", **{**OWN, "lw": 1.6}),
-        Line2D([], [], label="the same", **OWN_DOT),
+        Line2D([], [], label="one run by the paper's solver", **{**OWN_DOT, "linestyle": "-"}),
     ]

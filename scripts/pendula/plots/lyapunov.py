@@ -43,11 +43,18 @@ def _look(data: xr.Dataset, case: str) -> dict:
     return {"color": colour, "lw": WIDTHS.get(str(case).rpartition("_")[2], 1.0)}
 
 
+def _marked(data: xr.Dataset, case: str) -> dict:
+    """Return the same with a dot, hollow for small data."""
+    look = _look(data, case)
+    face = look["color"] if look["lw"] > 1 else "white"
+    return {**look, "marker": "o", "markersize": 4, "markerfacecolor": face}
+
+
 def _draw_running(axes: Axes, data: xr.Dataset) -> None:
     for case in data["case"].values:
         for parity in data["parity"].values:
             curve = data["running"].sel(case=case, parity=parity)
-            shown = curve.where(curve > 0)
+            shown = abs(curve.isel(tau=_evenly_on_log(curve["tau"])))
             axes.plot(shown["tau"], shown, dashes=DASHES[parity], **_look(data, case))
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -56,6 +63,11 @@ def _draw_running(axes: Axes, data: xr.Dataset) -> None:
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("mean rate of growth (per unit of $\\tau$)")
     axes.set_title("one small change", loc="left")
+
+
+def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
+    """Return where to sample equal steps of time so that a logarithmic axis is not crowded."""
+    return np.unique(np.geomspace(1, tau.size, count).round().astype(int)) - 1
 
 
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
@@ -78,12 +90,10 @@ def _draw_parting(axes: Axes, data: xr.Dataset) -> None:
     for case in data["case"].values:
         predicted = data["parting_predicted"].sel(case=case)
         measured = data["parting_measured"].sel(case=case)
-        look = _look(data, case)
-        filled = look["color"] if look["lw"] > 1 else "white"
+        look = _marked(data, case) | {"linestyle": "none"}
         for marker, rtol in zip(MARKERS, data["rtol"].values, strict=False):
             point = predicted.sel(rtol=rtol), measured.sel(rtol=rtol)
-            look_of_point = {"marker": marker, "color": look["color"], "markerfacecolor": filled}
-            axes.plot(*point, linestyle="none", markersize=4, markeredgewidth=0.9, **look_of_point)
+            axes.plot(*point, **look | {"marker": marker})
             tops.append(np.nanmax([1.0, *map(float, point)]))
     top = 1.1 * max(tops)
     axes.plot([0, top], [0, top], color="black", lw=0.8)
@@ -105,7 +115,7 @@ def _power(tolerance: float) -> str:
 
 def _legend(data: xr.Dataset) -> list[Line2D]:
     cases = [
-        Line2D([], [], label=style.name_case(data.sel(case=case)), **_look(data, case))
+        Line2D([], [], label=style.name_case(data.sel(case=case)), **_marked(data, case))
         for case in data["case"].values
     ]
     parities = [

@@ -29,7 +29,7 @@ def draw(data: xr.Dataset) -> Figure:
     panels = by_case.panels(figure, data)
     for axes, case in zip(panels, data["case"].values, strict=True):
         _draw_panel(axes, data.sel(case=case))
-    by_case.label_left(panels, "odd part, of the whole")
+    by_case.label_left(panels, r"odd part / whole, $\ell^2$ norms")
     style.name_legend(figure, panels[0])
     return figure
 
