@@ -15,7 +15,7 @@ SIZE = 1e-12
 
 
 def lyapunov() -> xr.Dataset:
-    """Return exponents whose changes grow at RATES from the start, on solutions of constant size."""
+    """Return exponents of changes that grow at RATES, on solutions of constant size."""
     tau, rtol = np.linspace(0.0, 20.0, 81), [1e-6, 1e-9, 1e-12]
     spectrum = np.array([np.linspace(2.0, -2.0, 12)])
     parting = np.array([[np.nan] * 3, [8.0, 12.0, 16.0]])
