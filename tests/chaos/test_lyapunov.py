@@ -6,6 +6,7 @@ from oracle import CASES, random_chain
 from pendula.chain import Chain
 from pendula.chain_tangent import ROWS
 from pendula.chaos import lyapunov
+from pendula.chaos.changes import PARITIES
 from pendula.chaos.orthonormal import inner, orthonormalise
 from pendula.chaos.tangents import Growth
 from pendula.lattice import Reduction, choose_ends, pack
@@ -62,13 +63,13 @@ def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
     assert products[1] == pytest.approx(products[0], rel=1e-13)
 
 
-@pytest.mark.parametrize("parity", lyapunov.PARITIES)
+@pytest.mark.parametrize("parity", PARITIES)
 def test_the_chain_is_chaotic_at_omega_zero(parity):
     growth = lyapunov.follow_parity(problem("fig4_small", 15), parity, 60.0)
     assert lyapunov.exponents(growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
 
 
-@pytest.mark.parametrize("parity", lyapunov.PARITIES)
+@pytest.mark.parametrize("parity", PARITIES)
 def test_small_data_at_omega_minus_4_are_regular(parity):
     growth = lyapunov.follow_parity(problem("fig3_small", 15), parity, 60.0)
     assert abs(lyapunov.exponents(growth, 20.0)[0]) < 0.02

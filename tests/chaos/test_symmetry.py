@@ -5,7 +5,7 @@ import pytest
 from oracle import BOUNDARIES, CASES, random_chain, slope
 from pendula.chain import Chain
 from pendula.chaos import symmetry
-from pendula.chaos.lyapunov import random_change
+from pendula.chaos.changes import random_change
 from pendula.chaos.tangents import grow
 from pendula.lattice import Reduction, choose_ends, pack, place, unpack
 

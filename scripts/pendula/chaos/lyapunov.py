@@ -7,16 +7,10 @@ vanish: those along the flow and across the energy.
 import numpy as np
 
 from ..lattice import place
+from .changes import PARITIES, random_change
 from .tangents import Growth, grow
 
-PARITIES = ("even", "odd")
 SEED = 20170817
-
-
-def random_change(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
-    """Return complex Gaussian amplitudes (2, N), even or odd in n to the last bit, or neither."""
-    z = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
-    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]
 
 
 def follow_parity(problem: dict, parity: str, end_time: float, **controls) -> Growth:

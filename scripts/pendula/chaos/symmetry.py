@@ -15,7 +15,7 @@ from ..integrators import dop853
 from ..integrators.outcome import DONE, FAULTS
 from ..lattice import Reduction, choose_ends, pack, place
 from ..simulation import IntegrationError, aligned, output_times
-from .lyapunov import random_change
+from .changes import random_change
 
 FULL = Reduction(even=False, synchronised=False)
 BROKEN = 0.01

@@ -5,7 +5,8 @@ import numpy as np
 from ..datasets import Variable
 from . import parting
 from .cases import describe_cases
-from .lyapunov import PARITIES, exponents, follow_all, follow_parity, spread_of
+from .changes import PARITIES
+from .lyapunov import exponents, follow_all, follow_parity, spread_of
 
 RATE = "tau-1"
 SAMPLED = 4  # every so many orthonormalisations the spectrum on its way is kept
