@@ -14,7 +14,7 @@ from . import style
 from .sweeps import TICKS
 
 BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
-MEDIAN = {"color": "#a32214", "lw": 1.0}
+MEDIAN = {"color": style.RED, "lw": 1.3}
 MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
 OWN = {"color": style.BLUE, "lw": 0.6}
 OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
@@ -91,7 +91,8 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.xaxis.set_major_locator(FixedLocator(TICKS))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.set_ylim(bottom=0)
+    tops = sweep["l2_mean"] + sweep["l2_deviation"], sweep["swept_run"]
+    axes.set_ylim(0, 1.08 * max(float(top.max()) for top in tops))
     axes.set_xlabel("half-width $M$")
     axes.set_ylabel(f"largest {NORM} on {sweep['swept_window'].item()}")
     labels = {"swept_omega": "omega", "swept_initial": "initial"}
