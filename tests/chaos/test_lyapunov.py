@@ -79,7 +79,12 @@ def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts()
     tau = np.arange(0.0, 81.0)
     wiggle = np.where(tau // 10 % 2 == 0, 1.0, -1.0)
     stretch = 0.5 * tau + np.concatenate([[0.0], np.cumsum(0.1 * wiggle[:-1])])
-    growth = Growth(tau, stretch[None], np.ones(81), 1.0)
+    growth = Growth(tau, stretch[None], np.ones(81))
     assert lyapunov.exponents(growth, 0.0) == pytest.approx([0.5])
     assert lyapunov.spread_of(growth, 0.0) == pytest.approx([0.1 / np.sqrt(7)])
-    np.testing.assert_allclose(lyapunov.running_exponents(growth)[0, 19], 0.5)
+
+
+def test_data_that_are_not_even_have_no_parities():
+    lopsided = {**problem("fig3_small", 2), "initial": {1: (1.0, 0.1)}}
+    with pytest.raises(ValueError, match="even in n"):
+        lyapunov.follow_parity(lopsided, "odd", 1.0)

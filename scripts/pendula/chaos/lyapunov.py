@@ -6,7 +6,7 @@ vanish: those along the flow and across the energy.
 
 import numpy as np
 
-from ..lattice import place
+from ..lattice import find_reduction, place
 from .changes import PARITIES, random_change
 from .tangents import Growth, grow
 
@@ -20,6 +20,8 @@ def follow_parity(problem: dict, parity: str, end_time: float, **controls) -> Gr
     change finds the fastest direction among those of its parity.
     """
     amplitudes = place(problem["initial"], problem["half_width"])
+    if not find_reduction(amplitudes).even:
+        raise ValueError("changes keep their parity only along data that are even in n")
     rng = np.random.default_rng([SEED, PARITIES.index(parity)])
     changes = random_change(amplitudes.shape[1], parity, rng)[None]
     return grow(*_fixed(problem), amplitudes, changes, end_time, parity == "even", **controls)
@@ -36,11 +38,6 @@ def follow_all(problem: dict, end_time: float, **controls) -> Growth:
 
 def _fixed(problem: dict) -> tuple:
     return tuple(problem[key] for key in ("epsilon", "gamma", "omega")), problem["boundary"]
-
-
-def running_exponents(growth: Growth) -> np.ndarray:
-    """Return the mean rate of growth since tau = 0 at each later time, (change, time - 1)."""
-    return growth.stretch[:, 1:] / growth.tau[1:]
 
 
 def exponents(growth: Growth, start: float) -> np.ndarray:

@@ -15,7 +15,7 @@ from ..compiled import kernel
 from ..integrators import dop853
 from ..integrators.outcome import DONE, FAULTS
 from ..lattice import Reduction, choose_ends, pack
-from ..simulation import IntegrationError, aligned
+from ..simulation import IntegrationError, aligned, output_times
 from .orthonormal import inner, orthonormalise
 
 STEP = 0.25
@@ -29,7 +29,6 @@ class Growth(NamedTuple):
     tau: np.ndarray  # (time,)
     stretch: np.ndarray  # (change, time), logarithm of the growth since tau = 0
     size: np.ndarray  # (time,), l2 norm of the solution itself
-    steps: float  # of the solver per unit of tau
 
 
 @kernel
@@ -44,17 +43,15 @@ solve = dop853.build(bundle_rates, observe_nothing)
 def carry(chain, bundle, span, controls, work, record, stretches, sizes):
     """Carry the bundle over as many spans of time as `stretches` (span, change) has rows.
 
-    Return the status of the solver and its number of steps.
+    Return the status of the solver.
     """
-    steps = 0
     for i in range(stretches.shape[0]):
         outcome = solve(chain, bundle, span, controls, work, record)
-        steps += outcome.steps + outcome.rejected
         if outcome.status != DONE:
-            return outcome.status, steps
+            return outcome.status
         orthonormalise(chain, bundle, stretches[i])
         sizes[i] = sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
-    return DONE, steps
+    return DONE
 
 
 def grow(
@@ -74,17 +71,16 @@ def grow(
     reduction = Reduction(even, synchronised=False)
     chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
     bundle = np.concatenate([pack(state, reduction) for state in (amplitudes, *changes)])
-    count = round(end_time / step)
-    stretches, sizes = np.empty((1 + count, len(changes))), np.empty(1 + count)
+    tau = output_times(end_time, step)
+    stretches, sizes = np.empty((tau.size, len(changes))), np.empty(tau.size)
     orthonormalise(chain, bundle, stretches[0])
     stretches[0] = 0.0
     sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
-    span, record = np.array([0.0, end_time / count]), np.empty(0)
+    span, record = tau[:2], np.empty(0)
     work = aligned((dop853.WORK, *bundle.shape))
-    status, steps = carry(
+    status = carry(
         chain, bundle, span, (tolerance, tolerance), work, record, stretches[1:], sizes[1:]
     )
     if status != DONE:
         raise IntegrationError(f"the changes could not be followed: {FAULTS[status]}")
-    tau = end_time * np.arange(count + 1) / count
-    return Growth(tau, stretches.cumsum(axis=0).T, sizes, steps / end_time)
+    return Growth(tau, stretches.cumsum(axis=0).T, sizes)
