@@ -31,9 +31,12 @@ ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrate
 AUTOMATIC = ["dop853", "taylor"]  # that `auto` chooses from
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+CHAOTIC_CASES = ["fig3_large", "fig4_small", "fig4_large"]
+CHAOTIC_SWEEPS = ["fig5_right", "fig6_right"]
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
+CHAOS_CHECKS = ["lyapunov", "symmetry", "ensembles"]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
