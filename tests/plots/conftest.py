@@ -95,8 +95,8 @@ def gathered(make_trajectory, trajectories, make_sweep):
         norms,
         spacetime,
         stability_chart,
-        trust,
         symmetry,
+        trust,
     )
     from pendula.plots import sweeps as sweep_plot
 
