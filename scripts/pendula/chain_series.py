@@ -12,7 +12,7 @@ from .compiled import kernel, merged
 from .vectors import LANES, fill, load, store
 
 # not cached on its own: its cache would not notice a change in `vectors`
-linear_vector = merged(linear_field.py_func)
+linear_vector = merged(getattr(linear_field, "py_func", linear_field))
 
 
 @merged

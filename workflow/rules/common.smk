@@ -6,7 +6,7 @@ from snakemake.exceptions import WorkflowError
 
 sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
-from code_records import code
+from code_records import code, committed
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
 from pendula.speed.regimes import REGIMES
@@ -56,7 +56,7 @@ def kernels(*solvers):
 
 
 def references(*cases):
-    return [f"{workflow.basedir}/tests/baseline/reference/{case}.nc" for case in cases]
+    return [committed(f"tests/baseline/reference/{case}.nc") for case in cases]
 
 
 def by_solvers(stem, solvers):
