@@ -1,4 +1,5 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
+import glob
 import os
 import sys
 

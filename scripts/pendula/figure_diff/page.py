@@ -1,0 +1,115 @@
+"""The comparison as one page of HTML that holds its pictures and asks nothing of the network."""
+
+import base64
+import io
+from collections import Counter
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from . import pictures
+from .findings import IDENTICAL, NEARLY, STATUSES, Finding
+from .page_style import STYLE
+
+THUMBNAIL = 320
+"""Width in pixels of pictures that are identical; the others are shown whole."""
+
+
+def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
+    """Return the page; pictures are read from below `made` and from the baseline's folder."""
+    counts = Counter(finding.status for finding in findings)
+    faults = sum(finding.is_fault for finding in findings)
+    verdict = f"{faults} faults" if faults else "no faults"
+    tally = " ".join(
+        f'<a class="{_slug(s)}" href="#{_slug(s)}">{counts[s]} {s}</a>' for s in STATUSES
+    )
+    sections = [_section(s, [f for f in findings if f.status == s], made, folder) for s in STATUSES]
+    return (
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">\n'
+        f"<title>Figure diff: {verdict}</title>\n<style>{STYLE}</style></head>\n<body>\n"
+        f'<h1>Figure diff: {verdict}</h1>\n<p class="tally">{tally}</p>\n<p>{escape(note)}</p>\n'
+        + "".join(sections)
+        + "</body></html>\n"
+    )
+
+
+def _section(status: str, findings: list[Finding], made: Path, folder: Path) -> str:
+    if not findings:
+        return ""
+    drawn = [finding for finding in findings if finding.name.endswith(".png")]
+    told = [finding for finding in findings if finding not in drawn]
+    head = f'<h2 id="{_slug(status)}" class="{_slug(status)}">{status.capitalize()}</h2>\n'
+    return head + _list(told, status) + _shown(drawn, status, made, folder)
+
+
+def _list(findings: list[Finding], status: str) -> str:
+    if not findings:
+        return ""
+    rows = "".join(
+        f"<tr><td>{escape(f.name)}</td><td>{escape(f.says)}</td></tr>\n" for f in findings
+    )
+    opened = "" if status in (IDENTICAL, NEARLY) else " open"
+    summary = f"<summary>{len(findings)} datasets</summary>"
+    return f"<details{opened}>{summary}\n<table>{rows}</table></details>\n"
+
+
+def _shown(findings: list[Finding], status: str, made: Path, folder: Path) -> str:
+    if status == IDENTICAL:
+        shown = [_figure(_thumbnail(made / f.name), f.name) for f in findings]
+        return f'<div class="thumbnails">{"".join(shown)}</div>\n'
+    return "".join(_side_by_side(finding, made, folder) for finding in findings)
+
+
+def _side_by_side(finding: Finding, made: Path, folder: Path) -> str:
+    was, now = (_pixels(path / finding.name) for path in (folder, made))
+    three = {"reference": was, "new": now, "difference": _difference(was, now)}
+    shown = "".join(_figure(_png(pixels), name) for name, pixels in three.items())
+    head = f"<h3>{escape(finding.name)}</h3><p>{escape(finding.says)}</p>"
+    return f'{head}<div class="three">{shown}</div>\n'
+
+
+def _pixels(path: Path) -> np.ndarray | None:
+    try:
+        return pictures.read(path).pixels
+    except pictures.PictureError:
+        return None
+
+
+def _difference(was: np.ndarray | None, now: np.ndarray | None) -> np.ndarray | None:
+    """Return what both share in light grey, what went in red and what came in blue."""
+    if was is None or now is None or was.shape != now.shape:
+        return None
+    old, new = (255 - pixels.astype(np.int16).min(-1) for pixels in (was, now))
+    apart = abs(was.astype(np.int16) - now).max(-1)
+    shared = 255 - np.minimum(old, new) // 5
+    went, came = apart * (old >= new), apart * (new > old)
+    layers = [shared - came, shared - came - went, shared - went]
+    return np.stack(layers, -1).clip(0, 255).astype(np.uint8)
+
+
+def _thumbnail(path: Path) -> str:
+    image = Image.fromarray(pictures.read(path).pixels)
+    image.thumbnail((THUMBNAIL, THUMBNAIL), reducing_gap=2)
+    return _png(np.asarray(image))
+
+
+def _png(pixels: np.ndarray | None) -> str:
+    """Return a picture as an address that holds it, or nothing."""
+    if pixels is None:
+        return ""
+    kept = io.BytesIO()
+    Image.fromarray(pixels).save(kept, "png", compress_level=3)
+    return f"data:image/png;base64,{base64.b64encode(kept.getvalue()).decode()}"
+
+
+def _figure(address: str, caption: str) -> str:
+    title = escape(caption)
+    image = f'<img src="{address}" alt="{title}">' if address else '<p class="none">none</p>'
+    return f"<figure>{image}<figcaption>{title}</figcaption></figure>"
+
+
+def _slug(status: str) -> str:
+    return status.replace(" ", "_")
