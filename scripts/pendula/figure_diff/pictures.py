@@ -33,14 +33,10 @@ def read(path: Path) -> Picture:
     return Picture(pixels, boxes)
 
 
-def inks(pixels: np.ndarray, factor: int = 1) -> np.ndarray:
-    """Return darkness and two colour contrasts, each 0 on white, averaged over small squares.
+def inks(pixels: np.ndarray) -> np.ndarray:
+    """Return darkness and two colour contrasts, each 0 on white.
 
     Contrasts are zero on grey, so that text drawn otherwise changes darkness alone.
     """
-    height, width = (size // factor for size in pixels.shape[:2])
-    cut = pixels[: height * factor, : width * factor].astype(np.float32) / 255
-    red, green, blue = np.moveaxis(
-        cut.reshape(height, factor, width, factor, 3).mean((1, 3), dtype=np.float32), -1, 0
-    )
+    red, green, blue = np.moveaxis(pixels.astype(np.float32) / 255, -1, 0)
     return np.stack([1 - (red + green + blue) / 3, red - green, green - blue])
