@@ -11,10 +11,11 @@ import numpy as np
 
 from .pictures import Picture, inks
 
+REDUCED = 2
 NEAR = 15
 """Edges of panels closer than so many pixels are one cut."""
-LEAST = 250.0
-"""Ink of a cell that counts as nothing, in black pixels: one small letter or a tick or two."""
+LEAST = 250.0 / REDUCED**2
+"""Ink of a cell that counts as nothing: of 250 black pixels, one small letter or a tick or two."""
 
 
 def changes(reference: Picture, new: Picture) -> tuple[float, str]:
@@ -35,13 +36,13 @@ def _totals(picture: Picture) -> np.ndarray:
     height, width = picture.pixels.shape[:2]
     rows = _cuts([edge for box in picture.panels for edge in (box[1], box[3])], height)
     columns = _cuts([edge for box in picture.panels for edge in (box[0], box[2])], width)
-    dark, warm, cold = inks(picture.pixels)
+    dark, warm, cold = inks(picture.pixels, REDUCED)
     signed = [part.clip(0) for contrast in (warm, cold) for part in (contrast, -contrast)]
     kinds = np.stack([dark, *signed])
-    summed = np.add.reduceat(np.add.reduceat(kinds, rows[:-1], axis=1), columns[:-1], axis=2)
-    return summed
+    return np.add.reduceat(np.add.reduceat(kinds, rows, axis=1), columns, axis=2)
 
 
 def _cuts(edges: list[int], size: int) -> list[int]:
     edges = sorted({0, size, *(min(max(edge, 0), size) for edge in edges)})
-    return [0, *(after for before, after in pairwise(edges) if after - before >= NEAR)]
+    kept = [0, *(after for before, after in pairwise(edges) if after - before >= NEAR)]
+    return [edge // REDUCED for edge in kept if edge < size]

@@ -10,11 +10,14 @@ from .look import REDUCED
 from .pictures import Picture
 from .tolerances import LIMITS
 
+HALF_LETTER = 20
 EXACT, LOOK = "exact", "look"
 
 
 def compare(name: str, reference: Path, new: Path, method: str, moved: bool) -> Finding:
     """Return what became of a picture; `moved`: the curves in it are known to have moved."""
+    if reference.read_bytes() == new.read_bytes():
+        return Finding(name, IDENTICAL)
     pair = []
     for path, which in ((reference, "the picture of the baseline"), (new, "the picture")):
         try:
@@ -48,14 +51,14 @@ def _by_pixels(was: np.ndarray, now: np.ndarray) -> tuple[str, str]:
 def _by_look(was: np.ndarray, now: np.ndarray) -> tuple[str, str]:
     apart = look.unlikeness(was, now)
     status = DIFFERENT if apart.max() > LIMITS.look else NEARLY
-    where = _where(apart > min(LIMITS.look, 0.99 * apart.max()), REDUCED)
+    where = _where(apart >= min(LIMITS.look, apart.max()), REDUCED)
     return status, f"looks unlike by up to {apart.max():.2f} (allowed {LIMITS.look}), in {where}"
 
 
 def _by_ink(was: Picture, now: Picture) -> tuple[str, str]:
     change, says = cells.changes(was, now)
-    head = min((box[1] for box in was.panels), default=0)
-    # the legend and the titles above the panels do not depend on the curves
+    # the legend and the titles above the panels do not depend on the curves; the topmost tick does
+    head = min((box[1] for box in was.panels), default=0) - HALF_LETTER
     if head > REDUCED and _by_look(was.pixels[:head], now.pixels[:head])[0] == DIFFERENT:
         return DIFFERENT, "what stands above the panels looks different"
     status = DIFFERENT if change > LIMITS.totals else NEARLY

@@ -11,7 +11,6 @@ import itertools
 from collections.abc import Iterator
 
 import numpy as np
-from PIL import Image
 from scipy.ndimage import gaussian_filter, uniform_filter
 
 from .pictures import inks
@@ -35,8 +34,7 @@ def unlikeness(reference: np.ndarray, new: np.ndarray, shift: int = SHIFT) -> np
 
 
 def _blurred(pixels: np.ndarray, margin: int) -> np.ndarray:
-    reduced = np.asarray(Image.fromarray(pixels).reduce(REDUCED))
-    channels = np.pad(inks(reduced), [(0, 0), (margin, margin), (margin, margin)])
+    channels = np.pad(inks(pixels, REDUCED), [(0, 0), (margin, margin), (margin, margin)])
     return gaussian_filter(channels, (0, BLUR, BLUR))
 
 

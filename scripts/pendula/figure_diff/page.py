@@ -24,7 +24,8 @@ def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> 
     faults = sum(finding.is_fault for finding in findings)
     verdict = f"{faults} faults" if faults else "no faults"
     tally = " ".join(
-        f'<a class="{_slug(s)}" href="#{_slug(s)}">{counts[s]} {s}</a>' for s in STATUSES
+        f'<a class="{_slug(s) if counts[s] else "none_of"}" href="#{_slug(s)}">{counts[s]} {s}</a>'
+        for s in STATUSES
     )
     sections = [_section(s, [f for f in findings if f.status == s], made, folder) for s in STATUSES]
     return (
@@ -64,11 +65,21 @@ def _shown(findings: list[Finding], status: str, made: Path, folder: Path) -> st
 
 
 def _side_by_side(finding: Finding, made: Path, folder: Path) -> str:
-    was, now = (_pixels(path / finding.name) for path in (folder, made))
-    three = {"reference": was, "new": now, "difference": _difference(was, now)}
-    shown = "".join(_figure(_png(pixels), name) for name, pixels in three.items())
+    paths = [path / finding.name for path in (folder, made)]
+    three = {
+        "reference": _embedded(paths[0]),
+        "new": _embedded(paths[1]),
+        "difference (grey: same, red: gone, blue: new)": _png(
+            _difference(*(_pixels(path) for path in paths))
+        ),
+    }
+    shown = "".join(_figure(address, name) for name, address in three.items())
     head = f"<h3>{escape(finding.name)}</h3><p>{escape(finding.says)}</p>"
     return f'{head}<div class="three">{shown}</div>\n'
+
+
+def _embedded(path: Path) -> str:
+    return _address(path.read_bytes()) if _pixels(path) is not None else ""
 
 
 def _pixels(path: Path) -> np.ndarray | None:
@@ -79,12 +90,13 @@ def _pixels(path: Path) -> np.ndarray | None:
 
 
 def _difference(was: np.ndarray | None, now: np.ndarray | None) -> np.ndarray | None:
-    """Return what both share in light grey, what went in red and what came in blue."""
+    """Return, at half the size, what both share in grey, what went in red, what came in blue."""
     if was is None or now is None or was.shape != now.shape:
         return None
-    old, new = (255 - pixels.astype(np.int16).min(-1) for pixels in (was, now))
-    apart = abs(was.astype(np.int16) - now).max(-1)
-    shared = 255 - np.minimum(old, new) // 5
+    was, now = (np.asarray(Image.fromarray(p).reduce(2), np.int16) for p in (was, now))
+    old, new = (255 - pixels.min(-1) for pixels in (was, now))
+    apart = abs(was - now).max(-1)
+    shared = 255 - np.minimum(old, new) // 3
     went, came = apart * (old >= new), apart * (new > old)
     layers = [shared - came, shared - came - went, shared - went]
     return np.stack(layers, -1).clip(0, 255).astype(np.uint8)
@@ -97,12 +109,16 @@ def _thumbnail(path: Path) -> str:
 
 
 def _png(pixels: np.ndarray | None) -> str:
-    """Return a picture as an address that holds it, or nothing."""
     if pixels is None:
         return ""
     kept = io.BytesIO()
     Image.fromarray(pixels).save(kept, "png", compress_level=3)
-    return f"data:image/png;base64,{base64.b64encode(kept.getvalue()).decode()}"
+    return _address(kept.getvalue())
+
+
+def _address(png: bytes) -> str:
+    """Return the address of a picture that holds the picture itself."""
+    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
 
 
 def _figure(address: str, caption: str) -> str:

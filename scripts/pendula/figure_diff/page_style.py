@@ -12,6 +12,7 @@ h3 + p { margin: 0 0 .5rem; color: #4b5364; }
 .different, .damaged, .missing, .extra { color: #b3261e; }
 .nearly_the_same { color: #8a5a00; }
 .identical { color: #20693a; }
+.none_of { color: #8b93a3; }
 table { border-collapse: collapse; margin: .4rem 0; font-size: .9rem; }
 td { padding: .2rem 1.2rem .2rem 0; border-top: 1px solid #e3e6ec; vertical-align: top; }
 td:first-child { white-space: nowrap; font-family: ui-monospace, monospace; }

@@ -33,10 +33,11 @@ def read(path: Path) -> Picture:
     return Picture(pixels, boxes)
 
 
-def inks(pixels: np.ndarray) -> np.ndarray:
-    """Return darkness and two colour contrasts, each 0 on white.
+def inks(pixels: np.ndarray, factor: int) -> np.ndarray:
+    """Return darkness and two colour contrasts, each 0 on white, averaged over small squares.
 
     Contrasts are zero on grey, so that text drawn otherwise changes darkness alone.
     """
-    red, green, blue = np.moveaxis(pixels.astype(np.float32) / 255, -1, 0)
+    reduced = np.asarray(Image.fromarray(pixels).reduce(factor), np.float32) / 255
+    red, green, blue = np.moveaxis(reduced, -1, 0)
     return np.stack([1 - (red + green + blue) / 3, red - green, green - blue])
