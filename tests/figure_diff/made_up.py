@@ -1,4 +1,4 @@
-"""A small run of made-up curves: one regular, one chaotic after its horizon, each with a picture."""
+"""A small run of made-up curves: one regular, one chaotic after its horizon, both drawn."""
 
 from pathlib import Path
 
@@ -32,7 +32,7 @@ def _wander(seed: int, scale: float, horizon: float, level: float) -> np.ndarray
     smooth = np.convolve(noise, np.hanning(41) / np.linalg.norm(np.hanning(41)), "valid")
     known = level + 0.6 * np.sin(3 * TAU)
     beyond = level + 0.6 * scale * smooth
-    return np.where(TAU <= horizon, known, beyond)
+    return np.where(horizon >= TAU, known, beyond)
 
 
 def _dataset(norms: list) -> xr.Dataset:

@@ -39,7 +39,7 @@ def test_a_chaotic_tail_may_take_another_path(any_environment):
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        (chaotic(scale=3.0), "standard deviation"),
+        (chaotic(scale=3.0), "of it is allowed (and 1 more curves)"),
         (change_a(chaotic(), 1.3), "is off by 0.3 of its scale"),
         (chaotic(seed=7, horizon=6.0), "at tau = "),
     ],
