@@ -19,6 +19,8 @@ FIGURES = [
     *("fig5", "fig6"),
     # The paper's second solver, and its claim that the energy is conserved
     *("solver_agreement", "energy_drift"),
+    # How long the trajectories are the true ones, known in multiprecision
+    "trust_horizons",
     # Lemma 1: where the chain at rest is unstable, and how fast it leaves
     *("stability_chart", "growth_rates"),
     # Theorems 1 to 3: observed norms against their bounds
@@ -58,6 +60,8 @@ include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/solvers.smk"
+include: "workflow/rules/reference.smk"
+include: "workflow/rules/trust.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/speed.smk"

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from oracle import boundaries, chains, constants, power_series
 from pendula.chain import Chain
 from pendula.chain_series import next_coefficient
-from pendula.integrators.taylor import Series
+from pendula.integrators.taylor import WORK, lay_out
 from pendula.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 
 ORDER = 7
@@ -16,14 +16,12 @@ WHOLE = Reduction(even=False, synchronised=False)
 def coefficients(z, numbers, boundary, reduction):
     """Return the first coefficients (order + 1, 2, N) by the library, complex."""
     y = pack(z, reduction)
-    c, density = np.zeros((ORDER + 1, *y.shape)), np.full((ORDER + 1, *y.shape), np.nan)
-    c[0], scratch = y, np.full(y.shape, np.nan)
-    flat = (array.reshape(ORDER + 1, -1) for array in (c, density))
-    series = Series(c, density, scratch, *flat, scratch.reshape(-1))
+    series = lay_out(np.full((WORK, *y.shape), np.nan), y)
+    series.c[0, :, : y.shape[1]] = y
     chain = Chain(*numbers, *choose_ends(boundary, reduction))
     for k in range(ORDER):
         next_coefficient(chain, series, k)
-    return np.array([unpack(row, reduction) for row in c])
+    return np.array([unpack(row, reduction) for row in series.c[: ORDER + 1, :, : y.shape[1]]])
 
 
 @pytest.mark.parametrize(("even", "synchronised"), [(0, 0), (1, 0), (0, 1), (1, 1)])

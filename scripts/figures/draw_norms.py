@@ -1,4 +1,4 @@
-"""Figs 2 to 4: norms of A and B against time, and beside them where the chain moves."""
+"""Figs 2 to 4: norms of A and B against time beside the true ones, and where the chain moves."""
 
 from pendula.datasets import read
 from pendula.plots import norms, spacetime
@@ -8,6 +8,7 @@ from pendula.plots.style import save
 def draw_norms(
     small: str,
     large: str,
+    references: list[str],
     png: str,
     pdf: str,
     data: str,
@@ -15,9 +16,9 @@ def draw_norms(
     spacetime_pdf: str,
     spacetime_data: str,
 ) -> None:
-    """Draw the trajectories of small and of large data, and write what was drawn."""
-    trajectories = read(small), read(large)
-    drawn = norms.gather(*trajectories)
+    """Draw small and large data with the true norms of `references`, and write what was drawn."""
+    trajectories = [read(small), read(large)]
+    drawn = norms.gather(trajectories, [read(path) for path in references])
     save(norms.draw(drawn), drawn, png, pdf, data)
     drawn = spacetime.gather(*trajectories)
     save(spacetime.draw(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)

@@ -2,118 +2,107 @@
 
 With A = sum_k a_k (tau - t)^k, i (k + 1) a_{k+1} is the linear part at a_k and half the coefficient
 of |A|^2 A, which two Cauchy products give: first |A|^2, whose coefficients are kept, then that
-times A. Products run over all rows of a state at once: `density` holds |A_n|^2 in the row of the
-real and again in that of the imaginary part.
+times A. Sites go four at a time and orders in pairs: one pass sums the products of an even order k
+in registers, and those of order k + 1 but for the terms that hold its own coefficients, so that
+each number that is loaded serves twice.
 """
 
 from .chain import close, linear_field
-from .compiled import kernel
+from .compiled import kernel, merged
+from .vectors import LANES, fill, load, store
+
+# not cached on its own: its cache would not notice a change in `vectors`
+linear_vector = merged(linear_field.py_func)
 
 
-@kernel
-def put_product(u, v, out):
-    for i in range(out.size):
-        out[i] = u[i] * v[i]
+@merged
+def extend(chain, c, k, re, i, cubic_re, cubic_im):
+    """Write coefficient k + 1 of four sites of a component, whose real parts are at c[0] + i."""
+    row = c.shape[2]
+    order = c.shape[1] * row
+    share, gamma = 1.0 / (k + 1), chain.gamma
+    u = k * order + i
+    v, away = u + row, (c.shape[1] - 2 - 2 * re) * row  # the row itself when A = B
+    of_v = linear_vector(
+        chain, -gamma, load(c, v - 1), load(c, v), load(c, v + 1), load(c, v + away)
+    )
+    of_u = linear_vector(
+        chain, gamma, load(c, u - 1), load(c, u), load(c, u + 1), load(c, u + away)
+    )
+    store(c, u + order, share * (of_v + 0.5 * cubic_im))
+    store(c, v + order, -share * (of_u + 0.5 * cubic_re))
 
 
-@kernel
-def put_2_products(u, v, j, top, out):
-    u0, u1, v0, v1 = u[j], u[j + 1], v[top - j], v[top - j - 1]
-    for i in range(out.size):
-        out[i] = u0[i] * v0[i] + u1[i] * v1[i]
+@merged
+def square(c, density, k, i):
+    """Return coefficient k, even, of |A|^2 at four sites; write it, and k + 1 as far as known."""
+    row = c.shape[2]
+    order = c.shape[1] * row
+    u = i + k // 2 * order
+    x, y = load(c, u), load(c, u + row)
+    sum_x, sum_y = 0.5 * x * x, 0.5 * y * y
+    later_x, later_y = fill(0.0), fill(0.0)
+    low_x, low_y = load(c, i), load(c, i + row)
+    for j in range(1, k // 2 + 1):
+        high, low = i + (k + 1 - j) * order, i + j * order
+        high_x, high_y = load(c, high), load(c, high + row)
+        sum_x, sum_y = sum_x + low_x * high_x, sum_y + low_y * high_y
+        low_x, low_y = load(c, low), load(c, low + row)
+        later_x, later_y = later_x + low_x * high_x, later_y + low_y * high_y
+    total, later = sum_x + sum_y, later_x + later_y
+    total, later = total + total, later + later
+    store(density, i + k * order, total)
+    store(density, i + (k + 1) * order, later)
+    return total
 
 
-@kernel
-def put_3_products(u, v, j, top, out):
-    u0, u1, u2 = u[j], u[j + 1], u[j + 2]
-    v0, v1, v2 = v[top - j], v[top - j - 1], v[top - j - 2]
-    for i in range(out.size):
-        out[i] = (u0[i] * v0[i] + u1[i] * v1[i]) + u2[i] * v2[i]
+@merged
+def even_order(chain, c, density, k, re, i):
+    """Extend four sites from order k; the known cubic terms of k + 1 wait in coefficient k + 2."""
+    row = c.shape[2]
+    order = c.shape[1] * row
+    last = square(c, density, k, i)
+    now_x, now_y, next_x, next_y = fill(0.0), fill(0.0), fill(0.0), fill(0.0)
+    here = load(density, i)
+    for j in range(k):
+        u = i + (k - j) * order
+        x, y = load(c, u), load(c, u + row)
+        now_x, now_y = now_x + here * x, now_y + here * y
+        here = load(density, i + (j + 1) * order)
+        next_x, next_y = next_x + here * x, next_y + here * y
+    if k + 2 < c.shape[0]:
+        store(c, i + (k + 2) * order, next_x)
+        store(c, i + (k + 2) * order + row, next_y)
+    cubic_x, cubic_y = now_x + last * load(c, i), now_y + last * load(c, i + row)
+    extend(chain, c, k, re, i, cubic_x, cubic_y)
 
 
-@kernel
-def put_4_products(u, v, j, top, out):
-    u0, u1, u2, u3 = u[j], u[j + 1], u[j + 2], u[j + 3]
-    v0, v1, v2, v3 = v[top - j], v[top - j - 1], v[top - j - 2], v[top - j - 3]
-    for i in range(out.size):
-        out[i] = (u0[i] * v0[i] + u1[i] * v1[i]) + (u2[i] * v2[i] + u3[i] * v3[i])
-
-
-@kernel
-def add_4_products(u, v, j, top, out):
-    u0, u1, u2, u3 = u[j], u[j + 1], u[j + 2], u[j + 3]
-    v0, v1, v2, v3 = v[top - j], v[top - j - 1], v[top - j - 2], v[top - j - 3]
-    for i in range(out.size):
-        out[i] += (u0[i] * v0[i] + u1[i] * v1[i]) + (u2[i] * v2[i] + u3[i] * v3[i])
-
-
-@kernel
-def sum_products(u, v, count, top, out):
-    """Write the sum of u[j] v[top - j] for j < count, count > 0, into `out` (all flat).
-
-    Four at a time, which saves most of the loads and stores of the sum.
-    """
-    first = (count - 1) % 4 + 1
-    if first == 1:
-        put_product(u[0], v[top], out)
-    elif first == 2:
-        put_2_products(u, v, 0, top, out)
-    elif first == 3:
-        put_3_products(u, v, 0, top, out)
-    else:
-        put_4_products(u, v, 0, top, out)
-    for j in range(first, count, 4):
-        add_4_products(u, v, j, top, out)
-
-
-@kernel
-def put_double_sum(u, v, one, other):
-    """Write 2 (u + v) twice."""
-    for i in range(u.size):
-        value = u[i] + v[i]
-        one[i] = value + value
-    for i in range(u.size):
-        other[i] = one[i]
-
-
-@kernel
-def add_half_square(u, out):
-    for i in range(out.size):
-        out[i] += 0.5 * u[i] * u[i]
-
-
-@kernel
-def square(series, k):
-    """Write the k-th coefficient of |A|^2 and |B|^2 into density[k], each twice."""
-    out, scratch, density = series.flat_scratch, series.scratch, series.density
-    if k == 0:
-        for i in range(out.size):
-            out[i] = 0.0
-    else:
-        sum_products(series.flat_c, series.flat_c, (k + 1) // 2, k, out)
-    if k % 2 == 0:
-        add_half_square(series.flat_c[k // 2], out)
-    for re in range(0, scratch.shape[0], 2):
-        put_double_sum(scratch[re], scratch[re + 1], density[k, re], density[k, re + 1])
-
-
-@kernel
-def extend(chain, drive, u, partner, cubic, factor, out):
-    """Write one row of the next coefficient, `factor` times the field at the row `u`."""
-    for j in range(1, out.size - 1):
-        linear = linear_field(chain, drive, u[j - 1], u[j], u[j + 1], partner[j])
-        out[j] = factor * (linear + 0.5 * cubic[j])
+@merged
+def odd_order(chain, c, density, k, re, i):
+    """Extend four sites from order k: add the terms that hold its own coefficients."""
+    row = c.shape[2]
+    order = c.shape[1] * row
+    u = i + k * order
+    x0, y0, x, y = load(c, i), load(c, i + row), load(c, u), load(c, u + row)
+    half, first = x0 * x + y0 * y, load(density, i)
+    last = load(density, u) + (half + half)
+    store(density, u, last)
+    cubic_x = load(c, u + order) + (last * x0 + first * x)
+    cubic_y = load(c, u + order + row) + (last * y0 + first * y)
+    extend(chain, c, k, re, i, cubic_x, cubic_y)
 
 
 @kernel
 def next_coefficient(chain, series, k):
     """Write c[k + 1], the coefficients of order k + 1 of all sites, from c[0] to c[k]."""
-    square(series, k)
-    sum_products(series.flat_density, series.flat_c, k + 1, k, series.flat_scratch)
-    y, dy, cubic = series.c[k], series.c[k + 1], series.scratch
-    gamma, share = chain.gamma, 1.0 / (k + 1)
-    close(chain, y)
-    for re in range(0, y.shape[0], 2):
-        im, partner = re + 1, y.shape[0] - 2 - re
-        extend(chain, -gamma, y[im], y[partner + 1], cubic[im], share, dy[re])
-        extend(chain, gamma, y[re], y[partner], cubic[re], -share, dy[im])
+    c, density = series.c, series.density
+    close(chain, c[k, :, : series.columns])
+    for re in range(0, c.shape[1], 2):
+        first = re * c.shape[2] + 1
+        last = first + series.columns - 2
+        if k % 2 == 0:
+            for i in range(first, last, LANES):
+                even_order(chain, c, density, k, re, i)
+        else:
+            for i in range(first, last, LANES):
+                odd_order(chain, c, density, k, re, i)

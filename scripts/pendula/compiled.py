@@ -34,6 +34,9 @@ generic = numba.njit(error_model="numpy", nogil=True)
 inlined = numba.njit(error_model="numpy", nogil=True, inline="always")
 """The same, merged into the kernel that calls it, so that it is not compiled twice."""
 
+merged = numba.njit(error_model="numpy", nogil=True, forceinline=True)
+"""The same by LLVM: values in vector registers would not survive a call."""
+
 
 @kernel
 def copy(source, target):

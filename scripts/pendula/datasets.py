@@ -63,7 +63,7 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
         target = file.createVariable(name, str, variable.dimensions)
         values = values.astype(object)
     else:
-        compression = "zlib" if values.size > 10_000 else None
+        compression = "zlib" if values.size > 1_000 else None
         target = file.createVariable(name, values.dtype, variable.dimensions, compression)
     target.long_name, target.units = variable.long_name, variable.units
     target[...] = values

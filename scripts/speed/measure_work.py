@@ -18,7 +18,8 @@ def measure_work(
     for (name, problem), path in zip(problems.items(), references, strict=True):
         reference = read(path)
         horizon = REGIMES[REGIME_OF[name]].horizon
-        re, im = reference["amplitude"].sel(snapshot=horizon, part=["re", "im"]).values
+        at = reference["snapshot_tau"].values == horizon
+        re, im = reference["amplitude"].isel(snapshot=at).squeeze("snapshot").values
         tasks.append(set_task(name, problem, horizon, re + 1j * im))
         norms[name] = reference["linf"].values, reference["l2"].values
     peers, absent = find_peers()

@@ -6,6 +6,14 @@ import xarray as xr
 from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
 
 HALF_WIDTHS = [5, 10, 20]
+PARAMETERS = {
+    "epsilon": 1.0,
+    "gamma": 1.0,
+    "half_width": 2,
+    "boundary": "dirichlet",
+    "output_step": 0.5,
+    "initial": '{"0": [1.0, 0.1]}',
+}
 WINDOWS = ["[10, 50]", "[10, 70]", "[10, 40]"]
 
 
@@ -34,7 +42,7 @@ def make_trajectory():
                 "component": variable("component", ["A", "B"], "component"),
                 "site": variable("site", np.arange(-2, 3), "site"),
             },
-            {"case": case, "omega": omega, "initial": '{"0": [1.0, 0.1]}', "solver": solver},
+            PARAMETERS | {"case": case, "omega": omega, "solver": solver},
         )
 
     return make
@@ -84,10 +92,12 @@ def gathered(make_trajectory, trajectories, make_sweep):
         norms,
         spacetime,
         stability_chart,
+        trust,
     )
     from pendula.plots import sweeps as sweep_plot
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
+    true = make_trajectory(end_time=5.0, scale=1.02)
     panels = (make_sweep(-4.0), make_sweep(0.0))
     long, short = chart(), short_chart()
     points = [(8, 1), (-4, 1), (0, 1)]
@@ -95,10 +105,11 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "agreement": agreement.gather(trajectories),
         "chain_drawing": chain_drawing.gather(),
         "energy": energy.gather(trajectories),
-        "norms": norms.gather(*pair),
+        "norms": norms.gather(pair, [true, true]),
         "spacetime": spacetime.gather(*pair),
         "sweeps": sweep_plot.gather(*panels, "[10, 70]", "[10, 40]"),
         "stability_chart": stability_chart.gather(long, short, windows(), points),
         "growth_rates": growth_rates.gather(long, short, threshold()),
+        "trust": trust.gather(trajectories, {"fig2_small": true, "fig2_large": true}),
         "bounds": bounds.gather(cases(), sweeps(), samples(), worst()),
     }

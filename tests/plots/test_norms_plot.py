@@ -12,7 +12,7 @@ def panels(gathered):
 
 def test_gather_returns_what_the_trajectories_hold(make_trajectory):
     small, large = make_trajectory(), make_trajectory(scale=5.0)
-    data = norms.gather(small, large)
+    data = norms.gather([small, large], [small, small])
     for name in ("linf", "l2"):
         assert (data[name].sel(amplitude="small") == small[name]).all()
         assert (data[name].sel(amplitude="large") == large[name]).all()
@@ -22,7 +22,7 @@ def test_panels_stand_as_in_the_paper(gathered, panels):
     data = gathered["norms"]
     for row, amplitude in enumerate(["small", "large"]):
         for column, name in enumerate(["linf", "l2"]):
-            lines = panels[row, column].get_lines()
+            lines = panels[row, column].get_lines()[2:4]  # above the true ones
             assert [line.get_color() for line in lines] == [style.RED, style.BLUE]
             for line, component in zip(lines, ["A", "B"], strict=True):
                 expected = data[name].sel(amplitude=amplitude, component=component)
@@ -38,13 +38,31 @@ def test_axes_say_what_they_show(panels):
 def test_no_curve_leaves_its_panel(gathered, panels):
     for axes in panels.flat:
         low, high = axes.get_ylim()
-        values = np.concatenate([line.get_ydata() for line in axes.get_lines()])
+        values = np.concatenate([line.get_ydata() for line in axes.get_lines()[:4]])
         assert low <= values.min() and values.max() <= high
 
 
+def test_true_curves_lie_below_and_a_mark_shows_where_they_part(make_trajectory):
+    run, true = make_trajectory(), make_trajectory()
+    true["l2"][0, 4:] *= 1.5
+    figure = norms.draw(norms.gather([run, run], [true, run]))
+    for axes, expected in zip(figure.axes, [2.0, 2.0, np.nan, np.nan], strict=True):
+        assert np.array_equal(axes.get_lines()[4].get_xdata(), [expected], equal_nan=True)
+    lines = figure.axes[1].get_lines()
+    assert np.array_equal(lines[0].get_ydata(), true["l2"].sel(component="A"))
+    assert lines[0].get_zorder() <= lines[2].get_zorder()
+
+
+def test_another_case_than_the_reference_stands_alone(make_trajectory):
+    run, other = make_trajectory(), make_trajectory(omega=7.0)
+    data = norms.gather([run, run], [other, other])
+    assert data["true_l2"].isnull().all() and data["parting"].isnull().all()
+
+
 def test_runs_of_different_lengths_are_drawn_whole(make_trajectory):
-    figure = norms.draw(norms.gather(make_trajectory(), make_trajectory(end_time=7.0)))
-    ends = [axes.get_lines()[0].get_xdata()[-1] for axes in figure.axes]
+    pair = [make_trajectory(), make_trajectory(end_time=7.0)]
+    figure = norms.draw(norms.gather(pair, pair))
+    ends = [axes.get_lines()[2].get_xdata()[-1] for axes in figure.axes]
     assert ends == [5.0, 5.0, 7.0, 7.0]
 
 

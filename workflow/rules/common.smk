@@ -27,7 +27,8 @@ except ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
-ALL_SOLVERS = [*PAPER_SOLVERS, "dop853"]  # that every case of the paper is integrated by
+COMPARED = [*PAPER_SOLVERS, "dop853"]  # in the figures of the paper's claims about its solvers
+ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 AUTOMATIC = ["dop853", "taylor"]  # that `auto` chooses from
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
@@ -52,6 +53,10 @@ def kernels(*solvers):
     return [f"results/kernels/{name}.txt" for name in compiled]
 
 
+def references(*cases):
+    return [f"{workflow.basedir}/tests/baseline/reference/{case}.nc" for case in cases]
+
+
 def by_solvers(stem, solvers):
     return [f"{stem}.nc", *(f"{stem}.{solver}.nc" for solver in solvers)]
 
@@ -71,6 +76,13 @@ def sweep_problems(sweep, solvers=()):
 def drawn_windows(sweep):
     drawn = SETTINGS.sweeps[sweep].drawn
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
+
+
+def reference_problem(case):
+    sweeps = [SETTINGS.sweeps[name] for name in PAPER_SWEEPS]
+    drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
+    ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
+    return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
 
 
 def figure(name, prefix=""):

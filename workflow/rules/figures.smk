@@ -24,6 +24,7 @@ rule fig2:
         code=code("figures/draw_norms.py"),
         small="results/trajectories/fig2_small.nc",
         large="results/trajectories/fig2_large.nc",
+        references=references("fig2_small", "fig2_large"),
     output:
         **figure("fig2"),
         **figure("fig2_spacetime", "spacetime_"),
@@ -42,6 +43,7 @@ use rule fig2 as fig3 with:
         code=code("figures/draw_norms.py"),
         small="results/trajectories/fig3_small.nc",
         large="results/trajectories/fig3_large.nc",
+        references=references("fig3_small", "fig3_large"),
     output:
         **figure("fig3"),
         **figure("fig3_spacetime", "spacetime_"),
@@ -56,6 +58,7 @@ use rule fig2 as fig4 with:
         code=code("figures/draw_norms.py"),
         small="results/trajectories/fig4_small.nc",
         large="results/trajectories/fig4_large.nc",
+        references=references("fig4_small", "fig4_large"),
     output:
         **figure("fig4"),
         **figure("fig4_spacetime", "spacetime_"),

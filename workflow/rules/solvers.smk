@@ -6,7 +6,7 @@ rule solver_figures:
     input:
         code=code("figures/draw_solvers.py"),
         trajectories=expand(
-            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=COMPARED
         ),
     output:
         **figure("energy_drift", "energy_"),
@@ -17,7 +17,7 @@ rule solver_figures:
         "../envs/pinned.yaml"
     params:
         cases=PAPER_CASES,
-        solvers=ALL_SOLVERS,
+        solvers=COMPARED,
     message:
         "Drawing how the solvers conserve the energy, and until when they agree"
     script:

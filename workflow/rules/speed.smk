@@ -11,10 +11,8 @@ rule speed:
 rule work_precision:
     input:
         code=code("speed/measure_work.py"),
-        kernels=kernels(*ALL_SOLVERS, "taylor"),
-        references=expand(
-            f"{workflow.basedir}/tests/baseline/reference/{{case}}.nc", case=PAPER_CASES
-        ),
+        kernels=kernels(*ALL_SOLVERS),
+        references=references(*PAPER_CASES),
     output:
         data="results/speed/work_precision.nc",
         table="results/speed/table.md",

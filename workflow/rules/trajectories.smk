@@ -10,7 +10,7 @@ rule compile_solver:
     log:
         "results/logs/kernels/{solver}.log",
     wildcard_constraints:
-        solver=one_of([*ALL_SOLVERS, "taylor"]),
+        solver=one_of(ALL_SOLVERS),
     priority: 20
     conda:
         "../envs/pinned.yaml"
@@ -69,7 +69,7 @@ use rule own_trajectory as own_trajectory_by_solver with:
         "results/logs/trajectories/{case}.{solver}.log",
     wildcard_constraints:
         case=one_of(OWN_CASES),
-        solver=one_of([*ALL_SOLVERS, *AUTOMATIC, "auto"]),
+        solver=one_of([*ALL_SOLVERS, "auto"]),
     params:
         name="{case}",
         problems=lambda wildcards: [SETTINGS.problem(wildcards.case, wildcards.solver)],

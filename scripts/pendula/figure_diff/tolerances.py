@@ -38,6 +38,10 @@ RULES = [
     Rule(
         "*", "magnitude", 1, "rounding errors and residuals of solvers: only their size", below=1e-8
     ),
+    Rule("*:true_*", "pointwise", 1e-6, "committed references: to the last digit, chaos or not"),
+    Rule(
+        "*/trust_horizons:horizon*", "pointwise", 0.1, "10 times the rounding: 1.3 of tau 15 to 50"
+    ),
     Rule("*fig3*:energy*", "pointwise", 1e-4, "constant, but for the drift of a chaotic run"),
     Rule("*fig4*:energy*", "pointwise", 5e-3, "the same, and H itself is small"),
     Rule("*/fig3_large*", "chaotic", 1e-6, "chaos after the horizon", LATE, WILD),
@@ -59,6 +63,9 @@ RULES = [
     Rule("*/energy_drift:drift*", "pointwise", 1e-3, "small differences (1e-6) of large numbers"),
     Rule("*/solver_agreement:difference case=fig2*", "pointwise", 1e-4, "the same"),
     Rule("*/solver_agreement:difference case=fig3_small*", "pointwise", 1e-4, "the same"),
+    Rule("*/trust_horizons:* case=fig3_large*", "chaotic", 0.3, "chaotic scale", 0, WILD),
+    Rule("*/trust_horizons:* case=fig4_*", "chaotic", 0.3, "chaotic scale", 0, WILD),
+    Rule("*/trust_horizons:difference*", "pointwise", 1e-3, "small differences (1e-6) of norms"),
     Rule("*:parting *", "pointwise", 0.03, "a step of output, or of the scale of a chaotic curve"),
     Rule(
         "*/solver_agreement:* case=fig3_large*",

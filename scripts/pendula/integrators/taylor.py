@@ -16,18 +16,35 @@ from ..reductions import largest_of_rows
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 ORDER = 16
-WORK = 2 * (ORDER + 1) + 1  # arrays of the size of a state
+ARRAYS = 2 * (ORDER + 1) + 1
+WORK = 3 * ARRAYS  # arrays of the size of a state: rows of one site grow from 3 to 8 columns
 
 
 class Series(NamedTuple):
-    """Coefficients of the state and of its densities, and work space; each also by flat rows."""
+    """Coefficients of the state and of its densities, and work space; columns are padded."""
 
     c: np.ndarray  # (order + 1, row, column)
     density: np.ndarray  # (order + 1, row, column)
     scratch: np.ndarray  # (row, column)
     flat_c: np.ndarray  # (order + 1, row * column)
-    flat_density: np.ndarray
     flat_scratch: np.ndarray  # (row * column,)
+    columns: int  # of the state
+
+
+@generic
+def lay_out(work, y):
+    """Return a series in the memory of `work`, whose rows take vectors of four sites.
+
+    Column 1, the first site, comes where an aligned vector starts; the padding is never summed.
+    """
+    rows, columns = y.shape
+    padded = (columns + 1) // 4 * 4 + 4
+    size = rows * padded
+    memory = work.reshape(-1)[3 : 3 + ARRAYS * size]
+    arrays = memory.reshape(ARRAYS, rows, padded)
+    flat = memory.reshape(ARRAYS, size)
+    c, density, scratch = arrays[: ORDER + 1], arrays[ORDER + 1 : -1], arrays[-1]
+    return Series(c, density, scratch, flat[: ORDER + 1], flat[-1], columns)
 
 
 @kernel
@@ -36,6 +53,9 @@ def size(y, scratch):
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             scratch[re // 2, j] = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+        for j in range(y.shape[1], scratch.shape[1]):
+            scratch[re // 2, j] = 0.0
+        scratch[re // 2, y.shape[1] - 1] = 0.0
     return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
 
 
@@ -88,9 +108,12 @@ def build(next_coefficient, observe):
         c, scratch = series.c, series.scratch
         for k in range(c.shape[0] - 1):
             next_coefficient(system, series, k)
-        allowed = atol + rtol * size(c[0], scratch)
-        order = c.shape[0] - 1
-        last, before = size(c[order], scratch), size(c[order - 1], scratch)
+        columns, order = series.columns, c.shape[0] - 1
+        allowed = atol + rtol * size(c[0, :, :columns], scratch)
+        last, before = (
+            size(c[order, :, :columns], scratch),
+            size(c[order - 1, :, :columns], scratch),
+        )
         if not last + before < np.inf:
             return np.nan
         return min(root(allowed / last, order), root(allowed / before, order - 1))
@@ -99,11 +122,9 @@ def build(next_coefficient, observe):
     def solve(system, y, times, controls, work, record):
         rtol, atol = controls
         t, end = times[0], times[-1]
-        c, density, scratch = work[: ORDER + 1], work[ORDER + 1 : 2 * ORDER + 2], work[-1]
-        flat, y_flat = c.reshape(ORDER + 1, -1), y.reshape(-1)
-        series = Series(
-            c, density, scratch, flat, density.reshape(ORDER + 1, -1), scratch.reshape(-1)
-        )
+        series = lay_out(work, y)
+        c, scratch = series.c, series.scratch
+        flat, total = series.flat_c, series.flat_scratch
         shortest = SMALLEST_PART * (end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
@@ -120,10 +141,12 @@ def build(next_coefficient, observe):
                 h = end - t
             t_new = end if h == end - t else t + h
             while i < times.size and times[i] <= t_new:
-                evaluate(flat, times[i] - t, y_flat)
+                evaluate(flat, times[i] - t, total)
+                copy(scratch[:, : y.shape[1]], y)
                 observe(system, y, i, record)
                 i += 1
-            evaluate(flat, h, y_flat)
+            evaluate(flat, h, total)
+            copy(scratch[:, : y.shape[1]], y)
             copy(y, c[0])
             t = t_new
         return Outcome(DONE, t, steps, 0, ORDER * steps)

@@ -4,10 +4,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..trust import LEVELS, difference, first_above
 from . import by_case, style
 
-VISIBLE = 0.01
-"""A difference that a reader would see, as a part of a curve's largest value."""
+VISIBLE = LEVELS["visible"]
 
 # two of the curves nearly coincide: the first is a broad light band under the thin second
 PAIRS = {
@@ -21,33 +21,20 @@ MARK_SIZES = {"s": 8, "^": 4.5, "o": 4.5}
 def gather(trajectories: by_case.Trajectories) -> xr.Dataset:
     """Return by case and pair of solvers how far their norms differ, and when that is visible.
 
-    The difference is the largest among the four curves (two norms of A and of B), each relative to
-    the largest value that its curve takes.
+    What a difference is, trust.difference says.
     """
     cases, _ = by_case.names(trajectories)
     pair = xr.Variable("pair", list(PAIRS), {"long_name": "pair of solvers", "units": "1"})
     curves = {}
     for case in cases:
         pairs = ([trajectories[case, solver] for solver in name.split(" - ")] for name in PAIRS)
-        curves[case] = xr.concat([_difference(*both) for both in pairs], pair)
+        curves[case] = xr.concat([difference(*both) for both in pairs], pair)
     data = by_case.stack(trajectories, curves)
-    seen = data["difference"] > VISIBLE
-    parting = data["tau"].where(seen).min("tau")
+    parting = first_above(data["difference"], VISIBLE)
     about = {"long_name": "first tau at which the difference is visible", "units": "1"}
     data["parting"] = parting.assign_attrs(about)
     data["visible"] = ((), VISIBLE, {"long_name": "visible difference", "units": "1"})
     return data
-
-
-def _difference(one: xr.Dataset, other: xr.Dataset) -> xr.DataArray:
-    each = [
-        abs(one[norm] - other[norm]) / one[norm].max("tau").clip(min=other[norm].max("tau"))
-        for norm in ("linf", "l2")
-    ]
-    largest = xr.concat(each, "norm").max(["norm", "component"]).rename("difference")
-    return largest.assign_attrs(
-        long_name="largest difference of the norms relative to their scale", units="1"
-    )
 
 
 @style.styled

@@ -1,0 +1,90 @@
+"""Equations (4) and their energy (8) for heyoka, on the half chain 0..M of even data.
+
+A state has the rows Re A, Im A, Re B, Im B, and A = B = 0 beyond site M. The equations stand here
+a second time, because heyoka takes expressions and the kernels take numbers; a test compares them.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Constants(NamedTuple):
+    """Coupling, drive and detuning, as multiprecision reals."""
+
+    epsilon: Any
+    gamma: Any
+    omega: Any
+
+
+def right_hand_side(heyoka, constants: Constants, half_width: int) -> list[tuple]:
+    """Return the pairs (variable, its rate of change), in the order of a flattened state."""
+    names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
+    rows = [[heyoka.make_vars(name) for name in row] for row in names]
+    pairs = []
+    for re in (0, 2):
+        # |A_n|^2 is one subexpression for both parts: heyoka computes its series once
+        density = [x**2 + y**2 for x, y in zip(rows[re], rows[re + 1], strict=True)]
+        pairs += [
+            (u, _field(heyoka, constants, -constants.gamma, rows, re + 1, n, density[n]))
+            for n, u in enumerate(rows[re])
+        ]
+        pairs += [
+            (u, -_field(heyoka, constants, constants.gamma, rows, re, n, density[n]))
+            for n, u in enumerate(rows[re + 1])
+        ]
+    return pairs
+
+
+def _field(heyoka, constants, drive, rows, row, n, density):
+    """Return one part of the right-hand side; `drive` is gamma for Re, -gamma for Im."""
+    sites, partner = rows[row], rows[(row + 2) % 4]
+    # site -1 moves as site 1, site M + 1 is at rest
+    neighbours = [sites[m] for m in (abs(n - 1), n + 1) if m < len(sites)]
+    own = constants.omega - constants.epsilon - constants.epsilon - drive
+    return heyoka.sum(
+        [
+            *(constants.epsilon * u for u in neighbours),
+            own * sites[n],
+            drive * partner[n],
+            0.5 * (density * sites[n]),
+        ]
+    )
+
+
+def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the l-infinity and l2 norms, each (component, time), of states (time, row, site)."""
+    modulus2 = _squares(states)
+    largest = np.maximum.reduce(modulus2, axis=2)
+    return np.sqrt(largest), np.sqrt(_over_chain(modulus2))
+
+
+def energy(constants: Constants, states: np.ndarray) -> np.ndarray:
+    """Return the energy (8), (time,), of states (time, row, site)."""
+    epsilon, gamma, omega = constants
+    modulus2 = _squares(states)
+    both = modulus2[0] + modulus2[1]
+    quartic = np.square(modulus2[0]) + np.square(modulus2[1])
+    gap = states[:, :2] - states[:, 2:]  # Re (A - B) and Im (A - B)
+    drive = np.square(gap[:, 1]) - np.square(gap[:, 0])
+    # of all bonds: inside the half chain twice (left and right), and the two to the ends
+    bonds = _sum(np.square(states[:, :, 1:] - states[:, :, :-1])) + _sum(states[:, :, -1:] ** 2)
+    on_sites = quartic / 4 + omega * both + gamma * drive
+    return _over_chain(on_sites) - epsilon * (bonds + bonds)
+
+
+def _squares(states):
+    """Return |A_n|^2 and |B_n|^2, (component, time, site)."""
+    squares = np.square(states)
+    return np.stack([squares[:, 0] + squares[:, 1], squares[:, 2] + squares[:, 3]])
+
+
+def _over_chain(values):
+    """Return the sum over the sites -M..M of values that end in the sites 0..M."""
+    right = np.add.reduce(values[..., 1:], axis=-1)
+    return values[..., 0] + right + right
+
+
+def _sum(values):
+    """Return the sum over rows and sites of values (time, row, site)."""
+    return np.add.reduce(np.add.reduce(values, axis=2), axis=1)

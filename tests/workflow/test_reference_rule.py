@@ -1,0 +1,20 @@
+"""The rule `reference`: asked for by name only, and what it writes."""
+
+import pytest
+from helpers import ROOT, planned, snakemake
+from pendula.datasets import read
+
+
+def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path):
+    assert planned(ROOT, tmp_path, "reference") == {"reference": 1, "reference_case": 7}
+    assert "reference_case" not in planned(ROOT, tmp_path)
+
+
+def test_a_short_reference_by_the_real_snakemake(tmp_path):
+    pytest.importorskip("heyoka")
+    target = "results/reference/fig4_small.double.nc"
+    result = snakemake(ROOT, tmp_path, target)
+    assert result.returncode == 0, result.stdout + result.stderr
+    data = read(tmp_path / target)
+    assert data.attrs["solver"] == "heyoka" and "doubles" in data.attrs["parameters_mean"]
+    assert data["discrepancy"].max() < 1e-20

@@ -1,0 +1,40 @@
+# The paper's six cases in multiprecision arithmetic, to verify every other solver against; not
+# part of the full run. Costs about 25 minutes of one core, half of them for fig3_large alone.
+# The only rule that needs heyoka: `pip install heyoka==7.13.2` first. To accept what it made:
+# `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
+from pendula.reference.verify import BITS
+
+SNAPSHOTS = [1, 2, 5, 10, 20, 30, 40, 50, 70]  # tau of the states that are kept
+# Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
+REFERENCES = [*PAPER_CASES, "fig4_small.double"]
+
+
+rule reference:
+    "Verified trajectories of the paper's cases, in multiprecision"
+    input:
+        expand("results/reference/{name}.nc", name=REFERENCES),
+
+
+rule reference_case:
+    "One case, integrated twice: {case}{numbers}.nc"
+    input:
+        code=code("reference/integrate_reference.py"),
+    output:
+        dataset="results/reference/{case}{numbers}.nc",
+    log:
+        "results/logs/reference/{case}{numbers}.log",
+    wildcard_constraints:
+        case=one_of(PAPER_CASES),
+        numbers=r"(\.double)?",
+    conda:
+        "../envs/reference.yaml"
+    params:
+        name="{case}",
+        problem=lambda wildcards: reference_problem(wildcards.case),
+        snapshots=SNAPSHOTS,
+        bits=lambda wildcards: BITS[wildcards.case],
+        decimal=lambda wildcards: not wildcards.numbers,
+    message:
+        "Integrating {wildcards.case}{wildcards.numbers} twice in multiprecision"
+    script:
+        "../../scripts/reference/integrate_reference.py"
