@@ -1,21 +1,13 @@
 """The comparison as one page of HTML that holds its pictures and asks nothing of the network."""
 
-import base64
-import io
 from collections import Counter
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
-
-from . import pictures
 from .findings import IDENTICAL, NEARLY, STATUSES, Finding
+from .page_pictures import difference, embedded, thumbnail
 from .page_style import STYLE
-
-THUMBNAIL = 320
-"""Width in pixels of pictures that are identical; the others are shown whole."""
 
 
 def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
@@ -59,7 +51,7 @@ def _list(findings: list[Finding], status: str) -> str:
 
 def _shown(findings: list[Finding], status: str, made: Path, folder: Path) -> str:
     if status == IDENTICAL:
-        shown = [_figure(_thumbnail(made / f.name), f.name) for f in findings]
+        shown = [_figure(thumbnail(made / f.name), f.name) for f in findings]
         return f'<div class="thumbnails">{"".join(shown)}</div>\n'
     return "".join(_side_by_side(finding, made, folder) for finding in findings)
 
@@ -67,58 +59,13 @@ def _shown(findings: list[Finding], status: str, made: Path, folder: Path) -> st
 def _side_by_side(finding: Finding, made: Path, folder: Path) -> str:
     paths = [path / finding.name for path in (folder, made)]
     three = {
-        "reference": _embedded(paths[0]),
-        "new": _embedded(paths[1]),
-        "difference (grey: same, red: gone, blue: new)": _png(
-            _difference(*(_pixels(path) for path in paths))
-        ),
+        "reference": embedded(paths[0]),
+        "new": embedded(paths[1]),
+        "difference (grey: same, red: gone, blue: new)": difference(*paths),
     }
     shown = "".join(_figure(address, name) for name, address in three.items())
     head = f"<h3>{escape(finding.name)}</h3><p>{escape(finding.says)}</p>"
     return f'{head}<div class="three">{shown}</div>\n'
-
-
-def _embedded(path: Path) -> str:
-    return _address(path.read_bytes()) if _pixels(path) is not None else ""
-
-
-def _pixels(path: Path) -> np.ndarray | None:
-    try:
-        return pictures.read(path).pixels
-    except pictures.PictureError:
-        return None
-
-
-def _difference(was: np.ndarray | None, now: np.ndarray | None) -> np.ndarray | None:
-    """Return, at half the size, what both share in grey, what went in red, what came in blue."""
-    if was is None or now is None or was.shape != now.shape:
-        return None
-    was, now = (np.asarray(Image.fromarray(p).reduce(2), np.int16) for p in (was, now))
-    old, new = (255 - pixels.min(-1) for pixels in (was, now))
-    apart = abs(was - now).max(-1)
-    shared = 255 - np.minimum(old, new) // 3
-    went, came = apart * (old >= new), apart * (new > old)
-    layers = [shared - came, shared - came - went, shared - went]
-    return np.stack(layers, -1).clip(0, 255).astype(np.uint8)
-
-
-def _thumbnail(path: Path) -> str:
-    image = Image.fromarray(pictures.read(path).pixels)
-    image.thumbnail((THUMBNAIL, THUMBNAIL), reducing_gap=2)
-    return _png(np.asarray(image))
-
-
-def _png(pixels: np.ndarray | None) -> str:
-    if pixels is None:
-        return ""
-    kept = io.BytesIO()
-    Image.fromarray(pixels).save(kept, "png", compress_level=3)
-    return _address(kept.getvalue())
-
-
-def _address(png: bytes) -> str:
-    """Return the address of a picture that holds the picture itself."""
-    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
 
 
 def _figure(address: str, caption: str) -> str:

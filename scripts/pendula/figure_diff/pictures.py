@@ -28,7 +28,8 @@ def read(path: Path) -> Picture:
             pixels = np.asarray(image.convert("RGB"))
             panels = image.info.get("Panels", "")
     except (OSError, SyntaxError, ValueError) as error:
-        raise PictureError(f"cannot be read ({error})") from None
+        said = str(error).replace(str(path), path.name)  # the page is no place for folders
+        raise PictureError(f"cannot be read ({said})") from None
     boxes = [tuple(int(number) for number in box.split()) for box in panels.split(";") if box]
     return Picture(pixels, boxes)
 
