@@ -2,18 +2,7 @@
 # The comparison is a job that always succeeds, since Snakemake deletes what a failed job wrote;
 # the rule `figure_diff` then tells the faults and fails.
 
-BASELINE = f"{workflow.basedir}/tests/baseline"
 COMPARED = [path for path in rules.all.input if path.endswith((".nc", ".png"))]
-
-
-def baseline_files():
-    """Return the files of the baseline beside the compared results, and its record."""
-    folders = sorted({path.split("/")[1] for path in COMPARED})
-    return sorted(
-        path
-        for pattern in ("accepted.json", *(f"{folder}/*" for folder in folders))
-        for path in glob.glob(f"{BASELINE}/{pattern}")
-    )
 
 
 rule figure_diff:
@@ -36,7 +25,7 @@ rule compare_results:
     input:
         code=code("figure_diff/compare_results.py"),
         results=COMPARED,
-        accepted=baseline_files(),
+        accepted=baseline_of(COMPARED),
     output:
         html="results/figure_diff/index.html",
         verdict="results/figure_diff/verdict.json",
@@ -45,7 +34,7 @@ rule compare_results:
     conda:
         "../envs/pinned.yaml"
     params:
-        baseline=BASELINE,
+        baseline=lambda wildcards: BASELINE,
     message:
         "Comparing datasets and figures with the baseline"
     script:
@@ -62,7 +51,7 @@ rule accept_figures:
     conda:
         "../envs/pinned.yaml"
     params:
-        baseline=BASELINE,
+        baseline=lambda wildcards: BASELINE,
     message:
         "Taking the datasets and figures as the baseline"
     script:
