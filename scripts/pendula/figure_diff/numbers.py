@@ -32,7 +32,9 @@ def deviation(reference: Curve, new: Curve, rule: Rule) -> Deviation:
     if reference.values.shape != new.values.shape:
         says = f"has the shape {new.values.shape} in place of {reference.values.shape}"
         return Deviation(np.inf, says)
-    if reference.values.dtype.kind not in "fc":
+    if reference.values.dtype.kind != new.values.dtype.kind:
+        return Deviation(np.inf, "holds values of another type")
+    if reference.values.dtype.kind != "f":
         return _exact(reference.values, new.values)
     if np.array_equal(reference.values, new.values, equal_nan=True):
         return SAME
@@ -76,7 +78,10 @@ def _chaotic(reference: Curve, new: Curve, rule: Rule) -> Deviation:
 
 def _by_statistics(reference: np.ndarray, new: np.ndarray, rule: Rule) -> Deviation:
     """Mean, standard deviation and maximum, each within its band of the reference's own."""
-    found = []
+    found, finite = [], np.isfinite(reference)
+    reference, new = reference[finite], new[finite]
+    if not reference.size:
+        return SAME
     for name, measure, band in zip(STATISTICS, STATISTICS.values(), rule.bands, strict=True):
         was, now = float(measure(reference)), float(measure(new))
         if band is None or was == now:
@@ -89,15 +94,15 @@ def _by_statistics(reference: np.ndarray, new: np.ndarray, rule: Rule) -> Deviat
 
 def _magnitude(reference: Curve, new: Curve, rule: Rule) -> Deviation:
     """Of errors: their largest size, as a factor; below the floor any size is as good."""
-    was, now = (max(float(np.nanmax(abs(c.values))), FLOOR) for c in (reference, new))
+    was, now = (max(curve.largest, FLOOR) for curve in (reference, new))
     decades = abs(np.log10(now / was))
     says = f"is of size {now:.2g} in place of {was:.2g}, a factor of {10**rule.limit:.2g}"
     return Deviation(decades / rule.limit, says, moved=True)
 
 
 STATISTICS = {
-    "mean": np.nanmean,
-    "standard deviation": np.nanstd,
-    "maximum": lambda values: np.nanmax(abs(values)),
+    "mean": np.mean,
+    "standard deviation": np.std,
+    "maximum": lambda values: np.max(abs(values)),
 }
 METHODS = {"pointwise": _pointwise, "chaotic": _chaotic, "magnitude": _magnitude}

@@ -1,7 +1,8 @@
 """The tolerances of the comparison, each with its reason: the one place where they stand.
 
-The bands were found by moving epsilon by its last bit (2e-16) and making everything anew: each is
-two to five times what that changed, and holds the spread of the tails of three solvers.
+The bands were found by moving epsilon by its last bit (2e-16), and in another run the tolerances of
+the solvers by 1e-9 to 1e-7 of them, and making everything anew: each is two to five times what
+these changed, where not said otherwise, and holds the spread of the tails of three solvers.
 """
 
 from fnmatch import fnmatchcase
@@ -33,16 +34,13 @@ per unit of tau, so 2e-16 is still below 1e-9 there; by 15 and 25 it has passed 
 
 STEADY: Bands = (0.1, 0.7, 0.25)
 WILD: Bands = (0.5, 1.0, 0.5)
+FREE: Bands = (0.3, 0.4, 0.5)
 RISING: Bands = (0.15, None, 0.2)
 
 
 def _observed(case: str) -> str:
     names = ("ratio", "observed", "backwards", "steepest")
     return "|".join(f"*:{name} case={case}" for name in names)
-
-
-def _errors(case: str) -> str:
-    return f"*/solver_agreement:difference case={case}*|*/trust_horizons:difference case={case}*"
 
 
 RULES = [
@@ -64,11 +62,13 @@ RULES = [
     Rule("*:drift case=fig3_large*|*:drift case=fig4_*", "magnitude", 1, "depends on the path"),
     Rule("*/energy_drift:drift*", "pointwise", 1e-3, "small differences (1e-6) of large numbers"),
     # errors as parts of full scale, which for a chaotic curve is the maximum of its tail
-    Rule(_errors("fig3_large"), "chaotic", 0.3, "of a chaotic scale", EARLY, (0.5, 0.6, 0.6)),
-    Rule(_errors("fig4_*"), "chaotic", 0.3, "of a chaotic scale", EARLY, (0.3, 0.4, 0.5)),
+    Rule("*/trust*:difference case=fig3_large*", "chaotic", 1, "of a chaotic scale", 0, WILD),
+    Rule("*/trust*:difference case=fig4_*", "chaotic", 1, "of a chaotic scale", 0, FREE),
+    Rule("*:difference case=fig3_large*", "chaotic", 0.3, "of a chaotic scale", EARLY, WILD),
+    Rule("*:difference case=fig4_*", "chaotic", 0.3, "of a chaotic scale", EARLY, FREE),
     Rule("*:difference *", "pointwise", 1e-3, "small differences (1e-6) of norms"),
     Rule("*:parting *", "pointwise", 0.03, "a step of output, or of the scale of a chaotic curve"),
-    Rule("*:horizon *", "pointwise", 0.1, "10 times the rounding is lost 1.3 earlier, of 15 to 50"),
+    Rule("*:horizon *", "pointwise", 0.25, "chance decides which rounding grows: 0.19 was seen"),
     Rule("*", "pointwise", 1e-6, "regular: other roundings give 1e-9, single precision 6e-8"),
 ]
 """First match counts. A label reads `figures/fig3:l2 amplitude=large component=A`."""
@@ -96,8 +96,8 @@ class Limits(NamedTuple):
     """Part of the pixels that may differ, where the environment is that of the baseline: a curve
     that moved by a rounding error may cross from one pixel to the next."""
     look: float = 0.35
-    """Local unlikeness (0 same, 1 nothing in common), where it is not: other hinting reaches 0.2,
-    a lost label 1, a swapped colour 0.6 and more."""
+    """Local unlikeness (0 same, 1 nothing in common), where it is not: other letters and shifts by
+    a pixel reach 0.26 in the figures of this project, a lost label or swapped colours 0.9."""
     totals: float = 0.35
     """Change of the ink of a cell, where the curves were compared by statistics: the tail of a
     chaotic curve takes 0.1 to 0.2, a lost label or curve 0.4 and more."""
