@@ -14,7 +14,7 @@ def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> 
     """Return the page; pictures are read from below `made` and from the baseline's folder."""
     counts = Counter(finding.status for finding in findings)
     faults = sum(finding.is_fault for finding in findings)
-    verdict = f"{faults} faults" if faults else "no faults"
+    verdict = _count(faults, "fault") if faults else "no faults"
     tally = " ".join(
         f'<a class="{_slug(s) if counts[s] else "none_of"}" href="#{_slug(s)}">{counts[s]} {s}</a>'
         for s in STATUSES
@@ -45,7 +45,7 @@ def _list(findings: list[Finding], status: str) -> str:
         f"<tr><td>{escape(f.name)}</td><td>{escape(f.says)}</td></tr>\n" for f in findings
     )
     opened = "" if status in (IDENTICAL, NEARLY) else " open"
-    summary = f"<summary>{len(findings)} datasets</summary>"
+    summary = f"<summary>{_count(len(findings), 'dataset')}</summary>"
     return f"<details{opened}>{summary}\n<table>{rows}</table></details>\n"
 
 
@@ -72,6 +72,10 @@ def _figure(address: str, caption: str) -> str:
     title = escape(caption)
     image = f'<img src="{address}" alt="{title}">' if address else '<p class="none">none</p>'
     return f"<figure>{image}<figcaption>{title}</figcaption></figure>"
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
 
 def _slug(status: str) -> str:

@@ -21,7 +21,7 @@ figcaption { color: #4b5364; font-size: .85rem; text-align: center; overflow-wra
 img { max-width: 100%; border: 1px solid #d5d9e2; background: white; }
 .three { display: grid; grid-template-columns: repeat(3, 1fr); gap: .8rem; }
 .thumbnails { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr));
-              gap: 1rem; align-items: end; margin-top: .6rem; }
+              gap: 1rem; align-items: start; margin-top: .6rem; }
 .none { text-align: center; color: #4b5364; border: 1px dashed #d5d9e2; margin: 0;
         padding: 3rem 0; }
 """
