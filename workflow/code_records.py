@@ -4,7 +4,7 @@ Snakemake does not see a change in a module that a script imports. So each rule 
 record of its script, of all modules that it imports and of the pinned packages with their hashes,
 in results/code/. A record is written only when its content changes: editing a module reruns what
 imports it, while touching files, or cloning the project anew beside finished results, reruns
-nothing. Committed data are copied in the same way, so that their paths do not change with the clone.
+nothing. Committed data are copied in the same way: their paths do not change with the clone.
 """
 
 import os

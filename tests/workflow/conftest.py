@@ -10,7 +10,7 @@ from helpers import ROOT, snakemake
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
-    "tests/baseline",
+    "tests/baseline/reference",
 )
 
 
