@@ -8,6 +8,7 @@ from pendula.plots.style import save
 def draw_ensembles(
     ensembles: str,
     runs: list[str],
+    references: list[str],
     cases: list[str],
     sweeps: list[str],
     windows: dict[str, str],
@@ -17,8 +18,9 @@ def draw_ensembles(
 ) -> None:
     """Draw the runs of `cases` and the sweeps named in `windows`, both in the order of paths."""
     trajectories = dict(zip(cases, map(read, runs), strict=True))
+    truths = dict(zip(cases, map(read, references), strict=True))
     swept = dict(zip(windows, map(read, sweeps), strict=True))
-    drawn = plot.gather(read(ensembles), trajectories, swept, windows)
+    drawn = plot.gather(read(ensembles), trajectories, truths, swept, windows)
     save(plot.draw(drawn), drawn, png, pdf, data)
 
 

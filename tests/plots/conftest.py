@@ -121,6 +121,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "ensembles": ensembles.gather(
             made_up_chaos.ensembles(),
             dict(zip(made_up_chaos.CASES, pair, strict=True)),
+            dict(zip(made_up_chaos.CASES, pair, strict=True)),
             dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
             dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
         ),

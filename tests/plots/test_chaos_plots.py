@@ -40,6 +40,17 @@ def test_ensembles_show_the_pair_and_the_paper_s_run(gathered):
     assert data["swept_window"].values.tolist() == ["[10, 50]", "[10, 70]"]
 
 
+def test_a_run_is_within_its_band_or_not(gathered):
+    data = gathered["ensembles"]
+    low, high = (data["l2"].sel(quantile=quantile) for quantile in (0.05, 0.95))
+    late = data["tau"] >= float(data["tau"].max()) / 2
+    for case in data["case"].values:
+        norm = data["true"].sel(case=case)[late]
+        within = (norm >= low.sel(case=case)[late]) & (norm <= high.sel(case=case)[late])
+        assert float(data["true_inside"].sel(case=case)) == pytest.approx(float(within.mean()))
+        assert data["run_inside"].sel(case=case) == data["true_inside"].sel(case=case)
+
+
 def test_swept_means_are_drawn_with_their_deviation_beside_the_run(gathered):
     data = gathered["ensembles"]
     below = ensembles.draw(data).axes[-1]

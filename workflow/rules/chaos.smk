@@ -100,6 +100,7 @@ rule ensembles_figure:
         code=code("figures/draw_ensembles.py"),
         ensembles="results/checks/ensembles.nc",
         runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
+        references=references(*CHAOTIC_CASES),
         sweeps=expand("results/sweeps/{sweep}.nc", sweep=CHAOTIC_SWEEPS),
     output:
         **figure("ensembles"),

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
+from ..trust import is_of_same_case
 from . import style
 from .sweeps import TICKS
 
@@ -17,6 +18,7 @@ BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
 MEDIAN = {"color": style.RED, "lw": 1.3}
 MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
 OWN = {"color": style.BLUE, "lw": 0.6}
+TRUE = {"color": "black", "lw": 0.6}
 OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
 NORM = r"$\ell^2$ norm"
 
@@ -24,22 +26,43 @@ NORM = r"$\ell^2$ norm"
 def gather(
     ensembles: xr.Dataset,
     runs: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
     sweeps: Mapping[str, xr.Dataset],
     windows: Mapping[str, str],
 ) -> xr.Dataset:
     """Return the pair's bands and swept maxima, and the same of the paper's runs, by name.
 
+    The true runs of the same cases stand beside them, and how long each run is within its band.
     `windows` names the window of each sweep, such as "[10, 50]".
     """
     pair = ensembles.sel(quantity="pair", drop=True)
     names = xr.Variable("case", list(runs), ensembles["case"].attrs)
-    own = [np.sqrt((run["l2"] ** 2).sum("component")) for run in runs.values()]
-    run = xr.concat(own, names, join="outer").reindex(tau=pair["tau"], method="nearest")
+    known = [
+        references[case].where(is_of_same_case(run, references[case])) for case, run in runs.items()
+    ]
+    run, true = (_norms_of(pair, names, data) for data in (runs.values(), known))
     run.attrs = {"long_name": "l2 norm of the paper's run", "units": "1"}
+    true.attrs = {"long_name": "l2 norm of the true run", "units": "1"}
     swept = [_read_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
     swept = style.join(swept, list(windows), "sweep", "sweep")
     swept = swept.rename(omega="swept_omega", initial="swept_initial")
-    return xr.merge([pair[["l2", "omega", "initial"]].assign(run=run), swept])
+    cases = pair[["l2", "omega", "initial"]].assign(run=run, true=true)
+    cases["run_inside"], cases["true_inside"] = (_inside(pair, norm) for norm in (run, true))
+    return xr.merge([cases, swept])
+
+
+def _norms_of(pair: xr.Dataset, names: xr.Variable, runs) -> xr.DataArray:
+    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
+    return xr.concat(norms, names, join="outer").reindex(tau=pair["tau"], method="nearest")
+
+
+def _inside(pair: xr.Dataset, norm: xr.DataArray) -> xr.DataArray:
+    """Return the part of the later half of the time in which a norm is within the wider band."""
+    low, high = (pair["l2"].sel(quantile=quantile) for quantile in BANDS[0][0])
+    inside = ((norm >= low) & (norm <= high)).where(norm.notnull())
+    late = inside.sel(tau=slice(float(pair["tau"].max()) / 2, None)).mean("tau")
+    name = f"part of the later half that {norm.attrs['long_name']} is within 5 to 95 %"
+    return late.drop_vars("quantile", errors="ignore").assign_attrs(long_name=name, units="1")
 
 
 def _read_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:
@@ -75,6 +98,7 @@ def _draw_bands(axes: Axes, case: xr.Dataset) -> None:
         edges = (case["l2"].sel(quantile=quantile) for quantile in (low, high))
         axes.fill_between(case["tau"], *edges, color=colour, lw=0)
     axes.plot(case["tau"], case["l2"].sel(quantile=0.5), **MEDIAN)
+    axes.plot(case["tau"], case["true"], **TRUE)
     axes.plot(case["tau"], case["run"], **OWN)
     axes.set_xlim(0, float(case["tau"].max()))
     axes.set_xlabel(r"$\tau$")
@@ -107,6 +131,7 @@ def _legend() -> list:
     return [
         *bands,
         Line2D([], [], label="median", **MEDIAN),
+        Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2}),
         Line2D([], [], label="mean and standard deviation", **MEAN),
         Line2D([], [], label="one run by the paper's solver", **{**OWN_DOT, "linestyle": "-"}),
     ]
