@@ -45,6 +45,7 @@ rule all:
         "results/claims.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",
+        "results/tables/trust.md",
         "results/tables/hard_cases.md",
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.trust import LEVELS, PARAMETERS, difference, first_above, horizons
+from pendula.trust import LEVELS, PARAMETERS, difference, first_above, horizons, write_table
 
 
 def run(count=11, omega=8.0, changes=()):
@@ -54,3 +54,11 @@ def test_each_solver_has_its_horizon_at_each_level():
 def test_another_case_has_no_horizon():
     found = horizons({"run": run(changes={("l2", 0, 1): 9.0})}, run(omega=7.0))
     assert found["horizon"].isnull().all() and found["difference"].isnull().all()
+
+
+def test_the_table_says_when_each_solver_is_lost_or_never():
+    runs = {"good": run(), "bad": run(changes={("l2", 1, 6): 1.02})}
+    found = horizons(runs, run())
+    page = write_table(found.assign(horizon=found["horizon"].expand_dims(case=["fig2_small"])))
+    assert "| fig2_small | bad | 3 | 3 |" in page
+    assert "| fig2_small | good | never | never |" in page

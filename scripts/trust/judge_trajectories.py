@@ -3,8 +3,10 @@
 from itertools import product
 
 from pendula.datasets import read
+from pendula.files import complete_or_absent
 from pendula.plots import trust
 from pendula.plots.style import save
+from pendula.trust import write_table
 
 
 def judge_trajectories(
@@ -15,12 +17,15 @@ def judge_trajectories(
     png: str,
     pdf: str,
     data: str,
+    table: str,
 ) -> None:
-    """Measure and draw the errors; `trajectories` run over cases and solvers, in this order."""
+    """Measure, draw and table the errors; `trajectories` run over cases, then over solvers."""
     runs = dict(zip(product(cases, solvers), map(read, trajectories), strict=True))
     truths = dict(zip(cases, map(read, references), strict=True))
     drawn = trust.gather(runs, truths)
     save(trust.draw(drawn), drawn, png, pdf, data)
+    with complete_or_absent(table) as partial:
+        partial.write_text(write_table(drawn), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ rule trust_horizons:
         references=references(*PAPER_CASES),
     output:
         **figure("trust_horizons"),
+        table="results/tables/trust.md",
     log:
         "results/logs/trust/horizons.log",
     conda:
