@@ -4,24 +4,34 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from oracle import boundaries, chains, constants, power_series
+from pendula.blocks import BLOCK, ORDER, WORK, lay_out, write_state
 from pendula.chain import Chain
-from pendula.chain_series import next_coefficient
-from pendula.integrators.taylor import WORK, lay_out
+from pendula.chain_series import continue_series
+from pendula.compiled import generic
 from pendula.lattice import Reduction, choose_ends, find_reduction, pack, unpack
+from pendula.vectors import LANES
 
-ORDER = 7
 WHOLE = Reduction(even=False, synchronised=False)
 
 
+@generic
+def fill(chain, y, work):
+    series = lay_out(work, y)
+    write_state(y, series)
+    continue_series(chain, series)
+
+
 def coefficients(z, numbers, boundary, reduction):
-    """Return the first coefficients (order + 1, 2, N) by the library, complex."""
+    """Return the coefficients (order + 1, 2, N) by the library, complex."""
     y = pack(z, reduction)
-    series = lay_out(np.full((WORK, *y.shape), np.nan), y)
-    series.c[0, :, : y.shape[1]] = y
-    chain = Chain(*numbers, *choose_ends(boundary, reduction))
-    for k in range(ORDER):
-        next_coefficient(chain, series, k)
-    return np.array([unpack(row, reduction) for row in series.c[: ORDER + 1, :, : y.shape[1]]])
+    work = np.full((WORK, *y.shape), np.nan)
+    fill(Chain(*numbers, *choose_ends(boundary, reduction)), y, work)
+    components, blocks = y.shape[0] // 2, -(-(y.shape[1] - 2) // LANES)
+    c = work.reshape(-1)[: components * blocks * BLOCK]
+    c = c.reshape(components, blocks, ORDER + 1, 3, LANES)[:, :, :, :2]
+    c = c.transpose(2, 0, 3, 1, 4).reshape(ORDER + 1, y.shape[0], blocks * LANES)
+    c = np.pad(c, ((0, 0), (0, 0), (1, 1)))[:, :, : y.shape[1]]
+    return np.array([unpack(state, reduction) for state in c])
 
 
 @pytest.mark.parametrize(("even", "synchronised"), [(0, 0), (1, 0), (0, 1), (1, 1)])
