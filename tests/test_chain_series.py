@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from oracle import boundaries, chains, constants, power_series
+from oracle import BOUNDARIES, boundaries, chains, constants, power_series
 from pendula.blocks import BLOCK, ORDER, WORK, lay_out, write_state
 from pendula.chain import Chain
-from pendula.chain_series import continue_series
+from pendula.chain_series import LONG, continue_series
 from pendula.compiled import generic
 from pendula.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 from pendula.vectors import LANES
@@ -46,3 +46,27 @@ def test_each_kind_of_half_continues_the_series(even, synchronised):
             np.testing.assert_allclose(actual / (size + 1), expected / (size + 1), atol=1e-13)
 
     check()
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "free"])
+def test_waves_along_a_long_chain_give_the_bits_of_its_half_order_by_order(boundary):
+    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * LONG // 3, 2)) @ (1.0, 1j)
+    z = np.concatenate([half[:, :0:-1], half], axis=1)
+    assert half.shape[1] <= LANES * LONG < z.shape[1]
+    runs = [
+        coefficients(z, (1.0, 0.7, -4.0), boundary, kept) for kept in (WHOLE, find_reduction(z))
+    ]
+    np.testing.assert_array_equal(*runs)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("sites", [1, 3, 5, 7, 9, 11, 13, 15, 17])
+def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks_end(
+    boundary, sites
+):
+    half = np.random.default_rng(sites).normal(size=(1, (sites + 1) // 2, 2)) @ (1.0, 1j)
+    z = np.repeat(np.concatenate([half[:, :0:-1], half], axis=1), 2, axis=0)
+    whole = coefficients(z, (1.0, 0.7, -4.0), boundary, WHOLE)
+    for even, synchronised in [(sites > 1, False), (False, True), (sites > 1, True)]:
+        kept = Reduction(even=even, synchronised=synchronised)
+        np.testing.assert_array_equal(coefficients(z, (1.0, 0.7, -4.0), boundary, kept), whole)

@@ -4,49 +4,23 @@ With A = sum_k a_k (tau - t)^k, i (k + 1) a_{k+1} is the linear part at a_k and 
 of |A|^2 A, which two Cauchy products give: first |A|^2 / 2, whose coefficients are kept, then that
 times A. Sites go four at a time and orders in pairs: one pass sums the products of an even order k
 in registers, and those of order k + 1 but for the terms that hold its own coefficients, so that
-each number that is loaded serves twice. Padding follows the ends of the chain like a ghost does.
+each number that is loaded serves twice.
 """
 
+from .block_ends import close
 from .blocks import BLOCK, DENSITY, LEFT, ORDER, RIGHT, STEP, X, Y, ghosts_of, start_of
-from .chain import FREE, MIRROR, PERIODIC, Chain, linear_field
+from .chain import PERIODIC, Chain, linear_field
 from .compiled import kernel, merged
-from .lanes import keep, seen_left, seen_right
+from .lanes import seen_left, seen_right
 from .vectors import fill, load, store
+
+LONG = 64
+"""Blocks of a chain that outgrows the cache."""
+GROUP = 4
+"""Blocks that take an order together: 17 groups of them fit into the cache."""
 
 # not cached on its own: its cache would not notice a change in `vectors`
 linear_vector = merged(linear_field.py_func)
-
-
-@merged
-def close_part(chain, m, first, last, inside, ghosts):
-    """Write ghosts and padding of one part; its first and last block are at `first`, `last`."""
-    left, right = 0.0, 0.0
-    if chain.right == FREE:
-        right = m[last + inside - 1]
-    elif chain.right == PERIODIC:
-        right = m[first]
-    store(m, last, keep(load(m, last), inside, right))
-    store(m, ghosts + RIGHT, fill(right))
-    if chain.left == FREE:
-        left = m[first]
-    elif chain.left == PERIODIC:
-        left = m[last + inside - 1]
-    elif chain.left == MIRROR:
-        left = m[first + 1]
-    store(m, ghosts + LEFT, fill(left))
-
-
-@merged
-def close(chain, series, k):
-    """Fill ghosts and padding of order k with what the ends of the chain see."""
-    for component in range(series.components):
-        first = start_of(series, component, 0) + k * STEP
-        last = start_of(series, component, series.blocks - 1) + k * STEP
-        ghosts = ghosts_of(series, component)
-        for part in range(X, Y + 1, Y - X):
-            close_part(
-                chain, series.memory, first + part, last + part, series.inside, ghosts + part
-            )
 
 
 @merged
@@ -128,21 +102,32 @@ def odd_order(chain, series, k, component, block):
 
 
 @merged
-def next_order(chain, series, k):
-    """Write the coefficients of order k + 1 of all sites."""
+def next_order(chain, series, k, first, last):
+    """Write the coefficients of order k + 1 of some blocks of each component."""
     for component in range(series.components):
         if k % 2 == 0:
-            for block in range(series.blocks):
+            for block in range(first, last):
                 even_order(chain, series, k, component, block)
         else:
-            for block in range(series.blocks):
+            for block in range(first, last):
                 odd_order(chain, series, k, component, block)
 
 
 @kernel
 def continue_series(chain, series):
-    """Write the coefficients of all orders from those of order 0."""
-    for k in range(ORDER + 1):
-        close(chain, series, k)
-        if k < ORDER:
-            next_order(chain, series, k)
+    """Write the coefficients of all orders from those of order 0.
+
+    Order by order, or on a long chain in waves: each group of blocks is one order behind the group
+    to its left, so that the groups at work fit into the cache.
+    """
+    blocks = series.blocks
+    whole = blocks <= LONG or chain.left == PERIODIC  # a ring has no side to start a wave from
+    group = blocks if whole else GROUP
+    groups = (blocks + group - 1) // group
+    for wave in range(groups + ORDER):
+        for k in range(max(0, wave - groups + 1), min(wave, ORDER) + 1):
+            first = (wave - k) * group
+            last = min(first + group, blocks)
+            if k > 0:
+                next_order(chain, series, k - 1, first, last)
+            close(chain, series, k, first == 0, last == blocks)
