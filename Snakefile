@@ -8,6 +8,10 @@ configfile: f"{workflow.basedir}/config/config.yaml"
 include: "workflow/rules/common.smk"
 
 
+CHAOS_FIGURES = [
+    # How fast small errors grow, how evenness is lost, and what runs from almost equal data share
+    *("lyapunov", "symmetry", "ensembles"),
+]
 FIGURES = [
     # Fig 1: the chain of coupled pendula pairs
     "fig1",
@@ -25,6 +29,7 @@ FIGURES = [
     *("stability_chart", "growth_rates"),
     # Theorems 1 to 3: observed norms against their bounds
     "bounds",
+    *CHAOS_FIGURES,
 ]
 
 
@@ -36,7 +41,7 @@ rule all:
         expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
-        expand("results/checks/{name}.nc", name=CHECKS),
+        expand("results/checks/{name}.nc", name=[*CHECKS, *CHAOS_CHECKS]),
         "results/claims.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",
@@ -57,6 +62,13 @@ rule theory:
         "results/claims.json",
 
 
+rule chaos:
+    "How fast small errors grow, how evenness is lost, and ensembles of the chaotic cases"
+    input:
+        expand("results/checks/{name}.nc", name=CHAOS_CHECKS),
+        expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=["png", "pdf", "nc"]),
+
+
 include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/sweeps.smk"
 include: "workflow/rules/figures.smk"
@@ -66,4 +78,7 @@ include: "workflow/rules/trust.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
+include: "workflow/rules/chaos_inputs.smk"
+include: "workflow/rules/chaos.smk"
 include: "workflow/rules/speed.smk"
+include: "workflow/rules/figure_diff.smk"

@@ -104,6 +104,7 @@ def chains(draw, widths=(0, 3), even=False, synchronised=False):
     shape = (2, 2, 2 * half_width + 1)
     # thirds, because the sums of simple numbers would not round at all
     parts = draw(arrays(float, shape, elements=st.floats(-6, 6, width=32))) / 3
+    parts[np.abs(parts) < 1e-6] = 0.0  # the tolerances are absolute: smaller data are refused
     return symmetrise(parts[0] + 1j * parts[1], even, synchronised)
 
 

@@ -1,9 +1,10 @@
-"""Which code a job depends on: its script, the modules it imports, and the pinned packages.
+"""Which code and which committed data a job depends on, by content.
 
 Snakemake does not see a change in a module that a script imports. So each rule takes as input a
-record of all of them with their hashes, in results/code/. A record is written only when its
-content changes: editing a module reruns what imports it, while touching files, or cloning the
-project anew beside finished results, reruns nothing.
+record of its script, of all modules that it imports and of the pinned packages with their hashes,
+in results/code/. A record is written only when its content changes: editing a module reruns what
+imports it, while touching files, or cloning the project anew beside finished results, reruns
+nothing. Committed data are copied in the same way: their paths do not change with the clone.
 """
 
 import os
@@ -12,7 +13,7 @@ from pathlib import Path
 from pendula.sources import SCRIPTS, digest_of, modules_of
 
 ROOT = SCRIPTS.parent
-RECORDS = Path("results/code")
+RECORDS, COPIES = Path("results/code"), Path("results/truth")
 
 
 def code(script: str) -> str:
@@ -20,10 +21,20 @@ def code(script: str) -> str:
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
     files = [ROOT / "environment.txt", SCRIPTS / "job.py", *modules_of(SCRIPTS / script)]
     lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
-    text = "".join(dict.fromkeys(lines))
-    if not record.exists() or record.read_text(encoding="utf-8") != text:
-        RECORDS.mkdir(parents=True, exist_ok=True)
-        partial = record.with_name(f".{os.getpid()}.{record.name}")
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(record)
-    return record.as_posix()
+    return _keep(record, "".join(dict.fromkeys(lines)).encode())
+
+
+def committed(file: str) -> str:
+    """Return the path of a copy of a committed file, brought up to date."""
+    source = ROOT / file
+    return _keep(COPIES / source.name, source.read_bytes())
+
+
+def _keep(path: Path, content: bytes) -> str:
+    """Write the file if its content is another."""
+    if not path.exists() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial = path.with_name(f".{os.getpid()}.{path.name}")
+        partial.write_bytes(content)
+        partial.replace(path)
+    return path.as_posix()

@@ -20,7 +20,7 @@ GROUP = 4
 """Blocks that take an order together: 17 groups of them fit into the cache."""
 
 # not cached on its own: its cache would not notice a change in `vectors`
-linear_vector = merged(linear_field.py_func)
+linear_vector = merged(getattr(linear_field, "py_func", linear_field))
 
 
 @merged

@@ -9,6 +9,8 @@ import numpy as np
 from .integrators.outcome import MOST_STEPS
 from .integrators.taylor import ORDER
 
+LONGEST_SERIES = 20.0
+"""Terms of a longer exponential series cancel to noise; beyond 700 they overflow without end."""
 ROUNDING = 1e-16
 """No solver resolves a smaller part of the data."""
 SMALLEST_ERROR = 1e-150
@@ -28,7 +30,7 @@ def find_obstacle(
     peak = float(parts.max(initial=0.0))  # NaN where there is one
     return (
         _find_in_data(constants, peak, span)
-        or _find_in_steps(solver, span)
+        or _find_in_steps(constants, solver, span)
         or _find_in_tolerances(solver, peak)
         or _find_in_series(constants, peak, span, solver)
     )
@@ -54,7 +56,7 @@ def _find_in_data(constants, peak: float, span: float) -> str | None:
     return None
 
 
-def _find_in_steps(solver: dict, span: float) -> str | None:
+def _find_in_steps(constants, solver: dict, span: float) -> str | None:
     if "step" not in solver:
         return None
     if not solver["step"] > 0.0:
@@ -62,6 +64,9 @@ def _find_in_steps(solver: dict, span: float) -> str | None:
     if not span <= MOST_STEPS * solver["step"]:
         count = span / solver["step"]
         return f"the run takes {count:.0e} steps, more than {MOST_STEPS:.0e}: the step is too short"
+    reach = _rate(constants, 0.0) * min(solver["step"], span)
+    if solver["name"] == "splitting" and reach > LONGEST_SERIES:
+        return f"the step is too long for the linear terms: they turn the data by {reach:.0f} in it"
     return None
 
 

@@ -131,7 +131,7 @@ def test_too_few_iterations_cut_the_step_as_well():
 @pytest.mark.parametrize(("amplitude", "iterations"), [(1e6, 50), (1.0, 1)])
 def test_where_cutting_does_not_help_the_run_ends(amplitude, iterations):
     with pytest.raises(IntegrationError, match=r"^crank_nicolson stopped at tau = 0: .* contract"):
-        run(amplitude * random_chain(1), [0.0, 1.0], iterations=iterations)
+        run(amplitude * random_chain(1), [0.0, 1e-4], iterations=iterations)
 
 
 def test_a_solution_that_blows_up_is_reported_where_it_does():

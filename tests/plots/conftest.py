@@ -1,5 +1,6 @@
 """Small made-up datasets of the form that the simulations write: the plots need no simulation."""
 
+import made_up_chaos
 import numpy as np
 import pytest
 import xarray as xr
@@ -88,10 +89,13 @@ def gathered(make_trajectory, trajectories, make_sweep):
         bounds,
         chain_drawing,
         energy,
+        ensembles,
         growth_rates,
+        lyapunov,
         norms,
         spacetime,
         stability_chart,
+        symmetry,
         trust,
     )
     from pendula.plots import sweeps as sweep_plot
@@ -112,4 +116,12 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "growth_rates": growth_rates.gather(long, short, threshold()),
         "trust": trust.gather(trajectories, {"fig2_small": true, "fig2_large": true}),
         "bounds": bounds.gather(cases(), sweeps(), samples(), worst()),
+        "lyapunov": lyapunov.gather(made_up_chaos.lyapunov()),
+        "symmetry": symmetry.gather(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
+        "ensembles": ensembles.gather(
+            made_up_chaos.ensembles(),
+            dict(zip(made_up_chaos.CASES, pair, strict=True)),
+            dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
+            dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
+        ),
     }

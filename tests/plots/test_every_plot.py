@@ -12,6 +12,7 @@ from pendula.plots import style
 MODULES = [
     *("agreement", "bounds", "chain_drawing", "energy", "growth_rates", "norms", "spacetime"),
     *("stability_chart", "sweeps", "trust"),
+    *("lyapunov", "symmetry", "ensembles"),
 ]
 
 

@@ -5,8 +5,6 @@ import pytest
 from pendula.torture import against_exact, against_runs, rows, table
 from pendula.torture.row import Row, evaluate
 
-SHORTER = {"tau": 200.0}
-
 
 def shortened(row):
     """Return a row as it is, or over a shorter time or a shorter chain where that is long."""

@@ -1,5 +1,6 @@
 """A solver made slightly wrong is seen: comparison with SciPy's solution has the teeth for it."""
 
+import numba
 import numpy as np
 import pytest
 from pendula import simulation, solvers
@@ -30,8 +31,6 @@ def wrong_dop853(monkeypatch):
     namespace = {**vars(dop853_stages), "A13": tuple(weights)}
     plain = dop853_stages.combine.py_func
     changed = type(plain)(plain.__code__, namespace)
-    import numba
-
     monkeypatch.setattr(dop853, "combine", numba.njit(error_model="numpy")(changed))
     wrong = numba.njit(error_model="numpy")(dop853.build(rates, observe).py_func)
     monkeypatch.setitem(simulation.SOLVERS, "dop853", solvers.SOLVERS["dop853"]._replace(run=wrong))

@@ -8,7 +8,10 @@ from pathlib import Path
 import pytest
 from helpers import ROOT, snakemake
 
-PARTS = ("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt")
+PARTS = (
+    *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
+    "tests/baseline/reference",
+)
 
 
 @pytest.fixture(scope="session")
@@ -46,6 +49,6 @@ def clone(tmp_path) -> Path:
                 copy_function=shutil.copy,
             )
         else:
-            project.mkdir(exist_ok=True)
+            project.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, project / part)
     return project

@@ -1,4 +1,5 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
+import glob
 import os
 import sys
 
@@ -6,7 +7,7 @@ from snakemake.exceptions import WorkflowError
 
 sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
-from code_records import code
+from code_records import code, committed
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
 from pendula.speed.regimes import REGIMES
@@ -31,10 +32,15 @@ ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrate
 AUTOMATIC = ["dop853", "taylor"]  # that `auto` chooses from
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+CHAOTIC_CASES = ["fig3_large", "fig4_small", "fig4_large"]
+CHAOTIC_SWEEPS = ["fig5_right", "fig6_right"]
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
+CHAOS_CHECKS = ["lyapunov", "symmetry", "ensembles"]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
+
+BASELINE = f"{workflow.basedir}/tests/baseline"
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
 if absent:
@@ -53,7 +59,7 @@ def kernels(*solvers):
 
 
 def references(*cases):
-    return [f"{workflow.basedir}/tests/baseline/reference/{case}.nc" for case in cases]
+    return [committed(f"tests/baseline/reference/{case}.nc") for case in cases]
 
 
 def by_solvers(stem, solvers):
@@ -87,3 +93,10 @@ def reference_problem(case):
 def figure(name, prefix=""):
     kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
     return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
+
+
+def baseline_of(results):
+    """Return the accepted files beside these results, and the record of them."""
+    folders = sorted({path.split("/")[1] for path in results})
+    patterns = ["accepted.json", *(f"{folder}/*" for folder in folders)]
+    return sorted(path for name in patterns for path in glob.glob(f"{BASELINE}/{name}"))

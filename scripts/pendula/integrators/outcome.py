@@ -6,7 +6,7 @@ DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG = range(5)
 
 MOST_STEPS = 1e9
 """More steps are refused: the run would take hours or never end."""
-SMALLEST_PART = 1.0 / MOST_STEPS
+SMALLEST_PART = 1e-10
 """A step shorter than this part of the run is refused."""
 
 FAULTS = {

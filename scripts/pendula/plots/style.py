@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
+from matplotlib.image import imsave
 
 from ..files import complete_or_absent
 
@@ -125,9 +126,19 @@ def save(
         complete_or_absent(netcdf) as new_netcdf,
     ):
         # not savefig, which draws everything once more to find out what it will draw
-        figure.canvas.print_png(new_png, metadata={"Software": None})
+        figure.canvas.draw()
+        about = {"Software": None, "Panels": _panels(figure)}
+        imsave(new_png, figure.canvas.buffer_rgba(), format="png", dpi=figure.dpi, metadata=about)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         FigureCanvasPdf(figure).print_pdf(new_pdf, metadata=undated)
         stated = data.assign_attrs(Conventions="CF-1.11")
         stated.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
+
+
+def _panels(figure: Figure) -> str:
+    """Return left, top, right and bottom of each panel in pixels, for the figure diff."""
+    height = figure.bbox.height
+    boxes = [axes.get_window_extent() for axes in figure.axes if axes.get_visible()]
+    edges = [(box.x0, height - box.y1, box.x1, height - box.y0) for box in boxes]
+    return ";".join(" ".join(str(round(edge)) for edge in box) for box in edges)

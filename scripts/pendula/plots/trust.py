@@ -20,7 +20,7 @@ def gather(trajectories: by_case.Trajectories, references: dict[str, xr.Dataset]
     data = by_case.stack(
         trajectories, {case: found["difference"] for case, found in curves.items()}
     )
-    case = xr.Variable("case", cases)
+    case = xr.Variable("case", cases, data["case"].attrs)
     data["horizon"] = xr.concat([found["horizon"] for found in curves.values()], case)
     data["size"] = next(iter(curves.values()))["size"]
     return data
@@ -55,4 +55,4 @@ def _draw_panel(axes: Axes, case: xr.Dataset) -> None:
         axes.plot(lost, visible, **look, markeredgecolor="white", zorder=3)
     axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{visible:.0%} (visible)")
     axes.set_xlim(0, float(case["tau"].max()))
-    axes.set_ylim(bottom=1e-17)
+    axes.set_ylim(1e-17, 3.0)

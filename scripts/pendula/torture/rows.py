@@ -129,6 +129,8 @@ REFUSED = [
         {"amplitude": 1e4, "tau": 50.0}),
     Row("an iteration that does not contract", "-", runs.run_anyway, (crank_nicolson(0.1),),
         "contract", {"amplitude": 1e5, "tau": 0.1}),
+    Row("a step of 1000", "-", runs.run_anyway, (splitting(1e3),), "linear terms",
+        {"tau": 1e4}),
     Row("a step too long", "-", runs.run_anyway, (splitting(0.1),), "too long",
         {"amplitude": 100.0}),
 ]  # fmt: skip

@@ -1,0 +1,29 @@
+"""Run seeded ensembles of chaotic cases and sweeps from data that differ in their last digits."""
+
+from pendula.chaos.ensemble_table import case_bands, sweep_moments
+from pendula.datasets import write
+
+
+def measure_ensembles(
+    data: str,
+    problems: dict[str, dict],
+    members: int,
+    swept_problems: dict[str, dict],
+    half_widths: list[int],
+    windows: list[tuple[float, float]],
+    swept_members: int,
+    size: float,
+    seed: int,
+    kernels: list[str] | tuple = (),
+) -> None:
+    """Run `members` of each case and `swept_members` of each sweep, perturbed by `size`."""
+    cases = case_bands(problems, size, members, seed)
+    sweeps = sweep_moments(swept_problems, half_widths, windows, size, swept_members, seed)
+    counts = {"members": members, "swept_members": swept_members}
+    write(data, cases | sweeps, {"perturbation": size, "seed": seed, **counts})
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(measure_ensembles, snakemake)  # noqa: F821

@@ -1,0 +1,26 @@
+"""Measure Lyapunov exponents, and when solvers part from the truth as these predict."""
+
+from pendula.chaos.tables import largest_exponents, parting_times, spectra
+from pendula.datasets import write
+
+
+def measure_lyapunov(
+    data: str,
+    problems: dict[str, dict],
+    end_time: float,
+    tolerances: list[float],
+    short_problems: dict[str, dict],
+    short_end_time: float,
+    kernels: list[str] | tuple = (),
+) -> None:
+    """Follow `problems` to `end_time`, and all changes of `short_problems` to their own."""
+    growth = largest_exponents(problems, end_time)
+    times = parting_times(problems, tolerances, growth)
+    attributes = {"spectrum_half_width": next(iter(short_problems.values()))["half_width"]}
+    write(data, growth | times | spectra(short_problems, short_end_time), attributes)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(measure_lyapunov, snakemake)  # noqa: F821

@@ -1,0 +1,23 @@
+"""Measure how even data lose their evenness: by rounding, and by small odd perturbations."""
+
+from pendula.chaos.symmetry_table import odd_parts
+from pendula.datasets import write
+
+
+def measure_symmetry(
+    data: str,
+    problems: dict[str, dict],
+    size: float,
+    members: int,
+    seed: int,
+    kernels: list[str] | tuple = (),
+) -> None:
+    """Follow the odd part of each case, alone and with perturbations of relative `size`."""
+    attributes = {"perturbation": size, "members": members, "seed": seed}
+    write(data, odd_parts(problems, size, members, seed), attributes)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(measure_symmetry, snakemake)  # noqa: F821

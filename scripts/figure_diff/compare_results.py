@@ -1,0 +1,37 @@
+"""Compare what a run made with the accepted baseline, and write a page and a verdict on it."""
+
+from pathlib import Path
+
+from pendula.figure_diff import findings, page
+from pendula.figure_diff.baseline import environment, recorded
+from pendula.figure_diff.comparison import compare
+from pendula.files import complete_or_absent
+
+
+def compare_results(
+    results: list[str], baseline: str, html: str, verdict: str, accepted: list[str] | tuple = ()
+) -> None:
+    """Compare the files `results` (results/topic/name) with the folder `baseline`.
+
+    Faults do not fail this job, so that Snakemake keeps the page; they fail the rule figure_diff.
+    """
+    made, folder = Path(results[0]).parts[0], Path(baseline)
+    names = [Path(path).relative_to(made).as_posix() for path in results]
+    found = compare(names, Path(made), folder)
+    with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
+        new_html.write_text(page.render(found, Path(made), folder, _note(folder)), "utf-8")
+        findings.dump(found, new_verdict)
+
+
+def _note(folder: Path) -> str:
+    then, now = recorded(folder)["environment"], environment()
+    if then == now:
+        return "Pictures compared pixel by pixel: the environment is that of the baseline."
+    changed = [f"{key} {then.get(key)} to {now[key]}" for key in now if then.get(key) != now[key]]
+    return f"Pictures compared by their look: the environment changed ({', '.join(changed)})."
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(compare_results, snakemake)  # noqa: F821

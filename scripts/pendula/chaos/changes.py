@@ -1,0 +1,11 @@
+"""Random changes of a state, even or odd in n, or neither."""
+
+import numpy as np
+
+PARITIES = ("even", "odd")
+
+
+def random_change(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
+    z = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
+    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]

@@ -1,0 +1,57 @@
+"""A run and the baseline that was accepted from it, to plant faults into."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import NamedTuple
+
+import made_up
+import pytest
+from pendula.figure_diff import baseline
+from pendula.figure_diff.comparison import compare
+from pendula.figure_diff.findings import Finding
+
+
+class Run(NamedTuple):
+    """Folders of the results and of the baseline."""
+
+    made: Path
+    accepted: Path
+
+    def findings(self, names=made_up.NAMES) -> dict[str, Finding]:
+        """Compare, and return what was found of each file."""
+        return {finding.name: finding for finding in compare(names, self.made, self.accepted)}
+
+    def faults(self, names=made_up.NAMES) -> list[str]:
+        """Compare, and return the lines of the faults."""
+        return [each.line for each in self.findings(names).values() if each.is_fault]
+
+    def move_to_another_environment(self) -> None:
+        """Make the baseline one that another matplotlib has drawn."""
+        path = self.accepted / baseline.RECORD
+        record = json.loads(path.read_text())
+        record["environment"]["matplotlib"] = "1.0"
+        path.write_text(json.dumps(record))
+
+
+@pytest.fixture(scope="session")
+def accepted_run(tmp_path_factory) -> Run:
+    folder = tmp_path_factory.mktemp("figure_diff")
+    run = Run(made_up.make_run(folder / "results"), folder / "baseline")
+    baseline.accept(made_up.NAMES, *run)
+    return run
+
+
+@pytest.fixture
+def run(accepted_run, tmp_path) -> Run:
+    """Return a copy of the run and of its baseline, to be changed."""
+    copies = (shutil.copytree(path, tmp_path / path.name) for path in accepted_run)
+    return Run(*copies)
+
+
+@pytest.fixture(params=["same environment", "other environment"])
+def any_environment(request, run) -> Run:
+    """Return the run, compared by pixels and by look."""
+    if request.param == "other environment":
+        run.move_to_another_environment()
+    return run

@@ -1,0 +1,101 @@
+"""Planted faults in pictures, by pixels and by look; other fonts pass by look."""
+
+import made_up
+import matplotlib
+import numpy as np
+import pytest
+from made_up import CHAOTIC_PICTURE, PICTURE, chaotic, regular
+from pendula.figure_diff import images, pictures
+from pendula.figure_diff.findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY
+from pendula.figure_diff.pictures import Picture
+from pendula.plots import style
+from PIL import Image
+
+FAULTS = {
+    "swapped colours": {"colours": ("B", "A")},
+    "one wrong colour": {"colours": ("A", "dop853")},
+    "lost label": {"label": " "},
+    "missing panel": {"panels": 1},
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
+def test_a_planted_fault_is_named_in_one_line(any_environment, fault):
+    made_up.put(any_environment.made, "fig2", regular(), **fault)
+    (line,) = any_environment.faults()
+    assert line.startswith(f"different: {PICTURE}: ") and "\n" not in line
+
+
+@pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
+def test_faults_are_found_where_the_curves_have_moved(any_environment, fault):
+    made_up.put(any_environment.made, "fig4", chaotic(seed=7), **fault)
+    (line,) = any_environment.faults()
+    assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
+
+
+def _pixels(**changes) -> Picture:
+    figure = made_up.draw(regular(), **changes)
+    figure.canvas.draw()
+    return Picture(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [])
+
+
+def _otherwise(monkeypatch, key, value) -> Picture:
+    monkeypatch.setitem(style._RC, key, value)
+    return _pixels()
+
+
+def _look(was: Picture, now: Picture) -> str:
+    return images.judge(PICTURE, was, now, images.LOOK, moved=False).status
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("text.antialiased", False), ("axes.labelsize", 8.1), ("xtick.labelsize", 7.4)],
+)
+def test_letters_drawn_otherwise_look_the_same(monkeypatch, key, value):
+    was, now = _pixels(), _otherwise(monkeypatch, key, value)
+    assert (was.pixels != now.pixels).any()
+    assert _look(was, now) == NEARLY
+    assert images.judge(PICTURE, was, now, images.EXACT, moved=False).status == DIFFERENT
+
+
+@pytest.mark.parametrize("step", [(0, 1), (1, 0), (2, -2)])
+def test_a_shift_by_a_pixel_looks_the_same(step):
+    was = _pixels()
+    shifted = Picture(np.roll(was.pixels, step, (0, 1)), [])
+    assert _look(was, shifted) == NEARLY
+
+
+def test_other_letters_do_not_look_the_same(monkeypatch):
+    was, now = _pixels(), _pixels(label="energy")
+    assert _look(was, now) == DIFFERENT
+
+
+def test_a_single_shade_is_nearly_the_same_by_pixels():
+    was = _pixels()
+    now = Picture(np.where(was.pixels > 250, 253, was.pixels).astype(np.uint8), [])
+    assert images.judge(PICTURE, was, now, images.EXACT, moved=False).status == NEARLY
+
+
+@pytest.mark.parametrize("kept", [100, 5000], ids=["header", "half of the pixels"])
+def test_a_damaged_picture(any_environment, kept):
+    path = any_environment.made / PICTURE
+    path.write_bytes(path.read_bytes()[:kept])
+    (line,) = any_environment.faults()
+    assert line.startswith(f"{DAMAGED}: {PICTURE}: the picture cannot be read")
+
+
+def test_another_size(run):
+    pixels = pictures.read(run.made / PICTURE).pixels
+    Image.fromarray(pixels[:-10]).save(run.made / PICTURE)
+    assert "pixels in place of" in run.faults()[0]
+
+
+def test_a_saved_figure_names_its_panels(run):
+    left, right = pictures.read(run.made / PICTURE).panels
+    assert left[2] < right[0] and left[1] == right[1] and left[3] == right[3]
+
+
+def test_drawing_twice_gives_the_same_picture(run):
+    made_up.put(run.made, "fig2", regular())
+    assert run.findings()[PICTURE].status == IDENTICAL, matplotlib.__version__

@@ -1,0 +1,80 @@
+"""Small made-up datasets of chaos: the plots need no run."""
+
+import numpy as np
+import xarray as xr
+from made_up_checks import dataset
+
+CASES = ["fig2_small", "fig4_large"]
+SWEEPS = ["fig5_right", "fig6_right"]
+LABELS = {
+    "omega": ("case", [8.0, 0.0]),
+    "initial": ("case", ['{"0": [1.0, 0.1]}', '{"0": [5.0, 1.0]}']),
+}
+RATES = np.array([[0.001, 0.002], [1.5, 1.7]])  # (case, parity)
+SIZE = 1e-12
+
+
+def lyapunov() -> xr.Dataset:
+    """Return exponents of changes that grow at RATES, on solutions of constant size."""
+    tau, rtol = np.linspace(0.0, 20.0, 81), [1e-6, 1e-9, 1e-12]
+    spectrum = np.array([np.linspace(2.0, -2.0, 12)])
+    parting = np.array([[np.nan] * 3, [8.0, 12.0, 16.0]])
+    coordinates = {"case": CASES, "parity": ["even", "odd"], "tau": tau, "rtol": rtol}
+    coordinates |= {
+        "spectrum_case": CASES[1:],
+        "index": np.arange(1, 13),
+        "spectrum_tau": tau[4::4],
+    }
+    made = dataset(
+        coordinates,
+        **LABELS,
+        stretch=(("case", "parity", "tau"), RATES[:, :, None] * tau),
+        size=(("case", "tau"), np.full((2, tau.size), 3.0)),
+        exponent=(("case", "parity"), RATES),
+        parting_predicted=(("case", "rtol"), parting),
+        parting_measured=(("case", "rtol"), parting + 1),
+        spectrum=(("spectrum_case", "index"), spectrum),
+        spectrum_error=(("spectrum_case", "index"), 0.01 + 0 * spectrum),
+        running_spectrum=(
+            ("spectrum_case", "index", "spectrum_tau"),
+            np.repeat(spectrum[:, :, None], 20, axis=2),
+        ),
+    )
+    return made.assign_attrs(spectrum_half_width=1)
+
+
+def symmetry() -> xr.Dataset:
+    """Return odd parts that grow at the odd RATES from rounding and from SIZE."""
+    tau = np.linspace(0.0, 10.0, 101)
+    grown = np.exp(RATES[:, 1, None] * tau)
+    rounded = 1e-16 * grown
+    rounded[:, 0] = 0.0
+    perturbed = SIZE * np.stack([grown, 2 * grown], axis=1)
+    made = dataset(
+        {"case": CASES, "tau": tau},
+        **LABELS,
+        rounded=(("case", "tau"), rounded),
+        perturbed=(("case", "member", "tau"), perturbed),
+    )
+    return made.assign_attrs(perturbation=SIZE)
+
+
+def ensembles() -> xr.Dataset:
+    """Return bands one apart, and swept maxima that tell where they stand."""
+    tau, quantile = np.linspace(0.0, 5.0, 11), np.array([0.05, 0.25, 0.5, 0.75, 0.95])
+    quantity, half_width = ["A", "B", "pair"], np.array([5, 20])
+    bands = np.arange(5.0)[:, None, None] + np.arange(3.0)[:, None] * 10 + 0 * tau
+    swept = ("sweep", "half_width", "quantity", "statistic", "window")
+    shape = (2, 2, 3, 2, 3)
+    mean = 1.0 + np.arange(np.prod(shape)).reshape(shape)
+    return dataset(
+        {
+            "case": CASES, "tau": tau, "quantile": quantile, "quantity": quantity,
+            "sweep": SWEEPS, "half_width": half_width, "statistic": ["max", "mean"],
+            "window": ["[10, 50]", "[10, 70]", "[10, 40]"],
+        },
+        **LABELS,
+        l2=(("case", "quantile", "quantity", "tau"), np.array([bands, 2 * bands])),
+        l2_mean=(swept, mean),
+        l2_deviation=(swept, mean / 10),
+    )  # fmt: skip

@@ -1,0 +1,116 @@
+# Chaos in the chain: how fast small errors grow, and what that leaves to be trusted.
+
+
+rule measure_lyapunov:
+    "Lyapunov exponents of every case, and when solvers part from the truth"
+    input:
+        code=code("chaos/measure_lyapunov.py"),
+        kernels=kernels("dop853"),
+    output:
+        data="results/checks/lyapunov.nc",
+    log:
+        "results/logs/checks/lyapunov.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        problems=followed(PAPER_CASES, 1e-13),
+        end_time=4 * longest(PAPER_CASES),
+        tolerances=[1e-6, 1e-9, 1e-12],
+        short_problems=followed(["fig3_large", "fig4_small"], 1e-13, half_width=3),
+        short_end_time=6 * longest(["fig3_large", "fig4_small"]),
+    message:
+        "Measuring Lyapunov exponents"
+    script:
+        "../../scripts/chaos/measure_lyapunov.py"
+
+
+rule measure_symmetry:
+    "How even data lose their evenness: by rounding, and by odd perturbations"
+    input:
+        code=code("chaos/measure_symmetry.py"),
+        kernels=kernels("dop853"),
+    output:
+        data="results/checks/symmetry.nc",
+    log:
+        "results/logs/checks/symmetry.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        problems=followed(PAPER_CASES, 1e-12, end_time=longest(PAPER_CASES)),
+        size=1e-12,
+        members=8,
+        seed=1,
+    message:
+        "Measuring how evenness is lost"
+    script:
+        "../../scripts/chaos/measure_symmetry.py"
+
+
+rule measure_ensembles:
+    "Chaotic cases and sweeps from data that differ in their last digits"
+    input:
+        code=code("chaos/measure_ensembles.py"),
+        kernels=kernels("dop853"),
+    output:
+        data="results/checks/ensembles.nc",
+    log:
+        "results/logs/checks/ensembles.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        problems=followed(CHAOTIC_CASES, 1e-8, end_time=longest(CHAOTIC_CASES)),
+        members=32,
+        swept_problems=swept(1e-8),
+        half_widths=in_any("half_widths")[::2],  # every other one, to save time
+        windows=in_any("windows"),
+        swept_members=8,
+        size=1e-7,  # the relative tolerance of the paper's own runs
+        seed=2,
+    message:
+        "Running ensembles of the chaotic cases and sweeps"
+    script:
+        "../../scripts/chaos/measure_ensembles.py"
+
+
+rule chaos_figures:
+    "How fast small errors grow, and how evenness is lost"
+    input:
+        code=code("figures/draw_chaos.py"),
+        lyapunov="results/checks/lyapunov.nc",
+        symmetry="results/checks/symmetry.nc",
+    output:
+        **figure("lyapunov"),
+        **figure("symmetry", "symmetry_"),
+    log:
+        "results/logs/figures/chaos.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Drawing Lyapunov exponents, and how evenness is lost"
+    script:
+        "../../scripts/figures/draw_chaos.py"
+
+
+rule ensembles_figure:
+    "What runs from almost equal data share, beside the paper's own"
+    input:
+        code=code("figures/draw_ensembles.py"),
+        ensembles="results/checks/ensembles.nc",
+        runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
+        sweeps=expand("results/sweeps/{sweep}.nc", sweep=CHAOTIC_SWEEPS),
+    output:
+        **figure("ensembles"),
+    log:
+        "results/logs/figures/ensembles.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=CHAOTIC_CASES,
+        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in CHAOTIC_SWEEPS},
+    message:
+        "Drawing ensembles of the chaotic cases and sweeps beside the paper's runs"
+    script:
+        "../../scripts/figures/draw_ensembles.py"
