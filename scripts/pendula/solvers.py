@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from .chain import linear_radius, linear_rates, midpoint_rates, rates, turn
-from .chain_series import next_coefficient
+from .chain_series import continue_series
 from .compiled import kernel
 from .integrators import crank_nicolson, dop853, ode45, splitting, taylor
 from .observables import observe
@@ -12,7 +12,7 @@ from .observables import observe
 solve_ode45 = ode45.build(rates, observe)
 solve_dop853 = dop853.build(rates, observe)
 solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
-solve_taylor = taylor.build(next_coefficient, observe)
+solve_taylor = taylor.build(continue_series, observe)
 solve_splitting = splitting.build(linear_rates, linear_radius, turn, observe)
 
 

@@ -6,8 +6,10 @@ solutions in closed form, and so has Crank-Nicolson for q = 0.
 """
 
 import numpy as np
+from pendula.blocks import BLOCK, ORDER
 from pendula.compiled import generic
 from pendula.integrators import crank_nicolson, dop853, ode45, taylor
+from pendula.vectors import LANES
 from scipy.integrate import solve_ivp
 
 START = 2.0 + 0.5j
@@ -20,16 +22,18 @@ def oscillate(mu, y, dy):
 
 
 @generic
-def continue_oscillation(mu, series, k):
-    """Write the coefficient of order k + 1 from those before; density[k] is that of x^2."""
-    c, square = series.c, series.density
-    square[k, 0, 1] = cubic = 0.0
-    for j in range(k + 1):
-        square[k, 0, 1] += c[j, 0, 1] * c[k - j, 0, 1]
-    for j in range(k + 1):
-        cubic += square[j, 0, 1] * c[k - j, 1, 1]
-    c[k + 1, 0, 1] = c[k, 1, 1] / (k + 1)
-    c[k + 1, 1, 1] = (mu * (c[k, 1, 1] - cubic) - c[k, 0, 1]) / (k + 1)
+def continue_oscillation(mu, series):
+    """Write the coefficients of x and y of all orders; the third part of each is that of x^2."""
+    c = series.memory[:BLOCK].reshape(ORDER + 1, 3, LANES)
+    for k in range(ORDER):
+        square = cubic = 0.0
+        for j in range(k + 1):
+            square += c[j, 0, 0] * c[k - j, 0, 0]
+        c[k, 2, 0] = square
+        for j in range(k + 1):
+            cubic += c[j, 2, 0] * c[k - j, 1, 0]
+        c[k + 1, 0, 0] = c[k, 1, 0] / (k + 1)
+        c[k + 1, 1, 0] = (mu * (c[k, 1, 0] - cubic) - c[k, 0, 0]) / (k + 1)
 
 
 @generic

@@ -7,31 +7,60 @@ import systems
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
+from pendula.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.compiled import generic
 from pendula.integrators import taylor
 from pendula.integrators.outcome import DONE
 from pendula.lattice import Reduction, place
 from pendula.simulation import integrate, output_times
+from pendula.vectors import LANES
 
 WHOLE = Reduction(even=False, synchronised=False)
 TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 
 
-@given(st.floats(1e-300, 1e300), st.sampled_from([15, 16, 24]))
-def test_the_root_has_four_digits(x, n):
-    assert taylor.root(x, n) == pytest.approx(x ** (1 / n), rel=1e-4)
+@generic
+def describe(y, work):
+    return lay_out(work, y)
+
+
+@given(st.floats(1e-300, 1e300))
+def test_the_roots_have_four_digits(x):
+    assert taylor.root(x) == pytest.approx(x ** (1 / 16), rel=1e-14)
+    assert taylor.root_before(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
 
 
 @pytest.mark.parametrize("x", [0.0, np.inf])
-def test_the_root_of_nothing_and_of_infinity(x):
-    assert taylor.root(x, 16) == x
+def test_the_roots_of_nothing_and_of_infinity(x):
+    assert taylor.root(x) == taylor.root_before(x) == x
 
 
-@pytest.mark.parametrize("order", [1, 2, 3, 4, 5, 16])
-def test_the_sum_of_a_series_is_numpys(order):
-    rng = np.random.default_rng(order)
-    series, total = rng.normal(size=(order + 1, 6)), np.zeros(6)
-    taylor.evaluate(series, -0.7, total)
-    np.testing.assert_allclose(total, np.polynomial.polynomial.polyval(-0.7, series), rtol=1e-13)
+@pytest.mark.parametrize("sites", [1, 3, 4, 5, 8])
+def test_the_sum_of_a_series_is_numpys(sites):
+    y = np.zeros((4, sites + 2))
+    memory = np.random.default_rng(sites).normal(size=(WORK, *y.shape))
+    series = describe(y, memory)
+    c = series.memory[: 2 * series.blocks * BLOCK].reshape(2, series.blocks, ORDER + 1, 3, LANES)
+    expected = np.polynomial.polynomial.polyval(-0.7, np.moveaxis(c, 2, 0)[:, :, :, :2])
+    expected = expected.transpose(0, 2, 1, 3).reshape(4, -1)[:, :sites]
+    taylor.evaluate(series, -0.7, y)
+    np.testing.assert_allclose(y[:, 1:-1], expected, rtol=1e-13, atol=1e-13)
+    taylor.advance(series, -0.7)
+    at_start = c[:, :, 0, :2].transpose(0, 2, 1, 3).reshape(4, -1)[:, :sites]
+    np.testing.assert_array_equal(at_start, y[:, 1:-1])
+
+
+@pytest.mark.parametrize("largest", [0.0, 1e-300, 1e-150, 2.0, np.inf, np.nan])
+@pytest.mark.parametrize("place", [0, 5, 11])
+def test_the_largest_modulus_counts_nan_as_larger_than_infinity(largest, place):
+    y = np.zeros((2, 14))
+    y[:, 1:-1] = 0.3 * largest
+    y[1, 1 + place] = -largest
+    y[0, 1 + place] = 0.0
+    y[:, 1 + (place + 1) % 12] = 0.1 if np.isnan(largest) else 0.0
+    series = describe(y, np.zeros((WORK, *y.shape)))
+    write_state(y, series)
+    assert taylor.size(series, 0) == pytest.approx(largest, rel=1e-15, abs=0.0, nan_ok=True)
 
 
 def test_a_single_step_errs_by_one_power_more_than_its_order():

@@ -7,154 +7,114 @@ series.
 """
 
 from math import sqrt
-from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import copy, generic, inlined, kernel
-from ..reductions import largest_of_rows
+from ..blocks import BLOCK, ORDER, STEP, WORK, X, Y, ghosts_of, lay_out, start_of, write_state
+from ..compiled import generic, inlined, kernel, merged
+from ..lanes import larger, largest_lane
+from ..vectors import LANES, fill, load, store
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
-ORDER = 16
-ARRAYS = 2 * (ORDER + 1) + 1
-WORK = 3 * ARRAYS  # arrays of the size of a state: rows of one site grow from 3 to 8 columns
+__all__ = ["ORDER", "WORK", "build"]
+
 SQUARES = 1e-280
 """Below this, squares lose digits or vanish."""
 
 
-class Series(NamedTuple):
-    """Coefficients of the state and of its densities, and work space; columns are padded."""
-
-    c: np.ndarray  # (order + 1, row, column)
-    density: np.ndarray  # (order + 1, row, column)
-    scratch: np.ndarray  # (row, column)
-    flat_c: np.ndarray  # (order + 1, row * column)
-    flat_scratch: np.ndarray  # (row * column,)
-    columns: int  # of the state
-
-
-@generic
-def lay_out(work, y):
-    """Return a series in the memory of `work`, whose rows take vectors of four sites.
-
-    Column 1, the first site, comes where an aligned vector starts; the padding is never summed.
-    """
-    rows, columns = y.shape
-    padded = (columns + 1) // 4 * 4 + 4
-    size = rows * padded
-    memory = work.reshape(-1)[3 : 3 + ARRAYS * size]
-    arrays = memory.reshape(ARRAYS, rows, padded)
-    flat = memory.reshape(ARRAYS, size)
-    c, density, scratch = arrays[: ORDER + 1], arrays[ORDER + 1 : -1], arrays[-1]
-    return Series(c, density, scratch, flat[: ORDER + 1], flat[-1], columns)
+@kernel
+def size(series, k):
+    """Return the largest modulus in order k, or where its square vanishes the largest part."""
+    m, square, part = series.memory, fill(0.0), fill(0.0)
+    for block in range(series.components * series.blocks):
+        u = block * BLOCK + k * STEP
+        x, y = load(m, u + X), load(m, u + Y)
+        square, part = larger(square, x * x + y * y), larger(part, larger(x, y))
+    largest = largest_lane(square)
+    return largest_lane(part) if largest < SQUARES else sqrt(largest)
 
 
 @kernel
-def rest(y, scratch):
-    """Write zeros beyond the last site."""
-    for row in range(y.shape[0]):
-        for j in range(y.shape[1] - 1, scratch.shape[1]):
-            scratch[row, j] = 0.0
+def root(x):
+    """Return x^(1/16) by operations that give the same bits everywhere, unlike a power."""
+    return sqrt(sqrt(sqrt(sqrt(x))))
 
 
 @kernel
-def size(y, scratch):
-    """Return the largest modulus of a component, or where its square vanishes the largest part."""
-    for re in range(0, y.shape[0], 2):
-        for j in range(1, y.shape[1] - 1):
-            scratch[re // 2, j] = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-    rest(y, scratch)
-    square = largest_of_rows(scratch, y.shape[0] // 2)
-    if square < SQUARES:
-        copy(y, scratch)
-        rest(y, scratch)
-        return largest_of_rows(scratch, y.shape[0])
-    return sqrt(square)
-
-
-@kernel
-def power(x, n):
-    """Return x^n for a whole n; `x**n` would be the C library's, whose last bits vary."""
-    product = 1.0
-    for _ in range(n):
-        product *= x
-    return product
-
-
-@kernel
-def root(x, n):
-    """Return the n-th root of x in [0, inf] to 4 digits by *, / and -: the same bits everywhere."""
-    if not 0.0 < x < np.inf:
+def root_before(x):
+    """Return x^(1/15) = x^(1/16 + 1/256 + 1/4096 + ...) to four digits."""
+    if not x < np.inf:
         return x
-    guess = 1.0
-    while power(guess, n) < x:
-        guess *= 2.0
-    while power(0.5 * guess, n) >= x:
-        guess *= 0.5
-    # now within a factor of two above: halve the distance of the logarithms four times
-    for factor in (0.7071067811865476, 0.8408964152537145, 0.9170040432046712, 0.9576032806985737):
-        if power(factor * guess, n) >= x:
-            guess *= factor
-    for _ in range(3):  # Newton's iteration
-        guess -= (guess - x / power(guess, n - 1)) / n
-    return guess
+    first = root(x)
+    second = root(first)
+    third = root(second)
+    rest = (16.0 * third + 14.0) / (14.0 * third + 16.0)  # third^(1/15), and third is close to 1
+    return (first * second) * (third * rest)
+
+
+@merged
+def sum_at(m, i, h, h2, h3, h4):
+    """Return the sum of the series at the distance h of the part of a block that begins at i."""
+    total = load(m, i + ORDER * STEP)
+    for k in range(ORDER - 4, -1, -4):
+        u = i + k * STEP
+        high = h3 * load(m, u + 3 * STEP) + h2 * load(m, u + 2 * STEP)
+        total = h4 * total + (high + (h * load(m, u + STEP) + load(m, u)))
+    return total
 
 
 @kernel
-def evaluate(flat, x, total):
-    """Write the series at the distance x from the start of the step into `total` (all flat)."""
-    k = flat.shape[0] - 1
-    top = flat[k]
-    for i in range(total.size):
-        total[i] = top[i]
-    x2 = x * x
-    x3, x4 = x2 * x, x2 * x2
-    while k >= 4:
-        c1, c2, c3, c4 = flat[k - 1], flat[k - 2], flat[k - 3], flat[k - 4]
-        for i in range(total.size):
-            total[i] = total[i] * x4 + ((c1[i] * x3 + c2[i] * x2) + (c3[i] * x + c4[i]))
-        k -= 4
-    while k >= 1:
-        c1 = flat[k - 1]
-        for i in range(total.size):
-            total[i] = total[i] * x + c1[i]
-        k -= 1
+def advance(series, h):
+    """Replace order 0 by the sum of the series at the distance h."""
+    m, h2 = series.memory, h * h
+    h3, h4 = h2 * h, h2 * h2
+    for block in range(series.components * series.blocks):
+        for part in range(X, Y + 1, Y - X):
+            i = block * BLOCK + part
+            store(m, i, sum_at(m, i, h, h2, h3, h4))
 
 
-def build(next_coefficient, observe):
-    """Return the solver of the system whose power series `next_coefficient` continues."""
+@kernel
+def evaluate(series, h, y):
+    """Write the sum of the series at the distance h into the state `y`."""
+    m, h2 = series.memory, h * h
+    h3, h4 = h2 * h, h2 * h2
+    spare = ghosts_of(series, 0)  # ghosts are written anew before they are read
+    for row in range(y.shape[0]):
+        for block in range(series.blocks):
+            i = start_of(series, row // 2, block) + row % 2 * LANES
+            store(m, spare, sum_at(m, i, h, h2, h3, h4))
+            first = 1 + block * LANES
+            for column in range(first, min(first + LANES, y.shape[1] - 1)):
+                y[row, column] = m[spare + column - first]
+
+
+def build(continue_series, observe):
+    """Return the solver of the system whose power series `continue_series` writes from order 0."""
 
     @generic
-    def expand(system, series, rtol, atol):
-        """Fill the series from c[0]; return the step that its last terms allow."""
-        c, scratch = series.c, series.scratch
-        for k in range(c.shape[0] - 1):
-            next_coefficient(system, series, k)
-        columns, order = series.columns, c.shape[0] - 1
-        allowed = atol + rtol * size(c[0, :, :columns], scratch)
-        last, before = (
-            size(c[order, :, :columns], scratch),
-            size(c[order - 1, :, :columns], scratch),
-        )
+    def allowed_step(system, series, rtol, atol):
+        """Fill the series; return the step that its last terms allow, NaN if they overflow."""
+        continue_series(system, series)
+        allowed = atol + rtol * size(series, 0)
+        last, before = size(series, ORDER), size(series, ORDER - 1)
         if not last + before < np.inf:
             return np.nan
-        return min(root(allowed / last, order), root(allowed / before, order - 1))
+        return min(root(allowed / last), root_before(allowed / before))
 
     @inlined
     def solve(system, y, times, controls, work, record):
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)
-        c, scratch = series.c, series.scratch
-        flat, total = series.flat_c, series.flat_scratch
         shortest = SMALLEST_PART * (end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
         steps = 0
-        copy(y, c[0])
+        write_state(y, series)
         while i < times.size:
-            h = expand(system, series, rtol, atol)
+            h = allowed_step(system, series, rtol, atol)
             steps += 1
             if not h > shortest:
                 status = STEP_TOO_SMALL if h <= shortest else NOT_FINITE
@@ -163,13 +123,10 @@ def build(next_coefficient, observe):
                 h = end - t
             t_new = end if h == end - t else t + h
             while i < times.size and times[i] <= t_new:
-                evaluate(flat, times[i] - t, total)
-                copy(scratch[:, : y.shape[1]], y)
+                evaluate(series, times[i] - t, y)
                 observe(system, y, i, record)
                 i += 1
-            evaluate(flat, h, total)
-            copy(scratch[:, : y.shape[1]], y)
-            copy(y, c[0])
+            advance(series, h)
             t = t_new
         return Outcome(DONE, t, steps, 0, ORDER * steps)
 
