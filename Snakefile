@@ -23,6 +23,8 @@ FIGURES = [
     *("stability_chart", "growth_rates"),
     # Theorems 1 to 3: observed norms against their bounds
     "bounds",
+    # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
+    *("growth_law", "front", "window_map"),
 ]
 
 
@@ -61,3 +63,5 @@ include: "workflow/rules/solvers.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/speed.smk"
+include: "workflow/rules/unbounded_inputs.smk"
+include: "workflow/rules/unbounded.smk"
