@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
+from made_up_unbounded import spread, window_map
 
 HALF_WIDTHS = [5, 10, 20]
 WINDOWS = ["[10, 50]", "[10, 70]", "[10, 40]"]
@@ -80,12 +81,15 @@ def gathered(make_trajectory, trajectories, make_sweep):
         bounds,
         chain_drawing,
         energy,
+        front,
+        growth_law,
         growth_rates,
         norms,
         spacetime,
         stability_chart,
     )
     from pendula.plots import sweeps as sweep_plot
+    from pendula.plots import window_map as map_plot
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     panels = (make_sweep(-4.0), make_sweep(0.0))
@@ -101,4 +105,13 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "stability_chart": stability_chart.gather(long, short, windows(), points),
         "growth_rates": growth_rates.gather(long, short, threshold()),
         "bounds": bounds.gather(cases(), sweeps(), samples(), worst()),
+        "growth_law": growth_law.gather(
+            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))}
+        ),
+        "front": front.gather(
+            spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
+            spread(0.5),
+            spread(0.5, omegas=(-4.0,)),
+        ),
+        "window_map": map_plot.gather({"fig5_left": window_map(8.0), "fig5_right": window_map()}),
     }

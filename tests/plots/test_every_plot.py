@@ -11,7 +11,7 @@ from pendula.plots import style
 
 MODULES = [
     *("agreement", "bounds", "chain_drawing", "energy", "growth_rates", "norms", "spacetime"),
-    *("stability_chart", "sweeps"),
+    *("stability_chart", "sweeps", "growth_law", "front", "window_map"),
 ]
 
 

@@ -140,6 +140,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
         speed = np.interp(omega, data["line_omega"], data["predicted"])
         ends = np.array([0.0, float(data["tau"][-1])])
         axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
+    axes.lines[-1].set_label("linear")
     shown = data["large_tau"].values <= float(data["tau"][-1])
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
     sea = data["large_front"].values

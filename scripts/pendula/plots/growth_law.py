@@ -57,7 +57,7 @@ def draw(data: xr.Dataset) -> Figure:
     _draw_guide(l2, data)
     _draw_powers(powers, data)
     l2.set_yscale("log")
-    powers.set_xlim(l2.get_xlim())
+    powers.set_xlim(8.0, l2.get_xlim()[1])
     handles, labels = linf.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=2)
     return figure

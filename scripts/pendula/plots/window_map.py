@@ -64,6 +64,11 @@ def _draw_map(axes: Axes, one: xr.Dataset, norm: LogNorm) -> QuadMesh:
     axes.set_ylim(edges[0], edges[-1])
     axes.plot(float(one["predicted_speed"]) * ends, ends, color="white", lw=1.2)
     axes.axhline(float(one["paper_end"]), color="white", lw=0.9, ls=(0, (4, 2)))
+    place = (0.97, float(one["paper_end"]))
+    axes.annotate(
+        "the paper", place, (0, 2), ("axes fraction", "data"), "offset points",
+        ha="right", color="white", fontsize=7,
+    )  # fmt: skip
     axes.set_title(style.name_case(one).replace(",  ", "\n"), loc="left")
     _log_axis(axes, one)
     return mesh

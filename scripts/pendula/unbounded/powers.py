@@ -1,5 +1,6 @@
 """Growth laws: the power of tau that a series follows, with its error."""
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,16 @@ def fit_power(tau: np.ndarray, values: np.ndarray, start: float) -> Power:
     return Power(slopes[0], bootstrap_error(tau, values[0], start))
 
 
+def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Power:
+    """Return what the members' values gain per unit of log tau, with its error over members."""
+    x = np.linspace(np.log(start), np.log(tau[-1]), POINTS)
+    kept = tau > 0
+    drawn = [np.interp(x, np.log(tau[kept]), series[kept]) for series in values]
+    slopes = np.polyfit(x, np.array(drawn).T, 1)[0]
+    error = slopes.std(ddof=1) / np.sqrt(len(slopes)) if len(slopes) > 1 else np.inf
+    return Power(float(slopes.mean()), float(error))
+
+
 def bootstrap_error(
     tau: np.ndarray, values: np.ndarray, start: float, blocks: int = 10, draws: int = 400
 ) -> float:
@@ -48,7 +59,7 @@ def local_powers(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.
     """Return the middles of the last octaves of time, and the Power of each."""
     edges = tau[-1] * 0.5 ** np.arange(octaves, -1, -1)
     powers = []
-    for first, last in zip(edges[:-1], edges[1:], strict=True):
+    for first, last in pairwise(edges):
         kept = tau <= last * (1.0 + 1e-9)
         powers.append(fit_power(tau[kept], values[:, kept], first))
     return np.sqrt(edges[:-1] * edges[1:]), powers

@@ -46,6 +46,23 @@ def sea_of(state: np.ndarray, front: int) -> slice:
     return slice(1, max(2, int(SHARE * front)))
 
 
+def end_of_sea(sites: np.ndarray, level: float = 1.0) -> int:
+    """Return the last site of (row, site) whose power is above `level`."""
+    return int(np.flatnonzero((sites**2).sum(axis=0) > level).max(initial=0))
+
+
+def tail_scale(sites: np.ndarray, front: int, share: float = 0.1) -> float:
+    """Return the mean excess of |A_n|^4, |B_n|^4 in the sea over what a `share` of them exceed.
+
+    Where the moduli are distributed as exp(-|A|^4 / scale), the largest of N of them to the fourth
+    power grows as scale log N.
+    """
+    inside = sea_of(with_ghosts(sites), front)
+    fourth = np.concatenate([np.abs(z[inside]) ** 4 for z in complex_pair(with_ghosts(sites))])
+    level = np.quantile(fourth, 1.0 - share)
+    return float((fourth[fourth > level] - level).mean())
+
+
 def profile(values: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Return the means of values (..., site) between consecutive sites `edges`."""
     totals = np.concatenate([np.zeros((*values.shape[:-1], 1)), values.cumsum(axis=-1)], axis=-1)

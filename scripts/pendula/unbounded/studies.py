@@ -39,13 +39,13 @@ SPREADS = {
         "tolerances": (100, 3),
     },
     "long": {
-        "fig4_small": (2000, 5),
-        "fig3_large": (2000, 5),
+        "fig4_small": (2000, 3),
+        "fig3_large": (2000, 3),
         "fig3_small": (1000, 1),
         "fig2_large": (1000, 1),
-        "omegas": (500, 3),
-        "amplitudes": (400, 4),
-        "tolerances": (200, 6),
+        "omegas": (400, 2),
+        "amplitudes": (400, 2),
+        "tolerances": (200, 4),
     },
 }
 MAPS = {

@@ -42,11 +42,12 @@ def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
     amplitudes = np.zeros((2, 301), complex)
     amplitudes[:, 150] = 1.0, 0.1
     times = output_times(8.0, 0.5)
-    whole = integrate((1.0, 1.0, 0.0), "dirichlet", amplitudes, Reduction(False, False), times, TIGHT)
+    nothing_reduced, constants = Reduction(False, False), (1.0, 1.0, 0.0)
+    whole = integrate(constants, "dirichlet", amplitudes, nothing_reduced, times, TIGHT)
     assert np.array_equal(whole.final, whole.final[:, ::-1])
     width = one.width[-1]
     right = whole.final[:, 150 : 151 + width]
-    assert width == BLOCK
+    assert width == 2 * BLOCK
     np.testing.assert_allclose(one.state[0, 1:-1] + 1j * one.state[1, 1:-1], right[0], atol=1e-10)
     np.testing.assert_allclose(one.state[2, 1:-1] + 1j * one.state[3, 1:-1], right[1], atol=1e-10)
 
