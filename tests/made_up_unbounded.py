@@ -68,6 +68,21 @@ def window_map(omega=0.0, speed=2.9, members=2):
     return named(data)
 
 
+def thermal():
+    """Return thermal states of the power of the made-up seas."""
+    omegas, waves, moduli = np.array([-1.0, 0.0, 2.0, 5.0]), np.arange(64), np.linspace(0.1, 8, 40)
+    data = xr.Dataset(
+        {
+            "power": ("omega", np.full(4, 16.0)),
+            "density": (("omega", "modulus"), np.tile(np.exp(-moduli), (4, 1))),
+            "spectrum": (("omega", "wave"), np.full((4, 64), 8.0)),
+            "wave_number": ("wave", 2.0 * np.pi * waves / 64),
+        },
+        {"omega": omegas, "modulus": moduli},
+    )
+    return named(data)
+
+
 def unbounded_runs() -> dict[str, xr.Dataset]:
     """Return the datasets that the claims read, as a growing sea would make them."""
     made = {
@@ -78,5 +93,6 @@ def unbounded_runs() -> dict[str, xr.Dataset]:
         "omegas": spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
         "amplitudes": spread([0.0, 0.5, 0.0], variants=3, amplitudes=(4.0, 5.0, 6.0)),
         "map_fig5_right": window_map(),
+        "thermal": thermal(),
     }
     return {f"unbounded/{name}": data for name, data in made.items()}

@@ -5,9 +5,14 @@ from pendula.plots import front
 from pendula.plots.style import save
 
 
-def draw_front(omegas: str, sea: str, large: str, png: str, pdf: str, data: str) -> None:
-    """Draw runs over Omega, and two with a sea: in an unstable and in a stable chain at rest."""
-    drawn = front.gather(read(omegas), read(sea), read(large))
+def draw_front(
+    omegas: str, sea: str, large: str, thermal: str, png: str, pdf: str, data: str
+) -> None:
+    """Draw runs over Omega, and two with a sea: in an unstable and in a stable chain at rest.
+
+    `thermal` are the states that the sea is compared with.
+    """
+    drawn = front.gather(read(omegas), read(sea), read(large), read(thermal))
     save(front.draw(drawn), drawn, png, pdf, data)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
-from made_up_unbounded import spread, window_map
+from made_up_unbounded import spread, thermal, window_map
 
 HALF_WIDTHS = [5, 10, 20]
 WINDOWS = ["[10, 50]", "[10, 70]", "[10, 40]"]
@@ -106,12 +106,14 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "growth_rates": growth_rates.gather(long, short, threshold()),
         "bounds": bounds.gather(cases(), sweeps(), samples(), worst()),
         "growth_law": growth_law.gather(
-            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))}
+            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))},
+            thermal(),
         ),
         "front": front.gather(
             spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
             spread(0.5),
             spread(0.5, omegas=(-4.0,)),
+            thermal(),
         ),
         "window_map": map_plot.gather({"fig5_left": window_map(8.0), "fig5_right": window_map()}),
     }

@@ -156,6 +156,7 @@ FLIPS = {
     "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),
     "unbounded_band": ("unbounded/omegas", lambda _: spread([0.5, 0.0, 0.5], variants=3)),
     "unbounded_front": ("unbounded/omegas", scaled("predicted_speed", 0.9)),
+    "unbounded_equilibrium": ("unbounded/thermal", scaled("power", 0.5)),
     "unbounded_maximum": (
         "unbounded/fig4_small",
         lambda run: run.assign(linf=run["linf"] * (run["tau"] + 1.0) ** 0.2),

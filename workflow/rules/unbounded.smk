@@ -82,6 +82,26 @@ use rule map_windows as long_map_windows with:
         "Maxima over many half-widths and long windows: {wildcards.sweep}"
 
 
+rule thermal:
+    input:
+        code=code("unbounded/sample_thermal.py"),
+    output:
+        data="results/unbounded/thermal.nc",
+    log:
+        "results/logs/unbounded/thermal.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        epsilon=SETTINGS.cases["fig4_small"].epsilon,
+        gamma=SETTINGS.cases["fig4_small"].gamma,
+        omegas=VALUES["omegas"],
+    message:
+        "Sampling the thermal states without energy"
+    script:
+        "../../scripts/unbounded/sample_thermal.py"
+
+
 rule scale:
     input:
         code=code("unbounded/measure_scale.py"),
@@ -105,6 +125,7 @@ rule growth_law:
     input:
         code=code("unbounded/draw_growth_law.py"),
         runs=expand("results/unbounded/{case}.nc", case=GROWTH_CASES),
+        thermal="results/unbounded/thermal.nc",
     output:
         **figure("growth_law"),
     log:
@@ -123,6 +144,7 @@ use rule growth_law as long_growth_law with:
     input:
         code=code("unbounded/draw_growth_law.py"),
         runs=expand(f"{LONG}/{{case}}.nc", case=GROWTH_CASES),
+        thermal="results/unbounded/thermal.nc",
     output:
         **long_figure("growth_law"),
     log:
@@ -136,6 +158,7 @@ rule front:
         omegas="results/unbounded/omegas.nc",
         sea="results/unbounded/fig4_small.nc",
         large="results/unbounded/fig3_large.nc",
+        thermal="results/unbounded/thermal.nc",
     output:
         **figure("front"),
     log:
@@ -154,6 +177,7 @@ use rule front as long_front with:
         omegas=f"{LONG}/omegas.nc",
         sea=f"{LONG}/fig4_small.nc",
         large=f"{LONG}/fig3_large.nc",
+        thermal="results/unbounded/thermal.nc",
     output:
         **long_figure("front"),
     log:

@@ -8,10 +8,12 @@ from matplotlib.figure import Figure
 from ..unbounded.fronts import FRONT, SEA, speeds
 from ..unbounded.linear_front import linear_front
 from ..unbounded.sea import (
+    LENGTH,
     TERMS,
     complex_pair,
     distribution,
     energy_terms,
+    mean_powers,
     profile,
     sea_of,
     spectrum,
@@ -19,8 +21,10 @@ from ..unbounded.sea import (
 )
 from . import style
 
-BINS, LENGTH, HIGHEST, MODULI = 24, 64, 1.2, 40
+BINS, HIGHEST, MODULI, SPANS, LATE = 24, 1.2, 40, 36, 10
 GREEN = "#16876b"
+SEA_LOOK = {"color": style.RED, "lw": 1.1, "label": "behind the front"}
+THERMAL_LOOK = {"color": "black", "lw": 0.9, "ls": "--", "label": "thermal"}
 TERM_LOOKS = {
     "cubic": (style.RED, "-", "cubic"),
     "detuning": ("#b07800", "-.", "detuning"),
@@ -33,10 +37,13 @@ def _named(dims, values, title: str, units: str = "1"):
     return dims, np.asarray(values), {"long_name": title, "units": units}
 
 
-def gather(omegas: xr.Dataset, sea: xr.Dataset, large: xr.Dataset) -> xr.Dataset:
+def gather(
+    omegas: xr.Dataset, sea: xr.Dataset, large: xr.Dataset, thermal: xr.Dataset
+) -> xr.Dataset:
     """Return fronts over Omega, the way of one of them, and the means behind it.
 
-    `large` is the run whose sea spreads where the chain at rest is stable.
+    `large` is the run whose sea spreads where the chain at rest is stable; `thermal` are the
+    states without energy that the sea is compared with.
     """
     constants = tuple(float(sea.attrs[name]) for name in ("epsilon", "gamma", "omega"))
     measured, errors = speeds(omegas)
@@ -52,6 +59,8 @@ def gather(omegas: xr.Dataset, sea: xr.Dataset, large: xr.Dataset) -> xr.Dataset
             **_positions(omegas, large),
             **_way(sea),
             **_behind(sea, constants),
+            **_powers(omegas),
+            **_thermal(thermal, constants[2]),
         },
         {
             "omega": _named("omega", omegas["omega"].values, "detuning Omega"),
@@ -77,14 +86,37 @@ def _positions(omegas: xr.Dataset, large: xr.Dataset) -> dict:
     }
 
 
+def _powers(omegas: xr.Dataset) -> dict:
+    found = mean_powers(omegas)
+    error = found.std(axis=1) / np.sqrt(max(1, found.shape[1] - 1))
+    return {
+        "power": _named("omega", found.mean(axis=1), "mean power |A_n|^2 + |B_n|^2 of the sea"),
+        "power_error": _named("omega", error, "its standard error over the ensemble"),
+    }
+
+
+def _thermal(thermal: xr.Dataset, omega: float) -> dict:
+    one = thermal.sel(omega=omega, method="nearest")
+    return {
+        "thermal_omega": _named("state", thermal["omega"].values, "detuning of the thermal states"),
+        "thermal_power": _named("state", thermal["power"].values, "mean power, thermal state"),
+        "thermal_modulus": _named("cell", one["modulus"].values, "modulus |A_n| or |B_n|"),
+        "thermal_density": _named("cell", one["density"].values, "its density, thermal state"),
+        "thermal_spectrum": _named("wave", one["spectrum"].values, "|A(k)|^2, thermal state"),
+    }
+
+
 def _way(sea: xr.Dataset) -> dict:
     front = sea["front"].isel(variant=0).sel(level=FRONT)
     tau = sea["piece_tau"].values
     v, delay = (float(sea[name].isel(variant=0)) for name in ("predicted_speed", "predicted_delay"))
-    behind = front.transpose("member", "piece_tau").values - v * tau
+    behind = (front.transpose("member", "piece_tau").values - v * tau).mean(axis=0)
+    # a front stands on whole sites: means over short spans of log time show where it is
+    spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
+    found = [spans == span for span in np.unique(spans)]
     return {
-        "way_tau": _named("time", tau, "slow time"),
-        "behind": _named(("member", "time"), behind, "front's site minus v tau"),
+        "way_tau": _named("time", [tau[span].mean() for span in found], "slow time"),
+        "behind": _named("time", [behind[span].mean() for span in found], "front minus v tau"),
         "delay": _named((), delay, "sites lost per unit of log tau, predicted"),
     }
 
@@ -114,21 +146,19 @@ def _behind(sea: xr.Dataset, constants: tuple) -> dict:
         ),
         "density": _named("modulus", distribution(moduli, cells), "density of |A_n| and |B_n|"),
         "modulus": _named("modulus", 0.5 * (cells[1:] + cells[:-1]), "modulus |A_n| or |B_n|"),
-        "mean_square": _named((), np.mean(moduli**2), "mean of |A_n|^2 and |B_n|^2"),
     }
 
 
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
-    """Draw the front above (its way, speed and delay), the state behind it below."""
-    figure = style.new_figure(style.DOUBLE, 4.4)
-    (positions, speed, way), (terms, spectrum_axes, moduli) = figure.subplots(2, 3)
-    _draw_positions(positions, data)
-    _draw_speeds(speed, data)
-    _draw_way(way, data)
-    _draw_terms(terms, data)
-    _draw_spectrum(spectrum_axes, data)
-    _draw_moduli(moduli, data)
+    """Draw the front (its way, speed and delay), then the state behind it."""
+    figure = style.new_figure(style.DOUBLE, 4.6)
+    above = (_draw_positions, _draw_speeds, _draw_way, _draw_powers)
+    below = (_draw_terms, _draw_spectrum, _draw_moduli)
+    rows = figure.subfigures(2, 1)
+    for row, parts in zip(rows, (above, below), strict=True):
+        for axes, part in zip(row.subplots(1, len(parts)), parts, strict=True):
+            part(axes, data)
     return figure
 
 
@@ -147,7 +177,8 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(data["large_tau"].values[shown], sea[shown], color=style.BLUE, lw=1.1, label=label)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("site of the front")
-    axes.legend(loc="upper left")
+    axes.set_ylim(top=1.9 * float(data["front"].max()))
+    axes.legend(loc="upper left", handlelength=1.4)
 
 
 def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
@@ -158,16 +189,14 @@ def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
     axes.axvspan(low, high, color="0.92", zorder=0)
     axes.set_xlabel(r"$\Omega$")
     axes.set_ylabel(r"speed (sites per unit of $\tau$)")
-    axes.legend(loc="lower center")
+    axes.legend(loc="lower center", handlelength=1.2)
 
 
 def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     tau = data["way_tau"].values
-    for series in data["behind"].values:
-        axes.plot(tau, series, ".", color=style.RED, ms=1.5)
+    axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5)
     line = -float(data["delay"]) * np.log(tau)
-    middle = len(tau) // 2
-    line += float(data["behind"][:, middle:].mean()) - line[middle:].mean()
+    line += float(data["behind"][-LATE:].mean()) - line[-LATE:].mean()
     axes.plot(tau, line, color="black", lw=0.9)
     axes.text(0.05, 0.08, r"line: $-\frac{3}{2\lambda}\,\ln\tau$", transform=axes.transAxes)
     axes.set_xscale("log")
@@ -188,27 +217,35 @@ def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
 
 
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
-    half = data.isel(wave=slice(0, data.sizes["wave"] // 2 + 1))
-    other = np.roll(data["spectrum"].values[::-1], 1)[: half.sizes["wave"]]
-    axes.plot(
-        half["wave_number"] / np.pi, 0.5 * (half["spectrum"] + other), color=style.RED, lw=1.1
-    )
-    axes.set_ylim(bottom=0)
+    for name, look in (("spectrum", SEA_LOOK), ("thermal_spectrum", THERMAL_LOOK)):
+        values = data[name].values
+        both = 0.5 * (values + np.roll(values[::-1], 1))  # k and -k alike
+        half = slice(0, len(values) // 2 + 1)
+        axes.plot(data["wave_number"][half] / np.pi, both[half], **look)
+    axes.set_ylim(0, 1.45 * float(data["spectrum"].max()))
     axes.set_xlabel(r"wave number $k / \pi$")
-    axes.set_ylabel(r"mean $|A(k)|^2$ behind the front")
+    axes.set_ylabel(rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$")
+    axes.legend(loc="upper left")
 
 
 def _draw_moduli(axes: Axes, data: xr.Dataset) -> None:
     measured = data["density"].where(data["density"] > 0)
-    axes.plot(data["modulus"], measured, color=style.RED, lw=1.1, label="behind the front")
-    axes.plot(data["modulus"], _rayleigh(data), color="0.35", ls="--", label="Gaussian waves")
+    thermal = data["thermal_density"].where(data["thermal_density"] > 0)
+    axes.plot(data["modulus"], measured, **SEA_LOOK)
+    axes.plot(data["thermal_modulus"], thermal, **THERMAL_LOOK)
     axes.set_yscale("log")
+    axes.set_xlim(0, 1.02 * float(data["modulus"].max()))
     axes.set_ylim(0.5 * float(measured.min()), 20.0 * float(measured.max()))
     axes.set_xlabel("modulus $|A_n|$, $|B_n|$")
-    axes.set_ylabel("density of the moduli")
+    axes.set_ylabel(rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$")
     axes.legend(loc="upper right")
 
 
-def _rayleigh(data: xr.Dataset) -> np.ndarray:
-    mean, a = float(data["mean_square"]), data["modulus"].values
-    return 2.0 * a / mean * np.exp(-(a**2) / mean)
+def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
+    look = {"color": style.RED, "marker": "o", "ms": 3.5, "lw": 0, "elinewidth": 0.9}
+    axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
+    axes.errorbar(data["omega"], data["power"], data["power_error"], label="sea", **look)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(r"$\Omega$")
+    axes.set_ylabel("mean power per site")
+    axes.legend(loc="upper right")

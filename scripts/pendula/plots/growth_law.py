@@ -19,12 +19,28 @@ NORMS = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}
 RANGE = ["lowest", "mean", "highest"]
 
 
-def gather(runs: dict[str, xr.Dataset]) -> xr.Dataset:
-    """Return the ensembles' norms at times equally spaced in log tau, and their local powers."""
+def gather(runs: dict[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
+    """Return the ensembles' norms at times equally spaced in log tau, and their local powers.
+
+    Beside them, where the chain at rest is unstable, the law of a front at the speed v of linear
+    spreading with a thermal sea of the power P behind it: l2 = (2 v P tau)^(1/2).
+    """
     cases = [_read(run) for run in runs.values()]
+    laws = [_law(run, thermal) for run in runs.values()]
     data = style.join(cases, list(runs), "case", "case of the paper, on a chain without ends")
+    title = "coefficient of tau^(1/2) by linear spreading and the thermal sea"
+    data["law"] = ("case", laws, {"long_name": title, "units": "1"})
     data["statistic"].attrs = {"long_name": "over the ensemble", "units": "1"}
     return data
+
+
+def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
+    """Return (2 v P)^(1/2), NaN where the chain at rest is stable or no state was sampled."""
+    run = run.isel(variant=0)
+    near = thermal.sel(omega=run["omega"], method="nearest")
+    if not (run["predicted_delay"] > 0 and abs(near["omega"] - run["omega"]) < 1e-9):
+        return float("nan")
+    return float(np.sqrt(2.0 * run["predicted_speed"] * near["power"]))
 
 
 def _read(run: xr.Dataset) -> xr.Dataset:
@@ -49,12 +65,12 @@ def _read(run: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
-    """Draw l2 with tau^(1/2) beside it, the local powers of l2, and l-infinity."""
+    """Draw l2 with its law, the local powers of l2, and l-infinity."""
     figure = style.new_figure(style.DOUBLE, 2.9)
     l2, powers, linf = figure.subplots(1, 3)
     for axes, name in ((l2, "l2"), (linf, "linf")):
         _draw_norm(axes, data, name)
-    _draw_guide(l2, data)
+    _draw_law(l2, data)
     _draw_powers(powers, data)
     l2.set_yscale("log")
     powers.set_xlim(8.0, l2.get_xlim()[1])
@@ -77,14 +93,20 @@ def _draw_norm(axes: Axes, data: xr.Dataset, name: str) -> None:
         axes.set_ylim(bottom=0)
 
 
-def _draw_guide(axes: Axes, data: xr.Dataset) -> None:
-    last = data.isel(case=0, point=-1)
-    end, top = float(last["tau"]), 1.6 * float(last["l2"].sel(statistic="mean"))
-    tau = np.array([end / 30, end])
-    axes.plot(tau, top * np.sqrt(tau / end), color="black", lw=0.8)
-    axes.annotate(
-        r"$\tau^{1/2}$", (tau[0] * 2.0, top * np.sqrt(2 / 30)), (0, 6), textcoords="offset points"
-    )
+def _draw_law(axes: Axes, data: xr.Dataset) -> None:
+    for case in data["case"].values:
+        one = data.sel(case=case)
+        if np.isfinite(one["law"]):
+            law = float(one["law"]) * np.sqrt(one["tau"])
+            axes.plot(one["tau"], law, color="black", lw=0.9, ls=(0, (4, 2)))
+            middle = data.sizes["point"] // 2
+            axes.annotate(
+                r"$(2 v^* P\,\tau)^{1/2}$",
+                (float(one["tau"][middle]), float(law[middle])),
+                (-3, 5),
+                textcoords="offset points",
+                ha="right",
+            )
 
 
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:

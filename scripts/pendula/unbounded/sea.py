@@ -11,6 +11,9 @@ TERMS = ("cubic", "detuning", "drive", "bonds")
 SHARE = 0.9
 """The part of the way to the front that counts as the sea."""
 
+LENGTH = 64
+"""Sites of the pieces that a spectrum is averaged over."""
+
 
 def energy_terms(state: np.ndarray, constants: tuple[float, float, float]) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
@@ -82,3 +85,18 @@ def spectrum(amplitudes: np.ndarray, length: int) -> np.ndarray:
 def distribution(moduli: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Return the density of the moduli between `edges`, of which the integral is one."""
     return np.histogram(moduli, edges, density=True)[0]
+
+
+def mean_powers(runs, level: float = 1e-2) -> np.ndarray:
+    """Return the mean power in the sea at the end of runs (a dataset), (variant, member)."""
+    fronts = runs["front"].isel(piece_tau=-1).sel(level=level).transpose("variant", "member")
+    states = runs["state"].transpose("variant", "member", "row", "site").values
+    return np.array(
+        [
+            [
+                (state[:, sea_of(state, int(front))] ** 2).sum(axis=0).mean()
+                for state, front in zip(*pair, strict=True)
+            ]
+            for pair in zip(states, fronts.values, strict=True)
+        ]
+    )

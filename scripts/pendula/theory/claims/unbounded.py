@@ -9,16 +9,16 @@ import numpy as np
 
 from ...unbounded.fronts import speeds
 from ...unbounded.powers import fit_power, fit_rise, local_powers
-from ...unbounded.sea import end_of_sea, tail_scale
-from ..readings import CONSTANT
+from ...unbounded.sea import end_of_sea, mean_powers, tail_scale
+from ..readings import CHANGE, CONSTANT
 from ..verdicts import Finding, UndecidableError, judge
 from .row import claim, unbounded
 
 # ASSUME: l2 "grows" as tau^(1/2), the power of a sea of fixed height that spreads steadily, if its
 # measured power is within 0.1 of that, and "grows" at all if it is above 0.3; a front is pulled if
 # it has the speed of linear spreading to one per cent; l-infinity "remains finite" if its power is
-# below 0.1, which no power law of spreading could be.
-HALF, NEAR_HALF, GROWING, PULLED, SLOW = 0.5, 0.1, 0.3, 0.01, 0.1
+# below 0.1, which no power law of spreading could be; a state is thermal to five per cent.
+HALF, NEAR_HALF, GROWING, PULLED, SLOW, NEAR_THERMAL = 0.5, 0.1, 0.3, 0.01, 0.1, 0.05
 SHORTEST = 100.0
 """Runs that end before are no test of growth in time."""
 
@@ -34,6 +34,13 @@ def power_of(run, name: str, variant: int = 0):
     return fit_power(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
+def law_at_end(run, thermal) -> float:
+    """Return (2 v P tau)^(1/2) at the end: a linear front, and a thermal sea behind it."""
+    one = run.isel(variant=0)
+    sea = float(thermal["power"].sel(omega=one["omega"], method="nearest"))
+    return float(np.sqrt(2.0 * one["predicted_speed"] * sea * run["tau"][-1]))
+
+
 def sites_in_motion(run) -> float:
     """Return the sites that the window of the first variant held at the end."""
     return 2.0 * float(run["width"].isel(variant=0, piece_tau=-1).max()) + 1.0
@@ -43,10 +50,13 @@ def sites_in_motion(run) -> float:
     "unbounded_in_time",
     "Introduction",
     "The l2 norm diverges in the unbounded chain as time goes to infinity.",
-    unbounded("fig4_small"),
+    unbounded("fig4_small", "thermal"),
 )
-def grows(run) -> Finding:
-    """The conjecture at Omega = 0: l2 grows as tau^(1/2), and its power does not fall with time."""
+def grows(run, thermal) -> Finding:
+    """The conjecture at Omega = 0: l2 grows as tau^(1/2), and its power does not fall with time.
+
+    The coefficient, too, is that of a front at the speed of linear spreading and a thermal sea.
+    """
     power = power_of(run, "l2")
     values = run["l2"].isel(variant=0).transpose("member", "tau").values
     last = local_powers(run["tau"].values, values, 1)[1][0]
@@ -54,6 +64,7 @@ def grows(run) -> Finding:
         "power": power.exponent,
         "error": power.error,
         "power_of_last_octave": last.exponent,
+        "over_its_law": values[:, -1].mean() / law_at_end(run, thermal),
         "end": run["tau"][-1],
         "sites": sites_in_motion(run),
     }
@@ -96,6 +107,26 @@ def front_is_pulled(run) -> Finding:
 
 
 @claim(
+    "unbounded_equilibrium",
+    "Introduction",
+    "A dynamical equilibrium is reached where each pendulum oscillates at a finite amplitude.",
+    unbounded("omegas", "thermal"),
+)
+def sea_is_thermal(run, thermal) -> Finding:
+    """Introduction: the state behind the front is an equilibrium, the thermal one of no energy."""
+    if run["tau"][-1] < SHORTEST:
+        raise UndecidableError(f"the runs end before tau = {SHORTEST:g}")
+    expected = thermal["power"].sel(omega=run["omega"].values, method="nearest").values
+    ratio = mean_powers(run).mean(axis=1) / expected
+    measured = {"least": ratio.min(), "largest": ratio.max(), "mean": ratio.mean()}
+    text = "mean power of the sea over that of exp(-beta H) at H = 0 within 25 % of one"
+    off = np.abs(ratio - 1.0)
+    apart = ", ".join(f"{omega:g}" for omega in run["omega"].values[off > NEAR_THERMAL])
+    caveat = f"off the thermal state of no energy by more than 5 % at Omega = {apart}"
+    return judge(measured, text, off.max() < CHANGE, caveat if apart else "")
+
+
+@claim(
     "unbounded_maximum",
     "Introduction",
     "The l-infinity norm remains finite at the dynamical equilibrium.",
@@ -105,7 +136,7 @@ def maximum_grows_slowly(run) -> Finding:
     """Introduction: l-infinity stays finite; on ever more sites the largest of them grows."""
     power = power_of(run, "linf")
     tau, values = run["tau"].values, run["linf"].isel(variant=0).transpose("member", "tau").values
-    rise = fit_rise(tau, values**4, tau[-1] * 0.5 ** (OCTAVES + 1))
+    rise = fit_rise(tau, values**4, tau[-1] * 0.5 ** (OCTAVES + 2))
     scales = [tail_scale(state, end_of_sea(state)) for state in run["state"].isel(variant=0).values]
     measured = {
         "power": power.exponent,
