@@ -16,6 +16,7 @@ PROBLEM = {
     "end_time": 40.0,
     "output_step": 0.25,
     "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
+    "rest": 1e-20,
 }
 
 

@@ -68,7 +68,8 @@ def map_variables(
 
 def attributes(name: str, problem: dict) -> dict:
     """Return what was solved: no dates, no hosts."""
-    plain = {key: problem[key] for key in ("epsilon", "gamma", "omega", "end_time", "output_step")}
+    keys = ("epsilon", "gamma", "omega", "end_time", "output_step", "rest")
+    plain = {key: problem[key] for key in keys}
     return {
         "case": name,
         **plain,

@@ -40,14 +40,15 @@ def spread(problem: dict, keep_at: str | Path | None = None, keep_every: int = 5
     """Return the run of `problem`, continued from the checkpoint `keep_at` if there is one.
 
     `problem`: epsilon, gamma, omega, initial (even), half_width (None: no ends), end_time,
-    output_step, solver. A checkpoint is written after each `keep_every` pieces, and left.
+    output_step, solver, rest (see `window`). A checkpoint is written after each `keep_every`
+    pieces, and left.
     """
     outputs = round(PIECE / problem["output_step"])
     count = round(problem["end_time"] / PIECE)
     kept = checkpoint.recall(keep_at, problem) if keep_at else None
     series, state = _start(problem) if kept is None else _continue(kept)
     for piece in range(len(series["piece_tau"]), count):
-        state = widen(state, problem["half_width"])
+        state = widen(state, problem["half_width"], problem["rest"])
         times = problem["output_step"] * np.arange(piece * outputs, (piece + 1) * outputs + 1)
         done = advance(constants_of(problem), state, times, problem["solver"])
         _add(series, times, done, first=piece == 0)

@@ -17,6 +17,9 @@ STUDIES = (*CASES, *VARIED)
 TOLERANCE = 1e-8
 """Enough for the statistics of a chaotic sea (see the study `tolerances`)."""
 
+REST = {"quick": 1e-20, "short": 1e-20, "long": 1e-150}
+"""What counts as at rest ahead of the front, of the largest amplitude: see `window`."""
+
 VALUES = {
     "omegas": [-1.5, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 5.5],
     "amplitudes": [1.0, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 7.0, 8.0],
@@ -28,7 +31,7 @@ SWEEPS = {"fig5_left": 1, "fig5_right": 4, "fig6_left": 1, "fig6_right": 4}
 
 # (end time, members) of each study
 SPREADS = {
-    "quick": dict.fromkeys(STUDIES, (20, 1)) | {"fig4_small": (20, 2)},
+    "quick": dict.fromkeys(STUDIES, (20, 1)) | {"fig4_small": (40, 2)},
     "short": {
         "fig4_small": (400, 4),
         "fig3_large": (400, 4),
@@ -76,7 +79,7 @@ def spread_problems(case: dict, study: str, size: str, output_step: float = 0.25
     `case` is the paper's case as the arguments of pendula.simulation.simulate.
     """
     end_time = float(SPREADS[size][study][0])
-    base = unbounded_problem(case, end_time, output_step)
+    base = {**unbounded_problem(case, end_time, output_step), "rest": REST[size]}
     if study not in VARIED:
         return [base]
     varied = VARIED[study][1]
@@ -93,6 +96,7 @@ def unbounded_problem(case: dict, end_time: float, output_step: float) -> dict:
         "end_time": float(end_time),
         "output_step": output_step,
         "solver": solver,
+        "rest": REST["short"],
     }
 
 

@@ -14,9 +14,7 @@ def thermal_variables(omegas: list[float], found: list[Thermal]) -> dict[str, Va
     amplitudes = [thermal.states[:, 0::2] + 1j * thermal.states[:, 1::2] for thermal in found]
     moduli = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1)
     energies = [thermal.energies.mean() for thermal in found]
-    powers = [
-        thermal.at_zero_energy((thermal.states**2).sum(axis=1).mean(axis=1)) for thermal in found
-    ]
+    powers = [t.at_zero_energy((t.states**2).sum(axis=1).mean(axis=1)) for t in found]
     return {
         "omega": Variable(("omega",), np.array(omegas, float), "detuning Omega"),
         "beta": Variable(("omega",), [t.beta for t in found], "inverse temperature"),

@@ -42,8 +42,8 @@ def law_at_end(run, thermal) -> float:
 
 
 def sites_in_motion(run) -> float:
-    """Return the sites that the window of the first variant held at the end."""
-    return 2.0 * float(run["width"].isel(variant=0, piece_tau=-1).max()) + 1.0
+    """Return how many sites of the first variant the front had passed at the end."""
+    return 2.0 * float(run["front"].isel(variant=0, piece_tau=-1).max()) + 1.0
 
 
 @claim(
