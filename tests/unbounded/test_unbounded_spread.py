@@ -101,3 +101,20 @@ def test_maxima_start_at_ten_and_include_the_end():
     tau = np.arange(0.0, 20.5, 0.5)
     series = np.where(tau < 10, 99.0, tau)
     np.testing.assert_array_equal(maxima(tau, series, np.array([12.0, 15.5])), [12.0, 15.5])
+
+
+def test_a_tolerance_of_1e_8_is_enough_for_the_sea():
+    """Other tolerances make other trajectories of the same power, and the same front."""
+    powers, fronts = {}, set()
+    for tolerance in (1e-8, 1e-11):
+        solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+        runs = [
+            spread({**PROBLEM, "solver": solver, "initial": member(PROBLEM["initial"], number)})
+            for number in range(4)
+        ]
+        powers[tolerance] = np.array([(run.l2**2)[run.tau > 20.0].mean() for run in runs])
+        fronts |= {run.front[-1, 0] for run in runs}
+    loose, tight = powers.values()
+    error = np.hypot(loose.std(ddof=1), tight.std(ddof=1)) / 2.0
+    assert abs(loose.mean() - tight.mean()) < 3.0 * error < 0.1 * tight.mean()
+    assert len(fronts) == 1

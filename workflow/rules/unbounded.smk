@@ -6,7 +6,7 @@ GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
 
 
 rule unbounded:
-    "The long study of the chain without ends (takes about half an hour)"
+    "The long study of the chain without ends (takes about ten minutes)"
     input:
         expand(f"{LONG}/{{name}}.nc", name=[*STUDIES, *map_names()]),
         expand(f"{LONG}/{{name}}.{{kind}}", name=UNBOUNDED_FIGURES, kind=["png", "pdf"]),
@@ -95,7 +95,7 @@ rule thermal:
     params:
         epsilon=SETTINGS.cases["fig4_small"].epsilon,
         gamma=SETTINGS.cases["fig4_small"].gamma,
-        omegas=VALUES["omegas"],
+        omegas=THERMAL[SETTINGS.unbounded],
     message:
         "Sampling the thermal states without energy"
     script:

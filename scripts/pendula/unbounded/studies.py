@@ -29,6 +29,9 @@ VALUES = {
 SWEEPS = {"fig5_left": 1, "fig5_right": 4, "fig6_left": 1, "fig6_right": 4}
 """Members of each sweep: one where the motion is regular."""
 
+THERMAL = {"quick": [0.0], "short": VALUES["omegas"]}
+"""Omegas at which the thermal state is sampled."""
+
 # (end time, members) of each study
 SPREADS = {
     "quick": dict.fromkeys(STUDIES, (20, 1)) | {"fig4_small": (40, 2)},
