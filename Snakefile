@@ -30,6 +30,8 @@ FIGURES = [
     # Theorems 1 to 3: observed norms against their bounds
     "bounds",
     *CHAOS_FIGURES,
+    # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
+    *("growth_law", "front", "window_map"),
 ]
 
 
@@ -76,6 +78,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/solvers.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/trust.smk"
+include: "workflow/rules/unbounded_inputs.smk"
 include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
@@ -83,3 +86,4 @@ include: "workflow/rules/chaos_inputs.smk"
 include: "workflow/rules/chaos.smk"
 include: "workflow/rules/speed.smk"
 include: "workflow/rules/figure_diff.smk"
+include: "workflow/rules/unbounded.smk"

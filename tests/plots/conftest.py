@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
+from made_up_unbounded import spread, thermal, window_map
 
 HALF_WIDTHS = [5, 10, 20]
 PARAMETERS = {
@@ -90,6 +91,8 @@ def gathered(make_trajectory, trajectories, make_sweep):
         chain_drawing,
         energy,
         ensembles,
+        front,
+        growth_law,
         growth_rates,
         lyapunov,
         norms,
@@ -99,6 +102,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
         trust,
     )
     from pendula.plots import sweeps as sweep_plot
+    from pendula.plots import window_map as map_plot
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     true = make_trajectory(end_time=5.0, scale=1.02)
@@ -125,4 +129,15 @@ def gathered(make_trajectory, trajectories, make_sweep):
             dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
             dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
         ),
+        "growth_law": growth_law.gather(
+            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))},
+            thermal(),
+        ),
+        "front": front.gather(
+            spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
+            spread(0.5),
+            spread(0.5, omegas=(-4.0,)),
+            thermal(),
+        ),
+        "window_map": map_plot.gather({"fig5_left": window_map(8.0), "fig5_right": window_map()}),
     }

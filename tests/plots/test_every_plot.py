@@ -13,6 +13,7 @@ MODULES = [
     *("agreement", "bounds", "chain_drawing", "energy", "growth_rates", "norms", "spacetime"),
     *("stability_chart", "sweeps", "trust"),
     *("lyapunov", "symmetry", "ensembles"),
+    *("growth_law", "front", "window_map"),
 ]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up import paper_sweeps, paper_trajectories
+from made_up_unbounded import spread, unbounded_runs
 from pendula.theory.catalogue import CHECKS
 from pendula.theory.claims import CLAIMS
 from pendula.theory.ledger import decide, evaluate, needed
@@ -18,7 +19,7 @@ CLAIM = {claim.name: claim for claim in CLAIMS}
 @pytest.fixture(scope="module")
 def sources(checked):
     checks = {f"checks/{name}": xr.Dataset.from_dict(checked(name)) for name in CHECKS}
-    return checks | paper_trajectories() | paper_sweeps()
+    return checks | paper_trajectories() | paper_sweeps() | unbounded_runs()
 
 
 def test_rows_are_many_named_once_and_need_what_exists(sources):
@@ -46,6 +47,9 @@ def test_short_runs_and_sweeps_do_not_decide(sources):
     short = sources["trajectories/fig4_small"].sel(tau=slice(0, 15))
     finding = decide(CLAIM["fig4_settles"], sources | {"trajectories/fig4_small": short})
     assert finding.verdict == Verdict.UNDECIDED and "tau = 15" in finding.because
+    brief = sources["unbounded/fig4_small"].sel(tau=slice(0, 50))
+    finding = decide(CLAIM["unbounded_in_time"], sources | {"unbounded/fig4_small": brief})
+    assert finding.verdict == Verdict.UNDECIDED and "tau = 50" in finding.because
     narrow = sources["sweeps/fig5_left"].sel(window=["[10, 40]"])
     finding = decide(CLAIM["fig5_decreases"], sources | {"sweeps/fig5_left": narrow})
     assert finding.verdict == Verdict.UNDECIDED and "[10, 50]" in finding.because
@@ -86,6 +90,10 @@ def keeping_attributes(change):
         return result
 
     return changed
+
+
+def window_map_without_level(data):
+    return data.assign(l2=data["l2"] * data["half_width"] ** 0.2)
 
 
 FLIPS = {
@@ -145,6 +153,18 @@ FLIPS = {
     "fig6_not_technical": ("sweeps/fig6_right", replaced("l2", 2.0 + np.zeros(8))),
     "second_solver": ("trajectories/fig4_small.crank_nicolson", scaled("l2", 2.0)),
     "second_solver_sweeps": ("sweeps/fig5_right.crank_nicolson", scaled("l2", 2.0)),
+    "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),
+    "unbounded_band": ("unbounded/omegas", lambda _: spread([0.5, 0.0, 0.5], variants=3)),
+    "unbounded_front": ("unbounded/omegas", scaled("predicted_speed", 0.9)),
+    "unbounded_equilibrium": ("unbounded/thermal", scaled("power", 0.5)),
+    "unbounded_maximum": (
+        "unbounded/fig4_small",
+        lambda run: run.assign(linf=run["linf"] * (run["tau"] + 1.0) ** 0.2),
+    ),
+    "unbounded_large": ("unbounded/fig3_large", lambda _: spread(0.1)),
+    "unbounded_small": ("unbounded/fig3_small", lambda _: spread(0.1)),
+    "unbounded_stable": ("unbounded/fig2_large", lambda _: spread(0.1)),
+    "unbounded_window": ("unbounded/map_fig5_right", window_map_without_level),
 }
 
 
@@ -172,7 +192,7 @@ def test_claims_of_misprints_flip_when_the_misprint_is_mended(sources):
 
 
 def test_every_claim_can_fall_or_says_that_no_number_can_settle_it():
-    always_open = {"one_integral", "unbounded_in_time", "fig6_caption"}
+    always_open = {"one_integral", "fig6_caption"}
     mended = {"theorem_3_proof", "printed_time"}
     assert set(CLAIM) == set(FLIPS) | always_open | mended
 

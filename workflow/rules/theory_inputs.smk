@@ -19,6 +19,9 @@ def makers():
         "check_observed": checks(*OBSERVED),
         "trajectory": trajectories() + trajectories(".crank_nicolson"),
         "sweep": sweeps() + sweeps(".crank_nicolson"),
+        "spread": [f"results/unbounded/{study}.nc" for study in STUDIES],
+        "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
+        "thermal": ["results/unbounded/thermal.nc"],
     }
     return {
         path.removeprefix("results/").removesuffix(".nc"): rule

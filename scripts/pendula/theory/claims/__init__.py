@@ -14,6 +14,7 @@ from . import (
     second_solver,
     section_2,
     theorems,
+    unbounded,
 )
 
 PARTS = (
@@ -27,6 +28,7 @@ PARTS = (
     figure_5,
     figure_6,
     second_solver,
+    unbounded,
 )
 
 CLAIMS = tuple(

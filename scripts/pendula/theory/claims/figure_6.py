@@ -108,18 +108,3 @@ def caption_of_fig_6(left, right) -> Finding:
     if flat[0] == flat[1] and grows[0] == grows[1]:
         return undecided(measured, "both readings fit what the text says of the figure")
     return judge(measured, "the text holds for the caption's reading", flat[1] and grows[1])
-
-
-@claim(
-    "unbounded_in_time",
-    "Introduction",
-    "The l2 norm diverges in the unbounded chain as time goes to infinity.",
-    sweeps("fig5_right", "fig6_right"),
-)
-def unbounded_in_time(*both) -> Finding:
-    """Introduction: l2 diverges on the unbounded chain as time goes to infinity."""
-    measured = {}
-    for name, sweep in zip(("fig5_right", "fig6_right"), both, strict=True):
-        short = swept(sweep, "l2", "max", CAPTION)[1][-1]
-        measured[name] = swept(sweep, "l2", "max", WINDOW)[1][-1] / short
-    return undecided(measured, "the ratio of the maxima to tau = 70 and 40 is no limit in time")

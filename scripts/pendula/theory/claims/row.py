@@ -42,6 +42,11 @@ def sweeps(*names: str) -> tuple[str, ...]:
     return tuple(f"sweeps/{name}" for name in names)
 
 
+def unbounded(*names: str) -> tuple[str, ...]:
+    """Return the datasets of runs on chains without ends."""
+    return tuple(f"unbounded/{name}" for name in names)
+
+
 def by_second(*datasets: str) -> tuple[str, ...]:
     """Return the same datasets by the paper's second solver."""
     return tuple(f"{dataset}.crank_nicolson" for dataset in datasets)

@@ -1,0 +1,55 @@
+"""Maxima of the norms over [10, T] on chains of half-width M, for many M and T at once.
+
+One run of a chain gives the maxima for all T up to its end. A chain whose window never reached
+its end is a chain without ends: all longer ones have the same numbers.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from .spread import Spread, spread
+
+START = 10.0
+"""Where the paper's windows begin."""
+
+
+class WindowMap(NamedTuple):
+    """Maxima of the pair's norms over [START, end], (half_width, end)."""
+
+    l2: np.ndarray
+    linf: np.ndarray
+    arrival: np.ndarray  # (half_width,): when the window reached the end of the chain, NaN if never
+
+
+def window_map(
+    problem: dict,
+    half_widths: list[int],
+    ends: np.ndarray,
+    progress: Callable[[str], None] = lambda message: None,
+) -> WindowMap:
+    """Return the maxima for each of the rising `half_widths` (see `spread` for `problem`)."""
+    l2, linf, arrival = [], [], []
+    free = False
+    for half_width in half_widths:
+        if not free:
+            run = spread({**problem, "half_width": half_width})
+            free = run.width[-1] < half_width
+            progress(f"half-width {half_width}: {'no end reached' if free else 'done'}")
+        l2.append(maxima(run.tau, run.l2, ends))
+        linf.append(maxima(run.tau, run.linf, ends))
+        arrival.append(np.nan if free else arrival_time(run, half_width))
+    return WindowMap(np.array(l2), np.array(linf), np.array(arrival))
+
+
+def maxima(tau: np.ndarray, series: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Return the largest value over [START, end] for each of `ends`."""
+    first = np.searchsorted(tau, START - 1e-9)
+    running = np.maximum.accumulate(series[first:])
+    return running[np.searchsorted(tau[first:], np.asarray(ends) + 1e-9) - 1]
+
+
+def arrival_time(run: Spread, half_width: int) -> float:
+    """Return when the window first covered the whole chain."""
+    return float(run.piece_tau[np.argmax(run.width == half_width)])

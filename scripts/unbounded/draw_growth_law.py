@@ -1,0 +1,19 @@
+"""Norms on chains without ends against time, and the powers of time that they follow."""
+
+from pendula.datasets import read
+from pendula.plots import growth_law
+from pendula.plots.style import save
+
+
+def draw_growth_law(
+    runs: list[str], cases: list[str], thermal: str, png: str, pdf: str, data: str
+) -> None:
+    """Draw the runs, one of each of `cases`, and write what was drawn."""
+    drawn = growth_law.gather(dict(zip(cases, map(read, runs), strict=True)), read(thermal))
+    save(growth_law.draw(drawn), drawn, png, pdf, data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_growth_law, snakemake)  # noqa: F821

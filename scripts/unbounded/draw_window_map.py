@@ -1,0 +1,17 @@
+"""Maxima over [10, T] on chains of half-width M, for the sweeps of Figs 5 and 6."""
+
+from pendula.datasets import read
+from pendula.plots import window_map
+from pendula.plots.style import save
+
+
+def draw_window_map(maps: list[str], sweeps: list[str], png: str, pdf: str, data: str) -> None:
+    """Draw the maps, one of each of `sweeps`, and write what was drawn."""
+    drawn = window_map.gather(dict(zip(sweeps, map(read, maps), strict=True)))
+    save(window_map.draw(drawn), drawn, png, pdf, data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_window_map, snakemake)  # noqa: F821

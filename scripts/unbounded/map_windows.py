@@ -1,0 +1,36 @@
+"""Maxima of the norms over [10, T] on chains of half-width M: the map over (M, T)."""
+
+import numpy as np
+from pendula.datasets import write
+from pendula.unbounded.dataset import attributes, map_variables
+from pendula.unbounded.linear_front import linear_front
+from pendula.unbounded.members import member
+from pendula.unbounded.spread import constants_of
+from pendula.unbounded.window_map import START, window_map
+
+
+def map_windows(
+    data: str,
+    name: str,
+    problem: dict,
+    half_widths: list[int],
+    members: int,
+    kernels: list[str] | tuple = (),
+) -> None:
+    """Write the maxima of an ensemble for every T between 10 and the end of the runs."""
+    ends = np.arange(START + 2.0, problem["end_time"] + 1.0, 2.0)
+    maps = []
+    for number in range(members):
+        started = {**problem, "initial": member(problem["initial"], number)}
+        label = f"{name}, member {number + 1} of {members}"
+        maps.append(
+            window_map(started, half_widths, ends, lambda done, at=label: print(f"{at}: {done}"))
+        )
+    speed = linear_front(*constants_of(problem)).speed
+    write(data, map_variables(maps, half_widths, ends, speed), attributes(name, problem))
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(map_windows, snakemake)  # noqa: F821

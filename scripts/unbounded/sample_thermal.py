@@ -1,0 +1,19 @@
+"""Sample the thermal states without energy, with which the sea behind the front is compared."""
+
+from pendula import __version__
+from pendula.datasets import write
+from pendula.unbounded.thermal import zero_energy
+from pendula.unbounded.thermal_dataset import thermal_variables
+
+
+def sample_thermal(data: str, epsilon: float, gamma: float, omegas: list[float]) -> None:
+    """Write power, temperature, spectrum and distribution of one state for each Omega."""
+    found = [zero_energy((epsilon, gamma, omega)) for omega in omegas]
+    attributes = {"epsilon": epsilon, "gamma": gamma, "version": __version__}
+    write(data, thermal_variables(omegas, found), attributes)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(sample_thermal, snakemake)  # noqa: F821

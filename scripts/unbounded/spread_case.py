@@ -1,0 +1,39 @@
+"""Integrate problems on chains without ends, each as a seeded ensemble, into one dataset."""
+
+from pathlib import Path
+
+from pendula.datasets import write
+from pendula.unbounded.dataset import attributes, spread_variables
+from pendula.unbounded.members import member
+from pendula.unbounded.spread import spread
+
+
+def spread_case(
+    data: str,
+    name: str,
+    problems: list[dict],
+    members: int,
+    checkpoints: str = "",
+    kernels: list[str] | tuple = (),
+) -> None:
+    """Write the series of each problem and member; `checkpoints` is where to keep unfinished ones.
+
+    An interrupted job continues from there, and gives the same numbers to the last bit.
+    """
+    runs, kept = [], []
+    for variant, problem in enumerate(problems):
+        runs.append([])
+        for number in range(members):
+            kept.append(Path(checkpoints, f"{name}-{variant}-{number}.npz"))
+            started = {**problem, "initial": member(problem["initial"], number)}
+            runs[-1].append(spread(started, kept[-1] if checkpoints else None))
+            print(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
+    write(data, spread_variables(problems, runs), attributes(name, problems[0]))
+    for path in kept:
+        path.unlink(missing_ok=True)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(spread_case, snakemake)  # noqa: F821

@@ -1,0 +1,98 @@
+"""Made-up runs on chains without ends, of the form of their datasets, that fit the conjecture."""
+
+import numpy as np
+import xarray as xr
+
+TAU = np.linspace(0.0, 200.0, 401)
+PIECES = TAU[4::4]
+LEVELS = [1e-6, 1e-2, 1.0, 4.0]
+SITES = 400
+
+
+def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, amplitudes=(1.0,)):
+    """Return runs whose l2 norm is tau^power (one power for all variants, or one for each)."""
+    powers = np.broadcast_to(power, variants)
+    wobble = 1.0 + 0.002 * np.sin(np.arange(members)[:, None] + TAU)
+    l2 = 5.0 * np.maximum(TAU, 1.0) ** powers[:, None, None] * wobble
+    linf = np.broadcast_to((600.0 + 100.0 * np.log(np.maximum(TAU, 1.0))) ** 0.25, l2.shape)
+    way = np.floor(speed * PIECES - delay * np.log(PIECES))
+    front = np.broadcast_to(way[:, None], (variants, members, len(PIECES), len(LEVELS)))
+    rng = np.random.default_rng(1)
+    run = ("variant", "member")
+    data = xr.Dataset(
+        {
+            "l2": ((*run, "tau"), l2),
+            "linf": ((*run, "tau"), linf * wobble),
+            "energy": ((*run, "tau"), 0.0 * l2),
+            "front": ((*run, "piece_tau", "level"), front),
+            "width": ((*run, "piece_tau"), front[..., 0] + 64.0),
+            "evaluations": ((*run, "piece_tau"), 0.0 * front[..., 0] + 1000.0),
+            "state": (
+                (*run, "row", "site"),
+                rng.normal(scale=2.0, size=(variants, members, 4, SITES)),
+            ),
+            "omega": ("variant", np.resize(omegas, variants)),
+            "amplitude": ("variant", np.resize(amplitudes, variants)),
+            "predicted_speed": ("variant", np.full(variants, speed)),
+            "predicted_delay": ("variant", np.full(variants, delay)),
+        },
+        {"tau": TAU, "piece_tau": PIECES, "level": LEVELS},
+        {"epsilon": 1.0, "gamma": 1.0, "omega": omegas[0], "initial": '{"0": [1.0, 0.1]}'},
+    )
+    return named(data)
+
+
+def named(data):
+    """Return the dataset with a long name and units on every variable."""
+    for name, variable in data.variables.items():
+        variable.attrs = {"long_name": str(name), "units": "1"}
+    return data
+
+
+def window_map(omega=0.0, speed=2.9, members=2):
+    """Return maxima that grow with M up to M = speed T, and with T."""
+    widths, ends = np.array([5, 10, 20, 40, 80, 160, 320, 2000]), np.arange(12.0, 151.0, 2.0)
+    reached = np.minimum(widths[:, None], speed * ends)
+    l2 = np.broadcast_to(4.0 * np.sqrt(reached), (members, *reached.shape))
+    axes = ("member", "half_width", "end")
+    data = xr.Dataset(
+        {
+            "l2": (axes, l2),
+            "linf": (axes, 0.0 * l2 + 5.0),
+            "arrival": (axes[:2], np.full((members, len(widths)), np.nan)),
+            "predicted_speed": ((), speed),
+        },
+        {"half_width": widths, "end": ends},
+        {"omega": omega, "initial": '{"0": [1.0, 0.1]}'},
+    )
+    return named(data)
+
+
+def thermal():
+    """Return thermal states of the power of the made-up seas."""
+    omegas, waves, moduli = np.array([-1.0, 0.0, 2.0, 5.0]), np.arange(64), np.linspace(0.1, 8, 40)
+    data = xr.Dataset(
+        {
+            "power": ("omega", np.full(4, 16.0)),
+            "density": (("omega", "modulus"), np.tile(np.exp(-moduli), (4, 1))),
+            "spectrum": (("omega", "wave"), np.full((4, 64), 8.0)),
+            "wave_number": ("wave", 2.0 * np.pi * waves / 64),
+        },
+        {"omega": omegas, "modulus": moduli},
+    )
+    return named(data)
+
+
+def unbounded_runs() -> dict[str, xr.Dataset]:
+    """Return the datasets that the claims read, as a growing sea would make them."""
+    made = {
+        "fig4_small": spread(0.5),
+        "fig3_large": spread(0.5, omegas=(-4.0,)),
+        "fig3_small": spread(0.0, omegas=(-4.0,)),
+        "fig2_large": spread(0.0, omegas=(8.0,)),
+        "omegas": spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
+        "amplitudes": spread([0.0, 0.5, 0.0], variants=3, amplitudes=(4.0, 5.0, 6.0)),
+        "map_fig5_right": window_map(),
+        "thermal": thermal(),
+    }
+    return {f"unbounded/{name}": data for name, data in made.items()}
