@@ -1,6 +1,7 @@
 """Climbing from loose to tight."""
 
 import pytest
+from pendula.speed import ladder
 from pendula.speed.ladder import PATIENCE, Rung, climb, loosest
 
 
@@ -24,6 +25,22 @@ def test_who_takes_too_long_is_asked_no_further(task, contestant):
     made, calls = contestant(lambda accuracy: 2 * PATIENCE if accuracy < 1e-5 else 1e-3)
     assert [rung.accuracy for rung in climb(made, task)] == [1e-4, 1e-6]
     assert calls.count(1e-6) == 1  # and a long run is not repeated
+
+
+def test_a_run_without_end_is_broken_off(task, contestant, monkeypatch):
+    def forever(accuracy):
+        while accuracy < 1e-5:
+            pass
+        return 1e-3
+
+    monkeypatch.setattr(ladder, "LIMIT", 0.1)
+    made, _ = contestant(forever)
+    assert [rung.accuracy for rung in climb(made, task)] == [1e-4]
+
+
+def test_who_errs_less_than_the_goal_is_asked_no_further(task, contestant):
+    made, _ = contestant(lambda accuracy: 1e-3)
+    assert [rung.accuracy for rung in climb(made, task, goal=1e-7)] == [1e-4, 1e-6, 1e-8]
 
 
 def test_who_gives_up_or_returns_no_numbers_has_no_rung_there(task, contestant):

@@ -1,5 +1,8 @@
 """Climb from loose to tight: the time and the error of one contestant on one task."""
 
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +11,10 @@ from ..simulation import IntegrationError
 from .contestants import Contestant
 from .tasks import Task, error_of
 
-PATIENCE = 5.0
+PATIENCE = 3.0
 """Seconds: a contestant that took longer is not asked for more accuracy."""
+LIMIT = 12.0
+"""Seconds after which a run is broken off."""
 ENOUGH = 0.2
 """Seconds of repetitions after which a median is taken."""
 
@@ -24,21 +29,44 @@ class Rung(NamedTuple):
     error: float
 
 
-def climb(contestant: Contestant, task: Task) -> list[Rung]:
-    """Return one rung for each accuracy, up to the one that takes too long.
+class TooLongError(Exception):
+    """A run that was broken off."""
+
+
+@contextmanager
+def limit(seconds: float) -> Iterator[None]:
+    """Break the block off with TooLongError; compiled code is left to its end first."""
+
+    def stop(*_):
+        raise TooLongError
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def climb(contestant: Contestant, task: Task, goal: float = 0.0) -> list[Rung]:
+    """Return one rung for each accuracy, up to one that takes too long or errs less than `goal`.
 
     An accuracy at which the contestant gives up, or returns no numbers, has no rung.
     """
     solve, rungs = contestant.prepare(task), []
     for accuracy in contestant.accuracies:
         try:
-            final, seconds = solve(accuracy)  # compiles, and warms the caches
+            with limit(LIMIT):
+                final, seconds = solve(accuracy)  # compiles, and warms the caches
+        except TooLongError:
+            break
         except (IntegrationError, RuntimeError):
             continue
         if not np.all(np.isfinite(final)):
             continue
         rungs.append(_repeat(solve, accuracy, seconds, error_of(task, final)))
-        if rungs[-1].seconds > PATIENCE:
+        if rungs[-1].seconds > PATIENCE or rungs[-1].error < goal:
             break
     return rungs
 

@@ -10,7 +10,7 @@ from .regimes import REGIME_OF, REGIMES
 from .tasks import Task
 
 PAIRS = 7
-LONG = 2.0
+LONG = 1.0
 """Seconds: of a peer that takes longer, three pairs are enough."""
 BLOCK = 0.02
 """Seconds that one side of a pair takes at least: short runs are repeated."""
@@ -23,6 +23,11 @@ class Comparison(NamedTuple):
     our_rung: Rung
     peer_rung: Rung
     ratios: np.ndarray
+
+
+def target_of(task: Task) -> float:
+    """Return the error at which contestants are compared on a task."""
+    return REGIMES[REGIME_OF[task.name]].target
 
 
 def best_of(rungs: dict[str, list[Rung]], target: float) -> str | None:
@@ -40,7 +45,7 @@ def compare(
     our_rungs: dict[str, list[Rung]],
 ) -> Comparison | None:
     """Let the peer and our best solver take turns; None where the peer never gets that far."""
-    target = REGIMES[REGIME_OF[task.name]].target
+    target = target_of(task)
     best, theirs = best_of(our_rungs, target), loosest(peer_rungs, target)
     if best is None or theirs is None:
         return None
