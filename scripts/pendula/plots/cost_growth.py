@@ -58,4 +58,4 @@ def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylim(bottom=0)
     axes.set_xlabel("number of sites $N$")
     axes.set_ylabel(r"sites $\times$ steps per second")
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94))

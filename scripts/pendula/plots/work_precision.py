@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from . import style
 
-MARKERS = "osD^vP*X<>hd"
+MARKERS = "osD^vP*X<>hdp8"
 
 
 def gather(measured: xr.Dataset, regime: str) -> xr.Dataset:
@@ -35,10 +35,17 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
     greys = np.linspace(0.35, 0.75, max(len(peers), 1))
     for name in case["contestant"].values:
         curve = case.sel(contestant=name)
+        if curve["error"].isnull().all():
+            continue  # too slow for a single point
         look = {"markersize": 3, "label": str(curve["title"].values)}
         if name in peers:
             i = peers.index(name)
-            look |= {"color": str(greys[i]), "marker": MARKERS[i], "lw": 0.6, "zorder": 1}
+            look |= {
+                "color": str(greys[i]),
+                "marker": MARKERS[i % len(MARKERS)],
+                "lw": 0.6,
+                "zorder": 1,
+            }
             look |= {"markerfacecolor": "white", "markeredgewidth": 0.6}
         else:
             look |= {"color": style.COLOURS[name], "marker": ".", "lw": 1.2, "zorder": 2}
