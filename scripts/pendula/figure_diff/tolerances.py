@@ -43,6 +43,11 @@ def _observed(case: str) -> str:
     return "|".join(f"*:{name} case={case}" for name in names)
 
 
+def _spreads() -> str:
+    files = ("lyapunov", "ensembles", "growth_law", "front", "window_map")
+    return "|".join(f"*/{file}:*{word}*" for file in files for word in ("error", "deviation"))
+
+
 RULES = [
     Rule("*", "magnitude", 1, "rounding errors, residuals of solvers: their size", below=1e-8),
     Rule("*:true_*", "pointwise", 1e-6, "committed references: to the last digit, chaos or not"),
@@ -66,6 +71,13 @@ RULES = [
     Rule("*/trust*:difference case=fig4_*", "chaotic", 1, "of a chaotic scale", 0, FREE),
     Rule("*:difference case=fig3_large*", "chaotic", 0.3, "of a chaotic scale", EARLY, WILD),
     Rule("*:difference case=fig4_*", "chaotic", 0.3, "of a chaotic scale", EARLY, FREE),
+    # ensembles and exponents of chaotic runs, chains without ends: samples of the same distribution
+    Rule("*/hard_cases:seconds*", "magnitude", 3, "times of a machine"),
+    Rule(_spreads(), "magnitude", 1.5, "spreads of a few chaotic samples"),
+    Rule("*/lyapunov:*", "pointwise", 0.3, "means along chaotic runs"),
+    Rule("*/symmetry:*", "chaotic", 1, "odd parts that grow from rounding", 0, WILD),
+    Rule("*/ensembles:*", "pointwise", 0.4, "quantiles and means of chaotic samples"),
+    Rule("*/growth_law:*|*/front:*|*/window_map:*", "pointwise", 0.6, "the same, of few members"),
     Rule("*:difference *", "pointwise", 1e-3, "small differences (1e-6) of norms"),
     Rule("*:parting *", "pointwise", 0.03, "a step of output, or of the scale of a chaotic curve"),
     Rule("*:horizon *", "pointwise", 0.25, "chance decides which rounding grows: 0.19 was seen"),
