@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 from typing import NamedTuple
 
-import made_up
+import made_up_results as made_up
 import pytest
 from pendula.figure_diff import baseline
 from pendula.figure_diff.comparison import compare

@@ -1,10 +1,10 @@
 """Planted faults in datasets: each is one line that names it; what may change passes."""
 
-import made_up
+import made_up_results as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import CHAOTIC, REGULAR, change_a, chaotic, regular
+from made_up_results import CHAOTIC, REGULAR, change_a, chaotic, regular
 from pendula.datasets import read, save
 from pendula.figure_diff.curves import MOST_NUMBERS, curves, thin
 from pendula.figure_diff.findings import IDENTICAL, NEARLY

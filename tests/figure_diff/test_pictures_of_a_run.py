@@ -1,10 +1,10 @@
 """Planted faults in pictures, by pixels and by look; other fonts pass by look."""
 
-import made_up
+import made_up_results as made_up
 import matplotlib
 import numpy as np
 import pytest
-from made_up import CHAOTIC_PICTURE, PICTURE, chaotic, regular
+from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.figure_diff import images, pictures
 from pendula.figure_diff.findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY
 from pendula.figure_diff.pictures import Picture
