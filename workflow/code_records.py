@@ -1,10 +1,11 @@
 """Which code and which committed data a job depends on, by content.
 
 Snakemake does not see a change in a module that a script imports. So each rule takes as input a
-record of its script, of all modules that it imports, of what else lies in their packages (templates,
-say) and of the pinned packages, with their hashes, in results/code/. A record is written only when its content changes: editing a module reruns what
-imports it, while touching files, or cloning the project anew beside finished results, reruns
-nothing. Committed data are copied in the same way: their paths do not change with the clone.
+record of its script, of all modules that it imports, of what else lies in their packages (such as
+templates) and of the pinned packages, with their hashes, in results/code/. A record is written only
+when its content changes: editing a module reruns what imports it, while touching files, or cloning
+the project anew beside finished results, reruns nothing. Committed data are copied in the same way:
+their paths do not change with the clone.
 """
 
 import os

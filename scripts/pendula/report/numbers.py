@@ -6,7 +6,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-MINUS = "\N{MINUS SIGN}"
+MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
 
 
 class Quote(NamedTuple):
@@ -23,7 +23,7 @@ class Quote(NamedTuple):
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Return a number to so many digits: 2.91, −4, 1.3 × 10⁻¹³; words where it is not finite."""
+    """Return a number to so many digits, small and large ones with a raised power of ten."""
     value = float(value)
     if not np.isfinite(value):
         return "none" if np.isnan(value) else "infinite" if value > 0 else f"{MINUS}infinite"
@@ -32,7 +32,7 @@ def number(value: float, digits: int = 3) -> str:
     if not exponent:
         return plain.replace("-", MINUS)
     power = str(int(exponent)).translate(RAISED)
-    start = "" if mantissa == "1" else f"{mantissa} × "
+    start = "" if mantissa == "1" else f"{mantissa} {TIMES} "
     return f"{start}10{power}".replace("-", MINUS)
 
 
