@@ -6,7 +6,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
+MINUS, TIMES = "−", "×"
 
 
 class Quote(NamedTuple):
