@@ -7,7 +7,7 @@ from typing import Any
 from ..theory.verdicts import Verdict
 from .numbers import Quote, number
 from .results import Results
-from .words import plainly, symbols
+from .words import criterion, plainly, symbols
 
 LEDGER = "claims.json"
 
@@ -43,7 +43,7 @@ def _shown(row: dict, results: Results) -> dict:
         "says": symbols(row["says"]),
         "verdict": row["verdict"],
         "measured": measured,
-        "criterion": symbols(row["tolerance"]),
+        "criterion": criterion(row["tolerance"]),
         "because": symbols(row["because"]),
         "data": [results.say(name, name) for name in row["decided_by"]],
     }

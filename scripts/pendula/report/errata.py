@@ -46,6 +46,7 @@ def _case(results: Results) -> dict[str, Any]:
     case = results["checks/cases"].sel(case="fig3_small")
     return {
         "name": case_in_words(float(case["omega"]), str(case["initial"].values)),
+        "shallow": bool(check["depth"] < check["barrier"]),
         "covered": bool(check["start"] <= check["delta_0"]),
         "covered_widened": bool(check["start"] <= check["widened_delta_0"]),
         **{name: results.quote(source, float(check[name]), 4) for name in numbers},
@@ -63,7 +64,7 @@ def _missed(results: Results) -> list[dict]:
             "place": row["place"],
             "says": symbols(row["says"]),
             "because": symbols(row["because"]),
-            "data": [results.say(name, name) for name in row["decided_by"][:3]],
+            "data": [results.say(name, name) for name in row["decided_by"]],
         }
         for row in load(results)
         if row["verdict"] == "not reproduced"

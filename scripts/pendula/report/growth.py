@@ -6,7 +6,7 @@ import numpy as np
 
 from ..unbounded.fronts import speeds
 from .claims import Ledger
-from .numbers import number, span
+from .numbers import measured, number, span
 from .results import Results
 from .words import case_of
 
@@ -21,9 +21,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     fronts = _fronts(results)
     return {
         "cases": cases,
-        "growing": [case for case in cases if case["grows"]],
-        "still": [case for case in cases if not case["grows"]],
-        "main": _main(ledger),
+        "main": _main(results, ledger),
         "fronts": fronts["rows"],
         "omegas": results.quote(OMEGAS, len(fronts["rows"])),
         "speed_ratio": results.say(OMEGAS, span(fronts["speed_ratio"], 4)),
@@ -37,31 +35,37 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _main(ledger: Ledger) -> dict[str, Any]:
-    names = ("power", "end", "sites", "over_its_law")
+def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
+    names = ("end", "sites", "over_its_law")
     quotes = {name: ledger.quote("unbounded_in_time", name, 5) for name in names}
-    value, error = (ledger.value("unbounded_in_time", name) for name in ("power", "error"))
-    return {**quotes, "root": abs(value - ROOT) < NEAR, "half": number(ROOT), "error":
-            ledger.quote("unbounded_in_time", "error", 1), "sigmas": number(abs(value - ROOT)
-            / error, 2), "linf_power": ledger.quote("unbounded_maximum", "power", 2),
-            "linf_last": ledger.quote("unbounded_maximum", "last")}  # fmt: skip
+    power, error = (ledger.value("unbounded_in_time", name) for name in ("power", "error"))
+    return {
+        **quotes,
+        "power": results.quote_error("unbounded/fig4_small", power, error),
+        "near": abs(power - ROOT) < NEAR,
+        "half": number(ROOT),
+        "measure": number(NEAR),
+        "linf_power": ledger.quote("unbounded_maximum", "power", 2),
+        "linf_last": ledger.quote("unbounded_maximum", "last"),
+    }
 
 
 def _case(results: Results, name: str) -> dict[str, Any]:
     case = results[LAW].sel(case=name)
     last = case["l2_power"].isel(octave=-1)
     power, error = (float(last.sel(part=part)) for part in ("power", "error"))
+    octaves = [measured(float(p)) for p in case["l2_power"].sel(part="power")]
     run = f"unbounded/{name}"
     end = float(results[run]["tau"].max())
     return {
         "case": case_of(case),
         "grows": power - 3.0 * error > 0 and power > NEAR,
-        "root": abs(power - ROOT) < NEAR,
         "row": [
             case_of(case),
             results.quote(run, end, 4),
             results.quote(run, int(results[run]["width"].max()), 6),
             results.quote(LAW, float(case["l2"].sel(statistic="mean").isel(point=-1))),
+            results.say(LAW, ", ".join(octaves)),
             results.quote_error(LAW, power, error),
         ],
         "power": results.quote_error(LAW, power, error),

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from .numbers import number, span
+from .numbers import measured, number, span
 from .results import Results
 from .words import case_of
 
@@ -49,7 +49,7 @@ def _panel(results: Results, which: int, size: str) -> dict[str, Any]:
     row = [
         case,
         results.say(source, span(l2)),
-        results.quote(source, late.mean()),
+        results.say(source, measured(late.mean())),
         results.quote_time(source, parting),
         *_bound(results, f"fig{which}_{size}"),
         results.quote(run, results[run].attrs["steps"], 6),

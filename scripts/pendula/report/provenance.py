@@ -6,12 +6,13 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+from llvmlite import binding
 
 from ..speed.machine import describe
 from .results import Results
 
 PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2", "pillow")
+VECTORS = ("sse", "avx", "fma", "neon", "sve")
 SHOWN = 16  # digits of a hash that are shown
 
 
@@ -25,7 +26,7 @@ def gather(results: Results, inputs: list[str], settings: str, logs: str, took: 
     times = run_times(Path(logs), took)
     return {
         "versions": [[name, value] for name, value in versions().items()],
-        "features": ", ".join(np.show_config(mode="dicts")["SIMD Extensions"]["found"]),
+        "features": ", ".join(features()),
         "system": platform.system(),
         "hashes": [_hashed(results, link) for link in inputs],
         "settings": digest(settings.encode()),
@@ -37,6 +38,12 @@ def gather(results: Results, inputs: list[str], settings: str, logs: str, took: 
 def versions() -> dict[str, str]:
     """Return the processor and the versions of the packages that the numbers pass through."""
     return describe() | {name: version(name) for name in PACKAGES}
+
+
+def features() -> list[str]:
+    """Return the vector instructions that compiled kernels can use here."""
+    found = binding.get_host_cpu_features()
+    return sorted(name for name, there in found.items() if there and name.startswith(VECTORS))
 
 
 def run_times(logs: Path, took: str) -> list[tuple[str, float]]:

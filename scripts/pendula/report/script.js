@@ -35,7 +35,7 @@ for (const form of document.querySelectorAll("form.filter")) {
 
 // A run of the chain: bytes of |A| and |B| on every site, time after time.
 for (const player of document.querySelectorAll(".player")) {
-  const { frames, count, sites, step } = player.dataset;
+  const { frames, count, sites, step, still: shown } = player.dataset;
   const bytes = Uint8Array.from(atob(frames), (letter) => letter.charCodeAt(0));
   const [last, width] = [Number(count) - 1, Number(sites)];
   const canvas = player.querySelector("canvas");
@@ -80,7 +80,7 @@ for (const player of document.querySelectorAll(".player")) {
   };
   button.addEventListener("click", () => (timer ? stop() : play()));
   slider.addEventListener("input", draw);
-  slider.value = last;
+  slider.value = shown; // not where an earlier visit left it
   player.classList.add("live");
   draw();
 }

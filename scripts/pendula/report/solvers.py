@@ -22,7 +22,7 @@ def gather(results: Results) -> dict[str, Any]:
     times = agreement["parting"].sel(case=apart).isel(pair=0).values
     return {
         "drift_head": ["case", "as stated", *(SOLVERS[str(s)] for s in drift["solver"].values),
-                       "kept"],
+                       "kept by ode45"],
         "drift": [row["cells"] for row in rows],
         "kept": results.quote(DRIFT, sum(row["kept"] for row in rows)),
         "cases": results.quote(DRIFT, len(cases)),

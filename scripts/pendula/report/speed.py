@@ -7,7 +7,7 @@ from ..speed.regimes import REGIME_OF, REGIMES
 from .numbers import number
 from .pictures import picture
 from .results import ReportError, Results
-from .words import SOLVERS
+from .words import SOLVERS, case_of, symbols
 
 
 class Measured(NamedTuple):
@@ -30,7 +30,9 @@ def gather(results: Results, measured: Measured) -> dict[str, Any]:
     return {
         "fresh": measured.fresh,
         "peers": [
-            [row[0], results.say(measured.table, row[-1])] for row in peers if row[-1] != "-"
+            [row[0], results.say(measured.table, symbols(row[-1]))]
+            for row in peers
+            if row[-1] != "-"
         ],
         "absent": [row[0] for row in peers if row[-1] == "-"],
         "head": ["case", "error", *(SOLVERS[name] for name in solvers)],
@@ -71,7 +73,8 @@ def best_times(rows: list[list[str]], target: float) -> dict[str, float]:
 
 def _row(results: Results, table: str, case: str, times: dict, solvers: list[str]) -> list:
     cells = [results.quote(table, times[s]) if s in times else "not reached" for s in solvers]
-    return [case, number(REGIMES[REGIME_OF[case]].target), *cells]
+    known = results["checks/cases"].sel(case=case)
+    return [case_of(known), number(REGIMES[REGIME_OF[case]].target), *cells]
 
 
 def _alt(times: dict[str, dict], solvers: list[str]) -> str:

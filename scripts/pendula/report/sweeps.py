@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ..theory.readings import CONSTANT, levelling
-from .numbers import number, percent
+from ..theory.readings import CHANGE, CONSTANT, levelling
+from .numbers import measured, number, percent
 from .results import Results
-from .words import case_of
+from .words import FIRM, case_in_words, case_of
 
 ALT = "Norms of the pair against the half-width M, {first} to {last}. {panels}."
 NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}
@@ -39,6 +39,7 @@ def _figure(results: Results, which: int) -> dict[str, Any]:
         "widths": results.quote(source, len(widths), 6),
         "longest": results.quote(source, int(widths[-1]), 6),
         "rows": [curve["row"] for curve in found],
+        "samples": _samples(results, which),
         "l2": [curve for curve in found if curve["norm"] == "l2"],
     }
 
@@ -48,29 +49,58 @@ def _curve(results: Results, source: str, panel: str, reading: str, norm: str) -
     kept = data[norm].dropna("half_width")
     widths, values = kept["half_width"].values, kept.values
     statistic, window = (str(data[key].values) for key in ("statistic", "window"))
-    level = levelling(widths, values)
-    change, case = values[-1] / values[0] - 1.0, case_of(data)
-    told = f"{STATISTICS[statistic]} on {window}"
+    level, way, case = levelling(widths, values), shape(widths, values), case_of(data)
+    told = f"{STATISTICS[statistic]} on {window.replace(' ', FIRM)}"
     row = [
         f"{case}: {NORMS[norm]}, {told}",
-        results.quote(source, values[0]),
-        results.quote(source, values[-1]),
-        results.say(source, f"{moved(change)}, {percent(change)}"),
+        *(results.say(source, measured(value)) for value in (values[0], values.max(), values[-1])),
+        results.say(source, f"{way}, {percent(values[-1] / values[0] - 1.0)}"),
         results.say(source, levelled(level)),
     ]
-    alt = f"{case}: {told} goes from {number(values[0])} to {number(values[-1])}"
+    alt = f"{case}: {told} goes from {measured(values[0])} to {measured(values[-1])}"
     return {"row": row, "alt": alt, "norm": norm, "by_text": reading == "text", "case": case,
-            "told": told, "moved": moved(change), "level": results.say(source, levelled(level)),
-            "last": results.quote(source, values[-1])}  # fmt: skip
+            "told": told, "shape": results.say(source, way), "grows": values.max() > (1.0 + CHANGE)
+            * values[0], "level": results.say(source, levelled(level))}  # fmt: skip
 
 
-def moved(change: float) -> str:
-    """Return in a word which way a curve went, by the measure of the claims."""
+def shape(widths: np.ndarray, values: np.ndarray) -> str:
+    """Return in words how a curve goes, by the measures of the claims."""
+    peak = int(values.argmax())
+    if values[peak] > (1.0 + CHANGE) * max(values[0], values[-1]):
+        return f"rises to {measured(values[peak])} at M = {widths[peak]} and falls again"
+    change = values[-1] / values[0] - 1.0
     if abs(change) < CONSTANT:
-        return "unchanged"
+        return "stays as it is"
     return "grows" if change > 0 else "falls"
 
 
 def levelled(level: float) -> str:
     """Return from which half-width a curve is level."""
-    return f"levels off from M = {number(level)}" if np.isfinite(level) else "does not level off"
+    return f"level from M = {number(level)}" if np.isfinite(level) else "not level by the end"
+
+
+def _samples(results: Results, which: int) -> list[dict[str, Any]]:
+    """Return what runs from almost equal data give on the longest chain, of chaotic sweeps."""
+    source = "figures/ensembles"
+    data = results[source]
+    names = [str(name) for name in data["sweep"].values if f"fig{which}_" in str(name)]
+    return [_sample(results, source, data.sel(sweep=name).isel(half_width=-1)) for name in names]
+
+
+def _sample(results: Results, source: str, last) -> dict[str, Any]:
+    mean, deviation = (float(last[name]) for name in ("l2_mean", "l2_deviation"))
+    run = float(last["swept_run"])
+    return {
+        "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
+        "width": results.quote(source, int(last["half_width"]), 6),
+        "runs": results.quote("checks/ensembles", data_members(results)),
+        "mean": results.say(source, measured(mean)),
+        "deviation": results.quote(source, deviation, 2),
+        "run": results.say(source, measured(run)),
+        "inside": abs(run - mean) <= deviation,
+    }
+
+
+def data_members(results: Results) -> int:
+    """Return how many runs an ensemble of a sweep has."""
+    return int(results["checks/ensembles"].attrs["swept_members"])

@@ -3,7 +3,7 @@
 import json
 import re
 
-from .numbers import number
+from .numbers import number, raised
 
 SOLVERS = {
     "ode45": "ode45",
@@ -27,13 +27,18 @@ SYMBOLS = {
     "l-infinity": "ℓ∞",
     "linf": "ℓ∞",
 }
+FIRM = "\N{NO-BREAK SPACE}"
 SIGNS = {"<=": "≤", ">=": "≥"}
+_POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
+_EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
 _NAMES = re.compile(r"(?<![A-Za-z])(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
 
 
 def symbols(text: str) -> str:
     """Return a text of the ledger with its Greek letters and signs."""
     text = _NAMES.sub(lambda found: SYMBOLS[found[0]], text)
+    text = _POWERS_OF_TEN.sub(lambda found: number(float(found[0]), len(found[0])), text)
+    text = _EXPONENTS.sub(lambda found: raised(found[1]), text)
     for written, sign in SIGNS.items():
         text = text.replace(written, sign)
     return text
@@ -42,6 +47,11 @@ def symbols(text: str) -> str:
 def plainly(name: str) -> str:
     """Return the name of a number in the ledger as words."""
     return symbols(name.replace("_over_", " / ")).replace("_", " ")
+
+
+def criterion(text: str) -> str:
+    """Return a criterion of the ledger, names of numbers in it as words."""
+    return re.sub(r"(?<=[a-z])_(?=[a-z])", " ", symbols(text))
 
 
 def case_of(dataset) -> str:
@@ -56,7 +66,8 @@ def case_in_words(omega: float, initial: str) -> str:
         return f"Ω = {number(omega)}, data on {len(sites)} sites"
     ((site, (a, b)),) = sites.items()
     index = site.replace("-", "₋").translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-    return f"Ω = {number(omega)}, (A{index}, B{index}) = ({_amplitude(a)}, {_amplitude(b)})"
+    pair = f"(A{index}, B{index}) = ({_amplitude(a)}, {_amplitude(b)})"
+    return f"Ω = {number(omega)}".replace(" ", FIRM) + ", " + pair.replace(" ", FIRM)
 
 
 def _amplitude(value: float | str) -> str:
