@@ -6,7 +6,7 @@ import numpy as np
 
 from ..unbounded.fronts import speeds
 from .claims import Ledger
-from .numbers import measured, number, span
+from .numbers import MINUS, number, span
 from .results import Results
 from .words import case_of
 
@@ -54,7 +54,7 @@ def _case(results: Results, name: str) -> dict[str, Any]:
     case = results[LAW].sel(case=name)
     last = case["l2_power"].isel(octave=-1)
     power, error = (float(last.sel(part=part)) for part in ("power", "error"))
-    octaves = [measured(float(p)) for p in case["l2_power"].sel(part="power")]
+    octaves = [f"{float(p):.3f}".replace("-", MINUS) for p in case["l2_power"].sel(part="power")]
     run = f"unbounded/{name}"
     end = float(results[run]["tau"].max())
     return {

@@ -41,7 +41,7 @@ def _spacetime(results: Results, which: int):
 
 
 def _moving(modulus) -> tuple[int, int, float]:
-    """Return how many sites move at the end at MOVING of the largest size, of how many, and that."""
+    """Return how many sites move at the end, at MOVING of the largest size, all, and that size."""
     last = modulus.isel(snapshot_tau=-1).max("component").values
     return int((last > MOVING * last.max()).sum()), len(last), float(last.max())
 

@@ -45,7 +45,7 @@ def raised(exponent: str) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """Return a number with its standard error, both to the first digit of that, a 1 to the second."""
+    """Return a number and its standard error to the first digit of that, to the second of a 1."""
     if not (np.isfinite(error) and error > 0):
         return number(value)
     first = int(np.floor(np.log10(error)))

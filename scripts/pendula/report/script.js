@@ -65,8 +65,8 @@ for (const player of document.querySelectorAll(".player")) {
     timer = null;
     button.textContent = "Play";
   };
-  const advance = (frames_) => {
-    const next = Number(slider.value) + frames_;
+  const advance = (by) => {
+    const next = Number(slider.value) + by;
     slider.value = Math.min(next, last);
     draw();
     if (next >= last) stop();

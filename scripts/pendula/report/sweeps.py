@@ -97,7 +97,8 @@ def _sample(results: Results, source: str, last) -> dict[str, Any]:
         "mean": results.say(source, measured(mean)),
         "deviation": results.quote(source, deviation, 2),
         "run": results.say(source, measured(run)),
-        "inside": abs(run - mean) <= deviation,
+        "off": results.quote(source, abs(run - mean) / deviation, 2),
+        "below": run < mean,
     }
 
 

@@ -3,7 +3,7 @@
 import json
 import re
 
-from .numbers import number, raised
+from .numbers import MINUS, number, raised
 
 SOLVERS = {
     "ode45": "ode45",
@@ -30,6 +30,7 @@ SYMBOLS = {
 FIRM = "\N{NO-BREAK SPACE}"
 SIGNS = {"<=": "≤", ">=": "≥"}
 _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
+_MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
 _EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
 _NAMES = re.compile(r"(?<![A-Za-z])(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
 
@@ -39,6 +40,7 @@ def symbols(text: str) -> str:
     text = _NAMES.sub(lambda found: SYMBOLS[found[0]], text)
     text = _POWERS_OF_TEN.sub(lambda found: number(float(found[0]), len(found[0])), text)
     text = _EXPONENTS.sub(lambda found: raised(found[1]), text)
+    text = _MINUS.sub(MINUS, text)
     for written, sign in SIGNS.items():
         text = text.replace(written, sign)
     return text
@@ -46,7 +48,7 @@ def symbols(text: str) -> str:
 
 def plainly(name: str) -> str:
     """Return the name of a number in the ledger as words."""
-    return symbols(name.replace("_over_", " / ")).replace("_", " ")
+    return re.sub(r"_(?!\d)", " ", symbols(name.replace("_over_", " / ")))
 
 
 def criterion(text: str) -> str:
