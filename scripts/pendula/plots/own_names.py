@@ -1,0 +1,19 @@
+"""What the figures of one's own cases say of the case: every parameter, since none is the paper's."""
+
+from collections.abc import Mapping
+
+from . import style
+
+ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
+
+
+def name_parameters(attributes: Mapping) -> str:
+    """Return the constants of the equations, and the half-width where there is but one."""
+    symbols = {"omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M"}
+    known = {symbol: attributes[key] for key, symbol in symbols.items() if key in attributes}
+    return ",  ".join(f"${symbol} = {float(value):g}$" for symbol, value in known.items())
+
+
+def name_data(attributes: Mapping) -> str:
+    """Return the initial data and the kind of ends."""
+    return f"{style.name_initial(attributes['initial'])},  {ENDS[attributes['boundary']]}"
