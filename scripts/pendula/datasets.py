@@ -12,7 +12,6 @@ import numpy as np
 
 from .files import complete_or_absent
 
-
 CONVENTIONS = "CF-1.11"
 
 

@@ -57,9 +57,7 @@ def in_words(error: ValidationError, what: str, place: tuple = ()) -> Configurat
     """Return the error that lists every fault of `what`, which stands at `place`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
-    lines = [
-        line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")
-    ]
+    lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
     return ConfigurationError(
         f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:\n"
         + "\n".join(f"  {line}" for line in lines)

@@ -8,18 +8,18 @@ from .plots import own_norms, own_spacetime, own_sweep
 __all__ = ["draw_norms", "draw_spacetime", "draw_sweep"]
 
 
-def draw_norms(run, second=None):
+def draw_norms(run, checks=None):
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
-    `run` is a trajectory as `pendula.simulate` or `pendula.read` return it. With a `second` run of
-    the same case by another solver, that lies below in pale colours, and a mark shows from when
-    on the two are other curves. Laid out as a row of Figs 2 to 4 of the paper.
+    `run` is a trajectory as `pendula.simulate` or `pendula.read` return it. With the `checks` that
+    `pendula.check` made of it, their second run lies below in pale colours, and a mark shows from
+    when on the two are other curves. Laid out as a row of Figs 2 to 4 of the paper.
 
     >>> from pendula import Case, simulate
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
     2
     """
-    return own_norms.draw(own_norms.gather(run, second))
+    return own_norms.draw(own_norms.gather(run, checks))
 
 
 def draw_spacetime(run):

@@ -73,9 +73,7 @@ def draw_panel(axes: Axes, case: xr.Dataset, name: str, below: Below) -> None:
     """Draw one norm of A and B, over those that lie below where the case has them."""
     for component in case["component"].values if f"{below.prefix}_{name}" in case else ():
         true = case[f"{below.prefix}_{name}"].sel(component=component)
-        axes.plot(
-            true["tau"], true, color=PALE[component], label=f"{below.label} ${component}$"
-        )
+        axes.plot(true["tau"], true, color=PALE[component], label=f"{below.label} ${component}$")
     for component in case["component"].values:
         curve = case[name].sel(component=component).dropna("tau")
         colour = style.COLOURS[component]

@@ -1,4 +1,4 @@
-"""What the figures of one's own cases say of the case: every parameter, since none is the paper's."""
+"""What the figures of one's own cases are labelled with: every parameter of the case."""
 
 from collections.abc import Mapping
 

@@ -4,27 +4,22 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from ..trust import LEVELS, at_times, difference, first_above
+from ..trust import LEVELS
 from . import style
 from .norms import NORMS, Below, draw_panel
 from .own_names import name_data, name_parameters
 
-SECOND = Below("second", "second run,", f"the runs part by {LEVELS['visible']:.0%}")
+SECOND = Below("second", "second run,", f"the runs part by {100 * LEVELS['visible']:g} %")
 
 
-def gather(run: xr.Dataset, second: xr.Dataset | None = None) -> xr.Dataset:
-    """Return the norms of a trajectory, beside those of a second run of the same case."""
+def gather(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
+    """Return the norms of a trajectory, beside the second run that its checks hold."""
     drawn = run[["linf", "l2"]]
-    if second is None:
+    if checks is None:
         return drawn
-    other = at_times(second, run["tau"])
-    for name in NORMS:
-        long_name = f"{run[name].attrs['long_name']}, by {second.attrs['solver']}"
-        drawn[f"second_{name}"] = other[name].assign_attrs(long_name=long_name, units="1")
-    drawn["parting"] = first_above(difference(run, second), LEVELS["visible"]).assign_attrs(
-        long_name="first tau at which the runs differ by 1 % of full scale", units="1"
+    return drawn.assign(
+        {name: checks[name] for name in (*map("second_{}".format, NORMS), "parting")}
     )
-    return drawn
 
 
 @style.styled

@@ -4,7 +4,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from . import style
-from .own_names import name_parameters
+from .own_names import name_data, name_parameters
 from .spacetime import draw_row, over_time
 
 
@@ -20,7 +20,7 @@ def draw(data: xr.Dataset) -> Figure:
     """Draw |A_n| left and |B_n| right, on one scale of colours."""
     figure = style.new_figure(style.DOUBLE, 2.5)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    draw_row(figure, panels, data, name_parameters(data.attrs))
+    draw_row(figure, panels, data, [name_parameters(data.attrs), name_data(data.attrs)])
     for axes in panels:
         axes.set_xlabel(r"$\tau$")
     panels[0].set_ylabel("site $n$")

@@ -1,6 +1,8 @@
 """A sweep of one's own: the norms over a window of time against the half-width, as in Figs 5-6."""
 
+import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import style
@@ -8,6 +10,8 @@ from .own_names import name_data, name_parameters
 from .sweeps import draw_panel, join_panels, legend
 
 NORMS = ("linf", "l2")
+FEW = 8
+"""Half-widths that all find room below a panel."""
 
 
 def gather(
@@ -26,7 +30,17 @@ def draw(data: xr.Dataset) -> Figure:
     panels = figure.subplots(1, 2, sharex=True)
     for axes, name in zip(panels, NORMS, strict=True):
         draw_panel(axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]))
+    _mark_widths(panels[0], data["half_width"].values)
     panels[0].set_title(name_parameters(data.attrs), loc="left")
     panels[1].set_title(name_data(data.attrs), loc="left")
-    figure.legend(handles=legend(data), loc="outside upper center", ncols=4, columnspacing=1.2)
+    by_panel = sorted(legend(data), key=lambda entry: entry.get_color() == style.COLOURS["l2"])
+    figure.legend(handles=by_panel, loc="outside upper center", ncols=4, columnspacing=1.2)
     return figure
+
+
+def _mark_widths(axes: Axes, widths: np.ndarray) -> None:
+    """Mark the half-widths themselves where they are few; a logarithm has no place for zero."""
+    if widths.min() == 0:
+        axes.set_xscale("linear")
+    if len(widths) <= FEW or widths.min() == 0:
+        axes.set_xticks(widths[:: -(-len(widths) // FEW)])

@@ -29,7 +29,7 @@ def draw(data: xr.Dataset) -> Figure:
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for row, size in zip(panels, data["amplitude"].values, strict=True):
         case = data.sel(amplitude=size)
-        draw_row(figure, row, case, style.name_case(case))
+        draw_row(figure, row, case, 2 * [style.name_case(case)])
     for axes in panels[-1]:
         axes.set_xlabel(r"$\tau$")
     for axes in panels[:, 0]:
@@ -37,10 +37,10 @@ def draw(data: xr.Dataset) -> Figure:
     return figure
 
 
-def draw_row(figure: Figure, row: np.ndarray, case: xr.Dataset, name: str) -> None:
-    """Draw |A_n| and |B_n| of one case under its name, on one scale of colours."""
+def draw_row(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str]) -> None:
+    """Draw |A_n| and |B_n| of one case, each under its name, on one scale of colours."""
     peak = float(case["modulus"].max())
-    for axes, component in zip(row, case["component"].values, strict=True):
+    for axes, component, name in zip(row, case["component"].values, names, strict=True):
         image = _draw_panel(axes, case["modulus"].sel(component=component), peak)
         axes.set_title(f"$|{component}_n|$,  {name}", loc="left")
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
