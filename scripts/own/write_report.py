@@ -7,8 +7,11 @@ from pendula.report.own import gather
 from pendula.report.page import render
 
 
-def write_report(html: str, cases: list[str], sweeps: list[str], files: list[str]) -> None:
-    """Write the page `html` about `cases` and `sweeps`, whose `files` lie below its folder."""
+def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
+    """Write the page `html` about `cases`, and `sweeps` with the case of each.
+
+    Their `files` lie below its folder.
+    """
     with complete_or_absent(html) as partial:
         page = render("own.html.j2", **gather(cases, sweeps, Path(html).parent))
         Path(partial).write_text(page, encoding="utf-8")

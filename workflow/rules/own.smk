@@ -83,7 +83,7 @@ rule own_report:
         "../envs/pinned.yaml"
     params:
         cases=OWN_CASES,
-        sweeps=OWN_SWEEPS,
+        sweeps={sweep: SETTINGS.sweeps[sweep].case for sweep in OWN_SWEEPS},
     message:
         "Writing the report of your own cases and sweeps"
     script:
