@@ -36,12 +36,14 @@ def run_again(problem: dict, run: xr.Dataset) -> xr.Dataset:
     said = {f"second_{key}": value for key, value in solver.items()}
     try:
         second = as_xarray(*contents("second run", again, simulate(**again)))
+        apart = difference(run, second).reindex(tau=run["tau"])
     except IntegrationError as error:
-        second, said["second_refusal"] = run[["linf", "l2"]] * np.nan, str(error)
-    return _compared(run, second).assign_attrs(said)
+        second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)
+        said["second_refusal"] = str(error)
+    return _compared(run, second, apart).assign_attrs(said)
 
 
-def _compared(run: xr.Dataset, second: xr.Dataset) -> xr.Dataset:
+def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
     norms = at_times(second, run["tau"])
     data = xr.Dataset(
         {
@@ -51,7 +53,6 @@ def _compared(run: xr.Dataset, second: xr.Dataset) -> xr.Dataset:
             for norm in ("linf", "l2")
         }
     )
-    apart = difference(run, second).reindex(tau=run["tau"])
     data["difference"] = apart.assign_attrs(
         long_name="largest difference of the norms of two runs, of full scale", units="1"
     )

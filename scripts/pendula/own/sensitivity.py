@@ -40,8 +40,8 @@ def measure(problem: dict) -> xr.Dataset:
     middle = growth.tau[-1] / 2
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
         relative = growth.stretch[0] - np.log(growth.size)
+        late = relative[-1] - relative[np.searchsorted(growth.tau, middle)]
         amplified = amplification(growth.tau, growth.stretch[0], growth.size)
-    late = relative[-1] - relative[np.searchsorted(growth.tau, middle)]
     times = {"long_name": "slow time", "units": "1"}
     named = {
         "stretch": (
