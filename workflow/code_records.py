@@ -33,6 +33,11 @@ def committed(file: str) -> str:
     return _keep(COPIES / source.name, source.read_bytes())
 
 
+def kept(file: str) -> str:
+    """Return the path of a copy of a result, brought up to date: a job is not made to renew it."""
+    return _keep(COPIES.with_name("kept") / Path(file).name, Path(file).read_bytes())
+
+
 def _keep(path: Path, content: bytes) -> str:
     """Write the file if its content is another."""
     if not path.exists() or path.read_bytes() != content:

@@ -7,7 +7,7 @@ from snakemake.exceptions import WorkflowError
 
 sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
-from code_records import code, committed
+from code_records import code, committed, kept
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
 from pendula.speed.regimes import REGIMES
