@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from ..speed.machine import describe
 from . import own_cases, own_sweeps
+from .provenance import versions
 
 
 def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, Any]:
@@ -17,5 +17,5 @@ def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, 
     return {
         "cases": shown,
         "sweeps": [own_sweeps.gather(name, case, folder, trusted) for name, case in sweeps.items()],
-        "versions": describe(),
+        "versions": versions(),
     }

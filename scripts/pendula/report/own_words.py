@@ -7,17 +7,12 @@ from typing import Any
 import numpy as np
 
 from .numbers import MINUS, Quote, number
+from .words import SOLVERS
 
 ENDS = {
     "dirichlet": "A = B = 0 beyond them",
     "free": "free",
     "periodic": "joined to a ring",
-}
-SOLVERS = {
-    "ode45": "ode45",
-    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
-    "dop853": "DOP853",
-    "taylor": "Taylor",
 }
 
 
