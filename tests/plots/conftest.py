@@ -126,7 +126,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "norms": norms.gather(pair, [true, true]),
         "spacetime": spacetime.gather(*pair),
         "own_norms": own_norms.gather(pair[0], own_checks(true)),
-        "own_spacetime": own_spacetime.gather(pair[1]),
+        "own_spacetime": own_spacetime.gather(pair[0]),
         "own_sweep": own_sweep.gather(panels[0], mean_window="[10, 40]"),
         "sweeps": sweep_plot.gather(*panels, "[10, 70]", "[10, 40]"),
         "stability_chart": stability_chart.gather(long, short, windows(), points),

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from ..trust import LEVELS
 from . import style
 from .norms import NORMS, Below, draw_panel
-from .own_names import name_data, name_parameters
+from .own_names import name_data_and_ends, name_parameters
 
 SECOND = Below("second", "second run,", f"the runs part by {100 * LEVELS['visible']:g} %")
 
@@ -33,6 +33,6 @@ def draw(data: xr.Dataset) -> Figure:
         draw_panel(axes, data, name, SECOND)
         axes.set_xlabel(r"$\tau$")
     panels[0].set_title(name_parameters(data.attrs), loc="left")
-    panels[1].set_title(name_data(data.attrs), loc="left")
+    panels[1].set_title(name_data_and_ends(data.attrs), loc="left")
     style.name_legend(figure, panels[0])
     return figure

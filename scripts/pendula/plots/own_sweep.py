@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import style
-from .own_names import name_data, name_parameters
+from .own_names import name_data_and_ends, name_parameters
 from .sweeps import draw_panel, join_panels, legend
 
 NORMS = ("linf", "l2")
@@ -32,7 +32,7 @@ def draw(data: xr.Dataset) -> Figure:
         draw_panel(axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]))
     _mark_widths(panels[0], data["half_width"].values)
     panels[0].set_title(name_parameters(data.attrs), loc="left")
-    panels[1].set_title(name_data(data.attrs), loc="left")
+    panels[1].set_title(name_data_and_ends(data.attrs), loc="left")
     by_panel = sorted(legend(data), key=lambda entry: entry.get_color() == style.COLOURS["l2"])
     figure.legend(handles=by_panel, loc="outside upper center", ncols=4, columnspacing=1.2)
     return figure
