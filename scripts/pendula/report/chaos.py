@@ -62,6 +62,7 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
     known = horizons[np.isfinite(horizons)]
     return {
         "solver": SOLVERS[solver],
+        "any": len(known) > 0,
         "count": results.quote(TRUST, len(known)),
         "kept": results.quote(TRUST, len(horizons) - len(known)),
         "times": results.say(TRUST, span(known) if len(known) else "never"),

@@ -12,7 +12,8 @@ from .words import case_of
 
 # ASSUME: "as the square root": the last octave's power is within this of one half
 ROOT, NEAR = 0.5, 0.1
-LAW, FRONT, OMEGAS = "figures/growth_law", "figures/front", "unbounded/omegas"
+LAW, FRONT = "figures/growth_law", "figures/front"
+OMEGAS, THERMAL = "unbounded/omegas", "unbounded/thermal"
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -26,6 +27,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "omegas": results.quote(OMEGAS, len(fronts["rows"])),
         "speed_ratio": results.say(OMEGAS, span(fronts["speed_ratio"], 4)),
         "power_ratio": results.say(FRONT, span(fronts["power_ratio"], 2)),
+        "tries_known": bool(np.isfinite(ledger.value("unbounded_large", "tried"))),
         "tried": ledger.quote("unbounded_large", "tried"),
         "spreading": ledger.quote("unbounded_large", "spreading"),
         "verdicts": {name: ledger.verdict(name) for name in ("unbounded_in_time",
@@ -41,6 +43,7 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
     power, error = (ledger.value("unbounded_in_time", name) for name in ("power", "error"))
     return {
         **quotes,
+        "known": bool(np.isfinite(power)),
         "power": results.quote_error("unbounded/fig4_small", power, error),
         "near": abs(power - ROOT) < NEAR,
         "half": number(ROOT),
@@ -76,18 +79,24 @@ def _fronts(results: Results) -> dict[str, Any]:
     front, omegas = results[FRONT], results[OMEGAS]
     measured, errors = speeds(omegas, corrected=True)
     predicted = omegas["predicted_speed"].values
-    sea, thermal = front["power"].values, front["thermal_power"].values
+    sea, thermal = front["power"].values, _thermal(results, omegas["omega"].values)
     rows = [
         [
             f"Ω = {number(omega)}",
             results.quote_error(OMEGAS, measured[i], errors[i]),
             results.quote(OMEGAS, predicted[i], 4),
             results.quote(FRONT, sea[i]),
-            results.quote(FRONT, thermal[i]),
+            results.quote(THERMAL, thermal[i]),
         ]
         for i, omega in enumerate(omegas["omega"].values)
     ]
     return {"rows": rows, "speed_ratio": measured / predicted, "power_ratio": sea / thermal}
+
+
+def _thermal(results: Results, omegas: np.ndarray) -> np.ndarray:
+    """Return the power of the thermal state at each Omega, NaN where none was sampled."""
+    known = results[THERMAL]["power"]
+    return known.reindex(omega=omegas, method="nearest", tolerance=1e-9).values
 
 
 def _pictures(results: Results, cases: list[dict], fronts: dict) -> dict[str, Any]:

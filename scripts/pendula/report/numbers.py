@@ -63,6 +63,8 @@ def percent(part: float, digits: int = 2) -> str:
 
 def span(values, digits: int = 3) -> str:
     """Return the least and the largest of measured numbers: 0.51 to 0.54; one if they are alike."""
+    if not np.isfinite(values).any():
+        return "none"
     least, largest = (measured(edge(values), digits) for edge in (np.nanmin, np.nanmax))
     return least if least == largest else f"{least} to {largest}"
 
