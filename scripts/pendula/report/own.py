@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from .. import __version__
 from . import own_cases, own_sweeps
 from .provenance import versions
 
@@ -17,5 +18,5 @@ def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, 
     return {
         "cases": shown,
         "sweeps": [own_sweeps.gather(name, case, folder, trusted) for name, case in sweeps.items()],
-        "versions": versions(),
+        "versions": {"pendula": __version__, **versions()},
     }

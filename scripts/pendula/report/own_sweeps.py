@@ -9,8 +9,7 @@ from ..datasets import read
 from .numbers import Quote, number
 from .own_words import exact, parameters
 from .pictures import Picture, picture
-
-NORMS = {"linf": "ℓ∞", "l2": "ℓ²"}
+from .sweeps import NORMS, STATISTICS
 
 
 def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dict[str, Any]:
@@ -21,7 +20,10 @@ def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
     link, drawn_link = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
     swept, drawn, checks = (read(folder / at) for at in (f"sweeps/{name}.nc", drawn_link, link))
     panel = drawn.isel(panel=0)
-    windows = [(str(r["statistic"].values), str(r["window"].values)) for r in _readings(panel)]
+    windows = [
+        (STATISTICS[str(reading["statistic"].values)], str(reading["window"].values))
+        for reading in (panel.sel(reading=name) for name in panel["reading"].values)
+    ]
     return {
         "name": name,
         "case": case,
@@ -38,10 +40,6 @@ def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "columns": ["M", *_columns(windows), "largest P over its bound"],
         "rows": _rows(panel, checks, drawn_link, link),
     }
-
-
-def _readings(panel) -> list:
-    return [panel.sel(reading=reading) for reading in panel["reading"].values]
 
 
 def _columns(windows: list[tuple[str, str]]) -> list[str]:

@@ -14,6 +14,8 @@ ENDS = {
     "free": "free",
     "periodic": "joined to a ring",
 }
+FEW = 8
+"""Sites whose data find room in a table."""
 
 
 def exact(value: Any) -> str:
@@ -25,7 +27,7 @@ def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return what was solved and by which controls, a row each."""
     rows = [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
     rows.append(("ends of the chain", ENDS[attributes["boundary"]]))
-    rows += [(f"A, B at site {n}".replace("-", MINUS), pair) for n, pair in data(attributes)]
+    rows += data(attributes)
     rows.append(("end time τ, output step", f"{exact(attributes['end_time'])}, "
                  f"{exact(attributes['output_step'])}"))  # fmt: skip
     rows.append(("solver", solver(attributes, "solver")))
@@ -36,9 +38,14 @@ _SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-wid
 
 
 def data(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return the sites that are not at rest at the start, each with its amplitudes."""
+    """Return the sites that are not at rest at the start, each with its amplitudes, if few."""
     sites = json.loads(attributes["initial"])
-    return [(site, ", ".join(map(exact, pair))) for site, pair in sites.items()]
+    if len(sites) > FEW:
+        return [("A, B at the start", f"on {len(sites)} sites, as the dataset's attributes say")]
+    return [
+        (f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
+        for site, pair in sites.items()
+    ]
 
 
 def solver(attributes: Mapping[str, Any], key: str) -> str:
