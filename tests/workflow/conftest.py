@@ -8,13 +8,13 @@ from helpers import ROOT
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
-    "tests/baseline/reference",
+    *("tests/baseline/reference", "tests/baseline/speed"),
 )
 
 
 @pytest.fixture
 def finished(full_run, tmp_path) -> Path:
-    """Return a copy of the finished run, times and Snakemake's own records included, to be changed."""
+    """Return a copy of the finished run, with its times and Snakemake's records, to be changed."""
     return shutil.copytree(full_run, tmp_path / "finished")
 
 

@@ -34,8 +34,10 @@ def gather(results: Results) -> dict[str, Any]:
         "ensembles": [
             ensemble_of(results, str(case)) for case in results[ENSEMBLES]["case"].values
         ],
-        "members": results.quote("checks/ensembles", results[ENSEMBLES].attrs["members"]),
-        "size": results.quote("checks/ensembles", results[ENSEMBLES].attrs["perturbation"]),
+        "members": results.quote("checks/ensembles", results["checks/ensembles"].attrs["members"]),
+        "size": results.quote(
+            "checks/ensembles", results["checks/ensembles"].attrs["perturbation"]
+        ),
     }
 
 
@@ -72,10 +74,12 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
 def ensemble_of(results: Results, name: str) -> dict[str, Any]:
     case = results[ENSEMBLES].sel(case=name)
     late = case["l2"].sel(tau=slice(float(case["tau"].max()) / 2, None))
-    low, middle, high = (late.sel(quantile=q) for q in (0.05, 0.5, 0.95))
+    low, middle, high = late.isel(quantile=0), late.median("quantile"), late.isel(quantile=-1)
+    share = float(high["quantile"] - low["quantile"])
     width = float(((high - low) / middle).mean())
     return {
         "case": case_of(case),
+        "share": results.say(ENSEMBLES, percent(share)),
         "width": results.say(ENSEMBLES, percent(width)),
         "middle": results.quote(ENSEMBLES, float(middle.mean())),
         "inside": results.say(ENSEMBLES, percent(float(case["run_inside"]))),

@@ -45,4 +45,4 @@ def _broken(results: Results) -> str:
 
 def _bands(results: Results) -> str:
     bands = [ensemble_of(results, str(name)) for name in results[ENSEMBLES]["case"].values]
-    return "; ".join(f"{band['case']}: nine in ten within {band['width']}" for band in bands)
+    return "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands)

@@ -112,7 +112,7 @@ def _pictures(results: Results, cases: list[dict], fronts: dict) -> dict[str, An
         ),
         "windows": results.picture(
             "window_map",
-            f"Largest l2 over windows from τ = 10 to {number(np.min(ends))} .. "
+            f"Largest l2 over windows that end at τ = {number(np.min(ends))} to "
             f"{number(np.max(ends))}, half-widths {widths.min()} to {widths.max()}, in "
             f"{window.sizes['sweep']} sweeps.",
         ),

@@ -7,6 +7,7 @@ from markupsafe import Markup
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, TIMES = "−", "×"
+FIRM = "\N{NO-BREAK SPACE}"
 SMALL = 1e-3
 """Numbers below are written with a power of ten."""
 
@@ -35,7 +36,7 @@ def number(value: float, digits: int = 3) -> str:
     if not exponent:
         return plain.replace("-", MINUS)
     mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
-    start = "" if mantissa == "1" else f"{mantissa} {TIMES} "
+    start = "" if mantissa == "1" else f"{mantissa}{FIRM}{TIMES}{FIRM}"
     return f"{start}10{raised(exponent)}".replace("-", MINUS)
 
 
@@ -50,7 +51,7 @@ def with_error(value: float, error: float) -> str:
         return number(value)
     first = int(np.floor(np.log10(error)))
     places = max(0, -first + (error < 2.0 * 10.0**first))
-    return f"{value:.{places}f} ± {error:.{places}f}".replace("-", MINUS)
+    return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
 
 
 def percent(part: float, digits: int = 2) -> str:

@@ -85,7 +85,7 @@ for (const player of document.querySelectorAll(".player")) {
   draw();
 }
 
-// What is folded is printed too.
-const folded = [...document.querySelectorAll("details:not([open])")];
+// What is folded is printed too, the longest table apart.
+const folded = [...document.querySelectorAll("details:not([open], .unprinted)")];
 window.addEventListener("beforeprint", () => folded.forEach((one) => (one.open = true)));
 window.addEventListener("afterprint", () => folded.forEach((one) => (one.open = false)));

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from ..theory.readings import CHANGE, CONSTANT, levelling
-from .numbers import measured, number, percent
+from .numbers import FIRM, measured, number, percent
 from .results import Results
-from .words import FIRM, case_in_words, case_of
+from .words import case_in_words, case_of
 
 ALT = "Norms of the pair against the half-width M, {first} to {last}. {panels}."
 NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}

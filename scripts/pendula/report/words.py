@@ -3,7 +3,7 @@
 import json
 import re
 
-from .numbers import MINUS, number, raised
+from .numbers import FIRM, MINUS, number, raised
 
 SOLVERS = {
     "ode45": "ode45",
@@ -27,7 +27,6 @@ SYMBOLS = {
     "l-infinity": "ℓ∞",
     "linf": "ℓ∞",
 }
-FIRM = "\N{NO-BREAK SPACE}"
 SIGNS = {"<=": "≤", ">=": "≥"}
 _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
 _MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
