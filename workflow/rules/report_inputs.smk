@@ -14,7 +14,7 @@ def reported_datasets():
     made = [f"results/{name}.nc" for name in makers()]
     checks = expand("results/checks/{name}.nc", name=[*CHAOS_CHECKS, "hard_cases"])
     drawn = expand("results/figures/{name}.nc", name=[name for name in FIGURES if name != "fig1"])
-    return [*made, *checks, *drawn]
+    return list(dict.fromkeys([*made, *checks, *drawn]))
 
 
 def speed_measured():
