@@ -20,10 +20,8 @@ def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
     link, drawn_link = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
     swept, drawn, checks = (read(folder / at) for at in (f"sweeps/{name}.nc", drawn_link, link))
     panel = drawn.isel(panel=0)
-    windows = [
-        (STATISTICS[str(reading["statistic"].values)], str(reading["window"].values))
-        for reading in (panel.sel(reading=name) for name in panel["reading"].values)
-    ]
+    read_as = list(zip(panel["statistic"].values, panel["window"].values, strict=True))
+    windows = [(STATISTICS[how], window) for how, window in read_as]
     return {
         "name": name,
         "case": case,
@@ -37,13 +35,13 @@ def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "windows": windows,
         "excess": Quote(number(checks["excess"]), link),
         "bound_holds": bool(checks["excess"] <= 1.0 + 1e-6),
-        "columns": ["M", *_columns(windows), "largest P over its bound"],
+        "columns": ["M", *_columns(read_as), "P over bound"],
         "rows": _rows(panel, checks, drawn_link, link),
     }
 
 
 def _columns(windows: list[tuple[str, str]]) -> list[str]:
-    return [f"{word}, {how} on {window}" for word in NORMS.values() for how, window in windows]
+    return [f"{word} {how} {window}" for word in NORMS.values() for how, window in windows]
 
 
 def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
