@@ -85,7 +85,8 @@ def build(rates, observe, may_cut=in_one, cut=whole):
     def step(system, count, part, y, slope, h, tolerances, due, w, final_slope, c):
         """Write the state and its slope after a step in `count` stretches; return its error.
 
-        Where outputs are `due` the interpolant `c` is prepared too, if the step can still pass.
+        Where outputs are `due` the interpolant `c` is prepared too; of several stretches before it
+        is known that the step passes, for what the later ones find can make the error smaller.
         """
         k, scratch, spare, alone = part[:16], part[16], part[17], count == 1
         start, end, curve = (y, w, c) if alone else (part[18], part[19], part[20:])
@@ -105,7 +106,7 @@ def build(rates, observe, may_cut=in_one, cut=whole):
             give(k[12], left, first, stop, final_slope)
             if not alone:
                 give(end, left, first, stop, w)
-            if due and error <= 1.0:
+            if due and (error <= 1.0 or not alone):
                 take_stages(here, 14, 16, start, h, k, scratch)
                 prepare_interpolant(start, end, h, k, curve)
                 for m in range(0 if alone else c.shape[0]):
