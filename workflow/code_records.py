@@ -10,24 +10,42 @@ nothing. Committed data are copied in the same way: their paths do not change wi
 import os
 from pathlib import Path
 
+from pendula.archive.contents import code_files
 from pendula.sources import SCRIPTS, digest_of, modules_of
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES = Path("results/code"), Path("results/truth")
+handed_out: set[str] = set()
+"""Every record and copy that a rule has asked for: an archive needs them all."""
 
 
 def code(script: str) -> str:
     """Return the path of the record for scripts/`script`, brought up to date."""
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
     files = [ROOT / "environment.txt", SCRIPTS / "job.py", *modules_of(SCRIPTS / script)]
-    lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
-    return _keep(record, "".join(dict.fromkeys(lines)).encode())
+    return _hand_out(record, _lines(files))
+
+
+def whole_project() -> str:
+    """Return the path of the record for all files of the project, brought up to date."""
+    files = [ROOT / name for name in code_files(ROOT)]
+    return _keep(RECORDS / "whole_project.txt", _lines(files))
 
 
 def committed(file: str) -> str:
     """Return the path of a copy of a committed file, brought up to date."""
     source = ROOT / file
-    return _keep(COPIES / source.name, source.read_bytes())
+    return _hand_out(COPIES / source.name, source.read_bytes())
+
+
+def _lines(files: list[Path]) -> bytes:
+    lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
+    return "".join(dict.fromkeys(lines)).encode()
+
+
+def _hand_out(path: Path, content: bytes) -> str:
+    handed_out.add(path.as_posix())
+    return _keep(path, content)
 
 
 def _keep(path: Path, content: bytes) -> str:
