@@ -9,7 +9,7 @@ rule archive:
     input:
         code=record_of_project,
         results=deposited,
-        records=records_and_copies,
+        records=records,
     output:
         archive=ARCHIVE,
         checksum=f"{ARCHIVE}.sha256",

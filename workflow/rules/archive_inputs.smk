@@ -2,14 +2,15 @@
 
 
 def deposited(wildcards):
-    """Return what `rule all` makes, and every dataset that its figures are drawn from."""
+    """Return what `rule all` makes, and all that its figures are drawn from."""
     between = [f"results/{name}.nc" for name in makers()]
     apart = [*rules.hard_cases.output, *kernels(*ALL_SOLVERS)]
-    return sorted({*rules.all.input, *between, *apart})
+    copies = handed_out.difference(records(wildcards))  # complete only when every rule is read
+    return sorted({*rules.all.input, *between, *apart, *copies})
 
 
-def records_and_copies(wildcards):
-    return sorted(handed_out)  # complete only when every rule is read
+def records(wildcards):
+    return sorted(path for path in handed_out if path.endswith(".txt"))
 
 
 def record_of_project(wildcards):
