@@ -18,13 +18,16 @@ def describe(about: About) -> dict:
         "datePublished": about.released,
         "license": about.license_url,
         "author": [_plain(agent(author)) for author in about.authors],
-        "programmingLanguage": {"type": "ComputerLanguage", "name": "Python"},
+        "programmingLanguage": "Python",
         "runtimePlatform": f"Python {about.python}",
         "softwareRequirements": [_requirement(*pin) for pin in about.pins],
         "readme": "README.md",
         "releaseNotes": "CHANGELOG.md",
         "referencePublication": {
-            **_plain({key: paper[key] for key in ("@id", "@type", "name", "datePublished")}),
+            "id": paper["@id"],
+            "type": f"schema:{paper['@type']}",  # not among the words that CodeMeta defines
+            "name": paper["name"],
+            "datePublished": paper["datePublished"],
             "author": [_plain(agent(author)) for author in about.paper["authors"]],
         },
     }

@@ -17,7 +17,7 @@ def describe(about: About, sizes: dict[str, int]) -> dict:
     authors = _identified(agent(author) for author in about.authors)
     scientists = _identified(agent(author) for author in about.paper["authors"])
     paper = {**article(about.paper), "author": _links(scientists)}
-    files = [file for file in describe_files(sizes) if file["@id"] != WORKFLOW]
+    files = describe_files(sizes)
     workflow = {**_workflow(about), "author": _links(authors), "contentSize": str(sizes[WORKFLOW])}
     root = {
         **_root(about),
@@ -89,5 +89,7 @@ def _link(entity: dict) -> dict:
     return {"@id": entity["@id"]}
 
 
-def _links(entities: Iterable[dict]) -> list[dict]:
-    return [_link(entity) for entity in entities]
+def _links(entities: Iterable[dict]) -> dict | list[dict]:
+    """Link to each; one alone stands without brackets."""
+    links = [_link(entity) for entity in entities]
+    return links[0] if len(links) == 1 else links

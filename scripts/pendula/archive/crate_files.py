@@ -68,6 +68,8 @@ def _file(name: str, place: str, sizes: dict[str, int]) -> dict:
         "encodingFormat": FORMATS.get(path.suffix, "text/plain"),
         "contentSize": str(sizes[name]),
     }
+    if name == "README.md":
+        entity["about"] = {"@id": "./"}
     data = path.with_suffix(".nc").as_posix()
     if path.suffix in (".png", ".pdf") and data in sizes:
         entity["isBasedOn"] = {"@id": quote(data)}
