@@ -46,6 +46,20 @@ def close(chain, y):
 
 
 @kernel
+def may_cut(chain):
+    """Return whether stretches of the chain can be integrated apart: those of a ring cannot."""
+    return chain.left != PERIODIC
+
+
+@kernel
+def cut(chain, starts, ends):
+    """Return the chain of a stretch that starts, or ends, where the whole does, or is cut off."""
+    left = chain.left if starts else DIRICHLET
+    right = chain.right if ends else DIRICHLET
+    return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
+
+
+@kernel
 def linear_field(chain, drive, left, u, right, partner):
     """Return the linear terms of one part of (4); `drive` is gamma for Re, -gamma for Im."""
     coupling = chain.epsilon * ((right + left) - 2.0 * u)

@@ -3,14 +3,14 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .chain import linear_radius, linear_rates, midpoint_rates, rates, turn
+from .chain import cut, linear_radius, linear_rates, may_cut, midpoint_rates, rates, turn
 from .chain_series import continue_series
 from .compiled import kernel
 from .integrators import crank_nicolson, dop853, ode45, splitting, taylor
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
-solve_dop853 = dop853.build(rates, observe)
+solve_dop853 = dop853.build(rates, observe, may_cut, cut)
 solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
 solve_splitting = splitting.build(linear_rates, linear_radius, turn, observe)

@@ -17,6 +17,7 @@ def makers():
     """Return the rule that makes each dataset below results/, by its name without the ending."""
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
+        "measure_ensembles": checks("ensembles"),
         "trajectory": trajectories() + trajectories(".crank_nicolson"),
         "sweep": sweeps() + sweeps(".crank_nicolson"),
         "spread": [f"results/unbounded/{study}.nc" for study in STUDIES],

@@ -4,6 +4,9 @@ Its error estimate combines those of orders five and three, its seventh-order in
 three more stages, evaluated only in steps that hold an output. One thing differs from dop853.f:
 errors are measured by the largest component (a complex number's modulus), not by the root mean
 square, so that a half chain takes the same steps as the whole.
+
+A long state goes through a step in stretches: the stages of all its sites would not fit into the
+cache, and memory would set the pace.
 """
 
 from math import sqrt
@@ -11,91 +14,14 @@ from math import sqrt
 import numpy as np
 
 from ..compiled import copy, generic, inlined, kernel
-from ..reductions import largest_of_rows
+from .dop853_errors import estimates, step_error, weighted_norm, worse
+from .dop853_interpolant import interpolate, prepare_interpolant
 from .dop853_stages import combine
-from .dop853_tableau import D4, D5, D6, D7, E3, E5
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from .stretches import count_stretches, give, length_of, place_of, take
 
-WORK = 25  # arrays of the size of a state
-
-
-@kernel
-def weighted_norm(v, y, w, rtol, atol, scratch):
-    """Return the largest modulus in `v`, each relative to atol + rtol max(|y|, |w|)."""
-    for re in range(0, v.shape[0], 2):
-        im = re + 1
-        for j in range(1, v.shape[1] - 1):
-            before = y[re, j] * y[re, j] + y[im, j] * y[im, j]
-            after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
-            scale = atol + rtol * sqrt(max(before, after))
-            scratch[re // 2, j] = (v[re, j] * v[re, j] + v[im, j] * v[im, j]) / (scale * scale)
-    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
-
-
-@kernel
-def weigh(k, e, out):
-    """Write the combination of stages 1 and 6 to 12 that an error estimate is made of (flat)."""
-    k1, k6, k7, k8, k9, k10, k11, k12 = k[0], k[5], k[6], k[7], k[8], k[9], k[10], k[11]
-    for i in range(out.size):
-        out[i] = (
-            e[0] * k1[i] + e[1] * k6[i] + e[2] * k7[i] + e[3] * k8[i]
-            + e[4] * k9[i] + e[5] * k10[i] + e[6] * k11[i] + e[7] * k12[i]
-        )  # fmt: skip
-
-
-@kernel
-def step_error(y, w, h, k, v, scratch, rtol, atol):
-    """Return the error of a step in units of the tolerance; `v` and `scratch` are work space."""
-    k_flat, v_flat = k.reshape(16, -1), v.reshape(-1)
-    weigh(k_flat, E5, v_flat)
-    fifth = weighted_norm(v, y, w, rtol, atol, scratch)
-    weigh(k_flat, E3, v_flat)
-    third = weighted_norm(v, y, w, rtol, atol, scratch)
-    if not fifth + third < np.inf:
-        return np.inf
-    if fifth == 0.0:
-        return 0.0
-    return h * fifth * fifth / sqrt(fifth * fifth + 0.01 * third * third)
-
-
-@kernel
-def combine_all(k, d, h, out):
-    """Write h times the combination of stages 1 and 6 to 16 with weights `d` (flat)."""
-    k1, k6, k7, k8, k9, k10 = k[0], k[5], k[6], k[7], k[8], k[9]
-    k11, k12, k13, k14, k15, k16 = k[10], k[11], k[12], k[13], k[14], k[15]
-    for i in range(out.size):
-        out[i] = h * (
-            d[0] * k1[i] + d[1] * k6[i] + d[2] * k7[i] + d[3] * k8[i]
-            + d[4] * k9[i] + d[5] * k10[i] + d[6] * k11[i] + d[7] * k12[i]
-            + d[8] * k13[i] + d[9] * k14[i] + d[10] * k15[i] + d[11] * k16[i]
-        )  # fmt: skip
-
-
-@kernel
-def prepare_interpolant(y, w, h, k, c):
-    """Write the coefficients c[0..6] of the interpolant over the step from `y` to `w`."""
-    for row in range(y.shape[0]):
-        for j in range(1, y.shape[1] - 1):
-            change = w[row, j] - y[row, j]
-            c[0, row, j] = change
-            c[1, row, j] = h * k[0, row, j] - change
-            c[2, row, j] = 2.0 * change - h * (k[12, row, j] + k[0, row, j])
-    k_flat = k.reshape(16, -1)
-    combine_all(k_flat, D4, h, c[3].reshape(-1))
-    combine_all(k_flat, D5, h, c[4].reshape(-1))
-    combine_all(k_flat, D6, h, c[5].reshape(-1))
-    combine_all(k_flat, D7, h, c[6].reshape(-1))
-
-
-@kernel
-def interpolate(x, y, c, out):
-    """Write the interpolant at the fraction `x` of the step into `out`."""
-    z = 1.0 - x
-    for row in range(y.shape[0]):
-        for j in range(1, y.shape[1] - 1):
-            inner = c[3, row, j] + x * (c[4, row, j] + z * (c[5, row, j] + x * c[6, row, j]))
-            outer = c[0, row, j] + z * (c[1, row, j] + x * (c[2, row, j] + z * inner))
-            out[row, j] = y[row, j] + x * outer
+WORK, PART = 11, 27
+"""Work arrays of the size of a state, and those of the size of a stretch."""
 
 
 @kernel
@@ -110,36 +36,90 @@ def euler_step(y, slope):
     return 0.01 * y / slope if min(y, slope) > 1e-5 else 1e-6
 
 
-def build(rates, observe):
-    """Return the solver of y' = rates; see the package for its arguments."""
+@kernel
+def in_one(system):
+    return False
+
+
+@kernel
+def whole(system, starts, ends):
+    return system
+
+
+def build(rates, observe, may_cut=in_one, cut=whole):
+    """Return the solver of y' = rates; see the package for its arguments.
+
+    Where `may_cut(system)`, rates at a site depend on that site and its two neighbours alone, and
+    `cut(system, starts, ends)` is the system of a stretch that starts, or ends, where the whole
+    does, or is cut off there.
+    """
 
     @generic
-    def initial_step(system, y, k, w, rtol, atol, longest):
+    def initial_step(system, y, slope, spare, tolerances, longest):
         """Return the starting step of Hairer, Norsett and Wanner (section II.4)."""
-        size = weighted_norm(y, y, y, rtol, atol, w)
-        slope = weighted_norm(k[0], y, y, rtol, atol, w)
-        h = min(longest, euler_step(size, slope))
+        w, turned, scratch, sites = spare[0], spare[1], spare[2], (1, y.shape[1] - 1)
+        size = weighted_norm(y, y, y, scratch, tolerances, sites)
+        speed = weighted_norm(slope, y, y, scratch, tolerances, sites)
+        h = min(longest, euler_step(size, speed))
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
-                w[row, j] = y[row, j] + h * k[0, row, j]
-        rates(system, w, k[1])
+                w[row, j] = y[row, j] + h * slope[row, j]
+        rates(system, w, turned)
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
-                w[row, j] = k[1, row, j] - k[0, row, j]
-        steepest = max(slope, weighted_norm(w, y, y, rtol, atol, k[2]) / h)
+                w[row, j] = turned[row, j] - slope[row, j]
+        steepest = max(speed, weighted_norm(w, y, y, scratch, tolerances, sites) / h)
         if steepest <= 1e-15:
             return min(longest, max(1e-6, 1e-3 * h))
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
 
+    @generic
+    def take_stages(system, first, last, y, h, k, w):
+        """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`."""
+        y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
+        for stage in range(first, last + 1):
+            combine(stage, y_flat, h, k_flat, w_flat)
+            rates(system, w, k[stage - 1])
+
+    @generic
+    def step(system, count, part, y, slope, h, tolerances, due, w, final_slope, c):
+        """Write the state and its slope after a step in `count` stretches; return its error.
+
+        Where outputs are `due` the interpolant `c` is prepared too, if the step can still pass.
+        """
+        k, scratch, spare, alone = part[:16], part[16], part[17], count == 1
+        start, end, curve = (y, w, c) if alone else (part[18], part[19], part[20:])
+        sites, held = y.shape[1] - 2, part.shape[2] - 2
+        fifth = third = error = 0.0
+        for stretch in range(count):
+            left, first, stop = place_of(stretch, count, sites)
+            here = cut(system, left == 0, left + held == sites)
+            take(slope, left, k[0])
+            if not alone:
+                take(y, left, start)
+            take_stages(here, 2, 13, start, h, k, end)
+            own = (1 + first - left, 1 + stop - left)
+            near = estimates(start, end, k, scratch, spare, tolerances, own)
+            fifth, third = worse(fifth, near[0]), worse(third, near[1])
+            error = step_error(h, fifth, third)
+            give(k[12], left, first, stop, final_slope)
+            if not alone:
+                give(end, left, first, stop, w)
+            if due and error <= 1.0:
+                take_stages(here, 14, 16, start, h, k, scratch)
+                prepare_interpolant(start, end, h, k, curve)
+                for m in range(0 if alone else c.shape[0]):
+                    give(curve[m], left, first, stop, c[m])
+        return error
+
     @inlined
     def solve(system, y, times, controls, work, record):
-        rtol, atol = controls
         t, end = times[0], times[-1]
-        k, c, w, scratch = work[:16], work[16:23], work[23], work[24]
-        y_flat, k_flat = y.reshape(-1), k.reshape(16, -1)
-        w_flat, scratch_flat = w.reshape(-1), scratch.reshape(-1)
-        rates(system, y, k[0])
-        h = initial_step(system, y, k, w, rtol, atol, end - t)
+        state, w, slope, final_slope, out, c = y, work[0], work[1], work[2], work[3], work[4:]
+        count = count_stretches(y.shape[1] - 2) if may_cut(system) else 1
+        part = np.zeros((PART, y.shape[0], length_of(y.shape[1] - 2, count) + 2))
+        rates(system, y, slope)
+        h = initial_step(system, y, slope, c, controls, end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
@@ -155,11 +135,10 @@ def build(rates, observe):
             if not h > shortest:  # also where h is NaN
                 status = NOT_FINITE if overflowed else STEP_TOO_SMALL
                 return Outcome(status, t, steps, rejected, evaluations)
-            for stage in range(2, 14):
-                combine(stage, y_flat, h, k_flat, w_flat)
-                rates(system, w, k[stage - 1])
+            t_new = end if h == end - t else t + h
+            due = times[i] <= t_new
+            error = step(system, count, part, state, slope, h, controls, due, w, final_slope, c)
             evaluations += 12
-            error = step_error(y, w, h, k, scratch, c[0], rtol, atol)
             overflowed = error == np.inf
             growth = 0.9 / eighth_root(error) if error > 0.0 else 6.0
             if not error <= 1.0:
@@ -167,23 +146,18 @@ def build(rates, observe):
                 rejected += 1
                 most_growth = 1.0
                 continue
-            t_new = end if h == end - t else t + h
-            if times[i] <= t_new:
-                for stage in range(14, 17):
-                    combine(stage, y_flat, h, k_flat, scratch_flat)
-                    rates(system, scratch, k[stage - 1])
-                evaluations += 3
-                prepare_interpolant(y, w, h, k, c)
+            evaluations += 3 * due
             while i < times.size and times[i] <= t_new:
-                interpolate((times[i] - t) / h, y, c, scratch)
-                observe(system, scratch, i, record)
+                interpolate((times[i] - t) / h, state, c, out)
+                observe(system, out, i, record)
                 i += 1
-            copy(w, y)
-            copy(k[12], k[0])
+            state, w, slope, final_slope = w, state, final_slope, slope
             t = t_new
             steps += 1
             h *= min(most_growth, max(1 / 3, growth))
             most_growth = 6.0
+        if steps % 2:  # the two states have changed places
+            copy(state, y)
         return Outcome(DONE, t, steps, rejected, evaluations)
 
     return solve

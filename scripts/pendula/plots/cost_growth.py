@@ -55,7 +55,7 @@ def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
         # half of an even chain is integrated, so that each site computed counts for two
         axes.axhline(2 * float(data[name]), color="0.4", lw=0.8, dashes=dashes, label=label)
     axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
+    axes.set_yscale("log")
     axes.set_xlabel("number of sites $N$")
     axes.set_ylabel(r"sites $\times$ steps per second")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94))

@@ -11,7 +11,7 @@ from . import limits
 from .runs import follow
 from .tasks import Task, set_task
 
-SITES = (11, 31, 61, 201, 1001, 10_001, 100_001)
+SITES = (3, 5, 11, 31, 61, 201, 1001, 10_001, 100_001)
 END_TIMES = (1.0, 10.0, 100.0, 1000.0)
 SOLVERS = ("dop853", "taylor")
 TOLERANCE = 1e-10

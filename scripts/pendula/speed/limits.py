@@ -4,7 +4,7 @@ Two limits bound the sites that a core can carry forward in a second: its arithm
 numbers that stay in registers, without fused operations, since the kernels have none) and its
 memory (measured by the triad a = b + s c on arrays that fit no cache). Operations and transfers of
 a step are counted from the formulae; what stays in a cache is not transferred, so the second
-limit binds only chains that are longer than the caches.
+limit is for chains that are longer than the caches.
 """
 
 from time import perf_counter
@@ -75,6 +75,5 @@ def count_dop853() -> tuple[float, float]:
     weights = np.count_nonzero(matrix[:13])
     estimates = np.count_nonzero(E3) + np.count_nonzero(E5)
     operations = 12 * RATES + 2 * (weights + estimates) + 12
-    # a stage reads its slopes and the state and writes one array; the rates read one, write one
-    arrays = weights + 12 * 2 + 12 * 2 + estimates + 2 * (1 + 3)
-    return PARTS * operations, PARTS * BYTES * arrays
+    # a stretch reads the state and its slope, and writes both anew; the rest stays in the cache
+    return PARTS * operations, PARTS * BYTES * 4

@@ -9,8 +9,8 @@ from .verdicts import UndecidableError
 # difference": within a factor of 2; "grows", "mix up" likewise. "Significantly larger", "large":
 # by a factor of 3. "Do not change much", "saturates", "no significant" or "no visible
 # difference": by less than 25 %. "Does not change": by less than 2 %; what changes by more than
-# that in one direction "decreases".
-FACTOR, MUCH, CHANGE, CONSTANT = 2.0, 3.0, 0.25, 0.02
+# that in one direction "decreases". "Nearly monotonic": three of four steps.
+FACTOR, MUCH, CHANGE, CONSTANT, NEARLY_ALL = 2.0, 3.0, 0.25, 0.02, 0.75
 
 SETTLED = 10.0
 """From here on the paper's own statistics are taken: its windows start at tau = 10."""

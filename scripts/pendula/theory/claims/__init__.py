@@ -5,6 +5,7 @@ Each stands above the function that decides it, in one module for each part of t
 
 from . import (
     energy,
+    ensembles,
     figure_2,
     figure_3,
     figure_4,
@@ -27,6 +28,7 @@ PARTS = (
     figure_4,
     figure_5,
     figure_6,
+    ensembles,
     second_solver,
     unbounded,
 )

@@ -11,6 +11,7 @@ from ..readings import (
     CHANGE,
     CONSTANT,
     FACTOR,
+    NEARLY_ALL,
     constants,
     levelling,
     powers,
@@ -21,9 +22,8 @@ from ..readings import (
 from ..verdicts import Finding, judge, undecided
 from .row import checks, claim, runs, sweeps
 
-# ASSUME: "nearly monotonic" means three of four steps; "whatever M" leaves out M < 10,
-# where the ends are everywhere.
-NEARLY_ALL, SHORTEST = 0.75, 10
+# ASSUME: "whatever M" leaves out M < 10, where the ends are everywhere.
+SHORTEST = 10
 WINDOW = "[10, 50]"
 
 

@@ -1,0 +1,84 @@
+"""A long state taken in stretches: each site owned once, and the bits those of one piece."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pendula.chain import Chain, rates
+from pendula.compiled import generic
+from pendula.integrators import dop853, stretches
+from pendula.integrators.outcome import DONE
+from pendula.lattice import Reduction, choose_ends, pack
+from pendula.observables import blank_record, observe
+from pendula.solvers import run_dop853
+
+solve_in_one = dop853.build(rates, observe)
+TIMES = np.array([0.0, 0.11, 0.12, 0.4, 0.5])
+
+
+@generic
+def run_in_one(chain, y, times, controls, work, record):
+    return solve_in_one(chain, y, times, controls, work, record)
+
+
+def run(method, amplitudes, boundary, even):
+    """Return all that a run makes of amplitudes (2, N), as arrays and counts."""
+    reduction = Reduction(even=even, synchronised=False)
+    chain = Chain(1.0, 1.0, -4.0, *choose_ends(boundary, reduction))
+    y = pack(amplitudes, reduction)
+    record = blank_record(2, y.shape[1] - 2, TIMES.size, 1)
+    work = np.zeros((dop853.WORK, *y.shape))
+    outcome = method(chain, y, TIMES, (1e-9, 1e-9), work, record)
+    assert outcome.status == DONE
+    return (y[:, 1:-1], record.l2, record.linf, record.energy, record.modulus), outcome
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
+@pytest.mark.parametrize("even", [False, True])
+def test_stretches_give_the_bits_of_one_piece(boundary, even):
+    half = 3 * stretches.LONGEST // (1 if even else 2)
+    rng = np.random.default_rng(5)
+    right = rng.normal(size=(2, half + 1)) + 1j * rng.normal(size=(2, half + 1))
+    amplitudes = 2.0 * np.concatenate([right[:, :0:-1], right], axis=1)
+    if even and boundary == "periodic":
+        pytest.skip("half of a ring is no stretch of it")
+    cut, counts = run(run_dop853, amplitudes, boundary, even)
+    whole, expected = run(run_in_one, amplitudes, boundary, even)
+    assert counts == expected
+    assert counts.rejected > 0
+    for one, other in zip(cut, whole, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@given(sites=st.integers(1, 5 * stretches.LONGEST))
+def test_every_site_is_owned_once_and_well_inside(sites):
+    count = stretches.count_stretches(sites)
+    held, owner = stretches.length_of(sites, count), np.zeros(sites, int)
+    for stretch in range(count):
+        left, first, stop = stretches.place_of(stretch, count, sites)
+        assert stop - first <= stretches.LONGEST
+        assert left == 0 or first - left >= stretches.MARGIN
+        assert left + held == sites or left + held - stop >= stretches.MARGIN
+        owner[first:stop] += 1
+    np.testing.assert_array_equal(owner, 1)
+
+
+def test_what_is_given_was_taken():
+    whole = np.arange(4.0 * 12).reshape(4, 12)
+    part, back = np.zeros((4, 7)), np.zeros((4, 12))
+    stretches.take(whole, 3, part)
+    np.testing.assert_array_equal(part[:, 1:6], whole[:, 4:9])
+    np.testing.assert_array_equal(part[:, [0, 6]], 0.0)
+    stretches.give(part, 3, 5, 7, back)
+    np.testing.assert_array_equal(back[:, 6:8], whole[:, 6:8])
+    assert np.count_nonzero(back) == 8
+
+
+@pytest.mark.parametrize(("one", "other"), [(1.0, 2.0), (2.0, 1.0), (np.inf, 1.0)])
+def test_the_worse_of_two_errors_is_the_larger(one, other):
+    assert dop853.worse(one, other) == max(one, other)
+
+
+@pytest.mark.parametrize(("one", "other"), [(np.nan, 1.0), (1.0, np.nan)])
+def test_an_error_that_is_no_number_is_never_forgotten(one, other):
+    assert np.isnan(dop853.worse(one, other))
