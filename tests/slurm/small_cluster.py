@@ -8,11 +8,9 @@ Everything that the daemons write lies in a folder of their own, which is gone a
 
 import ctypes
 import getpass
-import os
 import secrets
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -21,37 +19,9 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-PATHS = f"{os.environ['PATH']}:/usr/sbin"
-SEARCHED = {**os.environ, "PATH": PATHS}
+from slurm_configuration import PATHS, SEARCHED, configure
+
 PROGRAMS = ("slurmctld", "slurmd", "munged", "sbatch", "srun")
-CONFIGURATION = """
-ClusterName=small
-SlurmctldHost={host}(127.0.0.1)
-SlurmctldPort={controller}
-SlurmdPort={node}
-SlurmUser={user}
-SlurmdUser={user}
-AuthType=auth/munge
-AuthInfo=socket={folder}/munge/socket
-CredType=cred/munge
-StateSaveLocation={folder}/state
-SlurmdSpoolDir={folder}/spool
-SlurmctldPidFile={folder}/slurmctld.pid
-SlurmdPidFile={folder}/slurmd.pid
-PlugStackConfig={folder}/plugstack.conf
-MpiDefault=none
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_CPU_Memory
-SchedulerParameters=batch_sched_delay=0,sched_min_interval=100000,bf_interval=1
-# Finished jobs stay in the list: without accounting, Snakemake asks the list for their state.
-MinJobAge=3600
-NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory}
-PartitionName=small Nodes=ALL Default=YES MaxTime=INFINITE State=UP
-"""
 
 
 def missing() -> list[str]:
@@ -65,55 +35,13 @@ def small_cluster() -> Iterator[dict[str, str]]:
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="slurm-")))
         folder.chmod(0o755)
-        environment = _configure(folder)
+        environment = configure(folder)
         stack.enter_context(_munge(folder))
         for daemon in ("slurmctld", "slurmd"):
             stack.enter_context(_daemon([daemon, "-D"], folder, environment))
-        stack.callback(subprocess.run, ["scancel", "--user", getpass.getuser()], env=environment)
+        stack.callback(_end_jobs, folder, environment)
         _wait(folder, environment)
         yield environment
-
-
-def _configure(folder: Path) -> dict[str, str]:
-    """Write the configuration, and return the environment that names it."""
-    for name in ("state", "spool", "munge", "bin"):
-        (folder / name).mkdir(mode=0o755)
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20
-    text = CONFIGURATION.format(
-        folder=folder,
-        host=socket.gethostname().split(".")[0],
-        user=getpass.getuser(),
-        controller=_free_port(),
-        node=_free_port(),
-        cpus=os.cpu_count(),
-        memory=memory * 9 // 10,
-    )
-    (folder / "slurm.conf").write_text(text)
-    (folder / "cgroup.conf").write_text(f"CgroupPlugin={_cgroup_plugin()}\n")
-    (folder / "plugstack.conf").touch(mode=0o644)
-    _wrap_srun(folder)
-    paths = f"{folder}/bin:{PATHS}"
-    return {**os.environ, "PATH": paths, "SLURM_CONF": str(folder / "slurm.conf")}
-
-
-def _cgroup_plugin() -> str:
-    """Return one that needs no cgroups: to disable it is known since 23.11 only."""
-    version = subprocess.run(["slurmd", "-V"], capture_output=True, text=True, env=SEARCHED)
-    return "disabled" if version.stdout.split()[-1] >= "23.11" else "cgroup/v1"
-
-
-def _wrap_srun(folder: Path) -> None:
-    """Let srun find the configuration: Snakemake takes SLURM_CONF out of its environment."""
-    wrapper = folder / "bin/srun"
-    program = shutil.which("srun", path=PATHS)
-    wrapper.write_text(f'#!/bin/sh\nSLURM_CONF={folder}/slurm.conf exec {program} "$@"\n')
-    wrapper.chmod(0o755)
-
-
-def _free_port() -> int:
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        return found.getsockname()[1]
 
 
 @contextmanager
@@ -140,6 +68,7 @@ def _daemon(command: list[str], folder: Path, environment: dict[str, str]) -> It
             stdout=log,
             stderr=log,
             preexec_fn=_end_with_parent,
+            start_new_session=True,  # Ctrl-C is for the command: they are needed to stop its jobs
         )
     try:
         yield
@@ -158,13 +87,21 @@ def _end_with_parent() -> None:
 
 
 def _wait(folder: Path, environment: dict[str, str]) -> None:
-    def idle() -> bool:
-        asked = subprocess.run(
-            ["sinfo", "--noheader", "-o", "%T"], env=environment, capture_output=True, text=True
-        )
-        return asked.stdout.strip() == "idle"
+    command = ["sinfo", "--noheader", "--format=%T"]
+    fault = "the node of Slurm does not come up"
+    _until(lambda: _ask(command, environment) == "idle", fault, folder)
 
-    _until(idle, "the node of Slurm does not come up", folder)
+
+def _end_jobs(folder: Path, environment: dict[str, str]) -> None:
+    """Stop what still runs, while there is a daemon that can."""
+    _ask(["scancel", "--signal=KILL", "--full", "--user", getpass.getuser()], environment)
+    _ask(["scancel", "--user", getpass.getuser()], environment)
+    _until(lambda: not _ask(["squeue", "--noheader"], environment), "jobs do not end", folder)
+
+
+def _ask(command: list[str], environment: dict[str, str]) -> str:
+    asked = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=30)
+    return asked.stdout.strip()
 
 
 def _until(done, fault: str, folder: Path, seconds: float = 30.0) -> None:
