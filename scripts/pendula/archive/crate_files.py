@@ -26,6 +26,7 @@ PLACES = {  # the first pattern that fits; what fits none is described by its fo
     "results/truth/*": "A verified trajectory, from multiprecision arithmetic",
     "results/code/*": "Record of the code that a job depends on, with checksums",
     "results/kernels/*": "Mark that a solver was compiled",
+    "results/report.html": "The report: all figures, numbers and verdicts on one page",
     "results/claims.json": "The paper's claims, with a verdict on each",
     "results/*": "A result",
     "README.md": "What this is, how to run it, what comes out",
