@@ -36,7 +36,7 @@ FIGURES = [
 
 
 rule all:
-    "Everything: datasets, figures and tables"
+    "Everything: datasets, figures, tables and the report"
     input:
         expand("results/trajectories/{case}.nc", case=SETTINGS.cases),
         expand("results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
@@ -49,6 +49,7 @@ rule all:
         "results/tables/claims.md",
         "results/tables/trust.md",
         "results/tables/hard_cases.md",
+        "results/report.html",
 
 
 rule figures:
@@ -87,5 +88,7 @@ include: "workflow/rules/chaos.smk"
 include: "workflow/rules/speed.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/unbounded.smk"
+include: "workflow/rules/report_inputs.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/archive_inputs.smk"
 include: "workflow/rules/archive.smk"

@@ -1,9 +1,13 @@
 """Fixtures of several tests, and how hypothesis draws: the same data every time, no time limit."""
 
+import fcntl
+import os
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
+from helpers import ROOT, snakemake
 from hypothesis import settings
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
@@ -31,3 +35,22 @@ def scipy_solution():
         return run.y[:, -1].reshape(2, 61)
 
     return solve
+
+
+@pytest.fixture(scope="session")
+def full_run(tmp_path_factory) -> Path:
+    """Return a folder with the results of a full run of config/quick.yaml, one for all workers.
+
+    PENDULA_FULL_RUN names a folder that outlives the session, so that another takes it over.
+    """
+    parallel = "PYTEST_XDIST_WORKER" in os.environ
+    base = tmp_path_factory.getbasetemp()
+    kept = os.environ.get("PENDULA_FULL_RUN")
+    directory = Path(kept) if kept else (base.parent if parallel else base) / "full_run"
+    directory.mkdir(parents=True, exist_ok=True)
+    with open(directory / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (directory / "results/report.html").exists():
+            result = snakemake(ROOT, directory)
+            assert result.returncode == 0, result.stdout + result.stderr
+    return directory

@@ -7,6 +7,7 @@ from pathlib import Path
 import code_records
 import pytest
 import yaml
+from pendula import sources
 from pendula.faults import load
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,6 +32,29 @@ def test_a_record_lists_the_modules_that_a_script_reaches(tmp_path, monkeypatch)
         "scripts/pendula/integrators/dop853_tableau.py",
     } <= files
     assert not any("plots" in file or "parameters" in file for file in files)
+
+
+def test_a_record_lists_the_templates_beside_the_modules(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = Path(code_records.code("report/write_report.py")).read_text()
+    files = {line.split()[1] for line in text.splitlines()}
+    folder = "scripts/pendula/report"
+    assert {
+        f"{folder}/style.css",
+        f"{folder}/script.js",
+        f"{folder}/templates/base.html.j2",
+    } <= files
+    assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
+
+
+def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):
+    for name in ("page", "other"):
+        package = tmp_path / "scripts" / name
+        (package / "templates").mkdir(parents=True)
+        (package / "__init__.py").touch()
+        (package / "templates" / f"{name}.j2").touch()
+    modules = [tmp_path / "scripts/page/__init__.py"]
+    assert sources.attached_to(modules) == [tmp_path / "scripts/page/templates/page.j2"]
 
 
 def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):

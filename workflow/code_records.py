@@ -1,17 +1,18 @@
 """Which code and which committed data a job depends on, by content.
 
 Snakemake does not see a change in a module that a script imports. So each rule takes as input a
-record of its script, of all modules that it imports and of the pinned packages with their hashes,
-in results/code/. A record is written only when its content changes: editing a module reruns what
-imports it, while touching files, or cloning the project anew beside finished results, reruns
-nothing. Committed data are copied in the same way: their paths do not change with the clone.
+record of its script, of all modules that it imports, of what else lies in their packages (such as
+templates) and of the pinned packages, with their hashes, in results/code/. A record is written only
+when its content changes: editing a module reruns what imports it, while touching files, or cloning
+the project anew beside finished results, reruns nothing. Committed data are copied in the same way:
+their paths do not change with the clone.
 """
 
 import os
 from pathlib import Path
 
 from pendula.archive.contents import code_files
-from pendula.sources import SCRIPTS, digest_of, modules_of
+from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES = Path("results/code"), Path("results/truth")
@@ -22,8 +23,9 @@ handed_out: set[str] = set()
 def code(script: str) -> str:
     """Return the path of the record for scripts/`script`, brought up to date."""
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
-    files = [ROOT / "environment.txt", SCRIPTS / "job.py", *modules_of(SCRIPTS / script)]
-    return _hand_out(record, _lines(files))
+    modules = modules_of(SCRIPTS / script)
+    common = [ROOT / "environment.txt", SCRIPTS / "job.py"]
+    return _hand_out(record, _lines([*common, *modules, *attached_to(modules)]))
 
 
 def whole_project() -> str:
@@ -36,6 +38,24 @@ def committed(file: str) -> str:
     """Return the path of a copy of a committed file, brought up to date."""
     source = ROOT / file
     return _hand_out(COPIES / source.name, source.read_bytes())
+
+
+def kept(file: str) -> str:
+    """Return the path of a copy of a result, brought up to date: a job is not made to renew it.
+
+    Where an archive was unpacked, the copy is there without the result.
+    """
+    source, copy = Path(file), _copy_of(file)
+    return _hand_out(copy, (source if source.exists() else copy).read_bytes())
+
+
+def was_made(file: str) -> bool:
+    """Return whether a result, or a copy of it, is there to be kept."""
+    return Path(file).exists() or _copy_of(file).exists()
+
+
+def _copy_of(file: str) -> Path:
+    return COPIES.with_name("kept") / Path(file).name
 
 
 def _lines(files: list[Path]) -> bytes:

@@ -2,6 +2,7 @@
 
 import ast
 import hashlib
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -18,6 +19,24 @@ def modules_of(file: Path) -> list[Path]:
             found.add(module)
             waiting.extend(_imports_of(module))
     return sorted(found)
+
+
+def attached_to(modules: list[Path]) -> list[Path]:
+    """Return the files that lie in the packages among `modules` but are no modules: templates.
+
+    A package inside a package counts only if it is among them itself.
+    """
+    packages = [module.parent for module in modules if module.name == "__init__.py"]
+    return sorted(path for package in packages for path in _attached(package))
+
+
+def _attached(folder: Path) -> Iterator[Path]:
+    for path in folder.iterdir():
+        if path.is_dir():
+            if path.name != "__pycache__" and not (path / "__init__.py").exists():
+                yield from _attached(path)
+        elif path.suffix != ".py" and not path.name.startswith("."):
+            yield path
 
 
 @cache

@@ -1,37 +1,20 @@
-"""One finished quick run, and copies of the project to change."""
+"""Copies of a finished quick run and of the project, to change."""
 
-import fcntl
-import os
 import shutil
 from pathlib import Path
 
 import pytest
-from helpers import ROOT, snakemake
+from helpers import ROOT
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
-    "tests/baseline/reference",
+    *("tests/baseline/reference", "tests/baseline/speed"),
 )
-
-
-@pytest.fixture(scope="session")
-def full_run(tmp_path_factory) -> Path:
-    """Return a folder with the results of a full run of config/quick.yaml, one for all workers."""
-    parallel = "PYTEST_XDIST_WORKER" in os.environ
-    base = tmp_path_factory.getbasetemp()
-    directory = (base.parent if parallel else base) / "full_run"
-    directory.mkdir(exist_ok=True)
-    with open(directory / "lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (directory / "results/claims.json").exists():
-            result = snakemake(ROOT, directory)
-            assert result.returncode == 0, result.stdout + result.stderr
-    return directory
 
 
 @pytest.fixture
 def finished(full_run, tmp_path) -> Path:
-    """Return a copy of that folder, times and Snakemake's own records included, to be changed."""
+    """Return a copy of the finished run, with its times and Snakemake's records, to be changed."""
     return shutil.copytree(full_run, tmp_path / "finished")
 
 

@@ -51,7 +51,7 @@ def test_the_plot_style_reruns_plots_only(finished, clone):
 
 def test_one_plot_reruns_alone(finished, clone):
     (clone / "scripts/pendula/plots/chain_drawing.py").open("a").write("# changed\n")
-    assert set(planned(clone, finished)) == {"fig1", "all"}
+    assert set(planned(clone, finished)) == {"fig1", "report", "all"}
 
 
 @pytest.mark.parametrize("module", ["chain.py", "energy.py", "compiled.py"])

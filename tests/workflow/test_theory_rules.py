@@ -113,14 +113,14 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone,
     (clone / "scripts/pendula/theory" / module).open("a").write("# changed\n")
     jobs = set(planned(clone, finished))
     without = {"check_observed"} if module == "catalogue.py" else set()
-    assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "all"}
+    assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
     (clone / "scripts/pendula/theory/claims/figure_2.py").open("a").write("# changed\n")
-    assert set(planned(clone, finished)) == {"claims", "all"}
+    assert set(planned(clone, finished)) == {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_figure_of_the_theory_reruns_its_job_alone(finished, clone):
     (clone / "scripts/pendula/plots/growth_rates.py").open("a").write("# changed\n")
-    assert set(planned(clone, finished)) == {"stability_figures", "all"}
+    assert set(planned(clone, finished)) == {"stability_figures", "report", "all"}

@@ -24,6 +24,7 @@ PLACES = {  # the first pattern that fits; what fits none is described by its fo
     "results/figures/*": "A figure",
     "results/tables/*": "A table",
     "results/truth/*": "A verified trajectory, from multiprecision arithmetic",
+    "results/kept/*": "What the report shows of the measured speed",
     "results/code/*": "Record of the code that a job depends on, with checksums",
     "results/kernels/*": "Mark that a solver was compiled",
     "results/report.html": "The report: all figures, numbers and verdicts on one page",

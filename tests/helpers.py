@@ -6,7 +6,7 @@ from pathlib import Path
 
 import yaml
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 
 
 def snakemake(project: Path, directory: Path, *arguments: str) -> subprocess.CompletedProcess:

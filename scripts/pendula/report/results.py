@@ -1,0 +1,64 @@
+"""What a run made, by name: datasets read once, pictures, and links from the page to both."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from ..datasets import read
+from .numbers import Quote, number, with_error
+from .pictures import Picture, picture
+
+
+class ReportError(RuntimeError):
+    """A report that cannot be made; the message names what is missing."""
+
+
+class Results:
+    """The files of a run; names are paths seen from the page, without the ending .nc or .png."""
+
+    def __init__(self, files: Iterable[str], page: str):
+        home = Path(page).parent
+        self._paths = {Path(path).relative_to(home).as_posix(): Path(path) for path in files}
+        self._read = {}
+
+    def __getitem__(self, name: str):
+        """Return a dataset such as "checks/lyapunov"."""
+        if name not in self._read:
+            self._read[name] = read(self.path(f"{name}.nc"))
+        return self._read[name]
+
+    def __contains__(self, name: str) -> bool:
+        return f"{name}.nc" in self._paths
+
+    def path(self, link: str) -> Path:
+        """Return where the file is to which the page links."""
+        try:
+            return self._paths[link]
+        except KeyError:
+            raise ReportError(
+                f"the report needs {link}: add it to the inputs of the rule `report`"
+            ) from None
+
+    def picture(self, name: str, alt: str) -> Picture:
+        """Return a figure such as "fig5", described in words."""
+        link = f"figures/{name}.png"
+        return picture(self.path(link), alt, link)
+
+    def quote(self, name: str, value: float, digits: int = 3) -> Quote:
+        """Return a number that links to the dataset it comes from."""
+        return self.say(name, number(value, digits))
+
+    def quote_error(self, name: str, value: float, error: float) -> Quote:
+        """Return a number with its standard error, linked in the same way."""
+        return self.say(name, with_error(value, error))
+
+    def quote_time(self, name: str, tau: float) -> Quote:
+        """Return a time, or that it never comes."""
+        return self.say(name, number(tau, 4) if np.isfinite(tau) else "never")
+
+    def say(self, name: str, text: str) -> Quote:
+        """Return words made from a dataset, or from another file with its ending, linked to it."""
+        link = f"{name}.nc" if name in self else name
+        self.path(link)
+        return Quote(text, link)

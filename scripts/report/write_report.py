@@ -1,0 +1,45 @@
+"""Write the report of a run: one page of HTML that opens anywhere."""
+
+from pathlib import Path
+
+from job import TOOK
+from pendula.files import complete_or_absent
+from pendula.report import document
+from pendula.report.results import Results
+from pendula.report.speed import Measured
+
+
+def write_report(
+    datasets: list[str],
+    pictures: list[str],
+    ledger: str,
+    speed_table: str,
+    speed_pictures: list[str],
+    sources: list[str],
+    checks: list[str],
+    speed_is_fresh: bool,
+    settings: str,
+    logs: str,
+    html: str,
+) -> None:
+    """Write the page `html` on the files of a run, which lie beside it in folders.
+
+    `checks` names the checks of the theory, `sources` are the records of code and the references,
+    `settings` the configuration as text and `logs` the folder of the jobs' logs.
+    """
+    files = [*datasets, *pictures, ledger, speed_table, *speed_pictures, *sources]
+    results = Results(files, html)
+    (table,), drawn, made_of = (
+        [Path(path).relative_to(Path(html).parent).as_posix() for path in paths]
+        for paths in ([speed_table], speed_pictures, sources)
+    )
+    measured = Measured(table, drawn, speed_is_fresh)
+    made = {"inputs": made_of, "settings": settings, "logs": logs, "took": TOOK}
+    with complete_or_absent(html) as partial:
+        Path(partial).write_text(document.write(results, checks, measured, made), "utf-8")
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(write_report, snakemake)  # noqa: F821

@@ -1,0 +1,147 @@
+"""The report in a real browser: nothing missing, nothing from outside, everything works."""
+
+import base64
+import json
+import re
+
+import pytest
+
+PHONE = 600
+
+
+def resize(browser, width: int) -> None:
+    """Make the screen so many pixels wide; narrow ones are a phone's."""
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < PHONE}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+
+
+def run(report, script: str):
+    return report.execute_script(f"return {script}")
+
+
+def shown(report) -> int:
+    return run(report, "document.querySelectorAll('.claim:not([hidden])').length")
+
+
+def test_no_errors_and_no_request_but_the_page(report, address):
+    assert report.get_log("browser") == []
+    events = [json.loads(entry["message"])["message"] for entry in report.get_log("performance")]
+    asked = [
+        event["params"]["request"]["url"]
+        for event in events
+        if event["method"] == "Network.requestWillBeSent"
+    ]
+    assert address in asked
+    own = ("data:", "chrome:")  # chrome: is the page of the browser that was open before
+    assert {url for url in asked if not url.startswith(own)} == {address}
+
+
+def test_it_opens_in_two_seconds(report):
+    assert run(report, "performance.getEntriesByType('navigation')[0].loadEventEnd") < 2000
+
+
+def test_every_picture_loads(report):
+    run(report, "[...document.images].forEach((one) => { one.loading = 'eager' })")
+    decoded = "const done = arguments[0]; Promise.all([...document.images].map("
+    decoded += "(one) => one.decode())).then(() => done('all'), (fault) => done(String(fault)))"
+    assert report.execute_async_script(decoded) == "all"
+    widths = run(report, "[...document.images].map((one) => one.naturalWidth)")
+    assert len(widths) >= 20 and min(widths) > 0
+
+
+def test_the_filter_hides_and_counts(report):
+    rows = run(report, "document.querySelectorAll('.claim').length")
+    verdicts = run(report, "[...document.querySelectorAll('.claim')].map((c) => c.dataset.verdict)")
+    assert shown(report) == rows == len(verdicts)
+    ticks = report.find_elements("css selector", "form.filter input[type=checkbox]")
+    for tick in ticks:
+        if tick.get_attribute("value") != "not reproduced":
+            tick.click()
+    assert shown(report) == verdicts.count("not reproduced")
+    told = report.find_element("css selector", "form.filter output").text
+    assert told == f"{verdicts.count('not reproduced')} of {rows} claims shown"
+    for tick in ticks:
+        if not tick.is_selected():
+            tick.click()
+    report.find_element("css selector", "form.filter input[type=search]").send_keys("theorem 3")
+    assert 0 < shown(report) < rows
+
+
+def test_a_link_to_a_hidden_claim_shows_it(report):
+    report.find_element("css selector", "form.filter input[value='not reproduced']").click()
+    link = report.find_element("css selector", "#errata a[href^='#claim_']")
+    name = link.get_attribute("hash")[1:]
+    assert run(report, f"document.getElementById('{name}').hidden")
+    report.execute_script("arguments[0].click()", link)
+    for _ in range(50):
+        if not run(report, f"document.getElementById('{name}').hidden"):
+            return
+    raise AssertionError("the claim stays hidden")
+
+
+@pytest.mark.parametrize("width", [1280, 600, 390, 320])
+def test_the_page_does_not_scroll_sideways(report, width):
+    resize(report, width)
+    assert run(report, "document.documentElement.scrollWidth") <= width
+    assert run(report, "document.documentElement.clientWidth") == width
+
+
+def test_the_chain_plays_and_stops(report):
+    button = report.find_element("css selector", ".player button")
+    position = "Number(document.querySelector('.player input').value)"
+    run(report, "document.querySelector('.player input').value = 0")
+    button.click()
+    assert button.text == "Pause"
+    for _ in range(500):
+        if run(report, position) > 0:
+            break
+    button.click()
+    assert button.text == "Play" and run(report, position) > 0
+    canvas = "document.querySelector('.player canvas')"
+    inked = f"new Set({canvas}.getContext('2d').getImageData(0, 0, {canvas}.width, 480).data).size"
+    assert run(report, inked) > 2
+
+
+def test_nothing_moves_by_itself(report):
+    position = "Number(document.querySelector('.player input').value)"
+    before = run(report, position)
+    report.set_script_timeout(5)
+    report.execute_async_script("setTimeout(arguments[0], 300)")
+    assert run(report, position) == before
+
+
+def test_who_wants_less_motion_gets_steps(report):
+    """A unit of time a second: within 0.4 s of the start nothing has moved."""
+    wish = {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]}
+    report.execute_cdp_cmd("Emulation.setEmulatedMedia", wish)
+    position = "Number(document.querySelector('.player input').value)"
+    run(report, "document.querySelector('.player input').value = 0")
+    report.find_element("css selector", ".player button").click()
+    report.execute_async_script("setTimeout(arguments[0], 400)")
+    assert run(report, position) == 0
+    report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+def test_it_prints_with_the_still_picture_and_all_claims(report):
+    report.find_element("css selector", "form.filter input[value='confirmed']").click()
+    report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    for query, display in {"svg.still": "block", "canvas": "none", "nav": "none"}.items():
+        seen = run(report, f"getComputedStyle(document.querySelector('{query}')).display")
+        assert seen == display, query
+    hidden = "[...document.querySelectorAll('.claim')].filter((c) => !c.offsetHeight).length"
+    assert run(report, hidden) == 0
+    printed = report.execute_cdp_cmd("Page.printToPDF", {"paperWidth": 8.27, "paperHeight": 11.69})
+    report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    pdf = base64.b64decode(printed["data"])
+    assert pdf.startswith(b"%PDF") and len(re.findall(rb"/Type\s*/Page\b", pdf)) > 5
+
+
+def test_without_scripts_the_still_picture_stands_alone(report):
+    report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    report.refresh()
+    report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+    displays = {
+        query: run(report, f"getComputedStyle(document.querySelector('{query}')).display")
+        for query in (".player svg.still", ".player canvas", ".player .controls", "form.filter")
+    }
+    assert list(displays.values()) == ["block", "none", "none", "none"]

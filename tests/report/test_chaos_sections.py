@@ -1,0 +1,176 @@
+"""The sections on chaos, growth, the solvers and the theory, on made-up results."""
+
+import made_up_report as made_up
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.report import chaos, claims, errata, growth, solvers, theory
+
+TAU = np.linspace(0.0, 10.0, 11)
+
+
+def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
+    by_parity, by_solver = ("case", "parity"), ("case", "level", "solver")
+    rates = np.array([[0.001, 0.002]] * 3 + [[rate, rate / 2]])
+    growing = made_up.by_case(exponent=(by_parity, rates), exponent_error=(by_parity, rates / 10))
+    horizons = np.full((4, 1, 2), np.nan)
+    horizons[3, 0] = [lost, 2 * lost]
+    coords = {"solver": ["ode45", "taylor"], "level": ["visible"], "tau": TAU}
+    trust = made_up.by_case(horizon=(by_solver, horizons), size=("level", [0.01]))
+    bands = np.stack([np.full(11, 9.0), np.full(11, 10.0), np.full(11, 12.0)])
+    ensembles = made_up.by_case(
+        {"fig3_large": (-4.0, made_up.LARGE)},
+        l2=(("case", "quantile", "tau"), bands[None]),
+        run_inside=("case", [0.875]),
+    ).assign_coords(quantile=[0.05, 0.5, 0.95], tau=TAU)
+    rounded = made_up.by_case(rounded_time=("case", [np.nan, np.nan, np.nan, 6.5]))
+    members = xr.Dataset(attrs={"members": 32, "perturbation": 1e-7})
+    return made_up.MadeUp(
+        folder,
+        {
+            "checks/lyapunov": growing.assign_coords(parity=["even", "odd"]),
+            "figures/trust_horizons": trust.assign_coords(coords),
+            "figures/ensembles": ensembles,
+            "checks/ensembles": members,
+            "checks/symmetry": rounded,
+        },
+    )
+
+
+@pytest.mark.parametrize(("rate", "lost", "count"), [(2.5, 4.5, "1"), (0.05, 8.25, "0")])
+def test_chaos_is_told_from_the_rates(tmp_path, rate, lost, count):
+    found = chaos.gather(chaotic_results(tmp_path, rate, lost))
+    assert str(found["count"]) == count and str(found["cases"]) == "4"
+    assert len(found["chaotic"]) == int(count)
+    assert str(found["lost"]["ode45"]["times"]) == f"{lost:.2f}"
+    assert str(found["lost"]["taylor"]["kept"]) == "3"
+    row = [str(cell) for cell in found["rows"][3]]
+    assert row[3:] == [f"{lost:g}", f"{2 * lost:g}", "6.5"]
+
+
+def test_a_band_is_as_wide_as_its_quantiles(tmp_path):
+    (band,) = chaos.gather(chaotic_results(tmp_path, 2.5, 4.5))["ensembles"]
+    assert (str(band["width"]), str(band["middle"])) == ("30 %", "10")
+    assert (str(band["share"]), str(band["inside"])) == ("90 %", "88 %")
+
+
+def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
+    cases = {"fig4_small": (0.0, made_up.SMALL)}
+    octaves = np.array([[[0.6, 0.01], [last, 0.01]]])
+    law = made_up.by_case(
+        cases,
+        l2_power=(("case", "octave", "part"), octaves),
+        l2=(("case", "statistic", "point"), np.full((1, 1, 2), 206.0)),
+    ).assign_coords(part=["power", "error"], statistic=["mean"])
+    pieces = np.arange(2.0, 202.0, 2.0)
+    omegas = xr.Dataset(
+        {
+            "front": (
+                ("variant", "member", "piece_tau", "level"),
+                3.0 * pieces[None, None, :, None],
+            ),
+            "predicted_speed": ("variant", [3.0]),
+            "predicted_delay": ("variant", [0.0]),
+            "omega": ("variant", [0.0]),
+        },
+        coords={"piece_tau": pieces, "level": [1e-2]},
+    )
+    window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0], "sweep": ["a"]})
+    run = xr.Dataset({"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])})
+    names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
+             "fig6_diverges", "unbounded_window")  # fmt: skip
+    rows = [made_up.claim(n, decided_by=["unbounded/fig4_small"], measured=measured) for n in names]
+    return made_up.MadeUp(
+        folder,
+        {
+            "figures/growth_law": law,
+            "figures/front": xr.Dataset({"power": ("omega", [18.0])}, coords={"omega": [0.0]}),
+            "unbounded/omegas": omegas,
+            "unbounded/thermal": xr.Dataset({"power": ("omega", [20.0])}, coords={"omega": [0.0]}),
+            "unbounded/fig4_small": run,
+            "figures/window_map": window,
+        },
+        **{"claims.json": made_up.ledger(*rows)},
+    )
+
+
+@pytest.mark.parametrize(("power", "grows"), [(0.5, True), (0.01, False)])
+def test_growth_is_told_from_the_last_octave(tmp_path, power, grows):
+    results = growing_results(tmp_path, power, power=power, error=0.002, end=400.0, sites=2329.0)
+    found = growth.gather(results, claims.Ledger(results))
+    (case,) = found["cases"]
+    assert case["grows"] is grows and found["main"]["near"] is grows
+    assert [str(cell).replace("\N{NO-BREAK SPACE}", " ") for cell in case["row"][1:]] == [
+        *("400", "1280", "206", f"0.600, {power:.3f}", f"{power:.3f} ± 0.010")
+    ]  # fmt: skip
+    assert str(found["speed_ratio"]) == "1.000" and str(found["power_ratio"]) == "0.90"
+    assert found["fronts"][0][4] == ("20", "unbounded/thermal.nc")
+
+
+def test_runs_that_are_too_short_tell_no_power(tmp_path):
+    results = growing_results(tmp_path, 0.5)
+    found = growth.gather(results, claims.Ledger(results))
+    assert not found["main"]["known"] and not found["tries_known"]
+
+
+def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
+    drift = np.array([[[0.0, 1.5e-6], [0.0, 1e-9]]] * 3 + [[[0.0, 3e-6], [0.0, 1e-9]]])
+    parting = np.array([[np.nan]] * 3 + [[7.5]])
+    results = made_up.MadeUp(
+        tmp_path,
+        {
+            "figures/energy_drift": made_up.by_case(
+                drift=(("case", "solver", "tau"), drift), claim=("case", [1e-6] * 4)
+            ).assign_coords(solver=["ode45", "crank_nicolson"], tau=[0.0, 50.0]),
+            "figures/solver_agreement": made_up.by_case(
+                parting=(("case", "pair"), parting), visible=0.01
+            ).assign_coords(pair=["ode45 - crank_nicolson"]),
+        },
+    )
+    found = solvers.gather(results)
+    assert [str(found[name]) for name in ("kept", "cases", "apart", "first")] == [
+        *("3", "4", "1", "7.5")
+    ]
+    assert [str(row[-1]) for row in found["drift"]] == ["yes", "yes", "yes", "no"]
+    assert str(found["agreement"][3][1]) == "7.5" and found["visible"] == "1 %"
+
+
+@pytest.mark.parametrize(("largest", "faults"), [(0.5, 0), (1.5, 1)])
+def test_a_check_above_its_tolerance_is_counted(tmp_path, largest, faults):
+    attrs = {"long_name": "largest P over its bound", "units": "1", "tolerance": 1.0}
+    results = made_up.MadeUp(
+        tmp_path, {"checks/worst": xr.Dataset({"ratio": ("sample", [0.25, largest], attrs)})}
+    )
+    (row,) = theory._rows(results, "checks/worst")
+    assert row["holds"] is not bool(faults)
+    assert str(row["cells"][1]) == f"{largest:g}" and str(row["cells"][2]) == "1"
+
+
+@pytest.mark.parametrize(("printed", "fails"), [(-0.14, True), (0.02, False)])
+def test_errata_follow_from_their_checks(tmp_path, printed, fails):
+    constant = xr.Dataset(
+        {"printed": ("n", [0.02, printed]), "corrected": ("n", [0.04, 0.04]), "smallest": 3}
+    )
+    numbers = {"start": 1.01, "delta_0": 0.4, "depth": 6.62, "barrier": 4.0}
+    widened = {"widened_delta_0": 1.34, "widened_bound": 3.39}
+    rows = [
+        *(made_up.claim(name, measured={"order": 3.0}) for name in ("printed_time", "slow_time")),
+        *(made_up.claim(f"fig{n}_caption") for n in (5, 6)),
+        made_up.claim("lost", "not reproduced", because="Omega is -4"),
+    ]
+    results = made_up.MadeUp(
+        tmp_path,
+        {
+            "checks/theorem_3_constant": constant,
+            "checks/theorem_2_case": xr.Dataset(numbers | widened),
+            "checks/cases": made_up.by_case(),
+            "checks/negative_depth": xr.Dataset({"first_negative": 5.3}),
+            "checks/chart": xr.Dataset(),
+        },
+        **{"claims.json": made_up.ledger(*rows)},
+    )
+    found = errata.gather(results, claims.Ledger(results))
+    assert found["constant"]["fails"] is fails and str(found["constant"]["sites"]) == "3"
+    assert not found["case"]["covered"] and found["case"]["covered_widened"]
+    assert str(found["depth"]) == "5.3" and not found["case"]["shallow"]
+    assert [row["because"] for row in found["missed"]] == ["Ω is −4"]

@@ -1,0 +1,68 @@
+"""How numbers are written, and that each leads to its dataset."""
+
+import numpy as np
+import pytest
+from markupsafe import escape
+from pendula.report.numbers import Quote, measured, number, percent, span, with_error
+from pendula.report.words import case_in_words, count, plainly, symbols
+
+
+def plain(text: str) -> str:
+    """Return a text with spaces where it must not be broken."""
+    return text.replace("\N{NO-BREAK SPACE}", " ")
+
+
+@pytest.mark.parametrize(
+    ("value", "written"),
+    [
+        (2.9124, "2.91"),
+        (-4.0, "−4"),
+        (1e-6, "10⁻⁶"),
+        (0.00012, "1.2 × 10⁻⁴"),
+        (-1.25e9, "−1.25 × 10⁹"),
+        (0, "0"),
+        (np.nan, "none"),
+        (np.inf, "infinite"),
+        (-np.inf, "−infinite"),
+    ],
+)
+def test_a_number(value, written):
+    assert plain(number(value)) == written
+
+
+def test_measured_numbers_keep_their_zeros():
+    assert [measured(v) for v in (1.0, 52.0, 0.5)] == ["1.00", "52.0", "0.500"]
+    assert measured(123.4) == "123" and plain(measured(2.5e-7)) == "2.5 × 10⁻⁷"
+
+
+def test_an_error_sets_the_digits_of_its_number():
+    assert plain(with_error(0.50809, 0.00345)) == "0.508 ± 0.003"
+    assert plain(with_error(0.50809, 0.00138)) == "0.5081 ± 0.0014"
+    assert with_error(2.5, np.nan) == "2.5"
+
+
+def test_spans_and_parts():
+    assert span([3.0, np.nan, 1.0]) == "1.00 to 3.00"
+    assert span([2.0, 2.0]) == "2.00" and span([np.nan]) == "none"
+    assert percent(0.1287) == "13 %" and percent(3.04) == "304 %" and percent(-0.0018) == "−0.18 %"
+
+
+def test_a_quote_is_a_link_to_its_dataset_and_is_escaped():
+    assert escape(Quote("1 < 2", "checks/a.nc")) == '<a class="n" href="checks/a.nc">1 &lt; 2</a>'
+    assert str(Quote("2", "checks/a.nc")) == "2"
+
+
+def test_words_of_the_ledger_get_their_symbols():
+    assert symbols("l2 <= exp(4 |gamma tau|) at Omega = -4") == "ℓ² ≤ exp(4 |γ τ|) at Ω = −4"
+    assert symbols("order of 1e-6, mu^2, mu^1.0, l-infinity") == "order of 10⁻⁶, μ², μ^1.0, ℓ∞"
+    assert symbols("a gammaray") == "a gammaray"
+    assert plainly("P_over_C0_delta") == "P / C0 δ"
+
+
+def test_cases_in_words():
+    words = plain(case_in_words(-4.0, '{"0": [5.0, 1.0]}'))
+    assert words == "Ω = −4, (A₀, B₀) = (5, 1)"
+    words = plain(case_in_words(0.5, '{"-3": ["-0.3+0.4j", 1.0]}'))
+    assert words == "Ω = 0.5, (A₋₃, B₋₃) = (-0.3+0.4j, 1)"
+    assert "data on 2 sites" in case_in_words(0, '{"0": [1, 0], "1": [1, 0]}')
+    assert count(1, "case") == "1 case" and count(3, "case") == "3 cases"

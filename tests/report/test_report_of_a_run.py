@@ -1,0 +1,98 @@
+"""The whole page, of the quick run that the tests share: it stands alone and links to its data."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+VOID = {"area", "br", "col", "hr", "img", "input", "link", "meta", "rect", "line"}
+
+
+class Tags(HTMLParser):
+    """Collects tags with their attributes, identifiers, and faults of nesting."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.tags, self.open, self.faults = [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        if tag == "a" and "a" in self.open:
+            self.faults.append(f"a link within a link: {attrs}")
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        if tag not in VOID and self.open.pop() != tag:
+            self.faults.append(f"</{tag}> closes another")
+
+    def all(self, tag: str) -> list[dict]:
+        return [attributes for name, attributes in self.tags if name == tag]
+
+
+@pytest.fixture(scope="module")
+def html(full_run) -> str:
+    return (full_run / "results/report.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def tags(html) -> Tags:
+    return Tags(html)
+
+
+def test_the_page_is_well_formed(tags):
+    assert tags.faults == [] and tags.open == []
+    ids = [attributes["id"] for _, attributes in tags.tags if "id" in attributes]
+    assert len(ids) == len(set(ids))
+
+
+def test_every_picture_is_within_and_described(tags):
+    pictures = tags.all("img")
+    assert len(pictures) >= 20
+    for picture in pictures:
+        assert picture["src"].startswith("data:image/png;base64,")
+        assert len(picture["alt"]) > 20 and int(picture["width"]) > 0 < int(picture["height"])
+        assert picture["decoding"] == "async"
+    alts = [picture["alt"] for picture in pictures]
+    assert len(alts) == len(set(alts))
+
+
+def test_nothing_is_asked_of_the_network(tags, html):
+    for tag, attributes in tags.tags:
+        for name in ("src", "srcset", "poster", "data", "action"):
+            assert not re.match(r"(https?:)?//", attributes.get(name) or ""), (tag, attributes)
+    assert [link["href"] for link in tags.all("link")] == ["data:,"]
+    styles = " ".join(re.findall(r"<style>(.*?)</style>", html, re.DOTALL))
+    assert "url(" not in styles and "@import" not in styles
+    outside = {link["href"] for link in tags.all("a") if "//" in link["href"]}
+    assert all(re.match(r"https://(doi|arxiv)\.org/", link) for link in outside)
+
+
+def test_every_link_leads_to_a_file_of_the_run_or_to_a_part_of_the_page(tags, full_run):
+    ids = {attributes.get("id") for _, attributes in tags.tags}
+    links = {link["href"] for link in tags.all("a") if "//" not in link["href"]}
+    datasets = {link for link in links if link.endswith(".nc")}
+    assert len(datasets) > 60
+    for link in links:
+        known = link[1:] in ids if link.startswith("#") else (full_run / "results" / link).is_file()
+        assert known, link
+
+
+def test_it_is_small_and_tells_of_every_claim(html):
+    assert len(html) < 15e6
+    assert html.count('class="claim"') == html.count("data-verdict=") > 60
+
+
+def test_no_number_is_missing_by_accident(html):
+    text = re.sub(r"<(style|script)>.*?</\1>", " ", html, flags=re.DOTALL)
+    hard = text.index("<summary>Every run</summary>")  # hard cases are named with nan and inf
+    told = re.sub(r"<[^>]*>", " ", text[:hard])
+    assert not re.findall(r"\b(?:nan|inf|None|Undefined)\b", told)
+
+
+def test_nothing_of_the_machine_but_its_processor_stands_in_it(html, full_run):
+    assert str(full_run) not in html and "/home/" not in html

@@ -1,0 +1,99 @@
+"""The sections on speed, hard cases and how the run was made, on made-up results."""
+
+import made_up_report as made_up
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.report import hard_cases, provenance, speed
+from pendula.report.results import ReportError
+
+HEAD = "| solver | accuracy | time, ms | error |\n| --- | --- | --- | --- |\n"
+TABLE = f"""# Speed against error
+
+Words.
+
+## Times of the peers over that of the fastest solver here, at equal error
+
+| peer | fig2_small | geometric mean |
+| --- | --- | --- |
+| SciPy RK45 | 900 | 9.2e+02 (4 cases) |
+| Octave | not reached | - |
+
+## fig2_small
+
+{HEAD}| taylor | 1e-9 | 2.5 | 1e-09 |
+| taylor | 1e-10 | {{taylor}} | 1e-11 |
+| taylor | 1e-12 | 9 | 1e-13 |
+| dop853 | 1e-12 | 6.1 | 3e-11 |
+| crank_nicolson | 1e-3 | 1.0 | 1e-3 |
+"""
+
+
+def speed_results(folder, table: str) -> made_up.MadeUp:
+    return made_up.MadeUp(folder, {"checks/cases": made_up.by_case()}, **{"table.md": table})
+
+
+@pytest.mark.parametrize(("taylor", "fastest"), [(3.25, "Taylor"), (7.5, "DOP853")])
+def test_the_fastest_is_found_at_the_error_asked_for(tmp_path, taylor, fastest):
+    results = speed_results(tmp_path, TABLE.format(taylor=taylor))
+    found = speed.gather(results, speed.Measured("table.md", [], False))
+    assert found["fastest"] == fastest and str(found["wins"]) == str(found["cases"]) == "1"
+    assert [str(cell) for cell in found["rows"][0][1:]] == ["10⁻¹⁰", f"{taylor:g}", "6.1"]
+    assert [[name, str(ratio)] for name, ratio in found["peers"]] == [
+        ["SciPy RK45", "920 (4 cases)"]
+    ]
+    assert found["absent"] == ["Octave"]
+
+
+def test_a_table_without_times_is_refused(tmp_path):
+    results = speed_results(tmp_path, "# Nothing\n")
+    with pytest.raises(ReportError, match=r"table\.md holds no table of speed"):
+        speed.gather(results, speed.Measured("table.md", [], False))
+
+
+def hard(sound: int) -> xr.Dataset:
+    columns = {
+        "case": ["amplitudes of 1e-20", "amplitudes of 1e-170", "gamma = 1"],
+        "solver": ["taylor: rtol 1e-12", "taylor: rtol 1e-12", "dop853: rtol 1e-12"],
+        "error": [1e-12, np.nan, 2e-10],
+        "limit": [1e-9, np.nan, 1e-9],
+        "refusal": ["", "squares vanish", ""],
+        "reference": ["exact", "exact", "exact"],
+        "seconds": [0.123, 0.456, 0.789],
+        "sound": [1, 1, sound],
+    }
+    return xr.Dataset({name: ("row", values) for name, values in columns.items()})
+
+
+def test_hard_cases_are_counted_and_their_times_left_out(tmp_path):
+    found = hard_cases.gather(made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(0)}))
+    assert [str(found[name]) for name in ("runs", "refused", "unexpected")] == ["3", "1", "1"]
+    assert not found["sound"]
+    taylor, dop853 = found["by_solver"]
+    assert [str(cell) for cell in taylor] == ["Taylor", "2", "1", "0.001", "0"]
+    assert [str(cell) for cell in dop853][3:] == ["0.2", "1"]
+    assert found["rows"][1][2] == "refused: squares vanish"
+    assert "0.456" not in made_up.text_of(found)
+
+
+def test_sound_hard_cases_are_told_so(tmp_path):
+    assert hard_cases.gather(made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(1)}))["sound"]
+
+
+def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
+    (tmp_path / "checks").mkdir()
+    (tmp_path / "checks/a.log").write_text("said much\nwall time: 1.5 s\n")
+    (tmp_path / "b.log").write_text("wall time: 12.0 s\n")
+    (tmp_path / "old.log").write_text("nothing\n")
+    (tmp_path / "empty.log").write_text("")
+    assert provenance.run_times(tmp_path, "wall time: ") == [("b", 12.0), ("checks/a", 1.5)]
+    assert provenance.run_times(tmp_path / "absent", "wall time: ") == []
+
+
+def test_hashes_follow_the_content(tmp_path):
+    made = {"inputs": ["code.txt"], "settings": "{}", "logs": str(tmp_path), "took": "t"}
+    one = provenance.gather(made_up.MadeUp(tmp_path, {}, **{"code.txt": "a"}), **made)
+    other = provenance.gather(made_up.MadeUp(tmp_path, {}, **{"code.txt": "b"}), **made)
+    assert one["hashes"] != other["hashes"] and one["settings"] == other["settings"]
+    assert one["hashes"][0][0].link == "code.txt" and len(one["hashes"][0][1]) == 16
+    assert dict(one["versions"])["numpy"] == np.__version__ and one["times"] == []

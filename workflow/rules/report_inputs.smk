@@ -1,0 +1,39 @@
+# What the report takes in: nearly all that a full run makes.
+import json
+
+# The code that makes the numbers; the report shows the hashes of their records.
+NUMBERS_BY = [
+    *("trajectories/simulate_case.py", "sweeps/sweep_case.py", "theory/run_checks.py"),
+    *("theory/check_observed.py", "theory/decide_claims.py", "torture/run_hard_cases.py"),
+    *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
+    *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/sample_thermal.py"),
+]
+
+
+def reported_datasets():
+    made = [f"results/{name}.nc" for name in makers()]
+    checks = expand("results/checks/{name}.nc", name=[*CHAOS_CHECKS, "hard_cases"])
+    drawn = expand("results/figures/{name}.nc", name=[name for name in FIGURES if name != "fig1"])
+    return list(dict.fromkeys([*made, *checks, *drawn]))
+
+
+def speed_measured():
+    """Return whether this machine timed the solvers, the table and its pictures.
+
+    They are copied, not taken as inputs: else an edit would start the timing anew, which is no part
+    of a full run.
+    """
+    here = [f"results/speed/table.md", *(f"results/figures/{n}.png" for n in SPEED_FIGURES)]
+    if all(was_made(path) for path in here):
+        table, *pictures = (kept(path) for path in here)
+        return True, table, pictures
+    folder = "tests/baseline/speed"
+    return False, committed(f"{folder}/table.md"), [committed(f"{folder}/speed_regular.png")]
+
+
+def settings_in_words():
+    """Return the configuration of the paper's cases and sweeps as text."""
+    cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
+    swept = {sweep: SETTINGS.sweeps[sweep].model_dump() for sweep in PAPER_SWEEPS}
+    told = {"cases": cases, "sweeps": swept, "unbounded": SETTINGS.unbounded}
+    return json.dumps(told, sort_keys=True, default=str)
