@@ -75,6 +75,8 @@ rule chaos:
 
 include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/sweeps.smk"
+include: "workflow/rules/own_inputs.smk"
+include: "workflow/rules/own.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/solvers.smk"
 include: "workflow/rules/reference.smk"

@@ -35,7 +35,15 @@ def command_of(project: Path, directory: Path, configuration: Path, *arguments: 
 
 def planned(project: Path, directory: Path, *arguments: str) -> dict[str, int]:
     """Return the number of jobs of each rule that snakemake would run."""
-    result = snakemake(project, directory, "--dry-run", *arguments)
+    return _jobs(snakemake(project, directory, "--dry-run", *arguments))
+
+
+def planned_with(settings: dict, project: Path, directory: Path, *arguments: str) -> dict[str, int]:
+    """Return the same with a configuration of one's own."""
+    return _jobs(snakemake_with(settings, project, directory, "--dry-run", *arguments))
+
+
+def _jobs(result: subprocess.CompletedProcess) -> dict[str, int]:
     assert result.returncode == 0, result.stdout + result.stderr
     text = result.stdout + result.stderr
     if "Nothing to be done" in text:

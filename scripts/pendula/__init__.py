@@ -1,3 +1,31 @@
-"""Coupled PT-symmetric dNLS chains: the equations, their solvers, datasets and plots."""
+"""Coupled PT-symmetric dNLS chains: the equations, their solvers, datasets and plots.
+
+For notebooks: `from pendula import Case, simulate, sweep, check, read, draw_norms`. All of it is
+listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
+"""
+
+from importlib import import_module
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "notebook": ("Case", "simulate", "sweep", "check"),
+    "notebook_plots": ("draw_norms", "draw_spacetime", "draw_sweep"),
+    "datasets": ("read", "DatasetError"),
+    "faults": ("ConfigurationError",),
+    "simulation": ("IntegrationError",),
+}
+"""The public names by their module, loaded when first asked for: no job pays for all of them."""
+
+__all__ = sorted(name for names in _HOMES.values() for name in names)
+
+
+def __getattr__(name: str):
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f".{home}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -12,6 +12,8 @@ import numpy as np
 
 from .files import complete_or_absent
 
+CONVENTIONS = "CF-1.11"
+
 
 class DatasetError(RuntimeError):
     """A dataset that cannot be written, or read back; the message names the file."""
@@ -30,11 +32,27 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
     """Write a dataset; a fault (a full disk, say) leaves no file and names the one it was."""
     try:
         with complete_or_absent(path) as partial, _created(partial) as file:
-            file.setncatts({"Conventions": "CF-1.11", **attributes})
+            file.setncatts({"Conventions": CONVENTIONS, **attributes})
             for name, variable in variables.items():
                 _write_variable(file, name, variable)
     except (OSError, RuntimeError) as error:
         raise _not_written(path, error) from error
+
+
+def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
+    """Return as an xarray.Dataset in memory what `write` would write and `read` would return."""
+    import xarray  # here, so that writing does without it
+
+    def one(variable: Variable) -> xarray.Variable:
+        values = np.asarray(variable.values)
+        values = values.astype(object) if values.dtype.kind == "U" else values
+        words = {"long_name": variable.long_name, "units": variable.units}
+        return xarray.Variable(variable.dimensions, values, words)
+
+    all_of_them = {name: one(variable) for name, variable in variables.items()}
+    coordinates = {k: v for k, v in all_of_them.items() if v.dims == (k,)}
+    values = {k: v for k, v in all_of_them.items() if k not in coordinates}
+    return xarray.Dataset(values, coordinates, {"Conventions": CONVENTIONS, **attributes})
 
 
 def _created(path: Path) -> netCDF4.Dataset:

@@ -50,11 +50,18 @@ def load(raw: dict) -> Configuration:
     try:
         return Configuration.model_validate(raw)
     except ValidationError as error:
-        lines = [line for fault in error.errors() for line in _describe(fault).split("\n")]
-        raise ConfigurationError(
-            f"the configuration has {len(lines)} fault{'s' * (len(lines) > 1)}:\n"
-            + "\n".join(f"  {line}" for line in lines)
-        ) from None
+        raise in_words(error, "the configuration") from None
+
+
+def in_words(error: ValidationError, what: str, place: tuple = ()) -> ConfigurationError:
+    """Return the error that lists every fault of `what`, which stands at `place`."""
+    faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
+    inside = _dotted(place) + "." if place else ""
+    lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
+    return ConfigurationError(
+        f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:\n"
+        + "\n".join(f"  {line}" for line in lines)
+    )
 
 
 def _describe(fault: dict) -> str:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from .snapshots import choose_every
 from .solver_parameters import (
     Complex,
     Model,
@@ -50,6 +51,8 @@ class Case(Model):
                     "{key}: {time} is not a whole number of output steps of {step}",
                     {"key": key, "time": time, "step": self.output_step},
                 )
+        if self.snapshot_step is not None and self.snapshot_step > self.end_time:
+            raise PydanticCustomError("grid", "snapshot_step: is longer than the run")
         outside = [site for site in self.initial if abs(site) > self.half_width]
         if outside:
             raise PydanticCustomError(
@@ -58,6 +61,21 @@ class Case(Model):
                 {"site": outside[0], "m": self.half_width},
             )
         return self
+
+    def problem(self, **changes) -> dict:
+        """Return the arguments of pendula.simulation.simulate as plain values, some changed."""
+        values = {**self.model_dump(), **changes}
+        snapshots = values.pop("snapshot_step")
+        every = round(snapshots / values["output_step"]) if snapshots else 0
+        return {**values, "snapshot_every": every}
+
+    def shown_problem(self, **changes) -> dict:
+        """Return the same, with snapshots for a picture where the case does not say how many."""
+        problem = self.problem(**changes)
+        every = problem["snapshot_every"] or choose_every(
+            round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
+        )
+        return {**problem, "snapshot_every": every}
 
 
 class Drawn(Model):
@@ -97,7 +115,7 @@ class Sweep(Model):
         return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
 
 
-def _with_controls(item: Any, shared: Any) -> Any:
+def with_controls(item: Any, shared: Any) -> Any:
     """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
     given = item.get("solver") if isinstance(item, dict) else None
     given = {"name": given} if isinstance(given, str) else given
@@ -125,7 +143,7 @@ class Configuration(Model):
         for section, default in (("cases", {"solver": "taylor"}), ("sweeps", {})):
             if isinstance(raw.get(section), dict):
                 sections[section] = {
-                    name: _with_controls({**default, **item}, raw.get("solvers") or {})
+                    name: with_controls({**default, **item}, raw.get("solvers") or {})
                     if isinstance(item, dict)
                     else item
                     for name, item in raw[section].items()
@@ -165,12 +183,11 @@ class Configuration(Model):
 
         `solver` takes the place of the case's own, `changes` that of other keys.
         """
-        values = {**self.cases[case].model_dump(), **changes}
-        if solver is not None:
-            values["solver"] = getattr(self.solvers, solver).model_dump()
-        snapshots = values.pop("snapshot_step")
-        every = round(snapshots / values["output_step"]) if snapshots else 0
-        return {**values, "snapshot_every": every}
+        return self.cases[case].problem(**self._by(solver), **changes)
+
+    def shown_problem(self, case: str, solver: str | None = None) -> dict:
+        """Return the same, with snapshots for a picture where the case does not say how many."""
+        return self.cases[case].shown_problem(**self._by(solver))
 
     def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
         """Return the same for a sweep: its case, run to the end of the last window."""
@@ -179,4 +196,8 @@ class Configuration(Model):
         changes = {"end_time": end_time, "snapshot_step": None}
         if own is not None:
             changes["solver"] = own.model_dump()
-        return self.problem(self.sweeps[sweep].case, solver, **changes)
+        changes |= self._by(solver)
+        return self.cases[self.sweeps[sweep].case].problem(**changes)
+
+    def _by(self, solver: str | None) -> dict:
+        return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}

@@ -9,6 +9,9 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parent.parent
 """The folder that is on the path: packages and modules are found below it."""
 
+OURS = ("pendula", "job")
+"""What of it is followed: beside an installed library there may be everything else."""
+
 
 def modules_of(file: Path) -> list[Path]:
     """Return the file and every module below scripts/ that it imports, at any depth."""
@@ -68,6 +71,8 @@ def _imports_of(file: Path) -> frozenset[Path]:
 def _files_of(name: str) -> list[Path]:
     """Return the files that importing `name` executes: the module and its packages."""
     parts = name.split(".")
+    if parts[0] not in OURS:
+        return []
     paths = []
     for depth in range(1, len(parts) + 1):
         folder = SCRIPTS.joinpath(*parts[:depth])

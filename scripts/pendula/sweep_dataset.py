@@ -5,6 +5,15 @@ import numpy as np
 from .datasets import Variable
 from .naming import name_window
 from .sweeps import QUANTITIES, STATISTICS, Sweep
+from .trajectory_dataset import as_attributes, count_work
+
+
+def contents(name: str, problem: dict, half_widths, windows, sweep: Sweep) -> tuple[dict, dict]:
+    """Return (variables, attributes) of the dataset that a sweep of `problem` makes."""
+    attributes = as_attributes(name, problem, problem["solver"])
+    del attributes["half_width"]
+    variables = as_variables(sweep, half_widths, windows)
+    return variables, {**attributes, **count_work(sweep.outcomes)}
 
 
 def as_variables(sweep: Sweep, half_widths: list[int], windows) -> dict[str, Variable]:

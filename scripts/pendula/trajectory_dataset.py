@@ -10,6 +10,13 @@ from .simulation import Trajectory
 COMPONENTS = Variable(("component",), ["A", "B"], "pendulum of each pair")
 
 
+def contents(name: str, problem: dict, trajectory: Trajectory) -> tuple[dict, dict]:
+    """Return (variables, attributes) of the dataset that a run of `problem` makes."""
+    attributes = as_attributes(name, problem, trajectory.solver)
+    work = count_work([trajectory.outcome])
+    return as_variables(trajectory, problem["snapshot_every"]), {**attributes, **work}
+
+
 def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
     """Return the variables of a trajectory's dataset."""
     series = ("component", "tau")

@@ -1,9 +1,8 @@
 """Integrate one case on chains of many half-widths, by one solver or several."""
 
 from pendula.datasets import write
-from pendula.sweep_dataset import as_variables
+from pendula.sweep_dataset import contents
 from pendula.sweeps import sweep
-from pendula.trajectory_dataset import as_attributes, count_work
 
 
 def sweep_case(
@@ -18,13 +17,7 @@ def sweep_case(
     for path, problem in zip(datasets, problems, strict=True):
         label = f"{name} ({problem['solver']['name']})"
         result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
-        attributes = as_attributes(name, problem, problem["solver"])
-        del attributes["half_width"]
-        write(
-            path,
-            as_variables(result, half_widths, windows),
-            {**attributes, **count_work(result.outcomes)},
-        )
+        write(path, *contents(name, problem, half_widths, windows, result))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 from pendula.datasets import write
 from pendula.simulation import simulate
-from pendula.trajectory_dataset import as_attributes, as_variables, count_work
+from pendula.trajectory_dataset import contents
 
 
 def simulate_case(
@@ -14,11 +14,7 @@ def simulate_case(
         if problem["solver"]["name"] == "crank_nicolson" and result.outcome.rejected:
             cut = result.outcome.rejected
             print(f"{name}: the iteration did not contract; {cut} steps were cut")
-        write(
-            path,
-            as_variables(result, problem["snapshot_every"]),
-            {**as_attributes(name, problem, result.solver), **count_work([result.outcome])},
-        )
+        write(path, *contents(name, problem, result))
 
 
 if __name__ == "__main__":

@@ -76,10 +76,17 @@ def make_sweep():
                 dim: variable(dim, values, dim)
                 for dim, values in zip(dims, coordinates, strict=True)
             },
-            {"omega": omega, "initial": '{"0": [1.0, 0.1]}'},
+            {key: PARAMETERS[key] for key in ("epsilon", "gamma", "boundary", "initial")}
+            | {"omega": omega},
         )
 
     return make
+
+
+def own_checks(second):
+    """Return of a case's checks what its figure shows: a second run, and when they part."""
+    norms = second[["linf", "l2"]].rename(linf="second_linf", l2="second_l2")
+    return norms.assign(parting=variable((), 2.0, "first tau at which the runs differ"))
 
 
 @pytest.fixture(scope="session")
@@ -96,6 +103,9 @@ def gathered(make_trajectory, trajectories, make_sweep):
         growth_rates,
         lyapunov,
         norms,
+        own_norms,
+        own_spacetime,
+        own_sweep,
         spacetime,
         stability_chart,
         symmetry,
@@ -115,6 +125,9 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "energy": energy.gather(trajectories),
         "norms": norms.gather(pair, [true, true]),
         "spacetime": spacetime.gather(*pair),
+        "own_norms": own_norms.gather(pair[0], own_checks(true)),
+        "own_spacetime": own_spacetime.gather(pair[0]),
+        "own_sweep": own_sweep.gather(panels[0], mean_window="[10, 40]"),
         "sweeps": sweep_plot.gather(*panels, "[10, 70]", "[10, 40]"),
         "stability_chart": stability_chart.gather(long, short, windows(), points),
         "growth_rates": growth_rates.gather(long, short, threshold()),

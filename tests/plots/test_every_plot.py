@@ -14,6 +14,7 @@ MODULES = [
     *("stability_chart", "sweeps", "trust"),
     *("lyapunov", "symmetry", "ensembles"),
     *("growth_law", "front", "window_map"),
+    *("own_norms", "own_spacetime", "own_sweep"),
 ]
 
 

@@ -42,7 +42,7 @@ def test_chaos_is_told_from_the_rates(tmp_path, rate, lost, count):
     found = chaos.gather(chaotic_results(tmp_path, rate, lost))
     assert str(found["count"]) == count and str(found["cases"]) == "4"
     assert len(found["chaotic"]) == int(count)
-    assert str(found["lost"]["ode45"]["times"]) == f"{lost:.2f}"
+    assert str(found["lost"]["ode45"]["times"]) == f"{lost:.3f}"
     assert str(found["lost"]["taylor"]["kept"]) == "3"
     row = [str(cell) for cell in found["rows"][3]]
     assert row[3:] == [f"{lost:g}", f"{2 * lost:g}", "6.5"]

@@ -54,7 +54,7 @@ use rule trajectory as own_trajectory with:
         case=one_of(OWN_CASES),
     params:
         name="{case}",
-        problems=lambda wildcards: trajectory_problems(wildcards.case),
+        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case)],
     message:
         "Integrating {wildcards.case} by its own solver"
 
@@ -72,6 +72,6 @@ use rule own_trajectory as own_trajectory_by_solver with:
         solver=one_of([*ALL_SOLVERS, "auto"]),
     params:
         name="{case}",
-        problems=lambda wildcards: [SETTINGS.problem(wildcards.case, wildcards.solver)],
+        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case, wildcards.solver)],
     message:
         "Integrating {wildcards.case} by {wildcards.solver}"

@@ -1,5 +1,7 @@
 """Figures 2-4: the norms of A and B against time, in the paper's arrangement."""
 
+from typing import NamedTuple
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,6 +13,17 @@ from . import style
 PALE = {"A": "#f0a79f", "B": "#9db2de"}
 """Colours of the true curves, below those that the paper's solver draws."""
 NORMS = {"linf": r"$\ell^\infty$ norm", "l2": r"$\ell^2$ norm"}
+
+
+class Below(NamedTuple):
+    """The curves below, as the data and the legend call them, and the mark where they part."""
+
+    prefix: str
+    label: str
+    mark: str
+
+
+TRUE = Below("true", "true", "off by 1 % from here on")
 
 
 def gather(runs: list[xr.Dataset], references: list[xr.Dataset]) -> xr.Dataset:
@@ -47,7 +60,8 @@ def draw(data: xr.Dataset) -> Figure:
     for row, size in zip(panels, data["amplitude"].values, strict=True):
         case = data.sel(amplitude=size)
         for axes, name in zip(row, NORMS, strict=True):
-            _draw_panel(axes, case, name)
+            draw_panel(axes, case, name, TRUE)
+            axes.set_title(style.name_case(case), loc="left")
     for axes in panels[-1]:
         axes.set_xlabel(r"$\tau$")
     style.name_legend(figure, panels[0, 0])
@@ -55,19 +69,19 @@ def draw(data: xr.Dataset) -> Figure:
     return figure
 
 
-def _draw_panel(axes: Axes, case: xr.Dataset, name: str) -> None:
-    for component in case["component"].values:
-        true = case[f"true_{name}"].sel(component=component)
-        axes.plot(true["tau"], true, color=PALE[component], label=f"true ${component}$")
+def draw_panel(axes: Axes, case: xr.Dataset, name: str, below: Below) -> None:
+    """Draw one norm of A and B, over those that lie below where the case has them."""
+    for component in case["component"].values if f"{below.prefix}_{name}" in case else ():
+        true = case[f"{below.prefix}_{name}"].sel(component=component)
+        axes.plot(true["tau"], true, color=PALE[component], label=f"{below.label} ${component}$")
     for component in case["component"].values:
         curve = case[name].sel(component=component).dropna("tau")
         colour = style.COLOURS[component]
         axes.plot(curve["tau"], curve, color=colour, label=f"${component}$", alpha=0.9)
-    look = {"marker": "v", "color": "black", "linestyle": "none", "markersize": 4}
-    label = "off by 1 % from here on"
-    top = axes.get_xaxis_transform()
-    axes.plot(case["parting"], 1.0, transform=top, clip_on=False, label=label, **look)
+    if "parting" in case:
+        look = {"marker": "v", "color": "black", "linestyle": "none", "markersize": 4}
+        top = axes.get_xaxis_transform()
+        axes.plot(case["parting"], 1.0, transform=top, clip_on=False, label=below.mark, **look)
     axes.set_xlim(0, float(case["tau"].max()))
     axes.set_ylim(bottom=0)
     axes.set_ylabel(NORMS[name])
-    axes.set_title(style.name_case(case), loc="left")

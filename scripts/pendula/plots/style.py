@@ -1,6 +1,7 @@
 """One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
 import ast
+from io import BytesIO
 from pathlib import Path
 
 import matplotlib
@@ -63,9 +64,19 @@ styled = matplotlib.rc_context(_RC)
 """Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
 
 
+class ShownFigure(Figure):
+    """A figure that a notebook shows without pyplot."""
+
+    @styled
+    def _repr_png_(self) -> bytes:
+        with BytesIO() as file:
+            self.savefig(file, format="png")
+            return file.getvalue()
+
+
 def new_figure(width: float, height: float) -> Figure:
     """Return an empty figure of this size in inches that arranges its own margins."""
-    figure = Figure(figsize=(width, height), layout="constrained")
+    figure = ShownFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 

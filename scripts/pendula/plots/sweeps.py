@@ -28,9 +28,16 @@ def gather(
     The paper's text speaks of the maximum, its captions of the average, over windows of their own.
     The windows are named as in the sweeps, such as "[10, 50]"; `norms` are those to be drawn.
     """
+    return join_panels({"left": left, "right": right}, text_window, caption_window, norms)
+
+
+def join_panels(
+    sweeps: dict[str, xr.Dataset], text_window: str, caption_window: str, norms: Sequence[str]
+) -> xr.Dataset:
+    """Return the same of any number of sweeps by the name of their panel."""
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
-    panels = [_read(sweep[list(norms)], readings) for sweep in (left, right)]
-    data = style.join(panels, ["left", "right"], "panel", "panel of the figure")
+    panels = [_read(sweep[list(norms)], readings) for sweep in sweeps.values()]
+    data = style.join(panels, list(sweeps), "panel", "panel of the figure")
     for name, title in (("statistic", "statistic over the window"), ("window", "window of tau")):
         column = [reading[name == "window"] for reading in readings.values()]
         data[name] = ("reading", column, {"long_name": title, "units": "1"})
@@ -52,12 +59,13 @@ def draw(data: xr.Dataset) -> Figure:
     """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow."""
     figure = style.new_figure(style.DOUBLE, 2.7)
     for axes, name in zip(figure.subplots(1, 2), data["panel"].values, strict=True):
-        _draw_panel(axes, data.sel(panel=name))
-    figure.legend(handles=_legend(data), loc="outside upper center", ncols=4, columnspacing=1.2)
+        draw_panel(axes, data.sel(panel=name))
+    figure.legend(handles=legend(data), loc="outside upper center", ncols=4, columnspacing=1.2)
     return figure
 
 
-def _draw_panel(axes: Axes, panel: xr.Dataset) -> None:
+def draw_panel(axes: Axes, panel: xr.Dataset) -> None:
+    """Draw the norms that one panel holds against the half-width."""
     norms = [name for name in NORMS if name in panel]
     for name in norms:
         for reading in panel["reading"].values:
@@ -92,7 +100,8 @@ def _look(name: str, reading: str) -> dict:
     }
 
 
-def _legend(data: xr.Dataset) -> list[Line2D]:
+def legend(data: xr.Dataset) -> list[Line2D]:
+    """Return one entry for each norm and reading."""
     names = {
         str(reading): "{} on {}".format(
             *(str(data[key].sel(reading=reading).values) for key in ("statistic", "window"))

@@ -67,7 +67,7 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
         "any": len(known) > 0,
         "count": results.quote(TRUST, len(known)),
         "kept": results.quote(TRUST, len(horizons) - len(known)),
-        "times": results.say(TRUST, span(known) if len(known) else "never"),
+        "times": results.say(TRUST, span(known, 4) if len(known) else "never"),
     }
 
 

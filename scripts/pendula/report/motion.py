@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .numbers import number
+from .numbers import measured, number
 from .results import Results
 from .words import case_in_words, case_of
 
@@ -34,7 +34,7 @@ def _spacetime(results: Results, which: int):
         "number": which,
         "picture": results.picture(f"fig{which}_spacetime", alt),
         "told": [
-            (case_of(size), *(results.quote(source, n) for n in _moving(size["modulus"])))
+            (case_of(size), *(results.say(source, n) for n in _in_numbers(size["modulus"])))
             for size in sizes
         ],
     }  # fmt: skip
@@ -44,6 +44,11 @@ def _moving(modulus) -> tuple[int, int, float]:
     """Return how many sites move at the end, at MOVING of the largest size, all, and that size."""
     last = modulus.isel(snapshot_tau=-1).max("component").values
     return int((last > MOVING * last.max()).sum()), len(last), float(last.max())
+
+
+def _in_numbers(modulus) -> tuple[str, str, str]:
+    moving, sites, largest = _moving(modulus)
+    return str(moving), str(sites), measured(largest)
 
 
 def _in_words(modulus) -> str:

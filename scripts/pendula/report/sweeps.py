@@ -76,7 +76,9 @@ def shape(widths: np.ndarray, values: np.ndarray) -> str:
 
 def levelled(level: float) -> str:
     """Return from which half-width a curve is level."""
-    return f"level from M = {number(level)}" if np.isfinite(level) else "not level by the end"
+    if not np.isfinite(level):
+        return "not level by the end"
+    return f"level from M{FIRM}={FIRM}{number(level)}"
 
 
 def _samples(results: Results, which: int) -> list[dict[str, Any]]:

@@ -11,28 +11,37 @@ P(0) < 2 a and -H < a^2 stay below the smaller root, P <= 2 a (1 - sqrt(1 + H / 
 -H <= c delta, this covers delta < delta_0 = a^2 / c (below 2 a since a <= c), and
 1 - sqrt(1 - x) <= x on [0, 1] gives P <= C_0 delta with C_0 = 2 c / a.
 
+The paper has epsilon > 0. With epsilon < 0 the same holds of (-1)^n A_n, (-1)^n B_n, for which
+epsilon is -epsilon and Omega is Omega - 4 epsilon: see `with_positive_coupling`.
+
 Theorem 3 (N sites): H >= P^2 / (8 N) - c P, hence P <= C_N = 4 N (c + sqrt(c^2 + H / (2 N))).
 """
 
 import numpy as np
 
 
+def with_positive_coupling(constants) -> tuple[float, float, float]:
+    """Return (epsilon, gamma, Omega) of the staggered chain where epsilon is negative."""
+    epsilon, gamma, omega = constants
+    return (epsilon, gamma, omega) if epsilon >= 0 else (-epsilon, gamma, omega - 4.0 * epsilon)
+
+
 def extent(constants) -> float:
     """Return c = |Omega| + 2 gamma + 4 epsilon, the corrected constant of Theorem 3's proof."""
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = with_positive_coupling(constants)
     return abs(omega) + 2.0 * abs(gamma) + 4.0 * epsilon
 
 
 def theorem_1_bound(energy, constants):
     """Return C of Theorem 1; infinite outside its range of parameters."""
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = with_positive_coupling(constants)
     gap = omega - 2.0 * abs(gamma) - 4.0 * epsilon
     return np.asarray(energy) / gap if gap > 0 else np.full(np.shape(energy), np.inf)
 
 
 def theorem_2_gap(constants) -> float:
     """Return a = |Omega| - 2 gamma where Omega < -2 gamma, and otherwise 0."""
-    _, gamma, omega = constants
+    _, gamma, omega = with_positive_coupling(constants)
     return max(0.0, -omega - 2.0 * abs(gamma))
 
 
@@ -63,7 +72,7 @@ def coercivity(power, constants):
     -H >= |Omega| P - gamma P (1 + s) - P^3 (1 - 3 s^2 / 4) / (64 epsilon), here at its least s.
     Concave in P. Does not hold on a ring or with free ends, where a constant has no gradient.
     """
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = with_positive_coupling(constants)
     power = np.asarray(power, dtype=float)
     cubic = power**2 / (64.0 * epsilon)
     with np.errstate(divide="ignore", over="ignore"):
@@ -78,7 +87,7 @@ def widened_barrier(constants) -> tuple[float, float]:
     and else at P^2 = (32 epsilon / 3) (m + sqrt(m^2 + 4 gamma^2)) with m = |Omega| - gamma.
     With epsilon = gamma = 1, Omega = -4 the top is 13.4 at P = 8.4; (25) has 4 at P = 4.
     """
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = with_positive_coupling(constants)
     a = theorem_2_gap(constants)
     if a == 0 or epsilon == 0:
         return 0.0, 0.0

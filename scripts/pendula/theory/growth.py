@@ -24,7 +24,9 @@ def norm_rate(constants, boundary: str, amplitudes: np.ndarray) -> float:
     return float(2.0 * np.sum((amplitudes.conj() * rates).real))
 
 
-def integrated_balance(constants, boundary: str, amplitudes, end_time: float, panels: int):
+def integrated_balance(
+    constants, boundary: str, amplitudes, end_time: float, panels: int, solver: dict = TIGHT
+):
     """Return the change of P along a trajectory and the integral of its balance (Gauss-Legendre).
 
     The state is carried from node to node, eight to a panel.
@@ -34,7 +36,7 @@ def integrated_balance(constants, boundary: str, amplitudes, end_time: float, pa
     times = np.concatenate([half * (2 * k + 1 + nodes) for k in range(panels)] + [[end_time]])
     state, now, integral = amplitudes, 0.0, 0.0
     for i, time in enumerate(times):
-        state = run(constants, boundary, state, [0.0, time - now], TIGHT).final
+        state = run(constants, boundary, state, [0.0, time - now], solver).final
         now = time
         if i < len(times) - 1:
             integral += half * weights[i % 8] * norm_balance(state, constants[1])

@@ -22,8 +22,12 @@ def growth_rate(kappa, gamma):
 
 
 def gamma_0(omega, epsilon: float):
-    """Return the threshold (12) of the infinite chain; inside [0, 4 epsilon] it is zero."""
-    return 0.5 * np.maximum(0.0, np.maximum(-np.asarray(omega), omega - 4.0 * epsilon))
+    """Return the threshold (12) of the infinite chain; inside [0, 4 epsilon] it is zero.
+
+    With epsilon < 0, which the paper leaves out, the band is [4 epsilon, 0].
+    """
+    low, high = min(0.0, 4.0 * epsilon), max(0.0, 4.0 * epsilon)
+    return 0.5 * np.maximum(0.0, np.maximum(low - np.asarray(omega), omega - high))
 
 
 def infinite_rate(omega, gamma, epsilon: float):

@@ -1,0 +1,15 @@
+"""Set one case beside the paper's statements, and measure how far its run can be trusted."""
+
+from pendula.datasets import read, save
+from pendula.own.checks import check_run
+
+
+def check_case(run: str, problem: dict, checks: str, kernels: list[str] | tuple = ()) -> None:
+    """Check the trajectory `run` of `problem` (the arguments of `simulate`)."""
+    save(checks, check_run(problem, read(run)))
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(check_case, snakemake)  # noqa: F821

@@ -1,0 +1,29 @@
+"""A case of one's own: its norms against time, and where the chain moves."""
+
+from pendula.datasets import read
+from pendula.plots import own_norms, own_spacetime
+from pendula.plots.style import save
+
+
+def draw_case(
+    run: str,
+    checks: str,
+    png: str,
+    pdf: str,
+    data: str,
+    spacetime_png: str,
+    spacetime_pdf: str,
+    spacetime_data: str,
+) -> None:
+    """Draw a trajectory with the second run of its checks, and write what was drawn."""
+    trajectory = read(run)
+    drawn = own_norms.gather(trajectory, read(checks))
+    save(own_norms.draw(drawn), drawn, png, pdf, data)
+    drawn = own_spacetime.gather(trajectory)
+    save(own_spacetime.draw(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_case, snakemake)  # noqa: F821

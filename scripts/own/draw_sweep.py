@@ -1,0 +1,30 @@
+"""A sweep of one's own: its norms against the half-width, beside the bounds of the theorems."""
+
+import xarray
+from pendula.datasets import read, save
+from pendula.plots import own_sweep
+from pendula.plots.style import save as save_figure
+from pendula.theory.cases import check_sweeps
+
+
+def draw_sweep(
+    sweep: str,
+    name: str,
+    text_window: str,
+    caption_window: str,
+    checks: str,
+    png: str,
+    pdf: str,
+    data: str,
+) -> None:
+    """Draw the maximum over one window and the mean over another; check the norms by `name`."""
+    swept = read(sweep)
+    drawn = own_sweep.gather(swept, text_window, caption_window)
+    save_figure(own_sweep.draw(drawn), drawn, png, pdf, data)
+    save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_sweep, snakemake)  # noqa: F821

@@ -1,0 +1,142 @@
+"""The library for notebooks: cases, their runs and sweeps as xarray datasets, and checks of them.
+
+Everything is dimensionless, as in the paper (Phys. Lett. A 381 (2017) 3884, arXiv 1708.06134):
+time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4),
+rates are per unit of tau. Datasets are those that the workflow writes, by the same code.
+"""
+
+from collections.abc import Iterable
+
+from pydantic import ValidationError
+
+from . import parameters, simulation, sweep_dataset, sweeps, trajectory_dataset
+from .datasets import Variable, as_xarray
+from .faults import in_words, load
+from .own.checks import check_run
+
+__all__ = ["Case", "check", "simulate", "sweep"]
+
+
+class Case(parameters.Case):
+    """One initial-value problem of the equations (4) of the paper, checked when it is made.
+
+    Keys and defaults are those of a case in YAML:
+
+    omega: detuning Omega, the only key without a default.
+    epsilon, gamma: coupling of neighbours and strength of the drive, both 1.
+    half_width: M; the chain has 2M + 1 pairs on the sites -M..M. 30.
+    boundary: "dirichlet" (A = B = 0 beyond the ends), "free" or "periodic".
+    initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}.
+    end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
+    snapshot_step: in tau; how often the moduli on all sites are kept, whole output steps.
+        Left out, 200 to 400 snapshots are spread over the run.
+    solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson" or "auto", or a dict with the
+        controls, such as {"name": "auto", "error": 1e-9}.
+
+    Raises ConfigurationError, with every fault in words.
+
+    >>> Case(omega=-4).half_width
+    30
+    >>> Case(omgea=-4)
+    Traceback (most recent call last):
+    pendula.faults.ConfigurationError: the case has 2 faults:
+      omega: is missing
+      omgea: is not a known key; did you mean 'omega'?
+    """
+
+    def __init__(self, /, **keys):
+        try:
+            super().__init__(**parameters.with_controls({"solver": "taylor", **keys}, {}))
+        except ValidationError as error:
+            raise in_words(error, "the case", ("cases", "case")) from None
+
+    def changed(self, **keys) -> "Case":
+        """Return the case with other values under `keys`, checked anew.
+
+        >>> Case(omega=-4).changed(omega=8, half_width=10).half_width
+        10
+        """
+        return Case(**{**self.model_dump(), **keys})
+
+
+def simulate(case: Case, name: str = "case"):
+    """Integrate a case and return its trajectory as an xarray.Dataset.
+
+    Coordinates: tau (time,), component ("A", "B"), site (-M..M), part ("re", "im").
+    Variables, all without units:
+
+    linf, l2 (component, tau): max_n |A_n| and sqrt(sum_n |A_n|^2); the same of B.
+    energy (tau): the conserved H of equation (8).
+    modulus (component, site, snapshot): |A_n|, |B_n| at the times snapshot_tau (snapshot).
+    final (part, component, site): the amplitudes at end_time.
+
+    Attributes: every parameter, the solver's controls and its work, `name` as "case". All but
+    `final` is what `snakemake results/trajectories/{name}.nc` writes.
+
+    Raises IntegrationError, with the reason, where the solver cannot reach end_time with the
+    digits that were asked for.
+
+    >>> run = simulate(Case(omega=8, end_time=10))
+    >>> run["l2"].shape, run["modulus"].shape
+    ((2, 401), (2, 61, 201))
+    >>> bool(abs(run["energy"] - run["energy"][0]).max() < 1e-11)
+    True
+    """
+    problem = case.shown_problem()
+    trajectory = simulation.simulate(**problem)
+    variables, attributes = trajectory_dataset.contents(name, problem, trajectory)
+    final = trajectory.final
+    state = {
+        "part": Variable(("part",), ["re", "im"], "part of the amplitude"),
+        "final": Variable(
+            ("part", "component", "site"), [final.real, final.imag], "amplitude at the end time"
+        ),
+    }
+    return as_xarray(variables | state, attributes)
+
+
+def sweep(
+    case: Case,
+    half_widths: Iterable[int],
+    windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
+    name: str = "sweep",
+):
+    """Integrate a case on chains of many half-widths; return maxima and means of its norms.
+
+    `windows` are (start, end) in tau, both included, on output steps; the case is run to the end
+    of the last one, whatever its end_time. The defaults are the windows of the paper.
+
+    Returns an xarray.Dataset with l2 and linf (half_width, quantity, statistic, window), without
+    units: quantity is "A", "B" or "pair" (the root of the sum of squares in l2, the larger in
+    linf), statistic "max" or "mean" (over time, trapezoidal), windows are named "[10, 50]".
+    Attributes as in `simulate`. The same as `snakemake results/sweeps/{name}.nc` writes.
+
+    Raises ConfigurationError for windows off the grid, or initial data outside a chain;
+    IntegrationError as `simulate`.
+
+    >>> peaks = sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])
+    >>> peaks["l2"].sel(quantity="pair", statistic="max", window="[1, 5]").shape
+    (3,)
+    """
+    asked = {"case": name, "half_widths": list(half_widths), "windows": list(windows)}
+    # the case's own half-width counts for nothing here, and need not hold the initial data
+    settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}})
+    checked, problem = settings.sweeps[name], settings.swept_problem(name)
+    result = sweeps.sweep(problem, checked.half_widths, checked.windows)
+    return as_xarray(
+        *sweep_dataset.contents(name, problem, checked.half_widths, checked.windows, result)
+    )
+
+
+def check(case: Case, run=None):
+    """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
+
+    `run` is what `simulate` made of the case; left out, it is made. Returns an xarray.Dataset of
+    numbers, each with a long_name and units: see pendula.own for the sources.
+
+    >>> found = check(Case(omega=8, end_time=10))
+    >>> str(found["region"].values), bool(found["ratio"] < 1)
+    ('theorem 1', True)
+    """
+    run = simulate(case) if run is None else run
+    return check_run(case.shown_problem(), run)

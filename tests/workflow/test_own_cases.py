@@ -1,0 +1,155 @@
+"""Cases and sweeps of one's own by the real snakemake: one command, one page, exact reruns."""
+
+import copy
+import os
+import re
+import shutil
+from html.parser import HTMLParser
+
+import pytest
+import xarray as xr
+from helpers import ROOT, planned_with, snakemake_with
+
+SETTINGS = {
+    "cases": {
+        "fig5": {"omega": 8, "half_width": 6, "end_time": 5},  # a name that a figure has too
+        "sea": {"omega": 0, "half_width": 6, "end_time": 30, "initial": {1: [1, "0.1-0.2j"]}},
+    },
+    "sweeps": {"fig5": {"case": "fig5", "half_widths": [2, 4, 6], "windows": [[1, 4]]}},
+}
+REPORT = "results/own_report.html"
+
+
+@pytest.fixture(scope="module")
+def made_once(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("own")
+    result = snakemake_with(SETTINGS, ROOT, folder, "own")
+    assert result.returncode == 0, result.stderr
+    return folder
+
+
+@pytest.fixture
+def made(made_once, tmp_path):
+    return shutil.copytree(made_once, tmp_path / "made")
+
+
+@pytest.fixture
+def changed():
+    return copy.deepcopy(SETTINGS)
+
+
+class Page(HTMLParser):
+    """Links, anchors and pictures of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.anchors, self.pictures = [], set(), []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        found = dict(attrs)
+        self.anchors.add(found.get("id"))
+        if tag == "a":
+            self.links.append(found["href"])
+        if tag == "img":
+            self.pictures.append(found)
+
+
+@pytest.mark.parametrize("stem", ["cases/fig5", "cases/sea", "cases/sea.spacetime", "sweeps/fig5"])
+def test_every_figure_is_there_with_its_data(made_once, stem):
+    base = made_once / "results/own"
+    assert (base / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
+    assert (base / f"{stem}.pdf").read_bytes().startswith(b"%PDF")
+    with xr.open_dataset(base / f"{stem}.nc") as data:
+        assert data.data_vars
+
+
+@pytest.mark.parametrize("stem", ["cases/fig5", "cases/sea", "sweeps/fig5"])
+def test_checks_carry_names_and_units(made_once, stem):
+    with xr.open_dataset(made_once / f"results/own/{stem}.checks.nc") as data:
+        for name, variable in data.variables.items():
+            assert variable.attrs["long_name"] and variable.attrs["units"], name
+
+
+def test_nothing_of_the_paper_is_made(made_once):
+    made = {path.stem for path in (made_once / "results/trajectories").iterdir()}
+    assert made == {"fig5", "sea"}
+    assert not (made_once / "results/figures").exists()
+
+
+def test_the_page_holds_its_pictures_and_links_to_what_is_there(made_once):
+    page = Page((made_once / REPORT).read_text())
+    assert len(page.pictures) == 5
+    for picture in page.pictures:
+        assert picture["src"].startswith("data:image/png;base64,") and len(picture["alt"]) > 60
+    for link in page.links:
+        inside = link.startswith("#") and link[1:] in page.anchors
+        assert inside or (made_once / "results" / link).exists(), link
+
+
+def test_the_page_says_what_the_checks_say(made_once):
+    text = re.sub(r"<[^>]+>", "", (made_once / REPORT).read_text())
+    still, sea = text[text.index("trajectories/fig5.nc") :].split("trajectories/sea.nc", 1)
+    assert "To the end." in still and "Theorem 1 covers" in still and "No chaos is seen" in still
+    assert "The motion is chaotic." in sea and "Neither Theorem 1 nor Theorem 2" in sea
+    with xr.open_dataset(made_once / "results/own/cases/sea.checks.nc") as checks:
+        assert f"To τ = {float(checks['parting']):.3g}." in sea
+    assert "nan" not in text.lower().split("versions")[0].replace("finan", "")
+
+
+def test_nothing_is_to_be_done_afterwards_even_if_all_is_touched(made):
+    assert planned_with(SETTINGS, ROOT, made, "own") == {}
+    for path in made.rglob("results/code/*"):
+        os.utime(path)
+    assert planned_with(SETTINGS, ROOT, made, "own") == {}
+
+
+def test_a_new_omega_reruns_that_case_and_the_report(made, changed):
+    changed["cases"]["sea"]["omega"] = 0.5
+    assert planned_with(changed, ROOT, made, "own") == {
+        "own_trajectory": 1, "own_checks": 1, "own_figures": 1, "own_report": 1, "own": 1
+    }  # fmt: skip
+
+
+def test_a_new_omega_reruns_the_sweep_of_its_case(made, changed):
+    changed["cases"]["fig5"]["omega"] = 7.5
+    assert planned_with(changed, ROOT, made, "own") == {
+        "own_trajectory": 1, "own_checks": 1, "own_figures": 1, "own_sweep": 1,
+        "own_sweep_figure": 1, "own_report": 1, "own": 1,
+    }  # fmt: skip
+
+
+def test_a_case_taken_out_reruns_the_report_alone(made, changed):
+    del changed["cases"]["sea"]
+    assert planned_with(changed, ROOT, made, "own") == {"own_report": 1, "own": 1}
+
+
+def test_only_cases_or_only_sweeps_are_enough(tmp_path):
+    cases = {"cases": {"mine": {"omega": 8}}}
+    assert "own_sweep" not in planned_with(cases, ROOT, tmp_path, "own")
+    sweeps = {"sweeps": {"mine": {"case": "fig3_small", "half_widths": [2], "windows": [[1, 2]]}}}
+    jobs = planned_with(sweeps, ROOT, tmp_path, "own")
+    assert jobs.keys() == {"compile_solver", "own_sweep", "own_sweep_figure", "own_report", "own"}
+
+
+def test_a_sweep_of_a_paper_case_has_its_page(tmp_path):
+    sweep = {"case": "fig3_small", "half_widths": [0, 2], "windows": [[1, 2]]}
+    result = snakemake_with({"sweeps": {"mine": sweep}}, ROOT, tmp_path, "own")
+    assert result.returncode == 0, result.stderr
+    assert "The case fig3_small of the paper" in (tmp_path / REPORT).read_text()
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"cases": {"mine": {"omgea": 1}}}, "cases.mine.omgea: is not a known key; did you mean"),
+        ({"cases": {"a": {"omega": 1}}, "sweeps": {"b": {"case": "c", "half_widths": [1]}}},
+         "sweeps.b.case: there is no case 'c'"),
+        ({}, "no case and no sweep of your own"),
+    ],
+)  # fmt: skip
+def test_faults_are_told_before_any_job(tmp_path, settings, words):
+    result = snakemake_with(settings, ROOT, tmp_path, "own")
+    assert result.returncode != 0 and words in result.stderr
+    assert "Traceback (most recent" not in result.stderr
+    assert not (tmp_path / "results/logs").exists()
