@@ -11,10 +11,13 @@ their paths do not change with the clone.
 import os
 from pathlib import Path
 
+from pendula.archive.contents import code_files
 from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES = Path("results/code"), Path("results/truth")
+handed_out: set[str] = set()
+"""Every record and copy that a rule has asked for: an archive needs them all."""
 
 
 def code(script: str) -> str:
@@ -22,20 +25,47 @@ def code(script: str) -> str:
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
     modules = modules_of(SCRIPTS / script)
     common = [ROOT / "environment.txt", SCRIPTS / "job.py"]
-    files = [*common, *modules, *attached_to(modules)]
-    lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
-    return _keep(record, "".join(dict.fromkeys(lines)).encode())
+    return _hand_out(record, _lines([*common, *modules, *attached_to(modules)]))
+
+
+def whole_project() -> str:
+    """Return the path of the record for all files of the project, brought up to date."""
+    files = [ROOT / name for name in code_files(ROOT)]
+    return _keep(RECORDS / "whole_project.txt", _lines(files))
 
 
 def committed(file: str) -> str:
     """Return the path of a copy of a committed file, brought up to date."""
     source = ROOT / file
-    return _keep(COPIES / source.name, source.read_bytes())
+    return _hand_out(COPIES / source.name, source.read_bytes())
 
 
 def kept(file: str) -> str:
-    """Return the path of a copy of a result, brought up to date: a job is not made to renew it."""
-    return _keep(COPIES.with_name("kept") / Path(file).name, Path(file).read_bytes())
+    """Return the path of a copy of a result, brought up to date: a job is not made to renew it.
+
+    Where an archive was unpacked, the copy is there without the result.
+    """
+    source, copy = Path(file), _copy_of(file)
+    return _hand_out(copy, (source if source.exists() else copy).read_bytes())
+
+
+def was_made(file: str) -> bool:
+    """Return whether a result, or a copy of it, is there to be kept."""
+    return Path(file).exists() or _copy_of(file).exists()
+
+
+def _copy_of(file: str) -> Path:
+    return COPIES.with_name("kept") / Path(file).name
+
+
+def _lines(files: list[Path]) -> bytes:
+    lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
+    return "".join(dict.fromkeys(lines)).encode()
+
+
+def _hand_out(path: Path, content: bytes) -> str:
+    handed_out.add(path.as_posix())
+    return _keep(path, content)
 
 
 def _keep(path: Path, content: bytes) -> str:

@@ -7,7 +7,9 @@ from snakemake.exceptions import WorkflowError
 
 sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
-from code_records import code, committed, kept
+from code_records import code, committed, handed_out, kept, was_made, whole_project
+from pendula import __version__
+from pendula.archive.contents import ArchiveError
 from pendula.faults import ConfigurationError, load
 from pendula.naming import name_window
 from pendula.speed.regimes import REGIMES

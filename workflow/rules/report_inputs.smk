@@ -24,7 +24,7 @@ def speed_measured():
     of a full run.
     """
     here = [f"results/speed/table.md", *(f"results/figures/{n}.png" for n in SPEED_FIGURES)]
-    if all(os.path.exists(path) for path in here):
+    if all(was_made(path) for path in here):
         table, *pictures = (kept(path) for path in here)
         return True, table, pictures
     folder = "tests/baseline/speed"

@@ -1,0 +1,106 @@
+"""The archive by the real snakemake: packed, unpacked elsewhere, and drawn anew there."""
+
+import getpass
+import json
+import os
+import shutil
+import socket
+import subprocess
+import tarfile
+from pathlib import Path
+
+import pytest
+from helpers import ROOT, edit, planned, snakemake
+from pendula import __version__
+
+NAME = f"pendula-{__version__}"
+ARCHIVE = f"results/archive/{NAME}.tar.gz"
+DRAWING = {"bounds", "chaos_figures", "ensembles_figure", "front", "growth_law", "window_map"} | {
+    *("figures", "solver_figures", "stability_figures", "trust_horizons"),
+    *(f"fig{n}" for n in range(1, 7)),
+}
+
+
+@pytest.fixture(scope="module")
+def packed(full_run, tmp_path_factory) -> Path:
+    """Return a copy of the finished run with its archive."""
+    folder = shutil.copytree(full_run, tmp_path_factory.mktemp("packed") / "run")
+    result = snakemake(ROOT, folder, "archive")
+    assert result.returncode == 0, result.stderr
+    return folder
+
+
+@pytest.fixture
+def unpacked(packed, tmp_path) -> Path:
+    """Return the folder that the archive holds, unpacked by tar."""
+    subprocess.run(["tar", "-xzf", packed / ARCHIVE, "-C", tmp_path], check=True)
+    return tmp_path / NAME
+
+
+def test_the_checksums_hold(packed, unpacked):
+    for folder, name in ((packed / "results/archive", f"{NAME}.tar.gz.sha256"),
+                         (unpacked, "manifest-sha256.txt")):  # fmt: skip
+        check = ["sha256sum", "--check", "--strict", "--quiet", name]
+        assert subprocess.run(check, cwd=folder).returncode == 0
+    listed = (unpacked / "manifest-sha256.txt").read_text().splitlines()
+    found = {p.relative_to(unpacked).as_posix() for p in unpacked.rglob("*") if p.is_file()}
+    assert {line.split("  ")[1] for line in listed} == found - {"manifest-sha256.txt"}
+
+
+def test_nothing_is_to_be_done_where_it_is_unpacked(unpacked):
+    assert planned(unpacked, unpacked) == {}
+    assert planned(unpacked, unpacked, "figures") == {}
+
+
+def test_figures_are_drawn_from_the_deposited_datasets_alone(packed, unpacked):
+    shutil.rmtree(unpacked / "results/figures")
+    assert planned(unpacked, unpacked, "figures").keys() <= DRAWING
+    result = snakemake(unpacked, unpacked, "figures")
+    assert result.returncode == 0, result.stderr
+    drawn = sorted((unpacked / "results/figures").iterdir())
+    assert len(drawn) > 40
+    for path in drawn:
+        assert path.read_bytes() == (packed / "results/figures" / path.name).read_bytes(), path.name
+
+
+def test_the_unpacked_project_packs_to_the_same_bytes(packed, unpacked):
+    assert not (unpacked / ".git").exists()
+    result = snakemake(unpacked, unpacked, "archive")
+    assert result.returncode == 0, result.stderr
+    assert (unpacked / ARCHIVE).read_bytes() == (packed / ARCHIVE).read_bytes()
+
+
+def test_it_is_packed_anew_when_anything_in_it_changes(packed, unpacked):
+    assert "archive" not in planned(ROOT, packed)
+    assert snakemake(unpacked, unpacked, "archive").returncode == 0
+    assert planned(unpacked, unpacked, "archive") == {}
+    edit(unpacked / "LICENSE", "BSD 3-Clause License", "BSD 3-Clause Licence")
+    assert planned(unpacked, unpacked, "archive") == {"archive": 1}
+
+
+def test_the_crate_describes_every_result(unpacked):
+    graph = json.loads((unpacked / "ro-crate-metadata.json").read_text())["@graph"]
+    described = {entity["@id"] for entity in graph}
+    assert all(
+        path.relative_to(unpacked).as_posix() in described
+        for path in (unpacked / "results").rglob("*")
+        if path.is_file()
+    )
+
+
+def test_nothing_in_it_tells_of_the_machine(packed):
+    user = getpass.getuser()
+    telling = [str(packed), str(ROOT), str(Path.home() / "."), socket.gethostname(), f"{user}@"]
+    secrets = [word.encode() for word in telling if len(word) > 4]
+    with tarfile.open(packed / ARCHIVE) as tar:
+        for entry in tar:
+            content = tar.extractfile(entry).read()
+            assert not [word for word in secrets if word in content], entry.name
+            assert os.path.splitext(entry.name)[1] != ".log"
+
+
+def test_a_project_that_is_neither_cloned_nor_unpacked_is_refused_in_words(finished, clone):
+    result = snakemake(clone, finished, "archive")
+    assert result.returncode != 0
+    assert "manifest-sha256.txt is missing" in result.stderr
+    assert "pack it from a clone or from an unpacked archive" in result.stderr
