@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from oracle import CASES, hamiltonian
 from pendula.datasets import read
-from pendula.reference.verify import BITS, LIMIT
+from pendula.reference.precision import BITS
+from pendula.reference.verify import LIMIT
 from pendula.simulation import simulate
 
 FOLDER = Path(__file__).resolve().parents[1] / "baseline/reference"

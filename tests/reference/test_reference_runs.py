@@ -12,8 +12,9 @@ from pendula.datasets import read
 from pendula.lattice import Reduction, pack, place
 from pendula.reference import half_chain
 from pendula.reference.numbers import HEYOKA, HeyokaMissingError, Numbers
+from pendula.reference.precision import BITS
 from pendula.reference.run import Run, integrate, start
-from pendula.reference.verify import BITS, LIMIT, UnverifiedError, compare, require_agreement
+from pendula.reference.verify import LIMIT, UnverifiedError, compare, require_agreement
 from reference.integrate_reference import integrate_reference
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,16 +9,6 @@ from .run import Run
 LIMIT = 1e-12
 """The largest difference of any norm that two runs may have, at any output time."""
 
-# Bits of the run that is stored, and of the one that checks it. Chaos takes e^{growth tau}.
-BITS = {
-    "fig2_small": (128, 112),  # regular: 3 of 39 digits are lost
-    "fig2_large": (128, 112),  # regular
-    "fig3_small": (128, 112),  # regular
-    "fig3_large": (288, 272),  # growth 2.65 from tau = 20 on: 58 of 86 digits by tau = 70
-    "fig4_small": (192, 176),  # growth 1.8: 35 of 58 digits by tau = 50
-    "fig4_large": (192, 176),  # growth 1.8: 35 of 58 digits by tau = 50
-}
-
 
 class UnverifiedError(RuntimeError):
     """Two multiprecision runs that part: neither has digits enough."""
