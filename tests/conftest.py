@@ -38,19 +38,35 @@ def scipy_solution():
 
 
 @pytest.fixture(scope="session")
-def full_run(tmp_path_factory) -> Path:
-    """Return a folder with the results of a full run of config/quick.yaml, one for all workers.
+def made_once(tmp_path_factory):
+    """Return a function: a folder that `make` fills, by one of all workers for the others too.
 
-    PENDULA_FULL_RUN names a folder that outlives the session, so that another takes it over.
+    PENDULA_FULL_RUN names a folder for them that outlives the session, so that another takes over.
     """
     parallel = "PYTEST_XDIST_WORKER" in os.environ
     base = tmp_path_factory.getbasetemp()
     kept = os.environ.get("PENDULA_FULL_RUN")
-    directory = Path(kept) if kept else (base.parent if parallel else base) / "full_run"
-    directory.mkdir(parents=True, exist_ok=True)
-    with open(directory / "lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (directory / "results/report.html").exists():
-            result = snakemake(ROOT, directory)
-            assert result.returncode == 0, result.stdout + result.stderr
-    return directory
+    shared = Path(kept) if kept else (base.parent if parallel else base)
+
+    def provide(name, make):
+        directory = shared / name
+        directory.mkdir(parents=True, exist_ok=True)
+        with open(shared / f"{name}.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not (shared / f"{name}.done").exists():
+                make(directory)
+                (shared / f"{name}.done").touch()
+        return directory
+
+    return provide
+
+
+@pytest.fixture(scope="session")
+def full_run(made_once) -> Path:
+    """Return a folder with the results of a full run of config/quick.yaml."""
+
+    def make(directory):
+        result = snakemake(ROOT, directory)
+        assert result.returncode == 0, result.stdout + result.stderr
+
+    return made_once("full_run", make)

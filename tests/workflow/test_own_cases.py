@@ -21,16 +21,17 @@ REPORT = "results/own_report.html"
 
 
 @pytest.fixture(scope="module")
-def made_once(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("own")
-    result = snakemake_with(SETTINGS, ROOT, folder, "own")
-    assert result.returncode == 0, result.stderr
-    return folder
+def own_run(made_once):
+    def make(folder):
+        result = snakemake_with(SETTINGS, ROOT, folder, "own")
+        assert result.returncode == 0, result.stderr
+
+    return made_once("own_run", make)
 
 
 @pytest.fixture
-def made(made_once, tmp_path):
-    return shutil.copytree(made_once, tmp_path / "made")
+def made(own_run, tmp_path):
+    return shutil.copytree(own_run, tmp_path / "made")
 
 
 @pytest.fixture
@@ -56,8 +57,8 @@ class Page(HTMLParser):
 
 
 @pytest.mark.parametrize("stem", ["cases/fig5", "cases/sea", "cases/sea.spacetime", "sweeps/fig5"])
-def test_every_figure_is_there_with_its_data(made_once, stem):
-    base = made_once / "results/own"
+def test_every_figure_is_there_with_its_data(own_run, stem):
+    base = own_run / "results/own"
     assert (base / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
     assert (base / f"{stem}.pdf").read_bytes().startswith(b"%PDF")
     with xr.open_dataset(base / f"{stem}.nc") as data:
@@ -65,34 +66,34 @@ def test_every_figure_is_there_with_its_data(made_once, stem):
 
 
 @pytest.mark.parametrize("stem", ["cases/fig5", "cases/sea", "sweeps/fig5"])
-def test_checks_carry_names_and_units(made_once, stem):
-    with xr.open_dataset(made_once / f"results/own/{stem}.checks.nc") as data:
+def test_checks_carry_names_and_units(own_run, stem):
+    with xr.open_dataset(own_run / f"results/own/{stem}.checks.nc") as data:
         for name, variable in data.variables.items():
             assert variable.attrs["long_name"] and variable.attrs["units"], name
 
 
-def test_nothing_of_the_paper_is_made(made_once):
-    made = {path.stem for path in (made_once / "results/trajectories").iterdir()}
+def test_nothing_of_the_paper_is_made(own_run):
+    made = {path.stem for path in (own_run / "results/trajectories").iterdir()}
     assert made == {"fig5", "sea"}
-    assert not (made_once / "results/figures").exists()
+    assert not (own_run / "results/figures").exists()
 
 
-def test_the_page_holds_its_pictures_and_links_to_what_is_there(made_once):
-    page = Page((made_once / REPORT).read_text())
+def test_the_page_holds_its_pictures_and_links_to_what_is_there(own_run):
+    page = Page((own_run / REPORT).read_text())
     assert len(page.pictures) == 5
     for picture in page.pictures:
         assert picture["src"].startswith("data:image/png;base64,") and len(picture["alt"]) > 60
     for link in page.links:
         inside = link.startswith("#") and link[1:] in page.anchors
-        assert inside or (made_once / "results" / link).exists(), link
+        assert inside or (own_run / "results" / link).exists(), link
 
 
-def test_the_page_says_what_the_checks_say(made_once):
-    text = re.sub(r"<[^>]+>", "", (made_once / REPORT).read_text())
+def test_the_page_says_what_the_checks_say(own_run):
+    text = re.sub(r"<[^>]+>", "", (own_run / REPORT).read_text())
     still, sea = text[text.index("trajectories/fig5.nc") :].split("trajectories/sea.nc", 1)
     assert "To the end." in still and "Theorem 1 covers" in still and "No chaos is seen" in still
     assert "The motion is chaotic." in sea and "Neither Theorem 1 nor Theorem 2" in sea
-    with xr.open_dataset(made_once / "results/own/cases/sea.checks.nc") as checks:
+    with xr.open_dataset(own_run / "results/own/cases/sea.checks.nc") as checks:
         assert f"To τ = {float(checks['parting']):.3g}." in sea
     assert "nan" not in text.lower().split("versions")[0].replace("finan", "")
 
