@@ -24,6 +24,7 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
         run_inside=("case", [0.875]),
     ).assign_coords(quantile=[0.05, 0.5, 0.95], tau=TAU)
     rounded = made_up.by_case(rounded_time=("case", [np.nan, np.nan, np.nan, 6.5]))
+    tenth, double = true_run(0.0), true_run(lost)
     members = xr.Dataset(attrs={"members": 32, "perturbation": 1e-7})
     return made_up.MadeUp(
         folder,
@@ -33,8 +34,23 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
             "figures/ensembles": ensembles,
             "checks/ensembles": members,
             "checks/symmetry": rounded,
+            "truth/fig4_small": tenth,
+            "truth/fig4_small.double": double,
         },
     )
+
+
+def true_run(parting: float) -> xr.Dataset:
+    """Return norms of one, off by 1e-9 from tau = 2 on and by a half after `parting`, if any."""
+    off = np.where(TAU >= 2.0, 1e-9, 0.0) + np.where(parting < TAU, 0.5, 0.0)
+    norm = ("component", "tau"), np.stack([1.0 + off * (parting > 0.0)] * 2)
+    return xr.Dataset({"l2": norm, "linf": norm}, {"tau": TAU}, {"omega": 0.0})
+
+
+def test_a_double_is_no_tenth(tmp_path):
+    found = chaos.gather(chaotic_results(tmp_path, 2.5, 4.5))["decimal"]
+    assert (str(found["first"]), str(found["seen"]), found["omega"]) == ("2", "5", "0")
+    assert found["first"].link == "truth/fig4_small.double.nc"
 
 
 @pytest.mark.parametrize(("rate", "lost", "count"), [(2.5, 4.5, "1"), (0.05, 8.25, "0")])

@@ -12,7 +12,7 @@ rule report:
         ledger="results/claims.json",
         speed_table=SPEED_TABLE,
         speed_pictures=SPEED_PICTURES,
-        sources=[*map(code, NUMBERS_BY), *references(*PAPER_CASES)],
+        sources=[*map(code, NUMBERS_BY), *references(*PAPER_CASES, "fig4_small.double")],
     output:
         html="results/report.html",
     log:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ..trust import LEVELS, difference, first_above
 from .numbers import number, percent, span
 from .results import Results
 from .words import SOLVERS, case_of
@@ -12,6 +13,9 @@ from .words import SOLVERS, case_of
 CHAOTIC = 0.1
 LYAPUNOV, TRUST = "checks/lyapunov", "figures/trust_horizons"
 ENSEMBLES = "figures/ensembles"
+TENTH, DOUBLE = "truth/fig4_small", "truth/fig4_small.double"
+DIGITS = 1e-12
+"""Where the doubles next to two solutions begin to tell them apart."""
 
 
 def gather(results: Results) -> dict[str, Any]:
@@ -34,6 +38,7 @@ def gather(results: Results) -> dict[str, Any]:
         "ensembles": [
             ensemble_of(results, str(case)) for case in results[ENSEMBLES]["case"].values
         ],
+        "decimal": not_a_tenth(results),
         "members": results.quote("checks/ensembles", results["checks/ensembles"].attrs["members"]),
         "size": results.quote(
             "checks/ensembles", results["checks/ensembles"].attrs["perturbation"]
@@ -68,6 +73,18 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
         "count": results.quote(TRUST, len(known)),
         "kept": results.quote(TRUST, len(horizons) - len(known)),
         "times": results.say(TRUST, span(known, 4) if len(known) else "never"),
+    }
+
+
+def not_a_tenth(results: Results) -> dict[str, Any]:
+    """Return when the true run from the double next to 0.1 leaves the one from a tenth."""
+    apart = difference(results[TENTH], results[DOUBLE])
+    first, seen = (float(first_above(apart, level)) for level in (DIGITS, LEVELS["visible"]))
+    return {
+        "omega": number(float(results[DOUBLE].attrs["omega"])),
+        "digits": number(DIGITS),
+        "first": results.quote_time(DOUBLE, first),
+        "seen": results.quote_time(DOUBLE, seen),
     }
 
 
