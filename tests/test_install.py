@@ -44,7 +44,7 @@ def run(*command, **options):
 
 def test_an_editable_install_is_found_from_anywhere(python, tmp_path):
     installed = run(python, "-m", "pip", "install", "--no-deps", "-e", ROOT)
-    if "Could not find a version" in installed.stderr or "connection" in installed.stderr.lower():
+    if "No matching distribution found for setuptools" in installed.stderr:
         pytest.skip("setuptools could not be fetched to build with")
     assert installed.returncode == 0, installed.stdout + installed.stderr
     used = run(python, "-c", USE.format(root=str(ROOT)), cwd=tmp_path)

@@ -1,5 +1,6 @@
 """Other people's integrators against ours, on a small chain."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -92,8 +93,7 @@ def test_half_a_chain_needs_even_data(name):
 )
 def test_a_missing_program_is_said_in_words(name, what, monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(pytest.skip.Exception, match=what):
-        pytest.skip(PEERS[name].why_absent() or "present")
+    assert re.search(what, PEERS[name].why_absent() or "present")
 
 
 @pytest.mark.parametrize(

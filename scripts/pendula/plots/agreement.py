@@ -40,13 +40,7 @@ def gather(trajectories: by_case.Trajectories) -> xr.Dataset:
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a pair, a mark where the pair parts for the eye."""
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    panels = by_case.panels(figure, data)
-    for axes, case in zip(panels, data["case"].values, strict=True):
-        _draw_panel(axes, data.sel(case=case))
-    by_case.label_left(panels, "relative difference")
-    style.name_legend(figure, panels[0])
-    return figure
+    return by_case.draw(data, _draw_panel, "relative difference")
 
 
 def _draw_panel(axes: Axes, case: xr.Dataset) -> None:

@@ -1,6 +1,6 @@
 """What the comparisons of solvers share: trajectories side by side, and one panel for each case."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import xarray as xr
 from matplotlib.axes import Axes
@@ -27,6 +27,17 @@ def stack(trajectories: Trajectories, curves: Mapping[str, xr.DataArray]) -> xr.
         for case, curve in curves.items()
     ]
     return style.join(labelled, list(curves), "case", "case")
+
+
+def draw(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str) -> Figure:
+    """Return a figure of one panel a case, filled by `draw_panel`, with one legend above."""
+    figure = style.new_figure(style.DOUBLE, 4.0)
+    drawn = panels(figure, data)
+    for axes, case in zip(drawn, data["case"].values, strict=True):
+        draw_panel(axes, data.sel(case=case))
+    label_left(drawn, label)
+    style.name_legend(figure, drawn[0])
+    return figure
 
 
 def panels(figure: Figure, data: xr.Dataset) -> list[Axes]:

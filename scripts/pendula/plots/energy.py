@@ -36,13 +36,7 @@ DRAWN = ["ode45", "dop853", "crank_nicolson"]  # the noisy curve below the smoot
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a solver, and the claim as a dashed line."""
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    panels = by_case.panels(figure, data)
-    for axes, case in zip(panels, data["case"].values, strict=True):
-        _draw_panel(axes, data.sel(case=case))
-    by_case.label_left(panels, r"$|H(\tau) - H(0)|$")
-    style.name_legend(figure, panels[0])
-    return figure
+    return by_case.draw(data, _draw_panel, r"$|H(\tau) - H(0)|$")
 
 
 def _draw_panel(axes: Axes, case: xr.Dataset) -> None:

@@ -25,13 +25,7 @@ def gather(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
     """Draw one panel a case: rounding alone, odd perturbations, and their predicted growth."""
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    panels = by_case.panels(figure, data)
-    for axes, case in zip(panels, data["case"].values, strict=True):
-        _draw_panel(axes, data.sel(case=case))
-    by_case.label_left(panels, r"odd part / whole, $\ell^2$ norms")
-    style.name_legend(figure, panels[0])
-    return figure
+    return by_case.draw(data, _draw_panel, r"odd part / whole, $\ell^2$ norms")
 
 
 def _draw_panel(axes: Axes, case: xr.Dataset) -> None:

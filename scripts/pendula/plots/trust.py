@@ -29,13 +29,7 @@ def gather(trajectories: by_case.Trajectories, references: dict[str, xr.Dataset]
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a solver, a mark where its curve is visibly another."""
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    panels = by_case.panels(figure, data)
-    for axes, case in zip(panels, data["case"].values, strict=True):
-        _draw_panel(axes, data.sel(case=case))
-    by_case.label_left(panels, "error relative to full scale")
-    style.name_legend(figure, panels[0])
-    return figure
+    return by_case.draw(data, _draw_panel, "error relative to full scale")
 
 
 def _draw_panel(axes: Axes, case: xr.Dataset) -> None:
