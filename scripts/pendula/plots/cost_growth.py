@@ -42,7 +42,7 @@ def _draw_cost(axes: Axes, seconds: xr.DataArray, dim: str) -> None:
         look = {"color": style.COLOURS[solver], "label": style.SOLVER_NAMES[solver]}
         axes.plot(seconds[dim], 1e6 * seconds.sel(solver=solver), marker=".", **look)
     axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set_ylim(bottom=0)
     axes.set_ylabel(r"time per site and unit of $\tau$ (µs)")
 
 
