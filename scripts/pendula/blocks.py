@@ -3,7 +3,7 @@
 A block holds Re, Im and half the squared modulus of one component, order after order, so that each
 coefficient is at a fixed distance from the block's start and a small chain fits into the fastest
 cache. After the last site a block is padded; behind all blocks lie the ghosts, what each component
-sees beyond its two ends.
+sees beyond its two ends. (In a batch of short chains a block holds one site of four of them.)
 """
 
 from typing import NamedTuple

@@ -28,6 +28,12 @@ def place(initial: dict[int, tuple[complex, complex]], half_width: int) -> np.nd
     return amplitudes
 
 
+def require_centre(sites: int) -> None:
+    """Raise ValueError where there is no site in the middle: the kernels sum from it in pairs."""
+    if sites % 2 == 0:
+        raise ValueError(f"a chain has an odd number of sites, not {sites}")
+
+
 def find_reduction(amplitudes: np.ndarray) -> Reduction:
     """Return the symmetries of the data: exact ones only, so that nothing is approximated."""
     return Reduction(

@@ -9,7 +9,16 @@ from .automatic import refine
 from .chain import Chain
 from .feasibility import find_obstacle
 from .integrators.outcome import DONE, FAULTS, Outcome
-from .lattice import Reduction, choose_ends, find_reduction, pack, place, spread, unpack
+from .lattice import (
+    Reduction,
+    choose_ends,
+    find_reduction,
+    pack,
+    place,
+    require_centre,
+    spread,
+    unpack,
+)
 from .observables import Record, blank_record
 from .solvers import SOLVERS
 
@@ -91,8 +100,7 @@ def integrate(
     Raises ValueError where N is even (the kernels count sites in pairs around a centre), and
     IntegrationError where the run would not end, gives up, or its result is not finite.
     """
-    if amplitudes.shape[1] % 2 == 0:
-        raise ValueError(f"a chain has an odd number of sites, not {amplitudes.shape[1]}")
+    require_centre(amplitudes.shape[1])
     obstacle = find_obstacle(constants, amplitudes, float(times[-1] - times[0]), solver)
     if obstacle:
         raise _stopped(solver, times[0], obstacle)

@@ -101,3 +101,13 @@ def define(symbol, instruction):
 define(operator.add, "fadd")
 define(operator.sub, "fsub")
 define(operator.mul, "fmul")
+
+
+@infer_global(operator.neg)
+class Negative(ConcreteTemplate):
+    cases = [signature(vector, vector)]
+
+
+@lower_builtin(operator.neg, vector)
+def negate(context, builder, signature, arguments):
+    return builder.fneg(arguments[0])

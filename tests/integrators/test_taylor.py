@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
 from pendula.blocks import BLOCK, ORDER, WORK, lay_out, write_state
 from pendula.compiled import generic
-from pendula.integrators import taylor
+from pendula.integrators import taylor, taylor_step
 from pendula.integrators.outcome import DONE
 from pendula.lattice import Reduction, place
 from pendula.simulation import integrate, output_times
@@ -26,13 +26,13 @@ def describe(y, work):
 
 @given(st.floats(1e-300, 1e300))
 def test_the_roots_have_four_digits(x):
-    assert taylor.root(x) == pytest.approx(x ** (1 / 16), rel=1e-14)
-    assert taylor.root_before(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
+    assert taylor_step.root(x) == pytest.approx(x ** (1 / 16), rel=1e-14)
+    assert taylor_step.root_before(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
 
 
 @pytest.mark.parametrize("x", [0.0, np.inf])
 def test_the_roots_of_nothing_and_of_infinity(x):
-    assert taylor.root(x) == taylor.root_before(x) == x
+    assert taylor_step.root(x) == taylor_step.root_before(x) == x
 
 
 @pytest.mark.parametrize("sites", [1, 3, 4, 5, 8])
@@ -60,7 +60,7 @@ def test_the_largest_modulus_counts_nan_as_larger_than_infinity(largest, place):
     y[:, 1 + (place + 1) % 12] = 0.1 if np.isnan(largest) else 0.0
     series = describe(y, np.zeros((WORK, *y.shape)))
     write_state(y, series)
-    assert taylor.size(series, 0) == pytest.approx(largest, rel=1e-15, abs=0.0, nan_ok=True)
+    assert taylor_step.size(series, 0) == pytest.approx(largest, rel=1e-15, abs=0.0, nan_ok=True)
 
 
 def test_a_single_step_errs_by_one_power_more_than_its_order():

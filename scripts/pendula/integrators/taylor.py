@@ -1,60 +1,25 @@
 """The Taylor method: each step sums the power series of the solution, with its own radius.
 
-Step control after Jorba and Zou (Experimental Mathematics 14 (2005) 99): the last two coefficients
-give the length at which the last terms fall below the tolerance, largest component, so that a half
-chain takes the same steps as the whole. No step is ever rejected, and outputs are sums of the same
+No step is ever rejected (`taylor_step` says how long it may be), and outputs are sums of the same
 series.
 """
-
-from math import sqrt
 
 import numpy as np
 
 from ..blocks import BLOCK, ORDER, STEP, WORK, X, Y, ghosts_of, lay_out, start_of, write_state
-from ..compiled import generic, inlined, kernel, merged
-from ..lanes import larger, largest_lane
-from ..vectors import LANES, fill, load, store
+from ..compiled import inlined, kernel, merged
+from ..vectors import LANES, load, store
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from .taylor_step import allowed_step, size, up_to
 
 __all__ = ["ORDER", "WORK", "build"]
 
-SQUARES = 1e-280
-"""Below this, squares lose digits or vanish."""
-
-
-@kernel
-def size(series, k):
-    """Return the largest modulus in order k, or where its square vanishes the largest part."""
-    m, square, part = series.memory, fill(0.0), fill(0.0)
-    for block in range(series.components * series.blocks):
-        u = block * BLOCK + k * STEP
-        x, y = load(m, u + X), load(m, u + Y)
-        square, part = larger(square, x * x + y * y), larger(part, larger(x, y))
-    largest = largest_lane(square)
-    return largest_lane(part) if largest < SQUARES else sqrt(largest)
-
-
-@kernel
-def root(x):
-    """Return x^(1/16) by operations that give the same bits everywhere, unlike a power."""
-    return sqrt(sqrt(sqrt(sqrt(x))))
-
-
-@kernel
-def root_before(x):
-    """Return x^(1/15) = x^(1/16 + 1/256 + 1/4096 + ...) to four digits."""
-    if not x < np.inf:
-        return x
-    first = root(x)
-    second = root(first)
-    third = root(second)
-    rest = (16.0 * third + 14.0) / (14.0 * third + 16.0)  # third^(1/15), and third is close to 1
-    return (first * second) * (third * rest)
-
 
 @merged
-def sum_at(m, i, h, h2, h3, h4):
+def sum_at(m, i, h):
     """Return the sum of the series at the distance h of the part of a block that begins at i."""
+    h2 = h * h
+    h3, h4 = h2 * h, h2 * h2
     total = load(m, i + ORDER * STEP)
     for k in range(ORDER - 4, -1, -4):
         u = i + k * STEP
@@ -63,27 +28,24 @@ def sum_at(m, i, h, h2, h3, h4):
     return total
 
 
-@kernel
+@merged
 def advance(series, h):
-    """Replace order 0 by the sum of the series at the distance h."""
-    m, h2 = series.memory, h * h
-    h3, h4 = h2 * h, h2 * h2
+    """Replace order 0 by the sum of the series at the distance h, one or one a lane."""
+    m = series.memory
     for block in range(series.components * series.blocks):
         for part in range(X, Y + 1, Y - X):
             i = block * BLOCK + part
-            store(m, i, sum_at(m, i, h, h2, h3, h4))
+            store(m, i, sum_at(m, i, h))
 
 
 @kernel
 def evaluate(series, h, y):
     """Write the sum of the series at the distance h into the state `y`."""
-    m, h2 = series.memory, h * h
-    h3, h4 = h2 * h, h2 * h2
-    spare = ghosts_of(series, 0)  # ghosts are written anew before they are read
+    m, spare = series.memory, ghosts_of(series, 0)  # ghosts are written anew before they are read
     for row in range(y.shape[0]):
         for block in range(series.blocks):
             i = start_of(series, row // 2, block) + row % 2 * LANES
-            store(m, spare, sum_at(m, i, h, h2, h3, h4))
+            store(m, spare, sum_at(m, i, h))
             first = 1 + block * LANES
             for column in range(first, min(first + LANES, y.shape[1] - 1)):
                 y[row, column] = m[spare + column - first]
@@ -91,16 +53,6 @@ def evaluate(series, h, y):
 
 def build(continue_series, observe):
     """Return the solver of the system whose power series `continue_series` writes from order 0."""
-
-    @generic
-    def allowed_step(system, series, rtol, atol):
-        """Fill the series; return the step that its last terms allow, NaN if they overflow."""
-        continue_series(system, series)
-        allowed = atol + rtol * size(series, 0)
-        last, before = size(series, ORDER), size(series, ORDER - 1)
-        if not last + before < np.inf:
-            return np.nan
-        return min(root(allowed / last), root_before(allowed / before))
 
     @inlined
     def solve(system, y, times, controls, work, record):
@@ -114,13 +66,14 @@ def build(continue_series, observe):
         steps = 0
         write_state(y, series)
         while i < times.size:
-            h = allowed_step(system, series, rtol, atol)
+            continue_series(system, series)
+            sizes = size(series, 0), size(series, ORDER - 1), size(series, ORDER)
+            h = allowed_step(sizes, rtol, atol)
             steps += 1
             if not h > shortest:
                 status = STEP_TOO_SMALL if h <= shortest else NOT_FINITE
                 return Outcome(status, t, steps, 0, ORDER * steps)
-            if h * (1.0 + 1e-9) >= end - t:
-                h = end - t
+            h = up_to(h, end - t)
             t_new = end if h == end - t else t + h
             while i < times.size and times[i] <= t_new:
                 evaluate(series, times[i] - t, y)

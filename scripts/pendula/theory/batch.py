@@ -1,52 +1,27 @@
-"""Many independent short runs of chains of equal size in one compiled call.
-
-One call from Python per run would cost as much as the run for a few sites.
-"""
+"""Many independent short runs of chains of equal size: the theory's random data."""
 
 import numpy as np
 
-from ..chain import ENDS, Chain
-from ..compiled import copy, kernel
-from ..integrators import dop853
+from ..batches import integrate_batch
 from ..integrators.outcome import DONE
-from ..lattice import pack
-from ..observables import blank_record
-from ..solvers import run_dop853
-from .runs import FULL, QUICK
+
+QUICK = {"rtol": 1e-9, "atol": 1e-12}
 
 
-@kernel
-def run_batch(constants, ends, states, times, controls, work, record, powers, energies):
-    """Integrate each of `states` (run, row, column); write P at all times and H at the start.
-
-    `constants` is (run, 3), `ends` (run,); all runs share `work` and `record`. A run that its
-    solver gives up has an infinite P from then on.
-    """
-    y = np.empty((states.shape[1], states.shape[2]))
-    for i in range(states.shape[0]):
-        chain = Chain(constants[i, 0], constants[i, 1], constants[i, 2], ends[i], ends[i])
-        copy(states[i], y)
-        outcome = run_dop853(chain, y, times, controls, work, record)
-        energies[i] = record.energy[0]
-        for t in range(times.size):
-            a, b = record.l2[0, t], record.l2[1, t]
-            reached = outcome.status == DONE or times[t] <= outcome.time
-            powers[i, t] = a * a + b * b if reached else np.inf
-
-
-def run_powers(constants, boundaries, amplitudes, times, solver=QUICK):
+def run_powers(constants, boundaries, amplitudes, times, tolerances=QUICK):
     """Return P = |A|^2 + |B|^2 of each run at each time, (run, time), and H of each, (run,).
 
     `constants` is a list of (epsilon, gamma, Omega), `boundaries` of names, `amplitudes` of
-    arrays (2, N) with one N for all runs.
+    arrays (2, N) with one N for all runs. A run that its solver gives up has an infinite P from
+    then on.
     """
-    states = np.array([pack(pair, FULL) for pair in amplitudes])
-    constants = np.array(constants, float).reshape(-1, 3)
-    ends = np.array([ENDS[name] for name in boundaries])
+    constants, amplitudes, boundaries = map(np.asarray, (constants, amplitudes, boundaries))
     times = np.asarray(times, float)
-    powers, energies = np.empty((len(states), len(times))), np.empty(len(states))
-    record = blank_record(2, states.shape[2] - 2, len(times), 0)
-    work = np.zeros((dop853.WORK, *states.shape[1:]))
-    controls = (float(solver["rtol"]), float(solver["atol"]))
-    run_batch(constants, ends, states, times, controls, work, record, powers, energies)
+    powers, energies = np.empty((len(amplitudes), len(times))), np.empty(len(amplitudes))
+    for boundary in np.unique(boundaries):
+        of = boundaries == boundary
+        batch = integrate_batch(constants[of], boundary, amplitudes[of], times, **tolerances)
+        lost = (batch.ended["status"] != DONE)[:, None] & (times > batch.ended["time"][:, None])
+        powers[of] = np.where(lost, np.inf, np.sum(batch.l2**2, axis=0))
+        energies[of] = batch.energy[:, 0]
     return powers, energies

@@ -13,7 +13,6 @@ from ..simulation import Trajectory, integrate
 FULL = Reduction(even=False, synchronised=False)
 BOUNDARIES = tuple(ENDS)
 TIGHT = {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
-QUICK = {"name": "dop853", "rtol": 1e-9, "atol": 1e-12}
 
 
 def make_chain(constants: tuple[float, float, float], boundary: str) -> Chain:

@@ -5,7 +5,7 @@ import numpy as np
 from ..linear_flow import driven, modes
 from .linear import finite_threshold, gamma_0
 from .runs import run
-from .stability import TINY, tiny_solver
+from .stability import TINY, tiny_tolerances
 from .tables import table, variable
 
 
@@ -20,9 +20,9 @@ def threshold_run(epsilon: float, omega: float, sites: int, boundary: str, mode:
     along_real = omega < 0  # kappa = 2 gamma > 0 feeds the imaginary part, kappa < 0 the real one
     start = 0.5 * TINY * shape * (1.0 if along_real else 1j)
     data = np.stack([start, -start]).astype(complex)
-    ratios = []
+    ratios, solver = [], {"name": "dop853", **tiny_tolerances(1e-12)}
     for tau in times:
-        final = run((epsilon, gamma, omega), boundary, data, [0.0, tau], tiny_solver(1e-12)).final
+        final = run((epsilon, gamma, omega), boundary, data, [0.0, tau], solver).final
         grown = (final[0] - final[1]) @ shape / TINY
         ratios.append(abs(grown.imag if along_real else grown.real) / (4.0 * gamma * tau))
     return gamma, np.array(ratios)
