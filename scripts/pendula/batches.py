@@ -40,7 +40,8 @@ def integrate_batch(constants, boundary: str, amplitudes, times, rtol: float, at
     common. The bits are those of `integrate` on the whole chain. A run that cannot go on leaves the
     others alone, its outputs from there on are not set; none is refused before it starts.
     """
-    runs, _, sites = np.shape(amplitudes)
+    amplitudes = np.asarray(amplitudes, complex)
+    runs, _, sites = amplitudes.shape
     require_centre(sites)
     times, states = np.asarray(times, float), np.array([pack(pair, WHOLE) for pair in amplitudes])
     constants = np.ascontiguousarray(constants, float)

@@ -1,12 +1,16 @@
-"""Measure how the cost of a run grows with the length of the chain and with time."""
+"""Measure how the cost of a run grows with the chain and with time, and what batches save."""
 
-from pendula.datasets import write
-from pendula.speed import growth, machine
+from pendula.datasets import read, write
+from pendula.files import complete_or_absent
+from pendula.speed import batching, growth, machine
+from pendula.speed.growth_table import write_table
 
 
-def measure_growth(problem: dict, data: str, kernels: list[str] | tuple = ()) -> None:
+def measure_growth(problem: dict, data: str, table: str, kernels: list[str] | tuple = ()) -> None:
     """Write the measurements; `problem` (the arguments of simulate) is the case run for long."""
-    write(data, growth.measure(problem), machine.describe())
+    write(data, growth.measure(problem) | batching.measure(), machine.describe())
+    with complete_or_absent(table) as partial:
+        partial.write_text(write_table(read(data)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -36,6 +36,8 @@ def measured(tmp_path_factory):
         )
         task, peer = task._replace(exact=exact.final), {"someone": OURS["ode45"]}
         norms = {"fig3_small": (exact.linf, exact.l2)}
+        for contestant in OURS.values():  # as the rule does: who compiles takes too long
+            contestant.prepare(task)(contestant.accuracies[0])
         said = []
         variables = work.measure([task], norms, peer, said.append)
     path = tmp_path_factory.mktemp("work") / "work.nc"

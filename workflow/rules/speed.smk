@@ -5,6 +5,7 @@ rule speed:
     "Speed against error of every solver and installed peer, and how cost grows (takes minutes)"
     input:
         "results/speed/table.md",
+        "results/speed/growth.md",
         expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=["png", "pdf", "nc"]),
 
 
@@ -32,9 +33,10 @@ rule work_precision:
 rule cost_growth:
     input:
         code=code("speed/measure_growth.py"),
-        kernels=kernels("dop853", "taylor"),
+        kernels=kernels("dop853", "taylor", "batch"),
     output:
         data="results/speed/growth.nc",
+        table="results/speed/growth.md",
     log:
         "results/logs/speed/growth.log",
     conda:
@@ -43,7 +45,7 @@ rule cost_growth:
     params:
         problem=SETTINGS.problem("fig3_small"),
     message:
-        "Timing longer chains and longer runs"
+        "Timing longer chains, longer runs, and runs in batches"
     script:
         "../../scripts/speed/measure_growth.py"
 

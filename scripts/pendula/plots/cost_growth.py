@@ -1,4 +1,6 @@
-"""How the cost of a run grows with the chain and with time, and how near it is to the limits."""
+"""How the cost of a run grows with the chain and with time, how near it is to the limits, and what
+batches of short chains save.
+"""
 
 import xarray as xr
 from matplotlib.axes import Axes
@@ -9,10 +11,11 @@ from . import style
 
 def gather(growth: xr.Dataset) -> xr.Dataset:
     """Return what is drawn: the measurements, sites carried a second, and the machine's limits."""
+    measured = ["seconds", "long_seconds", "gain", "gain_least", "gain_most"]
     carried = growth["steps"] / growth["seconds"]
     arithmetic = growth["arithmetic"] / growth["operations"]
     memory = growth["bandwidth"] / growth["traffic"]
-    return growth[["seconds", "long_seconds"]].assign(
+    return growth[measured].assign(
         carried=carried.assign_attrs(long_name="sites times steps a second", units="s-1"),
         arithmetic_limit=arithmetic.assign_attrs(
             long_name="sites times steps that the arithmetic allows", units="s-1"
@@ -25,15 +28,16 @@ def gather(growth: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
-    """Draw the cost over the number of sites and over time, and the throughput with its limits."""
-    figure = style.new_figure(style.DOUBLE, 2.5)
-    sites, time, throughput = figure.subplots(1, 3)
+    """Draw the cost over sites and over time, the throughput with its limits, and batches."""
+    figure = style.new_figure(style.DOUBLE, 4.6)
+    (sites, time), (throughput, batches) = figure.subplots(2, 2)
     _draw_cost(sites, data["seconds"], "sites")
     _draw_cost(time, data["long_seconds"], "end_time")
     sites.set_xlabel("number of sites $N$")
     time.set_xlabel(r"end time $\tau$")
     sites.legend()
     _draw_throughput(throughput, data)
+    _draw_batches(batches, data)
     return figure
 
 
@@ -58,4 +62,27 @@ def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
     axes.set_yscale("log")
     axes.set_xlabel("number of sites $N$")
     axes.set_ylabel(r"sites $\times$ steps per second")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94))
+    axes.legend(loc="lower right")
+
+
+def _draw_batches(axes: Axes, data: xr.Dataset) -> None:
+    """Draw how many times cheaper a run is in a batch; bars from the least to the largest."""
+    looks = zip(data["batch"].values, ("-", "--"), strict=True)
+    for size, line in looks:
+        row = data.sel(batch=size)
+        spread = [row["gain"] - row["gain_least"], row["gain_most"] - row["gain"]]
+        axes.errorbar(
+            data["short_sites"],
+            row["gain"],
+            spread,
+            color=style.COLOURS["taylor"],
+            marker=".",
+            linestyle=line,
+            label=f"{size} runs by Taylor",
+        )
+    axes.axhline(1.0, color="0.4", lw=0.8, dashes=(1, 1))
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("number of sites $N$")
+    axes.set_ylabel("time alone / time in a batch")
+    axes.legend()
