@@ -4,11 +4,10 @@ import numpy as np
 
 from ..batches import integrate_batch
 from ..integrators.outcome import DONE
+from .runs import TOLERANCES
 
-QUICK = {"rtol": 1e-9, "atol": 1e-12}
 
-
-def run_powers(constants, boundaries, amplitudes, times, tolerances=QUICK):
+def run_powers(constants, boundaries, amplitudes, times, tolerances=TOLERANCES):
     """Return P = |A|^2 + |B|^2 of each run at each time, (run, time), and H of each, (run,).
 
     `constants` is a list of (epsilon, gamma, Omega), `boundaries` of names, `amplitudes` of

@@ -12,7 +12,8 @@ from ..simulation import Trajectory, integrate
 
 FULL = Reduction(even=False, synchronised=False)
 BOUNDARIES = tuple(ENDS)
-TIGHT = {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
+TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
+TIGHT = {"name": "dop853", **TOLERANCES}
 
 
 def make_chain(constants: tuple[float, float, float], boundary: str) -> Chain:
