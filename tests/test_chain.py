@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
-from pendula.chain import Chain, midpoint_rates, rates
+from pendula.chain import Chain
+from pendula.chain_rates import LANES, midpoint_rates, rates, write_rates
 from pendula.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -23,7 +24,7 @@ def library_slope(z, numbers, boundary, reduction=WHOLE):
 
 @pytest.mark.parametrize("reduction", REDUCTIONS)
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-@pytest.mark.parametrize("half_width", [1, 2, 7])
+@pytest.mark.parametrize("half_width", [1, 2, 4, 5, 7, 8])
 def test_rates_are_equation_4(half_width, boundary, reduction):
     z = random_chain(half_width, **reduction._asdict())
     expected = slope(z, CONSTANTS, boundary)
@@ -74,14 +75,25 @@ def test_even_data_cannot_tell_free_ends_from_a_ring(z, numbers):
     np.testing.assert_array_equal(ring, library_slope(z, numbers, "free"))
 
 
+@pytest.mark.parametrize("sites", range(2 * LANES, 4 * LANES + 1))
+def test_four_sites_at_a_time_get_the_bits_of_one_by_one(sites):
+    chain = Chain(*CONSTANTS, *choose_ends("dirichlet", WHOLE))
+    y = pack(random_chain(sites)[:, :sites], WHOLE)
+    at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
+    rates(chain, y, at_once)
+    write_rates(chain, y, one_by_one, 1)
+    np.testing.assert_array_equal(at_once, one_by_one)
+
+
+@pytest.mark.parametrize("half_width", [3, 7])
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_density(boundary):
-    old, new = random_chain(3, seed=1), random_chain(3, seed=2)
+def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_density(boundary, half_width):
+    old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
     mean = (old + new) / 2
     density = (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
     linear = slope(mean, CONSTANTS, boundary) + 0.5j * np.abs(mean) ** 2 * mean
     chain = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
-    middle, dy = np.zeros((4, 9)), np.zeros((4, 9))
+    middle, dy = np.zeros((2, 4, 2 * half_width + 3))
     midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
     expected = linear - 0.5j * density * mean
     np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, hamiltonian, random_chain
-from pendula.chain import Chain, rates
+from pendula.chain import Chain
+from pendula.chain_rates import rates
 from pendula.energy import energy
 from pendula.lattice import Reduction, choose_ends, pack
 

@@ -17,9 +17,6 @@ LONG = 64
 GROUP = 4
 """Blocks that take an order together: 17 groups of them fit into the cache."""
 
-# not cached on its own: its cache would not notice a change in `vectors`
-linear_vector = merged(getattr(linear_field, "py_func", linear_field))
-
 
 def build(left_of, right_of):
     """Return what writes the next coefficients of some blocks of each component.
@@ -33,7 +30,7 @@ def build(left_of, right_of):
         """Return the linear terms at one part of a block."""
         u = load(m, here)
         before, after = left_of(load(m, left), u), right_of(u, load(m, right))
-        return linear_vector(scaled, scaled.gamma, before, u, after, load(m, partner))
+        return linear_field(scaled, scaled.gamma, before, u, after, load(m, partner))
 
     @merged
     def extend(chain, series, k, component, block, half_cubic):

@@ -4,11 +4,26 @@ A bundle is an array of states stacked by rows, four rows each: first a solution
 changes of it, all with the ghost columns and the ends of one chain.
 """
 
-from .chain import close, modulus2, rates, site_rates
-from .compiled import kernel
+from .chain import close, modulus2, site_rates
+from .chain_rates import count_blocks, few, rates, start_of_block
+from .compiled import kernel, merged
+from .fours import fours
+from .vectors import LANES
 
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
+
+
+@merged
+def write_tangent(chain, y, w, dw, width):
+    for re in range(0, y.shape[0], 2):
+        im = re + 1
+        for block in range(count_blocks(y, width)):
+            j = start_of_block(y, block, width)
+            site_rates(chain, w, re, j, modulus2(y, re, j), dw)
+            change = y[re, j] * w[re, j] + y[im, j] * w[im, j]
+            dw[re, j] = dw[re, j] + change * y[im, j]
+            dw[im, j] = dw[im, j] - change * y[re, j]
 
 
 @kernel
@@ -19,13 +34,10 @@ def tangent_rates(chain, y, w, dw):
     Re(conj(A) a) A, half of the change of that density.
     """
     close(chain, w)
-    for re in range(0, y.shape[0], 2):
-        im = re + 1
-        for j in range(1, y.shape[1] - 1):
-            site_rates(chain, w, re, j, modulus2(y, re, j), dw)
-            change = y[re, j] * w[re, j] + y[im, j] * w[im, j]
-            dw[re, j] += change * y[im, j]
-            dw[im, j] -= change * y[re, j]
+    if few(y):
+        write_tangent(chain, y, w, dw, 1)
+    else:
+        write_tangent(chain, fours(y), fours(w), fours(dw), LANES)
 
 
 @kernel

@@ -3,7 +3,8 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .chain import cut, linear_radius, linear_rates, may_cut, midpoint_rates, rates, turn
+from .chain import cut, may_cut
+from .chain_rates import linear_radius, linear_rates, midpoint_rates, rates, turn
 from .chain_series import continue_series
 from .compiled import kernel
 from .integrators import crank_nicolson, dop853, ode45, splitting, taylor

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from oracle import CASES, laplacian, random_chain, slope
-from pendula.chain import Chain, linear_radius, linear_rates, turn
+from pendula.chain import Chain
+from pendula.chain_rates import linear_radius, linear_rates, turn
 from pendula.integrators import splitting
 from pendula.integrators.outcome import DONE
 from pendula.lattice import Reduction, choose_ends, pack, place, unpack

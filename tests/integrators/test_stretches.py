@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pendula.chain import Chain, rates
+from pendula.chain import Chain
+from pendula.chain_rates import rates
 from pendula.compiled import generic
 from pendula.integrators import dop853, stretches
 from pendula.integrators.outcome import DONE

@@ -6,7 +6,7 @@ import numba
 import numpy as np
 import pytest
 from pendula import simulation, solvers
-from pendula.chain import rates
+from pendula.chain_rates import rates
 from pendula.datasets import read
 from pendula.integrators import dop853, dop853_stages
 from pendula.lattice import Reduction, place

@@ -10,11 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ..chain import Chain, close, field, modulus2
-from ..compiled import kernel
+from ..chain_rates import count_blocks, few, start_of_block
+from ..compiled import kernel, merged
+from ..fours import fours
 from ..integrators import dop853
 from ..integrators.outcome import DONE, FAULTS
 from ..lattice import Reduction, choose_ends, pack, place
 from ..simulation import IntegrationError, aligned, output_times
+from ..vectors import LANES
 from .changes import random_change
 
 FULL = Reduction(even=False, synchronised=False)
@@ -24,25 +27,39 @@ GROWING = (1e-9, 1e-4)
 """Sizes of the odd part between which its growth is neither start-up nor saturation."""
 
 
-@kernel
+@merged
 def lopsided_field(chain, drive, left, u, right, partner, density):
     """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
     coupling = chain.epsilon * ((right - 2.0 * u) + left)
     return coupling + field(chain, drive, u, u, u, partner, density)  # which has no coupling left
 
 
+@merged
+def lopsided_part(chain, drive, y, row, other, j, density):
+    """Return the right-hand side from one row at column `j`; `other` is that of the partner."""
+    before, here, after = y[row, j - 1], y[row, j], y[row, j + 1]
+    return lopsided_field(chain, drive, before, here, after, y[other, j], density)
+
+
+@merged
+def write_lopsided(chain, y, dy, width):
+    for re in range(0, y.shape[0], 2):
+        im, other = re + 1, y.shape[0] - 2 - re
+        for block in range(count_blocks(y, width)):
+            j = start_of_block(y, block, width)
+            density = modulus2(y, re, j)
+            dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, density)
+            dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
+
+
 @kernel
 def lopsided_rates(chain, y, dy):
     """Write the right-hand side of (4) at `y` into `dy`, in an arithmetic that is not even."""
     close(chain, y)
-    gamma = chain.gamma
-    for re in range(0, y.shape[0], 2):
-        im, other = re + 1, y.shape[0] - 2 - re
-        u, v, p, q = y[re], y[im], y[other], y[other + 1]
-        for j in range(1, y.shape[1] - 1):
-            density = modulus2(y, re, j)
-            dy[re, j] = lopsided_field(chain, -gamma, v[j - 1], v[j], v[j + 1], q[j], density)
-            dy[im, j] = -lopsided_field(chain, gamma, u[j - 1], u[j], u[j + 1], p[j], density)
+    if few(y):
+        write_lopsided(chain, y, dy, 1)
+    else:
+        write_lopsided(chain, fours(y), fours(dy), LANES)
 
 
 @kernel

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..chain import Chain, rates
+from ..chain import Chain
+from ..chain_rates import rates
 from ..compiled import kernel
 from ..lattice import Reduction, choose_ends, pack, unpack
 

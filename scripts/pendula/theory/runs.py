@@ -5,7 +5,8 @@ The solver is dop853 at tolerances so tight that no check measures it instead of
 
 import numpy as np
 
-from ..chain import ENDS, Chain, rates
+from ..chain import ENDS, Chain
+from ..chain_rates import rates
 from ..energy import energy
 from ..lattice import Reduction, pack, unpack
 from ..simulation import Trajectory, integrate

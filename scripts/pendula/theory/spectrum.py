@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..chain import rates
+from ..chain_rates import rates
 from ..lattice import pack
 from ..linear_flow import curvatures
 from .linear import squared_frequencies
