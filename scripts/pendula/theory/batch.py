@@ -4,7 +4,7 @@ import numpy as np
 
 from ..batches import integrate_batch
 from ..integrators.outcome import DONE
-from .runs import TOLERANCES
+from .runs import TOLERANCES, squared_norm
 
 
 def run_powers(constants, boundaries, amplitudes, times, tolerances=TOLERANCES):
@@ -21,6 +21,6 @@ def run_powers(constants, boundaries, amplitudes, times, tolerances=TOLERANCES):
         of = boundaries == boundary
         batch = integrate_batch(constants[of], boundary, amplitudes[of], times, **tolerances)
         lost = (batch.ended["status"] != DONE)[:, None] & (times > batch.ended["time"][:, None])
-        powers[of] = np.where(lost, np.inf, np.sum(batch.l2**2, axis=0))
+        powers[of] = squared_norm(np.where(lost, np.inf, batch.l2))
         energies[of] = batch.energy[:, 0]
     return powers, energies
