@@ -1,11 +1,13 @@
 """The right-hand side against equation (4), and the laws that its arithmetic keeps exactly."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
 from pendula.chain import Chain
-from pendula.chain_rates import LANES, midpoint_rates, rates, write_rates
+from pendula.chain_rates import LANES, midpoint_rates, rates, rates_at
 from pendula.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -81,7 +83,8 @@ def test_four_sites_at_a_time_get_the_bits_of_one_by_one(sites):
     y = pack(random_chain(sites)[:, :sites], WHOLE)
     at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
     rates(chain, y, at_once)
-    write_rates(chain, y, one_by_one, 1)
+    for re, j in itertools.product((0, 2), range(1, sites + 1)):
+        rates_at(chain, (y,), re, j, one_by_one)
     np.testing.assert_array_equal(at_once, one_by_one)
 
 

@@ -12,57 +12,75 @@ from .fours import fours
 from .vectors import LANES
 
 
-@merged
-def few(y):
-    """Return whether there are too few sites for blocks of four."""
-    return y.shape[1] - 2 < 2 * LANES
+def everywhere(at):
+    """Return what does `at(chain, states, re, j, dy)` on all sites of each component."""
+
+    @merged
+    def walk(chain, states, dy, width):
+        last = dy.shape[1] - 1 - width  # where the last block starts: it overlaps the one before
+        for re in range(0, dy.shape[0], 2):
+            for j in range(1, dy.shape[1] - 1, width):
+                at(chain, states, re, min(j, last), dy)
+
+    @merged
+    def write(chain, states, dy):
+        """`states` is a tuple of states like `dy`; those of `at` are seen as it is, or as fours."""
+        if dy.shape[1] - 2 < 2 * LANES:
+            walk(chain, states, dy, 1)
+        else:
+            walk(chain, fours(states), fours((dy,))[0], LANES)
+
+    return write
 
 
 @merged
-def count_blocks(y, width):
-    """Return how many blocks of sites there are."""
-    return (y.shape[1] - 2 + width - 1) // width
+def rates_at(chain, states, re, j, dy):
+    y = states[0]
+    site_rates(chain, y, re, j, modulus2(y, re, j), dy)
 
 
 @merged
-def start_of_block(y, block, width):
-    """Return the first column of a block; the last overlaps the one before it."""
-    return min(1 + block * width, y.shape[1] - 1 - width)
+def linear_at(chain, states, re, j, dy):
+    site_rates(chain, states[0], re, j, 0.0, dy)
 
 
 @merged
-def write_rates(chain, y, dy, width):
-    for re in range(0, y.shape[0], 2):
-        for block in range(count_blocks(y, width)):
-            j = start_of_block(y, block, width)
-            site_rates(chain, y, re, j, modulus2(y, re, j), dy)
+def midpoint_at(chain, states, re, j, dy):
+    old, new, middle = states
+    density = 0.5 * (modulus2(old, re, j) + modulus2(new, re, j))
+    site_rates(chain, middle, re, j, density, dy)
+
+
+write_rates, write_linear = everywhere(rates_at), everywhere(linear_at)
+write_midpoint = everywhere(midpoint_at)
 
 
 @kernel
 def rates(chain, y, dy):
     """Write the right-hand side of equations (4) at `y` into `dy` (same shape)."""
     close(chain, y)
-    if few(y):
-        write_rates(chain, y, dy, 1)
-    else:
-        write_rates(chain, fours(y), fours(dy), LANES)
-
-
-@merged
-def write_linear(chain, y, dy, width):
-    for re in range(0, y.shape[0], 2):
-        for block in range(count_blocks(y, width)):
-            site_rates(chain, y, re, start_of_block(y, block, width), 0.0, dy)
+    write_rates(chain, (y,), dy)
 
 
 @kernel
 def linear_rates(chain, y, dy):
     """Write the linear terms of the right-hand side at `y` into `dy`."""
     close(chain, y)
-    if few(y):
-        write_linear(chain, y, dy, 1)
-    else:
-        write_linear(chain, fours(y), fours(dy), LANES)
+    write_linear(chain, (y,), dy)
+
+
+@kernel
+def midpoint_rates(chain, old, new, middle, dy):
+    """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
+
+    The linear terms act on the mean state (left in `middle`), the cubic one is the mean of |A|^2
+    times the mean of A: then H(new) = H(old) exactly (Delfour, Fortin and Payre 1981).
+    """
+    for row in range(old.shape[0]):
+        for j in range(old.shape[1]):
+            middle[row, j] = 0.5 * (old[row, j] + new[row, j])
+    close(chain, middle)
+    write_midpoint(chain, (old, new, middle), dy)
 
 
 @kernel
@@ -89,29 +107,3 @@ def turn(y, h):
             y[re, j] = c * u + s * v
             y[re + 1, j] = c * v - s * u
     return resolved
-
-
-@merged
-def write_midpoint(chain, old, new, middle, dy, width):
-    for re in range(0, old.shape[0], 2):
-        for block in range(count_blocks(old, width)):
-            j = start_of_block(old, block, width)
-            density = 0.5 * (modulus2(old, re, j) + modulus2(new, re, j))
-            site_rates(chain, middle, re, j, density, dy)
-
-
-@kernel
-def midpoint_rates(chain, old, new, middle, dy):
-    """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
-
-    The linear terms act on the mean state (left in `middle`), the cubic one is the mean of |A|^2
-    times the mean of A: then H(new) = H(old) exactly (Delfour, Fortin and Payre 1981).
-    """
-    for row in range(old.shape[0]):
-        for j in range(old.shape[1]):
-            middle[row, j] = 0.5 * (old[row, j] + new[row, j])
-    close(chain, middle)
-    if few(old):
-        write_midpoint(chain, old, new, middle, dy, 1)
-    else:
-        write_midpoint(chain, fours(old), fours(new), fours(middle), fours(dy), LANES)

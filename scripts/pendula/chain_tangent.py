@@ -5,25 +5,23 @@ changes of it, all with the ghost columns and the ends of one chain.
 """
 
 from .chain import close, modulus2, site_rates
-from .chain_rates import count_blocks, few, rates, start_of_block
+from .chain_rates import everywhere, rates
 from .compiled import kernel, merged
-from .fours import fours
-from .vectors import LANES
 
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
 
 
 @merged
-def write_tangent(chain, y, w, dw, width):
-    for re in range(0, y.shape[0], 2):
-        im = re + 1
-        for block in range(count_blocks(y, width)):
-            j = start_of_block(y, block, width)
-            site_rates(chain, w, re, j, modulus2(y, re, j), dw)
-            change = y[re, j] * w[re, j] + y[im, j] * w[im, j]
-            dw[re, j] = dw[re, j] + change * y[im, j]
-            dw[im, j] = dw[im, j] - change * y[re, j]
+def tangent_at(chain, states, re, j, dw):
+    y, w, im = states[0], states[1], re + 1
+    site_rates(chain, w, re, j, modulus2(y, re, j), dw)
+    change = y[re, j] * w[re, j] + y[im, j] * w[im, j]
+    dw[re, j] = dw[re, j] + change * y[im, j]
+    dw[im, j] = dw[im, j] - change * y[re, j]
+
+
+write_tangent = everywhere(tangent_at)
 
 
 @kernel
@@ -34,10 +32,7 @@ def tangent_rates(chain, y, w, dw):
     Re(conj(A) a) A, half of the change of that density.
     """
     close(chain, w)
-    if few(y):
-        write_tangent(chain, y, w, dw, 1)
-    else:
-        write_tangent(chain, fours(y), fours(w), fours(dw), LANES)
+    write_tangent(chain, (y, w), dw)
 
 
 @kernel

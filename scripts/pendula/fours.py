@@ -1,4 +1,4 @@
-"""A state seen four sites at a time: `fours(y)[row, j]` is the vector y[row, j] to y[row, j + 3].
+"""States seen four sites at a time: y[row, j] of a view is the vector y[row, j] to y[row, j + 3].
 
 What is written for one site so serves for four, on the same operations in each lane.
 """
@@ -34,17 +34,24 @@ class FoursModel(models.StructModel):
         super().__init__(manager, fe_type, members)
 
 
+def view_of(context, builder, kind, state):
+    array = context.make_array(kind)(context, builder, state)
+    view = cgutils.create_struct_proxy(fours_type)(context, builder)
+    view.data, view.shape = array.data, array.shape
+    return view._getvalue()
+
+
 @intrinsic
-def fours(typing_context, state):
-    """Return the view of a contiguous state of (row, column); nothing is checked on access."""
+def fours(typing_context, states):
+    """Return views of a tuple of contiguous (row, column) states; nothing is checked on access."""
 
     def generate(context, builder, signature, arguments):
-        array = context.make_array(signature.args[0])(context, builder, arguments[0])
-        view = cgutils.create_struct_proxy(fours_type)(context, builder)
-        view.data, view.shape = array.data, array.shape
-        return view._getvalue()
+        values = cgutils.unpack_tuple(builder, arguments[0])
+        pairs = zip(signature.args[0], values, strict=True)
+        views = [view_of(context, builder, kind, state) for kind, state in pairs]
+        return context.make_tuple(builder, signature.return_type, views)
 
-    return fours_type(state), generate
+    return types.UniTuple(fours_type, len(states))(states), generate
 
 
 @intrinsic

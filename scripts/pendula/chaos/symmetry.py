@@ -10,14 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..chain import Chain, close, field, modulus2
-from ..chain_rates import count_blocks, few, start_of_block
+from ..chain_rates import everywhere
 from ..compiled import kernel, merged
-from ..fours import fours
 from ..integrators import dop853
 from ..integrators.outcome import DONE, FAULTS
 from ..lattice import Reduction, choose_ends, pack, place
 from ..simulation import IntegrationError, aligned, output_times
-from ..vectors import LANES
 from .changes import random_change
 
 FULL = Reduction(even=False, synchronised=False)
@@ -42,24 +40,21 @@ def lopsided_part(chain, drive, y, row, other, j, density):
 
 
 @merged
-def write_lopsided(chain, y, dy, width):
-    for re in range(0, y.shape[0], 2):
-        im, other = re + 1, y.shape[0] - 2 - re
-        for block in range(count_blocks(y, width)):
-            j = start_of_block(y, block, width)
-            density = modulus2(y, re, j)
-            dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, density)
-            dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
+def lopsided_at(chain, states, re, j, dy):
+    y, im, other = states[0], re + 1, dy.shape[0] - 2 - re
+    density = modulus2(y, re, j)
+    dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, density)
+    dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
+
+
+write_lopsided = everywhere(lopsided_at)
 
 
 @kernel
 def lopsided_rates(chain, y, dy):
     """Write the right-hand side of (4) at `y` into `dy`, in an arithmetic that is not even."""
     close(chain, y)
-    if few(y):
-        write_lopsided(chain, y, dy, 1)
-    else:
-        write_lopsided(chain, fours(y), fours(dy), LANES)
+    write_lopsided(chain, (y,), dy)
 
 
 @kernel
