@@ -27,6 +27,14 @@ def test_who_takes_too_long_is_asked_no_further(task, contestant):
     assert calls.count(1e-6) == 1  # and a long run is not repeated
 
 
+def test_who_compiles_in_the_first_run_is_asked_on(task, contestant):
+    times = iter([2 * PATIENCE])
+    made, calls = contestant(lambda accuracy: next(times, 1e-3))
+    rungs = climb(made, task)
+    assert len(rungs) == 5 and rungs[0].most == 1e-3
+    assert calls[:2] == [1e-4, 1e-4]
+
+
 def test_a_run_without_end_is_broken_off(task, contestant, monkeypatch):
     def forever(accuracy):
         while accuracy < 1e-5:
