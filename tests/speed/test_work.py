@@ -36,9 +36,7 @@ def measured(tmp_path_factory):
         )
         task, peer = task._replace(exact=exact.final), {"someone": OURS["ode45"]}
         norms = {"fig3_small": (exact.linf, exact.l2)}
-        for (
-            contestant
-        ) in OURS.values():  # or the limit of time breaks off a slow machine's compiler
+        for contestant in OURS.values():  # what compiles for long may be broken off
             contestant.prepare(task)(contestant.accuracies[0])
         said = []
         variables = work.measure([task], norms, peer, said.append)
