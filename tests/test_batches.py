@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracle import BOUNDARIES
-from pendula.batches import WHOLE, integrate_batch
+from pendula.batches import integrate_batch
 from pendula.chain import ENDS, Chain
 from pendula.integrators.outcome import DONE, NOT_FINITE, STEP_TOO_SMALL
-from pendula.lattice import pack
+from pendula.lattice import WHOLE, pack
 from pendula.observables import blank_record
 from pendula.simulation import aligned, integrate
 from pendula.solvers import SOLVERS

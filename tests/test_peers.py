@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
-from pendula.lattice import find_reduction
+from pendula.lattice import WHOLE, find_reduction
 from pendula.peers import PEERS, Problem
-from pendula.peers.problem import WHOLE
 from pendula.simulation import integrate
 
 CONSTANTS = (1.0, 1.0, -4.0)

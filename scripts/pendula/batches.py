@@ -10,12 +10,11 @@ from .compiled import kernel
 from .integrators import taylor_batch
 from .integrators.seats import ENDED
 from .integrators.taylor_lanes import make_workspace
-from .lattice import Reduction, pack, require_centre
+from .lattice import WHOLE, pack, require_centre
 from .observables import blank_record, observe
 from .vectors import LANES
 
 solve_batch = taylor_batch.build(chain_of, seat, continue_batch, observe)
-WHOLE = Reduction(even=False, synchronised=False)
 
 
 @kernel

@@ -18,6 +18,10 @@ class Reduction(NamedTuple):
     synchronised: bool
 
 
+WHOLE = Reduction(even=False, synchronised=False)
+"""Both components on the whole chain, whatever the symmetries."""
+
+
 def place(initial: dict[int, tuple[complex, complex]], half_width: int) -> np.ndarray:
     """Return amplitudes of shape (2, 2M + 1), at rest but for `initial`: {site: (A, B)}."""
     amplitudes = np.zeros((2, 2 * half_width + 1), complex)

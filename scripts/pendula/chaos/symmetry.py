@@ -14,11 +14,10 @@ from ..chain_rates import everywhere
 from ..compiled import kernel, merged
 from ..integrators import dop853
 from ..integrators.outcome import DONE, FAULTS
-from ..lattice import Reduction, choose_ends, pack, place
+from ..lattice import WHOLE, choose_ends, pack, place
 from ..simulation import IntegrationError, aligned, output_times
 from .changes import random_change
 
-FULL = Reduction(even=False, synchronised=False)
 BROKEN = 0.01
 """Relative size of the odd part from which on a solution no longer counts as even."""
 GROWING = (1e-9, 1e-4)
@@ -81,10 +80,10 @@ def run_lopsided(chain, y, times, controls, work, odd):
 def follow_odd_part(problem: dict, amplitudes: np.ndarray) -> np.ndarray:
     """Return the relative size of the odd part at each output time, (time,), from (2, N) data."""
     constants = (float(problem[key]) for key in ("epsilon", "gamma", "omega"))
-    chain = Chain(*constants, *choose_ends(problem["boundary"], FULL))
+    chain = Chain(*constants, *choose_ends(problem["boundary"], WHOLE))
     times = output_times(problem["end_time"], problem["output_step"])
     controls = tuple(float(problem["solver"][key]) for key in ("rtol", "atol"))
-    y, odd = pack(amplitudes, FULL), np.empty(len(times))
+    y, odd = pack(amplitudes, WHOLE), np.empty(len(times))
     work = aligned((dop853.WORK, *y.shape))
     outcome = run_lopsided(chain, y, times, controls, work, odd)
     if outcome.status != DONE:

@@ -5,8 +5,8 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from ..lattice import pack, unpack
-from .problem import HALF, WHOLE, Peer, Problem, Solve, check, timed
+from ..lattice import WHOLE, pack, unpack
+from .problem import HALF, Peer, Problem, Solve, check, timed
 
 
 def why_absent() -> str | None:

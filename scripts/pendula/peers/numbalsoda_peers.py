@@ -7,9 +7,9 @@ import numba
 import numpy as np
 from numba import types
 
+from ..lattice import WHOLE
 from .problem import (
     HALF,
-    WHOLE,
     Peer,
     Problem,
     Solve,

@@ -11,7 +11,6 @@ from ..chain_rates import rates
 from ..compiled import kernel
 from ..lattice import Reduction, choose_ends, pack, unpack
 
-WHOLE = Reduction(even=False, synchronised=False)
 HALF = Reduction(even=True, synchronised=False)
 
 Solve = Callable[[float], tuple[np.ndarray, float]]

@@ -2,8 +2,8 @@
 
 from importlib.util import find_spec
 
+from ..lattice import WHOLE
 from .problem import (
-    WHOLE,
     Peer,
     Problem,
     Solve,

@@ -4,8 +4,9 @@ from time import perf_counter
 
 import numpy as np
 
-from ..batches import WHOLE, integrate_batch
+from ..batches import integrate_batch
 from ..datasets import Variable
+from ..lattice import WHOLE
 from .runs import follow
 from .tasks import Task
 

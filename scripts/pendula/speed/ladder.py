@@ -59,7 +59,7 @@ def climb(contestant: Contestant, task: Task, goal: float = 0.0) -> list[Rung]:
         try:
             with limit(LIMIT):
                 final, seconds = solve(accuracy)  # warms the caches
-                if not rungs and seconds > PATIENCE:  # or compiled
+                if not rungs and seconds > PATIENCE:  # the very first may have compiled
                     final, seconds = solve(accuracy)
         except TooLongError:
             break

@@ -8,10 +8,9 @@ import numpy as np
 from ..chain import ENDS, Chain
 from ..chain_rates import rates
 from ..energy import energy
-from ..lattice import Reduction, pack, unpack
+from ..lattice import WHOLE, pack, unpack
 from ..simulation import Trajectory, integrate
 
-FULL = Reduction(even=False, synchronised=False)
 BOUNDARIES = tuple(ENDS)
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
 TIGHT = {"name": "dop853", **TOLERANCES}
@@ -24,20 +23,20 @@ def make_chain(constants: tuple[float, float, float], boundary: str) -> Chain:
 
 def run(constants, boundary: str, amplitudes: np.ndarray, times, solver=TIGHT) -> Trajectory:
     """Integrate amplitudes (2, N) over `times` on the full chain, without any short cut."""
-    return integrate(constants, boundary, amplitudes, FULL, np.asarray(times, float), solver)
+    return integrate(constants, boundary, amplitudes, WHOLE, np.asarray(times, float), solver)
 
 
 def right_hand_side(constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
     """Return (dA/dtau, dB/dtau), shape (2, N), as the library computes them."""
-    y = pack(amplitudes, FULL)
+    y = pack(amplitudes, WHOLE)
     dy = np.zeros_like(y)
     rates(make_chain(constants, boundary), y, dy)
-    return unpack(dy, FULL)
+    return unpack(dy, WHOLE)
 
 
 def total_energy(constants, boundary: str, amplitudes: np.ndarray) -> float:
     """Return H of equation (8) for amplitudes (2, N), as the library computes it."""
-    return float(energy(make_chain(constants, boundary), pack(amplitudes, FULL)))
+    return float(energy(make_chain(constants, boundary), pack(amplitudes, WHOLE)))
 
 
 def squared_norm(l2: np.ndarray) -> np.ndarray:

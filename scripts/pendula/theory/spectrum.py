@@ -3,10 +3,10 @@
 import numpy as np
 
 from ..chain_rates import rates
-from ..lattice import pack
+from ..lattice import WHOLE, pack
 from ..linear_flow import curvatures
 from .linear import squared_frequencies
-from .runs import BOUNDARIES, FULL, make_chain
+from .runs import BOUNDARIES, make_chain
 from .tables import table, variable
 
 TINY = 2.0**-200
@@ -16,7 +16,7 @@ TINY = 2.0**-200
 def jacobian(constants, sites: int, boundary: str) -> np.ndarray:
     """Return the real matrix (4N, 4N) of the right-hand side linearised at zero."""
     chain = make_chain(constants, boundary)
-    y = pack(np.zeros((2, sites), complex), FULL)
+    y = pack(np.zeros((2, sites), complex), WHOLE)
     dy = np.zeros_like(y)
     columns = []
     for row in range(4):
