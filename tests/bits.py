@@ -11,9 +11,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-from pendula.lattice import Reduction, place
-from pendula.simulation import Trajectory, integrate, output_times
-from pendula.solvers import SOLVERS
+from pendula.simulation.lattice import Reduction, place
+from pendula.simulation.simulate import Trajectory, integrate, output_times
+from pendula.simulation.solvers import SOLVERS
 
 TOLERANCES = {"taylor": 1e-14, "dop853": 1e-12}
 RUNS = [(name, even) for name in TOLERANCES for even in (True, False)]

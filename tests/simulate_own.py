@@ -1,6 +1,6 @@
 """What the workflow's own script writes of a case."""
 
-from pendula.datasets import read
+from pendula.datasets.netcdf import read
 from trajectories.simulate_case import simulate_case
 
 

@@ -10,8 +10,8 @@ import pendula
 import pytest
 import xarray as xr
 from pendula import notebook, notebook_plots
-from pendula.datasets import read
-from pendula.plots import own_norms
+from pendula.datasets.netcdf import read
+from pendula.studies.own import figure_norms as own_norms
 from simulate_own import as_the_workflow_writes
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -78,7 +78,7 @@ def test_the_final_state_has_the_norms_of_the_end(run):
 
 
 def test_a_case_has_the_defaults_of_the_yaml():
-    from pendula.faults import load
+    from pendula.configuration.messages import load
 
     configured = load({"cases": {"mine": SHORT}})
     assert pendula.Case(**SHORT).shown_problem() == configured.shown_problem("mine")

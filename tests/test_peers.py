@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
-from pendula.lattice import WHOLE, find_reduction
 from pendula.peers import PEERS, Problem
-from pendula.simulation import integrate
+from pendula.simulation.lattice import WHOLE, find_reduction
+from pendula.simulation.simulate import integrate
 
 CONSTANTS = (1.0, 1.0, -4.0)
 END_TIME = 2.0

@@ -8,7 +8,7 @@ import code_records
 import pytest
 import yaml
 from pendula import sources
-from pendula.faults import load
+from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -28,7 +28,7 @@ def test_a_record_lists_the_modules_that_a_script_reaches(tmp_path, monkeypatch)
         "environment.txt",
         "scripts/job.py",
         "scripts/trajectories/simulate_case.py",
-        "scripts/pendula/chain.py",
+        "scripts/pendula/models/amplitudes.py",
         "scripts/pendula/integrators/dop853_tableau.py",
     } <= files
     assert not any("plots" in file or "parameters" in file for file in files)

@@ -9,7 +9,7 @@ from pendula.archive.about import read_about
 from pendula.archive.checksums import MANIFEST, line, manifest
 from pendula.archive.contents import check_records, code_files
 from pendula.archive.tarball import pack
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
 from pendula.sources import SCRIPTS
 
 PROJECT = SCRIPTS.parent

@@ -1,7 +1,7 @@
 """Run seeded ensembles of chaotic cases and sweeps from data that differ in their last digits."""
 
-from pendula.chaos.ensemble_table import case_bands, sweep_moments
-from pendula.datasets import write
+from pendula.datasets.netcdf import write
+from pendula.studies.chaos.ensemble_table import case_bands, sweep_moments
 
 
 def measure_ensembles(

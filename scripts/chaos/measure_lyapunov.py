@@ -1,7 +1,7 @@
 """Measure Lyapunov exponents, and when solvers part from the truth as these predict."""
 
-from pendula.chaos.tables import largest_exponents, parting_times, spectra
-from pendula.datasets import write
+from pendula.datasets.netcdf import write
+from pendula.studies.chaos.tables import largest_exponents, parting_times, spectra
 
 
 def measure_lyapunov(

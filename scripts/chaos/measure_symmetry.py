@@ -1,7 +1,7 @@
 """Measure how even data lose their evenness: by rounding, and by small odd perturbations."""
 
-from pendula.chaos.symmetry_table import odd_parts
-from pendula.datasets import write
+from pendula.datasets.netcdf import write
+from pendula.studies.chaos.symmetry_table import odd_parts
 
 
 def measure_symmetry(

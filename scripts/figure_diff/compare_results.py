@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
+from pendula.datasets.files import complete_or_absent
 from pendula.figure_diff import findings, page
 from pendula.figure_diff.baseline import environment, recorded
 from pendula.figure_diff.comparison import compare
-from pendula.files import complete_or_absent
 
 
 def compare_results(

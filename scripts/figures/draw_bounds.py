@@ -1,8 +1,8 @@
 """Theorems 1 to 3: the largest norms that were seen against their bounds."""
 
-from pendula.datasets import read
-from pendula.plots import bounds
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.theory import figure_bounds as bounds
 
 
 def draw_bounds(

@@ -1,7 +1,7 @@
 """Fig 1: the chain of coupled pendula pairs, as a drawing."""
 
-from pendula.plots import chain_drawing
-from pendula.plots.style import save
+from pendula.drawing.style import save
+from pendula.studies.paper import figure_chain as chain_drawing
 
 
 def draw_chain(png: str, pdf: str, data: str) -> None:

@@ -1,9 +1,9 @@
 """Lyapunov exponents and parting times, and how evenness is lost in every case."""
 
-from pendula.datasets import read
-from pendula.plots import lyapunov as exponents
-from pendula.plots import symmetry as odd_part
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.chaos import figure_lyapunov as exponents
+from pendula.studies.chaos import figure_symmetry as odd_part
 
 
 def draw_chaos(

@@ -1,8 +1,8 @@
 """Ensembles of the chaotic cases and sweeps, and the paper's own runs among them."""
 
-from pendula.datasets import read
-from pendula.plots import ensembles as plot
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.chaos import figure_ensembles as plot
 
 
 def draw_ensembles(

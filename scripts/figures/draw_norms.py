@@ -1,8 +1,9 @@
 """Figs 2 to 4: norms of A and B against time beside the true ones, and where the chain moves."""
 
-from pendula.datasets import read
-from pendula.plots import norms, spacetime
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.paper import figures_norms as norms
+from pendula.studies.paper import figures_spacetime as spacetime
 
 
 def draw_norms(

@@ -2,9 +2,10 @@
 
 from itertools import product
 
-from pendula.datasets import read
-from pendula.plots import agreement, energy
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.paper import figure_agreement as agreement
+from pendula.studies.paper import figure_energy as energy
 
 
 def draw_solvers(

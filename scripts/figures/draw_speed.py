@@ -1,8 +1,8 @@
 """Speed against error in each regime, and how the cost grows."""
 
-from pendula.datasets import read
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
 from pendula.plots import cost_growth, work_precision
-from pendula.plots.style import save
 
 
 def draw_speed(work: str, growth: str, regimes: list[str], stems: list[str]) -> None:

@@ -1,8 +1,13 @@
 """Lemma 1: the stability chart, and measured growth rates against predicted ones."""
 
-from pendula.datasets import read
-from pendula.plots import growth_rates, stability_chart
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.theory import (
+    figure_growth_rates as growth_rates,
+)
+from pendula.studies.theory import (
+    figure_stability_chart as stability_chart,
+)
 
 
 def draw_stability(

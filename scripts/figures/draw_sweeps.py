@@ -1,8 +1,8 @@
 """Figs 5 and 6: norms over a window of time against the half-width of the chain."""
 
-from pendula.datasets import read
-from pendula.plots import sweeps
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.paper import figures_sweeps as sweeps
 
 
 def draw_sweeps(

@@ -1,7 +1,7 @@
 """Set one case beside the paper's statements, and measure how far its run can be trusted."""
 
-from pendula.datasets import read, save
-from pendula.own.checks import check_run
+from pendula.datasets.netcdf import read, save
+from pendula.studies.own.checks import check_run
 
 
 def check_case(run: str, problem: dict, checks: str, kernels: list[str] | tuple = ()) -> None:

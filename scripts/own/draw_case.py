@@ -1,8 +1,9 @@
 """A case of one's own: its norms against time, and where the chain moves."""
 
-from pendula.datasets import read
-from pendula.plots import own_norms, own_spacetime
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.own import figure_norms as own_norms
+from pendula.studies.own import figure_spacetime as own_spacetime
 
 
 def draw_case(

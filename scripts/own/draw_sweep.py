@@ -1,10 +1,10 @@
 """A sweep of one's own: its norms against the half-width, beside the bounds of the theorems."""
 
 import xarray
-from pendula.datasets import read, save
-from pendula.plots import own_sweep
-from pendula.plots.style import save as save_figure
-from pendula.theory.cases import check_sweeps
+from pendula.datasets.netcdf import read, save
+from pendula.drawing.style import save as save_figure
+from pendula.studies.own import figure_sweep as own_sweep
+from pendula.studies.theory.cases import check_sweeps
 
 
 def draw_sweep(

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from pendula.files import complete_or_absent
-from pendula.report.own import gather
+from pendula.datasets.files import complete_or_absent
 from pendula.report.page import render
+from pendula.studies.own.page import gather
 
 
 def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:

@@ -11,9 +11,9 @@ __version__ = "0.1.0"
 _HOMES = {
     "notebook": ("Case", "simulate", "sweep", "check"),
     "notebook_plots": ("draw_norms", "draw_spacetime", "draw_sweep"),
-    "datasets": ("read", "DatasetError"),
-    "faults": ("ConfigurationError",),
-    "simulation": ("IntegrationError",),
+    "datasets.netcdf": ("read", "DatasetError"),
+    "configuration.messages": ("ConfigurationError",),
+    "simulation.simulate": ("IntegrationError",),
 }
 """The public names by their module, loaded when first asked for: no job pays for all of them."""
 

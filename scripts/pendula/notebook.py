@@ -9,10 +9,15 @@ from collections.abc import Iterable
 
 from pydantic import ValidationError
 
-from . import parameters, simulation, sweep_dataset, sweeps, trajectory_dataset
-from .datasets import Variable, as_xarray
-from .faults import in_words, load
-from .own.checks import check_run
+from pendula.configuration.messages import in_words, load
+from pendula.datasets.netcdf import Variable, as_xarray
+from pendula.studies.own.checks import check_run
+
+from .configuration import cases as parameters
+from .datasets import sweeps as sweep_dataset
+from .datasets import trajectories as trajectory_dataset
+from .simulation import simulate as simulation
+from .simulation import sweep as sweeps
 
 __all__ = ["Case", "check", "simulate", "sweep"]
 
@@ -39,7 +44,7 @@ class Case(parameters.Case):
     30
     >>> Case(omgea=-4)
     Traceback (most recent call last):
-    pendula.faults.ConfigurationError: the case has 2 faults:
+    pendula.configuration.messages.ConfigurationError: the case has 2 faults:
       omega: is missing
       omgea: is not a known key; did you mean 'omega'?
     """

@@ -3,7 +3,15 @@
 A notebook shows the figure that a cell ends with; `figure.savefig("mine.pdf")` saves it.
 """
 
-from .plots import own_norms, own_spacetime, own_sweep
+from pendula.studies.own import (
+    figure_norms as own_norms,
+)
+from pendula.studies.own import (
+    figure_spacetime as own_spacetime,
+)
+from pendula.studies.own import (
+    figure_sweep as own_sweep,
+)
 
 __all__ = ["draw_norms", "draw_spacetime", "draw_sweep"]
 

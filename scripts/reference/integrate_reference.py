@@ -1,9 +1,9 @@
 """Integrate one case twice in multiprecision, and keep what both runs agree on."""
 
-from pendula.datasets import write
-from pendula.reference.dataset import as_case, as_variables
-from pendula.reference.run import integrate
-from pendula.reference.verify import compare, require_agreement
+from pendula.datasets.netcdf import write
+from pendula.studies.reference.dataset import as_case, as_variables
+from pendula.studies.reference.run import integrate
+from pendula.studies.reference.verify import compare, require_agreement
 
 
 def integrate_reference(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from job import TOOK
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
 from pendula.report import document
 from pendula.report.results import Results
 from pendula.report.speed import Measured

@@ -1,7 +1,7 @@
 """Measure how the cost of a run grows with the chain and with time, and what batches save."""
 
-from pendula.datasets import read, write
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import read, write
 from pendula.speed import batching, growth, machine
 from pendula.speed.growth_table import write_table
 

@@ -1,7 +1,7 @@
 """Time every solver and every installed peer on the paper's cases, beside the errors they make."""
 
-from pendula.datasets import read, write
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import read, write
 from pendula.speed import machine
 from pendula.speed.contestants import find_peers
 from pendula.speed.regimes import REGIME_OF, REGIMES

@@ -1,8 +1,8 @@
 """Integrate one case on chains of many half-widths, by one solver or several."""
 
-from pendula.datasets import write
-from pendula.sweep_dataset import contents
-from pendula.sweeps import sweep
+from pendula.datasets.netcdf import write
+from pendula.datasets.sweeps import contents
+from pendula.simulation.sweep import sweep
 
 
 def sweep_case(

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import xarray
-from pendula.datasets import read
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import read
 
 
 def compare_solvers(

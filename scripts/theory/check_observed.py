@@ -1,9 +1,9 @@
 """Set the paper's own trajectories and sweeps beside the bounds of its theorems."""
 
 import xarray
-from pendula.datasets import read, save
-from pendula.theory.cases import check_cases, check_sweeps
-from pendula.theory.tables import describe
+from pendula.datasets.checks import describe
+from pendula.datasets.netcdf import read, save
+from pendula.studies.theory.cases import check_cases, check_sweeps
 
 
 def check_observed(

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from pendula import batches
+from pendula.simulation import batches
 from pendula.sources import digest_of_modules
 
 

@@ -4,11 +4,11 @@ import json
 from collections import Counter
 from pathlib import Path
 
-from pendula.datasets import read
-from pendula.files import complete_or_absent
-from pendula.theory.ledger import evaluate, needed
-from pendula.theory.tables import broken, deciding, describe
-from pendula.theory.verdicts import Verdict
+from pendula.datasets.checks import broken, deciding, describe
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import read
+from pendula.ledger.evaluate import evaluate, needed
+from pendula.ledger.verdicts import Verdict
 
 
 def decide_claims(

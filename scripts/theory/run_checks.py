@@ -1,9 +1,9 @@
 """Run a group of checks and write each as a dataset, whether it holds or not."""
 
 import xarray
-from pendula.datasets import save
-from pendula.theory.catalogue import run_check
-from pendula.theory.tables import describe
+from pendula.datasets.checks import describe
+from pendula.datasets.netcdf import save
+from pendula.studies.theory.catalogue import run_check
 
 
 def run_checks(datasets: list[str], checks: list[str], kernels: list[str] | tuple = ()) -> None:

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from pendula.datasets import write
-from pendula.files import complete_or_absent
-from pendula.torture.table import outcomes, page, variables
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import write
+from pendula.studies.hard_cases.table import outcomes, page, variables
 
 
 def run_hard_cases(data: str, table: str, kernels: list[str] | tuple = ()) -> None:

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from pendula import solvers
-from pendula.simulation import simulate
+from pendula.simulation import solvers
+from pendula.simulation.simulate import simulate
 from pendula.sources import digest_of_modules
 
 

@@ -1,8 +1,8 @@
 """Integrate one case, by one solver or by several, into a trajectory dataset each."""
 
-from pendula.datasets import write
-from pendula.simulation import simulate
-from pendula.trajectory_dataset import contents
+from pendula.datasets.netcdf import write
+from pendula.datasets.trajectories import contents
+from pendula.simulation.simulate import simulate
 
 
 def simulate_case(

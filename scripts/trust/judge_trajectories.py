@@ -2,11 +2,11 @@
 
 from itertools import product
 
-from pendula.datasets import read
-from pendula.files import complete_or_absent
-from pendula.plots import trust
-from pendula.plots.style import save
-from pendula.trust import write_table
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.measures.divergence import write_table
+from pendula.studies.paper import figure_trust as trust
 
 
 def judge_trajectories(

@@ -1,8 +1,8 @@
 """The speed of the front over Omega, and the state behind it."""
 
-from pendula.datasets import read
-from pendula.plots import front
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.unbounded import figure_front as front
 
 
 def draw_front(

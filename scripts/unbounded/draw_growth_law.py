@@ -1,8 +1,8 @@
 """Norms on chains without ends against time, and the powers of time that they follow."""
 
-from pendula.datasets import read
-from pendula.plots import growth_law
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.unbounded import figure_growth_law as growth_law
 
 
 def draw_growth_law(

@@ -1,8 +1,8 @@
 """Maxima over [10, T] on chains of half-width M, for the sweeps of Figs 5 and 6."""
 
-from pendula.datasets import read
-from pendula.plots import window_map
-from pendula.plots.style import save
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.unbounded import figure_window_map as window_map
 
 
 def draw_window_map(maps: list[str], sweeps: list[str], png: str, pdf: str, data: str) -> None:

@@ -1,12 +1,12 @@
 """Maxima of the norms over [10, T] on chains of half-width M: the map over (M, T)."""
 
 import numpy as np
-from pendula.datasets import write
-from pendula.unbounded.dataset import attributes, map_variables
-from pendula.unbounded.linear_front import linear_front
-from pendula.unbounded.members import member
-from pendula.unbounded.spread import constants_of
-from pendula.unbounded.window_map import START, window_map
+from pendula.datasets.netcdf import write
+from pendula.studies.unbounded.dataset import attributes, map_variables
+from pendula.studies.unbounded.linear_front import linear_front
+from pendula.studies.unbounded.members import member
+from pendula.studies.unbounded.spread import constants_of
+from pendula.studies.unbounded.window_map import START, window_map
 
 
 def map_windows(

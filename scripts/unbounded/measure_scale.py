@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from pendula.datasets import write
-from pendula.files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import write
 from pendula.speed import machine
-from pendula.unbounded import scale
+from pendula.studies.unbounded import scale
 
 
 def measure_scale(data: str, table: str, kernels: list[str] | tuple = ()) -> None:

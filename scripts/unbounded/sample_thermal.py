@@ -1,9 +1,9 @@
 """Sample the thermal states without energy, with which the sea behind the front is compared."""
 
 from pendula import __version__
-from pendula.datasets import write
-from pendula.unbounded.thermal import zero_energy
-from pendula.unbounded.thermal_dataset import thermal_variables
+from pendula.datasets.netcdf import write
+from pendula.studies.unbounded.thermal import zero_energy
+from pendula.studies.unbounded.thermal_dataset import thermal_variables
 
 
 def sample_thermal(data: str, epsilon: float, gamma: float, omegas: list[float]) -> None:

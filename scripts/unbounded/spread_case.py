@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from pendula.datasets import write
-from pendula.unbounded.dataset import attributes, spread_variables
-from pendula.unbounded.members import member
-from pendula.unbounded.spread import spread
+from pendula.datasets.netcdf import write
+from pendula.studies.unbounded.dataset import attributes, spread_variables
+from pendula.studies.unbounded.members import member
+from pendula.studies.unbounded.spread import spread
 
 
 def spread_case(

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from pendula.datasets import save
-from pendula.plots import style
+from pendula.datasets.netcdf import save
+from pendula.drawing import style
 
 TAU = np.linspace(0, 50, 2001)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_results import CHAOTIC, REGULAR, change_a, chaotic, regular
-from pendula.datasets import read, save
+from pendula.datasets.netcdf import read, save
 from pendula.figure_diff.curves import MOST_NUMBERS, curves, thin
 from pendula.figure_diff.findings import IDENTICAL, NEARLY
 from pendula.figure_diff.tolerances import RULES, rule_for

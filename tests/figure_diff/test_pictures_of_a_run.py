@@ -5,10 +5,10 @@ import matplotlib
 import numpy as np
 import pytest
 from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
+from pendula.drawing import style
 from pendula.figure_diff import images, pictures
 from pendula.figure_diff.findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY
 from pendula.figure_diff.pictures import Picture
-from pendula.plots import style
 from PIL import Image
 
 FAULTS = {

@@ -8,7 +8,7 @@ from figure_diff.accept_results import accept_results
 from figure_diff.compare_results import compare_results
 from figure_diff.tell_faults import tell_faults
 from made_up_results import CHAOTIC_PICTURE, NAMES, PICTURE, REGULAR, change_a, regular
-from pendula.datasets import save
+from pendula.datasets.netcdf import save
 from pendula.figure_diff.baseline import RECORD, accept
 
 EXTRA = "figures/fig9.nc"

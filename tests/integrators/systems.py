@@ -6,9 +6,9 @@ solutions in closed form, and so has Crank-Nicolson for q = 0.
 """
 
 import numpy as np
-from pendula.blocks import BLOCK, ORDER
 from pendula.compiled import generic
 from pendula.integrators import crank_nicolson, dop853, ode45, taylor
+from pendula.models.blocks import BLOCK, ORDER
 from pendula.vectors import LANES
 from scipy.integrate import solve_ivp
 

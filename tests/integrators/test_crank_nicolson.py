@@ -7,8 +7,8 @@ import pytest
 import systems
 from oracle import BOUNDARIES, CASES, SOLVERS, random_chain, slope
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction, find_reduction, place
-from pendula.simulation import IntegrationError, integrate, output_times
+from pendula.simulation.lattice import Reduction, find_reduction, place
+from pendula.simulation.simulate import IntegrationError, integrate, output_times
 
 NUMBERS = (1.0, 1.0, -4.0)
 WHOLE = Reduction(even=False, synchronised=False)

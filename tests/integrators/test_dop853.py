@@ -9,8 +9,8 @@ from pendula.integrators import dop853
 from pendula.integrators import dop853_tableau as tableau
 from pendula.integrators.dop853_errors import weigh
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction, place
-from pendula.simulation import integrate, output_times, simulate
+from pendula.simulation.lattice import Reduction, place
+from pendula.simulation.simulate import integrate, output_times, simulate
 from scipy.integrate._ivp import dop853_coefficients as published
 from trees import defect
 

@@ -7,8 +7,8 @@ import systems
 from oracle import CASES, SOLVERS, random_chain, slope
 from pendula.integrators import ode45
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction
-from pendula.simulation import integrate, output_times, simulate
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import integrate, output_times, simulate
 from trees import defect
 
 E = np.array([ode45.E1, 0.0, ode45.E3, ode45.E4, ode45.E5, ode45.E6, ode45.E7])

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from oracle import CASES, laplacian, random_chain, slope
-from pendula.chain import Chain
-from pendula.chain_rates import linear_radius, linear_rates, turn
 from pendula.integrators import splitting
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction, choose_ends, pack, place, unpack
-from pendula.simulation import IntegrationError, integrate, output_times
+from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes_rates import linear_radius, linear_rates, turn
+from pendula.simulation.lattice import Reduction, choose_ends, pack, place, unpack
+from pendula.simulation.simulate import IntegrationError, integrate, output_times
 from scipy.linalg import expm
 
 WHOLE = Reduction(even=False, synchronised=False)

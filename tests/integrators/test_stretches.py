@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pendula.chain import Chain
-from pendula.chain_rates import rates
 from pendula.compiled import generic
 from pendula.integrators import dop853, stretches
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction, choose_ends, pack
-from pendula.observables import blank_record, observe
-from pendula.solvers import run_dop853
+from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes_rates import rates
+from pendula.simulation.lattice import Reduction, choose_ends, pack
+from pendula.simulation.observables import blank_record, observe
+from pendula.simulation.solvers import run_dop853
 
 solve_in_one = dop853.build(rates, observe)
 TIMES = np.linspace(0.0, 20.0, 801)  # enough steps that some pass narrowly

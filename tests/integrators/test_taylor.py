@@ -7,12 +7,12 @@ import systems
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
-from pendula.blocks import BLOCK, ORDER, WORK, lay_out, write_state
 from pendula.compiled import generic
 from pendula.integrators import taylor, taylor_step
 from pendula.integrators.outcome import DONE
-from pendula.lattice import Reduction, place
-from pendula.simulation import integrate, output_times
+from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.simulation.lattice import Reduction, place
+from pendula.simulation.simulate import integrate, output_times
 from pendula.vectors import LANES
 
 WHOLE = Reduction(even=False, synchronised=False)

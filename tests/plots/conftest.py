@@ -92,27 +92,55 @@ def own_checks(second):
 @pytest.fixture(scope="session")
 def gathered(make_trajectory, trajectories, make_sweep):
     """Return what every module draws: {module name: dataset}."""
-    from pendula.plots import (
-        agreement,
-        bounds,
-        chain_drawing,
-        energy,
-        ensembles,
-        front,
-        growth_law,
-        growth_rates,
-        lyapunov,
-        norms,
-        own_norms,
-        own_spacetime,
-        own_sweep,
-        spacetime,
-        stability_chart,
-        symmetry,
-        trust,
+    from pendula.studies.chaos import (
+        figure_ensembles as ensembles,
     )
-    from pendula.plots import sweeps as sweep_plot
-    from pendula.plots import window_map as map_plot
+    from pendula.studies.chaos import (
+        figure_lyapunov as lyapunov,
+    )
+    from pendula.studies.chaos import (
+        figure_symmetry as symmetry,
+    )
+    from pendula.studies.own import (
+        figure_norms as own_norms,
+    )
+    from pendula.studies.own import (
+        figure_spacetime as own_spacetime,
+    )
+    from pendula.studies.own import (
+        figure_sweep as own_sweep,
+    )
+    from pendula.studies.paper import (
+        figure_agreement as agreement,
+    )
+    from pendula.studies.paper import (
+        figure_chain as chain_drawing,
+    )
+    from pendula.studies.paper import (
+        figure_energy as energy,
+    )
+    from pendula.studies.paper import (
+        figure_trust as trust,
+    )
+    from pendula.studies.paper import (
+        figures_norms as norms,
+    )
+    from pendula.studies.paper import (
+        figures_spacetime as spacetime,
+    )
+    from pendula.studies.paper import figures_sweeps as sweep_plot
+    from pendula.studies.theory import (
+        figure_bounds as bounds,
+    )
+    from pendula.studies.theory import (
+        figure_growth_rates as growth_rates,
+    )
+    from pendula.studies.theory import (
+        figure_stability_chart as stability_chart,
+    )
+    from pendula.studies.unbounded import figure_front as front
+    from pendula.studies.unbounded import figure_growth_law as growth_law
+    from pendula.studies.unbounded import figure_window_map as map_plot
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     true = make_trajectory(end_time=5.0, scale=1.02)

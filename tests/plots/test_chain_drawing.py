@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.plots import chain_drawing
+from pendula.studies.paper import figure_chain as chain_drawing
 
 
 @pytest.mark.parametrize("pairs", [3, 4, 5])

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 from made_up_chaos import RATES, SIZE
-from pendula.plots import ensembles, lyapunov, symmetry
+from pendula.studies.chaos import (
+    figure_ensembles as ensembles,
+)
+from pendula.studies.chaos import (
+    figure_lyapunov as lyapunov,
+)
+from pendula.studies.chaos import (
+    figure_symmetry as symmetry,
+)
 
 
 def test_the_running_rate_is_growth_over_time(gathered):

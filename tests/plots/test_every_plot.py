@@ -7,7 +7,7 @@ import matplotlib
 import pytest
 import xarray as xr
 from matplotlib.text import Text
-from pendula.plots import style
+from pendula.drawing import style
 
 MODULES = [
     *("agreement", "bounds", "chain_drawing", "energy", "growth_rates", "norms", "spacetime"),

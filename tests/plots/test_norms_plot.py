@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from pendula.plots import norms, spacetime, style
+from pendula.drawing import style
+from pendula.studies.paper import figures_norms as norms
+from pendula.studies.paper import figures_spacetime as spacetime
 
 
 @pytest.fixture(scope="module")

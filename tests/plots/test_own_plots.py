@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.plots import own_norms, own_spacetime, own_sweep, style
+from pendula.drawing import style
+from pendula.studies.own import (
+    figure_norms as own_norms,
+)
+from pendula.studies.own import (
+    figure_spacetime as own_spacetime,
+)
+from pendula.studies.own import (
+    figure_sweep as own_sweep,
+)
 
 
 def test_norms_stand_in_one_row_above_the_second_run(gathered, make_trajectory):

@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from pendula.plots import agreement, energy, style
+from pendula.drawing import style
+from pendula.studies.paper import figure_agreement as agreement
+from pendula.studies.paper import figure_energy as energy
 
 
 def test_drift_is_measured_from_the_start(trajectories, gathered):

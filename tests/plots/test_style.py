@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
-from pendula.plots import style
+from pendula.drawing import style
 
 NAMES = ("figure.png", "figure.pdf", "figure.nc")
 

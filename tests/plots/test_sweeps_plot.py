@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from pendula.plots import style, sweeps
+from pendula.drawing import style
+from pendula.studies.paper import figures_sweeps as sweeps
 
 
 def test_gather_reads_the_window_and_statistic_of_text_and_caption(make_sweep):

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 from made_up_checks import chart, short_chart, threshold
-from pendula.plots import bounds, growth_rates, stability_chart
+from pendula.studies.theory import (
+    figure_bounds as bounds,
+)
+from pendula.studies.theory import (
+    figure_growth_rates as growth_rates,
+)
+from pendula.studies.theory import (
+    figure_stability_chart as stability_chart,
+)
 
 
 def labelled(axes):

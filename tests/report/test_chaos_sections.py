@@ -4,7 +4,12 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.report import chaos, claims, errata, growth, solvers, theory
+from pendula.ledger import section as claims
+from pendula.studies.chaos import section as chaos
+from pendula.studies.paper import section_solvers as solvers
+from pendula.studies.theory import section as theory
+from pendula.studies.theory import section_errata as errata
+from pendula.studies.unbounded import section as growth
 
 TAU = np.linspace(0.0, 10.0, 11)
 

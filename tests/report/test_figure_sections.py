@@ -6,7 +6,16 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.report import claims, motion, norms, sweeps
+from pendula.ledger import section as claims
+from pendula.studies.paper import (
+    section_motion as motion,
+)
+from pendula.studies.paper import (
+    section_norms as norms,
+)
+from pendula.studies.paper import (
+    section_sweeps as sweeps,
+)
 
 
 def observed(**changes) -> xr.Dataset:

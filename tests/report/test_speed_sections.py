@@ -4,8 +4,9 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.report import hard_cases, provenance, speed
+from pendula.report import provenance, speed
 from pendula.report.results import ReportError
+from pendula.studies.hard_cases import section as hard_cases
 
 HEAD = "| solver | accuracy | time, ms | error |\n| --- | --- | --- | --- |\n"
 TABLE = f"""# Speed against error

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.lattice import Reduction
+from pendula.simulation.lattice import Reduction
 from pendula.speed.contestants import Contestant
 from pendula.speed.tasks import Task
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.datasets import read, write
+from pendula.datasets.netcdf import read, write
 from pendula.plots import cost_growth
 from pendula.speed import batching, growth, limits, machine
 from pendula.speed.growth_table import write_table

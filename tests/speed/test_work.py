@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from pendula.datasets import read, write
+from pendula.datasets.netcdf import read, write
 from pendula.plots import work_precision
-from pendula.simulation import integrate, output_times
+from pendula.simulation.simulate import integrate, output_times
 from pendula.speed import ladder, work
 from pendula.speed.contestants import OURS
 from pendula.speed.tables import write_tables

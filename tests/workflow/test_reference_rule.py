@@ -2,7 +2,7 @@
 
 import pytest
 from helpers import ROOT, planned, snakemake
-from pendula.datasets import read
+from pendula.datasets.netcdf import read
 
 
 def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path):

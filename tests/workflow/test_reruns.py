@@ -44,13 +44,13 @@ def test_a_new_omega_reaches_the_sweep_of_its_case(finished, clone):
 
 
 def test_the_plot_style_reruns_plots_only(finished, clone):
-    edit(clone / "scripts/pendula/plots/style.py", '"figure.dpi": 300', '"figure.dpi": 200')
+    edit(clone / "scripts/pendula/drawing/style.py", '"figure.dpi": 300', '"figure.dpi": 200')
     jobs = planned(clone, finished)
     assert set(jobs) & SIMULATIONS == set() and jobs.keys() >= PLOTS
 
 
 def test_one_plot_reruns_alone(finished, clone):
-    (clone / "scripts/pendula/plots/chain_drawing.py").open("a").write("# changed\n")
+    (clone / "scripts/pendula/studies/paper/figure_chain.py").open("a").write("# changed\n")
     assert set(planned(clone, finished)) == {"fig1", "report", "all"}
 
 
@@ -69,7 +69,7 @@ def test_a_pin_reruns_everything(finished, clone):
 
 
 def test_a_change_taken_back_changes_nothing(finished, clone):
-    chain = clone / "scripts/pendula/chain.py"
+    chain = clone / "scripts/pendula/models/amplitudes.py"
     text = chain.read_text()
     chain.write_text(text + "# changed\n")
     assert planned(clone, finished)
@@ -89,5 +89,5 @@ def test_an_edit_of_the_equations_reaches_the_numbers(clone, tmp_path):
             return float(abs(data["energy"] - data["energy"][0]).max())
 
     before = drift()
-    edit(clone / "scripts/pendula/chain.py", "+ 0.5 * density", "+ 0.25 * density")
+    edit(clone / "scripts/pendula/models/amplitudes.py", "+ 0.5 * density", "+ 0.25 * density")
     assert before < 1e-6 < 1e-3 < drift()

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from helpers import ROOT, planned, snakemake
-from pendula.theory.claims import CLAIMS
-from pendula.theory.groups import GROUPS, OBSERVED
-from pendula.theory.ledger import needed
-from pendula.theory.tables import broken, table, variable
-from pendula.theory.verdicts import Verdict
+from pendula.datasets.checks import broken, table, variable
+from pendula.ledger.claims import CLAIMS
+from pendula.ledger.evaluate import needed
+from pendula.ledger.verdicts import Verdict
+from pendula.studies.theory.groups import GROUPS, OBSERVED
 from theory import run_checks
 
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
@@ -110,17 +110,17 @@ def test_the_ledger_is_the_same_every_time(finished):
 
 @pytest.mark.parametrize("module", ["bounds.py", "catalogue.py"])
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone, module):
-    (clone / "scripts/pendula/theory" / module).open("a").write("# changed\n")
+    (clone / "scripts/pendula/studies/theory" / module).open("a").write("# changed\n")
     jobs = set(planned(clone, finished))
     without = {"check_observed"} if module == "catalogue.py" else set()
     assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
-    (clone / "scripts/pendula/theory/claims/figure_2.py").open("a").write("# changed\n")
+    (clone / "scripts/pendula/studies/paper/claims_figure_2.py").open("a").write("# changed\n")
     assert set(planned(clone, finished)) == {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_figure_of_the_theory_reruns_its_job_alone(finished, clone):
-    (clone / "scripts/pendula/plots/growth_rates.py").open("a").write("# changed\n")
+    (clone / "scripts/pendula/studies/theory/figure_growth_rates.py").open("a").write("# changed\n")
     assert set(planned(clone, finished)) == {"stability_figures", "report", "all"}

@@ -1,4 +1,4 @@
-# What the rules on chaos take in: cases and sweeps as arguments of pendula.simulation.simulate.
+# What the rules on chaos take in: cases and sweeps as arguments of pendula.simulation.simulate.simulate.
 
 
 def followed(cases, tolerance, **changes):

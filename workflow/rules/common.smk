@@ -10,10 +10,10 @@ sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 from code_records import code, committed, handed_out, kept, was_made, whole_project
 from pendula import __version__
 from pendula.archive.contents import ArchiveError
-from pendula.faults import ConfigurationError, load
-from pendula.naming import name_window
+from pendula.configuration.messages import ConfigurationError, load
+from pendula.problem import name_window
 from pendula.speed.regimes import REGIMES
-from pendula.theory.groups import GROUPS, OBSERVED
+from pendula.studies.theory.groups import GROUPS, OBSERVED
 
 # Jobs find the library, and use one thread each, since they run in parallel.
 os.environ.update(

@@ -2,7 +2,7 @@
 # part of the full run. Costs about 25 minutes of one core, half of them for fig3_large alone.
 # The only rule that needs heyoka: `pip install heyoka==7.13.2` first. To accept what it made:
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
-from pendula.reference.precision import BITS
+from pendula.studies.reference.precision import BITS
 
 SNAPSHOTS = [1, 2, 5, 10, 20, 30, 40, 50, 70]  # tau of the states that are kept
 # Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?

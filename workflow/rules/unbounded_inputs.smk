@@ -1,6 +1,6 @@
 # What the rules of the chain without ends take in, for the study of the full run and for the long.
-from pendula.unbounded.studies import MAPS, SPREADS, STUDIES, THERMAL, VARIED
-from pendula.unbounded.studies import spread_problems, unbounded_problem
+from pendula.studies.unbounded.studies import MAPS, SPREADS, STUDIES, THERMAL, VARIED
+from pendula.studies.unbounded.studies import spread_problems, unbounded_problem
 
 UNBOUNDED_FIGURES = ["growth_law", "front", "window_map"]
 

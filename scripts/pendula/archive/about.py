@@ -6,7 +6,7 @@ from pathlib import Path
 
 import yaml
 
-from .. import __version__
+from pendula import __version__
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..sources import digest_of
+from pendula.sources import digest_of
 
 MANIFEST = "manifest-sha256.txt"
 

@@ -11,8 +11,9 @@ import matplotlib
 import numpy as np
 from matplotlib import ft2font
 
-from ..datasets import DatasetError, read, save
-from ..files import complete_or_absent
+from pendula.datasets.files import complete_or_absent
+from pendula.datasets.netcdf import DatasetError, read, save
+
 from .curves import thin
 
 RECORD = "accepted.json"

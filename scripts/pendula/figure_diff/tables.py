@@ -4,7 +4,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from ..datasets import DatasetError, read
+from pendula.datasets.netcdf import DatasetError, read
+
 from .curves import Curve, curves, thin
 from .findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
 from .numbers import SAME, Deviation, deviation

@@ -11,9 +11,10 @@ and the run ends with a fault where cutting does not help.
 
 import numpy as np
 
-from ..compiled import copy, generic, inlined, kernel
-from ..reductions import largest_of_rows
+from pendula.compiled import copy, generic, inlined, kernel
+
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
+from .reductions import largest_of_rows
 
 PAST = 6
 WORK = 3 + PAST  # arrays of the size of a state

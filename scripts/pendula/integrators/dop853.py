@@ -13,7 +13,8 @@ from math import sqrt
 
 import numpy as np
 
-from ..compiled import copy, generic, inlined, kernel
+from pendula.compiled import copy, generic, inlined, kernel
+
 from .dop853_errors import estimates, step_error, weighted_norm, worse
 from .dop853_interpolant import interpolate, prepare_interpolant
 from .dop853_stages import combine

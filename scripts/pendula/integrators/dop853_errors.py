@@ -4,9 +4,10 @@ from math import sqrt
 
 import numpy as np
 
-from ..compiled import kernel
-from ..reductions import largest
+from pendula.compiled import kernel
+
 from .dop853_tableau import E3, E5
+from .reductions import largest
 
 
 @kernel

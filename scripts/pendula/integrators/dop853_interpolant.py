@@ -1,6 +1,7 @@
 """The interpolant of order seven of DOP853, between the steps."""
 
-from ..compiled import kernel
+from pendula.compiled import kernel
+
 from .dop853_tableau import D4, D5, D6, D7
 
 

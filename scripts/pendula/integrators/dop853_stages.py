@@ -1,6 +1,7 @@
 """The stages of DOP853, written out: each one is a single pass over the state."""
 
-from ..compiled import kernel
+from pendula.compiled import kernel
+
 from .dop853_tableau import A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A13, A14, A15, A16
 
 

@@ -14,9 +14,10 @@ from math import sqrt
 
 import numpy as np
 
-from ..compiled import copy, inlined, kernel
-from ..reductions import largest_of_rows
+from pendula.compiled import copy, inlined, kernel
+
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from .reductions import largest_of_rows
 
 WORK = 9  # arrays of the size of a state
 # b - b^ of the pair: what the two solutions differ by

@@ -6,8 +6,9 @@ the work.
 
 import numpy as np
 
-from ..compiled import merged
-from ..vectors import LANES
+from pendula.compiled import merged
+from pendula.vectors import LANES
+
 from .outcome import DONE, NOT_FINITE, STEP_TOO_SMALL
 from .taylor_step import allowed_step, up_to
 

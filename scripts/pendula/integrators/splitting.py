@@ -8,7 +8,8 @@ C library make the last bits depend on the machine.
 
 import numpy as np
 
-from ..compiled import copy, generic, inlined, kernel
+from pendula.compiled import copy, generic, inlined, kernel
+
 from .outcome import DONE, STEP_TOO_LONG, Outcome
 
 WORK = 2  # arrays of the size of a state

@@ -7,7 +7,7 @@ stage and never reaches the sites that it owns, which get the bits that they wou
 
 import numpy as np
 
-from ..compiled import kernel
+from pendula.compiled import kernel
 
 MARGIN = 15
 """Sites on each side that are computed again: the stages after the first."""

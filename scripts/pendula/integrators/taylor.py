@@ -6,9 +6,21 @@ series.
 
 import numpy as np
 
-from ..blocks import BLOCK, ORDER, STEP, WORK, X, Y, ghosts_of, lay_out, start_of, write_state
-from ..compiled import inlined, kernel, merged
-from ..vectors import LANES, load, store
+from pendula.compiled import inlined, kernel, merged
+from pendula.models.blocks import (
+    BLOCK,
+    ORDER,
+    STEP,
+    WORK,
+    X,
+    Y,
+    ghosts_of,
+    lay_out,
+    start_of,
+    write_state,
+)
+from pendula.vectors import LANES, load, store
+
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .taylor_step import allowed_step, size, up_to
 

@@ -6,8 +6,9 @@ and does what `taylor` does for its run alone, to the last bit; when that is don
 
 import numpy as np
 
-from ..compiled import copy, generic, inlined
-from ..vectors import LANES
+from pendula.compiled import copy, generic, inlined
+from pendula.vectors import LANES
+
 from .outcome import SMALLEST_PART
 from .seats import EMPTY, find_outputs, has_ended, is_due, some_run
 from .taylor_lanes import choose_steps, empty_lane, evaluate, step_on, write_lane

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..blocks import BLOCK, GHOSTS, ORDER, Series, X, Y, ghosts_of, start_of
-from ..compiled import kernel
-from ..vectors import LANES, load, store
+from pendula.compiled import kernel
+from pendula.models.blocks import BLOCK, GHOSTS, ORDER, Series, X, Y, ghosts_of, start_of
+from pendula.vectors import LANES, load, store
+
 from .seats import SEAT, choose_step
 from .taylor import advance, sum_at
 from .taylor_step import largest, modulus

@@ -9,10 +9,10 @@ from math import sqrt
 
 import numpy as np
 
-from ..blocks import BLOCK, STEP, X, Y
-from ..compiled import kernel, merged
-from ..lanes import larger, largest_lane
-from ..vectors import fill, load
+from pendula.compiled import kernel, merged
+from pendula.lanes import larger, largest_lane
+from pendula.models.blocks import BLOCK, STEP, X, Y
+from pendula.vectors import fill, load
 
 SQUARES = 1e-280
 """Below this, squares lose digits or vanish."""

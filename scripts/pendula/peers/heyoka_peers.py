@@ -5,7 +5,8 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from ..lattice import WHOLE, pack, unpack
+from pendula.simulation.lattice import WHOLE, pack, unpack
+
 from .problem import HALF, Peer, Problem, Solve, check, timed
 
 

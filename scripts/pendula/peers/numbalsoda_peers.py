@@ -7,7 +7,8 @@ import numba
 import numpy as np
 from numba import types
 
-from ..lattice import WHOLE
+from pendula.simulation.lattice import WHOLE
+
 from .problem import (
     HALF,
     Peer,

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..chain import Chain
-from ..chain_rates import rates
-from ..compiled import kernel
-from ..lattice import Reduction, choose_ends, pack, unpack
+from pendula.compiled import kernel
+from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes_rates import rates
+from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 HALF = Reduction(even=True, synchronised=False)
 

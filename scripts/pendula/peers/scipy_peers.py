@@ -5,7 +5,8 @@ from functools import partial
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..lattice import WHOLE
+from pendula.simulation.lattice import WHOLE
+
 from .problem import (
     Peer,
     Problem,

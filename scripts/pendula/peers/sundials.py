@@ -2,7 +2,8 @@
 
 from importlib.util import find_spec
 
-from ..lattice import WHOLE
+from pendula.simulation.lattice import WHOLE
+
 from .problem import (
     Peer,
     Problem,

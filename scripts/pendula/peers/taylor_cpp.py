@@ -7,7 +7,8 @@ import tempfile
 from functools import cache, partial
 from pathlib import Path
 
-from ..lattice import pack, unpack
+from pendula.simulation.lattice import pack, unpack
+
 from .problem import HALF, Peer, Problem, Solve, check, timed
 
 SOURCE = Path(__file__).with_name("taylor.cpp")

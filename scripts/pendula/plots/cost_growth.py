@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import style
+from pendula.drawing import style
 
 
 def gather(growth: xr.Dataset) -> xr.Dataset:

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import style
+from pendula.drawing import style
 
 MARKERS = "osD^vP*X<>hdp8"
 

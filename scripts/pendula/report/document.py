@@ -1,21 +1,26 @@
 """The whole report: every section gathered from the results, put into the template."""
 
-from . import (
-    chaos,
-    chaos_pictures,
-    claims,
-    errata,
-    growth,
-    hard_cases,
-    motion,
-    norms,
-    page,
-    provenance,
-    solvers,
-    speed,
-    sweeps,
-    theory,
+from pendula.ledger import section as claims
+from pendula.studies.chaos import section as chaos
+from pendula.studies.chaos import section_pictures as chaos_pictures
+from pendula.studies.hard_cases import section as hard_cases
+from pendula.studies.paper import (
+    section_motion as motion,
 )
+from pendula.studies.paper import (
+    section_norms as norms,
+)
+from pendula.studies.paper import (
+    section_solvers as solvers,
+)
+from pendula.studies.paper import (
+    section_sweeps as sweeps,
+)
+from pendula.studies.theory import section as theory
+from pendula.studies.theory import section_errata as errata
+from pendula.studies.unbounded import section as growth
+
+from . import page, provenance, speed
 from .results import Results
 
 CONTENTS = {

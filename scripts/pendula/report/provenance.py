@@ -8,7 +8,8 @@ from typing import Any
 
 from llvmlite import binding
 
-from ..speed.machine import describe
+from pendula.speed.machine import describe
+
 from .results import Results
 
 PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2", "pillow")

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..datasets import read
+from pendula.datasets.netcdf import read
+
 from .numbers import Quote, number, with_error
 from .pictures import Picture, picture
 

@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..speed.regimes import REGIME_OF, REGIMES
+from pendula.speed.regimes import REGIME_OF, REGIMES
+
 from .numbers import number
 from .pictures import picture
 from .results import ReportError, Results

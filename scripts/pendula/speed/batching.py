@@ -4,9 +4,10 @@ from time import perf_counter
 
 import numpy as np
 
-from ..batches import integrate_batch
-from ..datasets import Variable
-from ..lattice import WHOLE
+from pendula.datasets.netcdf import Variable
+from pendula.simulation.batches import integrate_batch
+from pendula.simulation.lattice import WHOLE
+
 from .runs import follow
 from .tasks import Task
 

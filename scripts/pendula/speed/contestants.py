@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..peers import PEERS, Problem
+from pendula.peers import PEERS, Problem
+
 from .runs import follow
 from .tasks import Task
 

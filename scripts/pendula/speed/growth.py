@@ -5,8 +5,9 @@ from time import perf_counter
 
 import numpy as np
 
-from ..datasets import Variable
-from ..lattice import Reduction
+from pendula.datasets.netcdf import Variable
+from pendula.simulation.lattice import Reduction
+
 from . import limits
 from .runs import follow
 from .tasks import Task, set_task

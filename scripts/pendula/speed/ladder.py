@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..simulation import IntegrationError
+from pendula.simulation.simulate import IntegrationError
+
 from .contestants import Contestant
 from .tasks import Task, error_of
 

@@ -11,9 +11,9 @@ from time import perf_counter
 
 import numpy as np
 
-from ..compiled import kernel
-from ..integrators import dop853
-from ..integrators.dop853_tableau import E3, E5
+from pendula.compiled import kernel
+from pendula.integrators import dop853
+from pendula.integrators.dop853_tableau import E3, E5
 
 DEGREE = 12
 """Operations in a row on a number in a register."""

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..simulation import Trajectory, integrate
+from pendula.simulation.simulate import Trajectory, integrate
+
 from .tasks import Task
 
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..lattice import Reduction, find_reduction, place
+from pendula.simulation.lattice import Reduction, find_reduction, place
 
 
 class Task(NamedTuple):

@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..datasets import Variable
-from ..simulation import Trajectory, output_times
+from pendula.datasets.netcdf import Variable
+from pendula.simulation.simulate import Trajectory, output_times
+
 from .contestants import OURS, Contestant
 from .ladder import Rung, climb
 from .pairs import Comparison, compare, target_of

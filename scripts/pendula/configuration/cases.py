@@ -1,0 +1,193 @@
+"""The configuration: every key, its default (the paper's value) and what it may be."""
+
+import difflib
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from .snapshots import choose_every
+from .solvers import Complex, Model, Name, Number, Positive, Solver, Solvers, Taylor, Whole
+
+Window = tuple[Number, Number]
+
+
+def _on_grid(time: float, step: float) -> bool:
+    count = round(time / step)
+    return abs(time - count * step) <= 1e-9 * time
+
+
+class Case(Model):
+    """One initial-value problem of equations (4), and the solver that integrates it."""
+
+    omega: Number
+    epsilon: Number = 1.0
+    gamma: Number = 1.0
+    half_width: Annotated[Whole, Field(ge=0)] = 30
+    boundary: Literal["dirichlet", "free", "periodic"] = "dirichlet"
+    initial: Annotated[dict[Whole, tuple[Complex, Complex]], Field(min_length=1)] = {0: (1, 0.1)}
+    end_time: Positive = 50.0
+    output_step: Positive = 0.025
+    snapshot_step: Positive | None = None
+    solver: Solver = Taylor()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Case":
+        for key in ("end_time", "snapshot_step"):
+            time = getattr(self, key)
+            if time is not None and not _on_grid(time, self.output_step):
+                raise PydanticCustomError(
+                    "grid",
+                    "{key}: {time} is not a whole number of output steps of {step}",
+                    {"key": key, "time": time, "step": self.output_step},
+                )
+        if self.snapshot_step is not None and self.snapshot_step > self.end_time:
+            raise PydanticCustomError("grid", "snapshot_step: is longer than the run")
+        outside = [site for site in self.initial if abs(site) > self.half_width]
+        if outside:
+            raise PydanticCustomError(
+                "site",
+                "initial: site {site} lies outside the chain, whose sites run from -{m} to {m}",
+                {"site": outside[0], "m": self.half_width},
+            )
+        return self
+
+    def problem(self, **changes) -> dict:
+        """Return the arguments of pendula.simulation.simulate as plain values, some changed."""
+        values = {**self.model_dump(), **changes}
+        snapshots = values.pop("snapshot_step")
+        every = round(snapshots / values["output_step"]) if snapshots else 0
+        return {**values, "snapshot_every": every}
+
+    def shown_problem(self, **changes) -> dict:
+        """Return the same, with snapshots for a picture where the case does not say how many."""
+        problem = self.problem(**changes)
+        every = problem["snapshot_every"] or choose_every(
+            round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
+        )
+        return {**problem, "snapshot_every": every}
+
+
+class Drawn(Model):
+    """The windows whose maximum and whose mean a figure shows."""
+
+    max: Window
+    mean: Window
+
+
+class Sweep(Model):
+    """A case repeated over half-widths, with its norms reduced over windows of time."""
+
+    case: str
+    half_widths: Annotated[list[Annotated[Whole, Field(ge=0)]], Field(min_length=1)]
+    windows: Annotated[list[Window], Field(min_length=1)] = [(10, 40), (10, 50), (10, 70)]
+    draw: Drawn | None = None
+    solver: Solver | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Sweep":
+        for start, end in self.windows:
+            if not 0 <= start < end:
+                raise PydanticCustomError(
+                    "window",
+                    "windows: [{start}, {end}] does not run forward from a time >= 0",
+                    {"start": start, "end": end},
+                )
+        if len(set(self.half_widths)) < len(self.half_widths):
+            raise PydanticCustomError("repeated", "half_widths: the same half-width stands twice")
+        if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
+            raise PydanticCustomError("drawn", "draw: takes windows that stand under windows only")
+        return self
+
+    @property
+    def drawn(self) -> Drawn:
+        """What a figure shows where the configuration does not say: the first window."""
+        return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
+
+
+def with_controls(item: Any, shared: Any) -> Any:
+    """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
+    given = item.get("solver") if isinstance(item, dict) else None
+    given = {"name": given} if isinstance(given, str) else given
+    if not isinstance(given, dict) or not isinstance(shared, dict):
+        return item
+    controls = shared.get(given.get("name"))
+    return {**item, "solver": {**controls, **given} if isinstance(controls, dict) else given}
+
+
+class Configuration(Model):
+    """The whole configuration: cases and sweeps by name, the solvers' controls, one size."""
+
+    cases: Annotated[dict[Name, Case], Field(min_length=1)]
+    sweeps: dict[Name, Sweep] = {}
+    solvers: Solvers = Solvers()
+    unbounded: Literal["quick", "short"] = "short"  # how far the chain without ends is run
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete_solvers(cls, raw: Any) -> Any:
+        """Give every solver that is only named its controls from `solvers`."""
+        if not isinstance(raw, dict):
+            return raw
+        sections = {}
+        for section, default in (("cases", {"solver": "taylor"}), ("sweeps", {})):
+            if isinstance(raw.get(section), dict):
+                sections[section] = {
+                    name: with_controls({**default, **item}, raw.get("solvers") or {})
+                    if isinstance(item, dict)
+                    else item
+                    for name, item in raw[section].items()
+                }
+        return {**raw, **sections}
+
+    @model_validator(mode="after")
+    def _sweeps_fit_their_cases(self) -> "Configuration":
+        faults = [fault for name in self.sweeps for fault in self._faults_of_sweep(name)]
+        if faults:
+            raise PydanticCustomError("sweeps", "{faults}", {"faults": "\n".join(faults)})
+        return self
+
+    def _faults_of_sweep(self, name: str) -> list[str]:
+        sweep, here = self.sweeps[name], f"sweeps.{name}"
+        if sweep.case not in self.cases:
+            near = difflib.get_close_matches(sweep.case, self.cases, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            return [f"{here}.case: there is no case {sweep.case!r}{hint}"]
+        case, faults = self.cases[sweep.case], []
+        reach = max(map(abs, case.initial))
+        if reach > min(sweep.half_widths):
+            faults.append(
+                f"{here}.half_widths: site {reach} of case {sweep.case!r} lies outside the chain "
+                f"of half-width {min(sweep.half_widths)}"
+            )
+        off_grid = [t for w in sweep.windows for t in w if not _on_grid(t, case.output_step)]
+        if off_grid:
+            faults.append(
+                f"{here}.windows: {off_grid[0]} is not a whole number of output steps "
+                f"of {case.output_step}"
+            )
+        return faults
+
+    def problem(self, case: str, solver: str | None = None, **changes) -> dict:
+        """Return the arguments of pendula.simulation.simulate as plain values.
+
+        `solver` takes the place of the case's own, `changes` that of other keys.
+        """
+        return self.cases[case].problem(**self._by(solver), **changes)
+
+    def shown_problem(self, case: str, solver: str | None = None) -> dict:
+        """Return the same, with snapshots for a picture where the case does not say how many."""
+        return self.cases[case].shown_problem(**self._by(solver))
+
+    def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
+        """Return the same for a sweep: its case, run to the end of the last window."""
+        end_time = max(end for _, end in self.sweeps[sweep].windows)
+        own = self.sweeps[sweep].solver
+        changes = {"end_time": end_time, "snapshot_step": None}
+        if own is not None:
+            changes["solver"] = own.model_dump()
+        changes |= self._by(solver)
+        return self.cases[self.sweeps[sweep].case].problem(**changes)
+
+    def _by(self, solver: str | None) -> dict:
+        return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}

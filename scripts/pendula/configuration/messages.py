@@ -1,0 +1,115 @@
+"""Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
+
+import difflib
+
+from pydantic import BaseModel, ValidationError
+
+from .cases import Case, Configuration, Drawn, Sweep
+from .solvers import Auto, CrankNicolson, Dop853, Ode45, Solvers, Taylor
+
+SOLVERS = {
+    model.model_fields["name"].default: model
+    for model in (Ode45, CrankNicolson, Dop853, Taylor, Auto)
+}
+HINTS = {
+    "N": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
+    "sites": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
+    "M": "the paper's M is called half_width",
+    "tau": "the end of the run is called end_time",
+}
+WORDS = {
+    "missing": "is missing",
+    "finite_number": "is {input}, which is not finite",
+    "greater_than": "is {input}; it must be greater than {gt}",
+    "greater_than_equal": "is {input}; it must be at least {ge}",
+    "less_than": "is {input}; it must be less than {lt}",
+    "less_than_equal": "is {input}; it must be at most {le}",
+    "too_short": "is empty; give at least {min_length}",
+    "float_parsing": "is {input!r}, not a number",
+    "float_type": "is {input!r}, not a number",
+    "int_parsing": "is {input!r}, not a whole number",
+    "int_type": "is {input!r}, not a whole number",
+    "int_from_float": "is {input!r}, not a whole number",
+    "dict_type": "is {input!r}, not a mapping of keys to values",
+    "model_type": "is {input!r}, not a mapping of keys to values",
+    "model_attributes_type": "is {input!r}, not a name or a mapping of keys to values",
+    "list_type": "is {input!r}, not a list",
+    "tuple_type": "is {input!r}, not a pair of values",
+    "string_type": "is {input!r}, not a name",
+    "literal_error": "is {input!r}; it must be one of {expected}",
+    "string_pattern_mismatch": "is not a name: use letters, digits, _ and -, a letter first",
+}
+
+
+class ConfigurationError(ValueError):
+    """The configuration has faults; the message lists them all."""
+
+
+def load(raw: dict) -> Configuration:
+    """Return the validated configuration, or raise ConfigurationError with every fault."""
+    try:
+        return Configuration.model_validate(raw)
+    except ValidationError as error:
+        raise in_words(error, "the configuration") from None
+
+
+def in_words(error: ValidationError, what: str, place: tuple = ()) -> ConfigurationError:
+    """Return the error that lists every fault of `what`, which stands at `place`."""
+    faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
+    inside = _dotted(place) + "." if place else ""
+    lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
+    return ConfigurationError(
+        f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:\n"
+        + "\n".join(f"  {line}" for line in lines)
+    )
+
+
+def _describe(fault: dict) -> str:
+    kind, where = fault["type"], _dotted(fault["loc"])
+    if kind == "sweeps":
+        return fault["msg"]
+    if kind == "extra_forbidden":
+        return f"{where}: is not a known key; {_nearest(fault['loc'])}"
+    if kind == "union_tag_invalid":
+        name = fault["input"].get("name")
+        near = _closest(str(name), SOLVERS)
+        return f"{where}: there is no solver {name!r}; {near}"
+    if kind == "union_tag_not_found":
+        return f"{where}.name: is missing; it must be one of {', '.join(SOLVERS)}"
+    values = {"input": fault["input"], **fault.get("ctx", {})}
+    text = WORDS[kind].format(**values) if kind in WORDS else fault["msg"]
+    separator = "." if kind in ("grid", "site", "window", "repeated", "drawn") else ": "
+    return f"{where}{separator}{text}"
+
+
+def _dotted(place: tuple) -> str:
+    """Return the path as the file has it: without the solver's tag, which pydantic inserts."""
+    parts = [
+        str(part)
+        for before, part in zip(("", *place), place, strict=False)
+        if not (before == "solver" and part in SOLVERS) and part != "[key]"
+    ]
+    return ".".join(parts)
+
+
+def _nearest(place: tuple) -> str:
+    key = str(place[-1])
+    return HINTS.get(key) or _closest(key, _model_at(place).model_fields)
+
+
+def _closest(word: str, known) -> str:
+    near = difflib.get_close_matches(word, known, 1, 0.5)
+    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+
+
+def _model_at(place: tuple) -> type[BaseModel]:
+    """Return the model whose keys stand at this place of the configuration."""
+    if len(place) == 1:
+        return Configuration
+    if place[0] == "solvers":
+        return SOLVERS[place[1]] if len(place) == 3 else Solvers
+    if place[-2] == "draw":
+        return Drawn
+    if "solver" in place[:-1]:
+        return SOLVERS[place[place.index("solver") + 1]]
+    return {"cases": Case, "sweeps": Sweep}[place[0]]

@@ -1,0 +1,155 @@
+"""One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
+
+import ast
+from io import BytesIO
+from pathlib import Path
+
+import matplotlib
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.figure import Figure
+from matplotlib.image import imsave
+
+from pendula.datasets.files import complete_or_absent
+
+SINGLE, DOUBLE = 3.4, 7.0
+"""Widths of one and of two columns of a journal page, in inches."""
+
+RED, BLUE = "#e8402f", "#123b8c"
+"""The paper's two colours, of a lightness so different that they stay apart in grey."""
+
+COLOURS = {
+    "A": RED,
+    "B": BLUE,
+    "l2": RED,
+    "linf": BLUE,
+    "ode45": "#111111",
+    "crank_nicolson": "#e0a100",
+    "dop853": "#16876b",
+    "taylor": "#7b4fa3",
+    "splitting": "#5aa7d6",
+}
+SOLVER_NAMES = {
+    "ode45": "ode45",
+    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
+    "dop853": "DOP853",
+    "taylor": "Taylor",
+    "splitting": "BM6 splitting",
+}
+
+# the library's own defaults first: a reader's matplotlibrc must not change the figures
+_RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "lines.linewidth": 0.7,
+    "legend.frameon": False,
+    "legend.handlelength": 2,
+    "pdf.fonttype": 42,
+    "figure.dpi": 300,
+}
+
+styled = matplotlib.rc_context(_RC)
+"""Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
+
+
+class ShownFigure(Figure):
+    """A figure that a notebook shows without pyplot."""
+
+    @styled
+    def _repr_png_(self) -> bytes:
+        with BytesIO() as file:
+            self.savefig(file, format="png")
+            return file.getvalue()
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure of this size in inches that arranges its own margins."""
+    figure = ShownFigure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def name_legend(figure: Figure, axes: Axes) -> None:
+    """Put one legend for all panels above them; its lines are thick enough to show their colour."""
+    handles, labels = axes.get_legend_handles_labels()
+    legend = figure.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+    for line in legend.get_lines():
+        line.set_linewidth(max(1.6, line.get_linewidth()))
+
+
+def name_case(case: xr.Dataset) -> str:
+    """Return the detuning and the initial data of one case as they are written in its panel."""
+    omega = rf"$\Omega = {float(case['omega']):g}$"
+    return f"{omega},  {name_initial(str(case['initial'].values))}"
+
+
+def name_initial(initial: str) -> str:
+    """Return initial data such as "{0: [1, 0.1]}" (site: [A, B]) as written in a panel."""
+    sites = {int(site): pair for site, pair in ast.literal_eval(initial).items()}
+    if len(sites) != 1:
+        return f"data on {len(sites)} sites"
+    ((site, (a, b)),) = sites.items()
+    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({_name_number(a)}, {_name_number(b)})$"
+
+
+def _name_number(value: float | str) -> str:
+    number = complex(value)
+    return f"{number:g}" if number.imag else f"{number.real:g}"
+
+
+def join(datasets: list[xr.Dataset], names: list[str], dim: str, title: str) -> xr.Dataset:
+    """Stack datasets along a new dimension, keeping of their attributes Omega and initial data."""
+    stacked = xr.concat(
+        [data.drop_attrs(deep=False) for data in datasets],
+        xr.Variable(dim, names, {"long_name": title, "units": "1"}),
+        join="outer",
+        combine_attrs="override",
+        coords="minimal",
+        compat="override",
+    )
+    omegas = [float(data.attrs["omega"]) for data in datasets]
+    initials = [data.attrs["initial"] for data in datasets]
+    stacked["omega"] = (dim, omegas, {"long_name": "detuning Omega", "units": "1"})
+    stacked["initial"] = (dim, initials, {"long_name": "initial {site: [A, B]}", "units": "1"})
+    return stacked
+
+
+@styled
+def save(
+    figure: Figure, data: xr.Dataset, png: str | Path, pdf: str | Path, netcdf: str | Path
+) -> None:
+    """Write the figure twice and its data once: whole files, the same bytes every time."""
+    with (
+        complete_or_absent(png) as new_png,
+        complete_or_absent(pdf) as new_pdf,
+        complete_or_absent(netcdf) as new_netcdf,
+    ):
+        # not savefig, which draws everything once more to find out what it will draw
+        figure.canvas.draw()
+        about = {"Software": None, "Panels": _panels(figure)}
+        imsave(new_png, figure.canvas.buffer_rgba(), format="png", dpi=figure.dpi, metadata=about)
+        figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
+        undated = {"CreationDate": None, "Creator": None, "Producer": None}
+        FigureCanvasPdf(figure).print_pdf(new_pdf, metadata=undated)
+        stated = data.assign_attrs(Conventions="CF-1.11")
+        stated.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
+
+
+def _panels(figure: Figure) -> str:
+    """Return left, top, right and bottom of each panel in pixels, for the figure diff."""
+    height = figure.bbox.height
+    boxes = [axes.get_window_extent() for axes in figure.axes if axes.get_visible()]
+    edges = [(box.x0, height - box.y1, box.x1, height - box.y0) for box in boxes]
+    return ";".join(" ".join(str(round(edge)) for edge in box) for box in edges)

@@ -1,0 +1,83 @@
+"""The ledger of claims: every row with its verdict, and how many there are of each."""
+
+import json
+from collections import Counter
+from typing import Any
+
+from pendula.report.numbers import Quote, number
+from pendula.report.results import Results
+from pendula.report.words import criterion, plainly, symbols
+
+from .verdicts import Verdict
+
+LEDGER = "claims.json"
+
+
+def load(results: Results) -> list[dict]:
+    """Return the rows of the ledger."""
+    return json.loads(results.path(LEDGER).read_text(encoding="utf-8"))
+
+
+def gather(results: Results) -> dict[str, Any]:
+    """Return the rows as the page shows them, and the count of each verdict."""
+    rows = load(results)
+    counted = Counter(row["verdict"] for row in rows)
+    return {
+        "rows": [_shown(row, results) for row in rows],
+        "total": results.say(LEDGER, str(len(rows))),
+        "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in Verdict],
+        "by_figure": {n: _counts([row for row in rows if f"Fig {n}" in row["place"]]) for n in
+                      range(1, 7)},
+    }  # fmt: skip
+
+
+def _counts(rows: list[dict]) -> list[tuple[str, int]]:
+    counted = Counter(row["verdict"] for row in rows)
+    return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
+
+
+def _shown(row: dict, results: Results) -> dict:
+    measured = ", ".join(f"{plainly(key)} = {_value(v)}" for key, v in row["measured"].items())
+    return {
+        "name": row["name"],
+        "place": row["place"],
+        "says": symbols(row["says"]),
+        "verdict": row["verdict"],
+        "measured": measured,
+        "criterion": criterion(row["tolerance"]),
+        "because": symbols(row["because"]),
+        "data": [results.say(name, name) for name in row["decided_by"]],
+    }
+
+
+def _value(value: float | str) -> str:
+    return value if isinstance(value, str) else number(value, 4)
+
+
+class Ledger:
+    """What the ledger measured, by claim, each number linked to what decides the claim."""
+
+    def __init__(self, results: Results):
+        self._results = results
+        self._rows = {row["name"]: row for row in load(results)}
+
+    def value(self, claim: str, key: str) -> float:
+        """Return a number; not a number where the claim could not be decided for want of data."""
+        return float(self._rows[claim]["measured"].get(key, "nan").__str__().replace("none", "nan"))
+
+    def quote(self, claim: str, key: str, digits: int = 3) -> Quote:
+        """Return it as the page shows it."""
+        source = self._rows[claim]["decided_by"][0]
+        return self._results.quote(source, self.value(claim, key), digits)
+
+    def verdict(self, claim: str) -> str:
+        """Return the verdict on a claim."""
+        return self._rows[claim]["verdict"]
+
+    def holds(self, claim: str) -> bool:
+        """Return whether a claim is confirmed, with a caveat or without."""
+        return self.verdict(claim) in (Verdict.CONFIRMED, Verdict.CAVEAT)
+
+    def because(self, claim: str) -> str:
+        """Return what was found to stand against a claim, or beside it."""
+        return symbols(self._rows[claim]["because"])

@@ -1,0 +1,78 @@
+"""From complex amplitudes on the sites -M..M to the state that a run needs, and back.
+
+Where the data are even in n, only the sites 0..M are kept; where A = B, only A. Both symmetries
+are invariants of the equations, and the kernels keep them to the last bit.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.models.amplitudes import ENDS, FREE, MIRROR, PERIODIC
+
+
+class Reduction(NamedTuple):
+    """What of the chain is integrated: half of it (`even`), one component (`synchronised`)."""
+
+    even: bool
+    synchronised: bool
+
+
+WHOLE = Reduction(even=False, synchronised=False)
+"""Both components on the whole chain, whatever the symmetries."""
+
+
+def place(initial: dict[int, tuple[complex, complex]], half_width: int) -> np.ndarray:
+    """Return amplitudes of shape (2, 2M + 1), at rest but for `initial`: {site: (A, B)}."""
+    amplitudes = np.zeros((2, 2 * half_width + 1), complex)
+    for site, pair in initial.items():
+        if abs(site) > half_width:
+            raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
+        amplitudes[:, half_width + site] = pair
+    return amplitudes
+
+
+def require_centre(sites: int) -> None:
+    """Raise ValueError where there is no site in the middle: the kernels sum from it in pairs."""
+    if sites % 2 == 0:
+        raise ValueError(f"a chain has an odd number of sites, not {sites}")
+
+
+def find_reduction(amplitudes: np.ndarray) -> Reduction:
+    """Return the symmetries of the data: exact ones only, so that nothing is approximated."""
+    return Reduction(
+        even=amplitudes.shape[1] > 1 and np.array_equal(amplitudes, amplitudes[:, ::-1]),
+        synchronised=np.array_equal(amplitudes[0], amplitudes[1]),
+    )
+
+
+def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
+    """Return the kinds of the left and the right end of what is integrated."""
+    end = ENDS[boundary]
+    if not reduction.even:
+        return end, end
+    # an even solution on a ring has A_{M+1} = A_{-M} = A_M: the far end looks free
+    return MIRROR, FREE if end == PERIODIC else end
+
+
+def pack(amplitudes: np.ndarray, reduction: Reduction) -> np.ndarray:
+    """Return the real state with ghost columns that `reduction` leaves of (2, N) amplitudes."""
+    kept = amplitudes[: 1 if reduction.synchronised else 2]
+    if reduction.even:
+        kept = kept[:, kept.shape[1] // 2 :]
+    y = np.zeros((2 * len(kept), kept.shape[1] + 2))
+    y[0::2, 1:-1] = kept.real
+    y[1::2, 1:-1] = kept.imag
+    return y
+
+
+def spread(values: np.ndarray, reduction: Reduction) -> np.ndarray:
+    """Return values of (component, site, ...) on both components of the whole chain."""
+    if reduction.even:
+        values = np.concatenate([values[:, :0:-1], values], axis=1)
+    return np.repeat(values, 2, axis=0) if reduction.synchronised else values
+
+
+def unpack(y: np.ndarray, reduction: Reduction) -> np.ndarray:
+    """Return the complex amplitudes (2, N) of a state."""
+    return spread(y[0::2, 1:-1] + 1j * y[1::2, 1:-1], reduction)

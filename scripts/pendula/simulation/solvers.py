@@ -1,0 +1,62 @@
+"""The solvers by name: each integrator given this chain's equations, compiled once and cached."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from pendula.compiled import kernel
+from pendula.integrators import crank_nicolson, dop853, ode45, splitting, taylor
+from pendula.models.amplitudes import cut, may_cut
+from pendula.models.amplitudes_rates import linear_radius, linear_rates, midpoint_rates, rates, turn
+from pendula.models.amplitudes_series import continue_series
+
+from .observables import observe
+
+solve_ode45 = ode45.build(rates, observe)
+solve_dop853 = dop853.build(rates, observe, may_cut, cut)
+solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
+solve_taylor = taylor.build(continue_series, observe)
+solve_splitting = splitting.build(linear_rates, linear_radius, turn, observe)
+
+
+@kernel
+def run_ode45(chain, y, times, controls, work, record):
+    return solve_ode45(chain, y, times, controls, work, record)
+
+
+@kernel
+def run_dop853(chain, y, times, controls, work, record):
+    return solve_dop853(chain, y, times, controls, work, record)
+
+
+@kernel
+def run_crank_nicolson(chain, y, times, controls, work, record):
+    return solve_crank_nicolson(chain, y, times, controls, work, record)
+
+
+@kernel
+def run_taylor(chain, y, times, controls, work, record):
+    return solve_taylor(chain, y, times, controls, work, record)
+
+
+@kernel
+def run_splitting(chain, y, times, controls, work, record):
+    return solve_splitting(chain, y, times, controls, work, record)
+
+
+class Solver(NamedTuple):
+    """A compiled run, its controls in the order in which it takes them, its work arrays."""
+
+    run: Callable
+    controls: tuple[str, ...]
+    work: int
+
+
+SOLVERS = {
+    "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
+    "crank_nicolson": Solver(
+        run_crank_nicolson, ("step", "tolerance", "iterations"), crank_nicolson.WORK
+    ),
+    "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
+    "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
+    "splitting": Solver(run_splitting, ("step",), splitting.WORK),
+}

@@ -1,0 +1,65 @@
+"""A case repeated over half-widths, its norms reduced to maxima and means over windows."""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from .simulate import Trajectory, simulate
+
+QUANTITIES = ("A", "B", "pair")
+STATISTICS = ("max", "mean")
+
+
+class Sweep(NamedTuple):
+    """Statistics of shape (half_width, quantity, statistic, window), and the runs' outcomes."""
+
+    l2: np.ndarray
+    linf: np.ndarray
+    outcomes: list
+
+
+def sweep(
+    problem: dict,
+    half_widths: Iterable[int],
+    windows: list[tuple[float, float]],
+    progress: Callable[[str], None] = lambda message: None,
+) -> Sweep:
+    """Integrate `problem` (the arguments of `simulate`) on chains of each half-width."""
+    l2, linf, outcomes = [], [], []
+    half_widths = list(half_widths)
+    for done, half_width in enumerate(half_widths, 1):
+        trajectory = simulate(**{**problem, "half_width": half_width, "snapshot_every": 0})
+        l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
+        linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
+        outcomes.append(trajectory.outcome)
+        progress(f"half-width {half_width} done ({done} of {len(half_widths)})")
+    return Sweep(np.array(l2), np.array(linf), outcomes)
+
+
+def pair_l2(trajectory: Trajectory) -> np.ndarray:
+    """Return the l2 norms of A, of B, and of the pair (A, B), each against time."""
+    a, b = trajectory.l2
+    return np.array([a, b, np.sqrt(a * a + b * b)])
+
+
+def pair_linf(trajectory: Trajectory) -> np.ndarray:
+    """Return the l-infinity norms of A, of B, and of the pair, each against time."""
+    a, b = trajectory.linf
+    return np.array([a, b, np.maximum(a, b)])
+
+
+def _over_windows(tau: np.ndarray, series: np.ndarray, windows) -> np.ndarray:
+    """Return (quantity, statistic, window); windows include both their ends."""
+    result = np.empty((len(series), len(STATISTICS), len(windows)))
+    for w, (start, end) in enumerate(windows):
+        inside = series[:, (tau >= start - 1e-9) & (tau <= end + 1e-9)]
+        result[:, 0, w] = inside.max(axis=1)
+        result[:, 1, w] = _mean(inside)
+    return result
+
+
+def _mean(series: np.ndarray) -> np.ndarray:
+    """Return the mean over time by the trapezoidal rule on equal steps."""
+    ends = 0.5 * (series[:, 0] + series[:, -1])
+    return (series[:, 1:-1].sum(axis=1) + ends) / (series.shape[1] - 1)

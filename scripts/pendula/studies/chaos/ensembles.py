@@ -1,0 +1,67 @@
+"""Seeded ensembles: a case from data that differ in their last digits, as many times as wanted.
+
+Where the motion is chaotic one run is one draw; what a second solver, or another computer, would
+draw as well is the distribution.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pendula.simulation.simulate import simulate
+from pendula.simulation.sweep import pair_l2, pair_linf, sweep
+
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+def perturb(
+    initial: dict[int, tuple[complex, complex]], size: float, rng: np.random.Generator
+) -> dict[int, tuple[complex, complex]]:
+    """Return initial data with every amplitude multiplied by 1 + size (x + iy) of Gaussian x, y.
+
+    Sites n and -n take the same factors, so that even data stay even.
+    """
+    reach = 1 + max(map(abs, initial))
+    factors = 1.0 + size * (rng.normal(size=(reach, 2)) + 1j * rng.normal(size=(reach, 2)))
+    return {
+        site: tuple(complex(z * f) for z, f in zip(pair, factors[abs(site)], strict=True))
+        for site, pair in initial.items()
+    }
+
+
+def draw_members(problem: dict, size: float, members: int, seed: int) -> Iterable[dict]:
+    """Return as many copies of `problem` (the arguments of `simulate`) with perturbed data."""
+    rng = np.random.default_rng(seed)
+    return [{**problem, "initial": perturb(problem["initial"], size, rng)} for _ in range(members)]
+
+
+def run_members(
+    problem: dict, size: float, members: int, seed: int = 0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the norms l2 and l-infinity of each member, both (member, quantity, time)."""
+    runs = [simulate(**member) for member in draw_members(problem, size, members, seed)]
+    return np.array([pair_l2(run) for run in runs]), np.array([pair_linf(run) for run in runs])
+
+
+def sweep_members(
+    problem: dict, half_widths, windows, size: float, members: int, seed: int = 0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the swept l2 and l-infinity of each member, both (member, *shape of a Sweep)."""
+    drawn = draw_members(problem, size, members, seed)
+    sweeps = [sweep(member, half_widths, windows) for member in drawn]
+    return np.array([s.l2 for s in sweeps]), np.array([s.linf for s in sweeps])
+
+
+def bands(norms: np.ndarray) -> np.ndarray:
+    """Return the QUANTILES over the members of (member, ...), shape (quantile, ...)."""
+    return np.quantile(norms, QUANTILES, axis=0)
+
+
+def moments(values: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the mean, standard deviation and standard error over the members of (member, ...)."""
+    deviation = values.std(axis=0, ddof=1)
+    return {
+        "mean": values.mean(axis=0),
+        "deviation": deviation,
+        "error": deviation / np.sqrt(len(values)),
+    }

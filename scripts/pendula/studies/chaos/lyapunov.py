@@ -1,0 +1,56 @@
+"""Lyapunov exponents: the mean rates at which small changes of a solution grow.
+
+The exponents of a Hamiltonian flow come in pairs of opposite sign, sum to zero, and two of them
+vanish: those along the flow and across the energy.
+"""
+
+import numpy as np
+
+from pendula.simulation.lattice import find_reduction, place
+
+from .changes import PARITIES, random_change
+from .tangents import Growth, grow
+
+SEED = 20170817
+
+
+def follow_parity(problem: dict, parity: str, end_time: float, **controls) -> Growth:
+    """Carry one random change of this parity along a case whose data are even.
+
+    `problem` is the arguments of `simulate`. The kernels keep the parity to the last bit, so the
+    change finds the fastest direction among those of its parity.
+    """
+    amplitudes = place(problem["initial"], problem["half_width"])
+    if not find_reduction(amplitudes).even:
+        raise ValueError("changes keep their parity only along data that are even in n")
+    rng = np.random.default_rng([SEED, PARITIES.index(parity)])
+    changes = random_change(amplitudes.shape[1], parity, rng)[None]
+    return grow(*_fixed(problem), amplitudes, changes, end_time, parity == "even", **controls)
+
+
+def follow_all(problem: dict, end_time: float, **controls) -> Growth:
+    """Carry a full basis of 4 N changes along a case, for the whole spectrum."""
+    amplitudes = place(problem["initial"], problem["half_width"])
+    sites = amplitudes.shape[1]
+    rng = np.random.default_rng(SEED)
+    changes = np.array([random_change(sites, None, rng) for _ in range(4 * sites)])
+    return grow(*_fixed(problem), amplitudes, changes, end_time, **controls)
+
+
+def _fixed(problem: dict) -> tuple:
+    return tuple(problem[key] for key in ("epsilon", "gamma", "omega")), problem["boundary"]
+
+
+def exponents(growth: Growth, start: float) -> np.ndarray:
+    """Return the mean rate of growth of each change from `start` to the end."""
+    first = int(np.searchsorted(growth.tau, start))
+    span = growth.tau[-1] - growth.tau[first]
+    return (growth.stretch[:, -1] - growth.stretch[:, first]) / span
+
+
+def spread_of(growth: Growth, start: float, parts: int = 8) -> np.ndarray:
+    """Return the standard error of the exponents, from as many consecutive parts of the run."""
+    edges = np.linspace(np.searchsorted(growth.tau, start), len(growth.tau) - 1, parts + 1)
+    edges = edges.round().astype(int)
+    rates = np.diff(growth.stretch[:, edges], axis=1) / np.diff(growth.tau[edges])
+    return rates.std(axis=1, ddof=1) / np.sqrt(parts)

@@ -1,0 +1,127 @@
+"""How a solution that is even in n loses its evenness: by rounding, or by odd perturbations.
+
+The library sums neighbours so that evenness survives rounding. Here they are summed from right to
+left, as one writes it first, so that each step leaves an odd error of the order of rounding.
+"""
+
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.compiled import kernel, merged
+from pendula.integrators import dop853
+from pendula.integrators.outcome import DONE, FAULTS
+from pendula.models.amplitudes import Chain, close, field, modulus2
+from pendula.models.amplitudes_rates import everywhere
+from pendula.simulation.lattice import WHOLE, choose_ends, pack, place
+from pendula.simulation.simulate import IntegrationError, aligned, output_times
+
+from .changes import random_change
+
+BROKEN = 0.01
+"""Relative size of the odd part from which on a solution no longer counts as even."""
+GROWING = (1e-9, 1e-4)
+"""Sizes of the odd part between which its growth is neither start-up nor saturation."""
+
+
+@merged
+def lopsided_field(chain, drive, left, u, right, partner, density):
+    """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
+    coupling = chain.epsilon * ((right - 2.0 * u) + left)
+    return coupling + field(chain, drive, u, u, u, partner, density)  # which has no coupling left
+
+
+@merged
+def lopsided_part(chain, drive, y, row, other, j, density):
+    """Return the right-hand side from one row at column `j`; `other` is that of the partner."""
+    before, here, after = y[row, j - 1], y[row, j], y[row, j + 1]
+    return lopsided_field(chain, drive, before, here, after, y[other, j], density)
+
+
+@merged
+def lopsided_at(chain, states, re, j, dy):
+    y, im, other = states[0], re + 1, dy.shape[0] - 2 - re
+    density = modulus2(y, re, j)
+    dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, density)
+    dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
+
+
+write_lopsided = everywhere(lopsided_at)
+
+
+@kernel
+def lopsided_rates(chain, y, dy):
+    """Write the right-hand side of (4) at `y` into `dy`, in an arithmetic that is not even."""
+    close(chain, y)
+    write_lopsided(chain, (y,), dy)
+
+
+@kernel
+def observe_odd(chain, y, i, odd):
+    """Write the l2 norm of the part of `y` that is odd in n, relative to the whole, to odd[i]."""
+    last = y.shape[1] - 1
+    part = whole = 0.0
+    for row in range(y.shape[0]):
+        for j in range(1, last):
+            half = 0.5 * (y[row, j] - y[row, last - j])
+            part += half * half
+            whole += y[row, j] * y[row, j]
+    odd[i] = sqrt(part / whole)
+
+
+solve = dop853.build(lopsided_rates, observe_odd)
+
+
+@kernel
+def run_lopsided(chain, y, times, controls, work, odd):
+    return solve(chain, y, times, controls, work, odd)
+
+
+def follow_odd_part(problem: dict, amplitudes: np.ndarray) -> np.ndarray:
+    """Return the relative size of the odd part at each output time, (time,), from (2, N) data."""
+    constants = (float(problem[key]) for key in ("epsilon", "gamma", "omega"))
+    chain = Chain(*constants, *choose_ends(problem["boundary"], WHOLE))
+    times = output_times(problem["end_time"], problem["output_step"])
+    controls = tuple(float(problem["solver"][key]) for key in ("rtol", "atol"))
+    y, odd = pack(amplitudes, WHOLE), np.empty(len(times))
+    work = aligned((dop853.WORK, *y.shape))
+    outcome = run_lopsided(chain, y, times, controls, work, odd)
+    if outcome.status != DONE:
+        raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}")
+    return odd
+
+
+class OddPart(NamedTuple):
+    """Relative sizes of the odd part; members are seeded odd perturbations of the data."""
+
+    rounded: np.ndarray  # (time,)
+    perturbed: np.ndarray  # (member, time)
+
+
+def break_symmetry(problem: dict, size: float, members: int, seed: int = 0) -> OddPart:
+    """Follow even data as they are, and with odd perturbations of l2 norm `size` relative to them.
+
+    `problem` is the arguments of `simulate`, solved by dop853.
+    """
+    amplitudes = place(problem["initial"], problem["half_width"])
+    rng = np.random.default_rng(seed)
+    perturbed = []
+    for _ in range(members):
+        change = random_change(amplitudes.shape[1], "odd", rng)
+        change *= size * np.linalg.norm(amplitudes) / np.linalg.norm(change)
+        perturbed.append(follow_odd_part(problem, amplitudes + change))
+    return OddPart(follow_odd_part(problem, amplitudes), np.array(perturbed))
+
+
+def growth_between(tau: np.ndarray, odd: np.ndarray, low: float, high: float) -> float:
+    """Return the mean rate of growth of the odd part from `low` to `high`, NaN if it stays below.
+
+    The part counts from the last time that it is below `low` before it first reaches `high`.
+    """
+    reached = np.flatnonzero(odd >= high)
+    below = np.flatnonzero(odd[: reached[0]] <= low) if reached.size else reached
+    if not below.size:
+        return np.nan
+    first, last = below[-1], reached[0]
+    return float(np.log(odd[last] / odd[first]) / (tau[last] - tau[first]))

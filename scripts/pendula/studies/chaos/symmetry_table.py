@@ -1,0 +1,39 @@
+"""The dataset of broken symmetry."""
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.simulation.simulate import output_times
+
+from .cases import describe_cases
+from .parting import first_above
+from .symmetry import BROKEN, GROWING, break_symmetry, growth_between
+
+
+def odd_parts(
+    problems: dict[str, dict], size: float, members: int, seed: int
+) -> dict[str, Variable]:
+    """Return the odd part of each case against time, when it passes BROKEN, how fast it grows.
+
+    `problems` holds the arguments of `simulate` by case, all of one end time.
+    """
+    runs = [break_symmetry(problem, size, members, seed) for problem in problems.values()]
+    first = next(iter(problems.values()))
+    tau = output_times(first["end_time"], first["output_step"])
+    variables = {
+        **describe_cases(problems),
+        "tau": Variable(("tau",), tau, "slow time"),
+    }
+    for name, title, dims in (
+        ("rounded", "by rounding alone", ("case",)),
+        ("perturbed", "from an odd perturbation", ("case", "member")),
+    ):
+        odd = np.array([getattr(run, name) for run in runs])
+        broken = np.apply_along_axis(lambda one: first_above(tau, one, BROKEN), -1, odd)
+        rates = np.apply_along_axis(lambda one: growth_between(tau, one, *GROWING), -1, odd)
+        variables |= {
+            name: Variable((*dims, "tau"), odd, f"relative l2 norm of the odd part {title}"),
+            f"{name}_time": Variable(dims, broken, f"odd part above {BROKEN:g} {title}", "tau"),
+            f"{name}_rate": Variable(dims, rates, f"growth rate of the odd part {title}", "tau-1"),
+        }
+    return variables

@@ -1,0 +1,65 @@
+"""The same case by another method at tight tolerances: how far two runs agree.
+
+Their difference is the error of the worse one, made by steps and rounding of its own; where a case
+was run by the default solver at its default tolerances, it is that of double precision.
+"""
+
+import numpy as np
+import xarray as xr
+
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.trajectories import contents
+from pendula.measures.divergence import LEVELS, at_times, difference, first_above
+from pendula.simulation.simulate import IntegrationError, simulate
+
+TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
+
+
+def choose_solver(name: str, peak: float) -> dict:
+    """Return the controls of another method than `name`, for data whose largest part is `peak`.
+
+    Data below one need a smaller absolute tolerance.
+    """
+    other = "dop853" if name == "taylor" else "taylor"
+    rtol = TIGHTEST[other]
+    return {"name": other, "rtol": rtol, "atol": rtol * (peak if 0 < peak < 1 else 1.0)}
+
+
+def run_again(problem: dict, run: xr.Dataset) -> xr.Dataset:
+    """Return the second run's norms and its difference from `run`, NaN where it was refused.
+
+    `problem` holds the arguments of `simulate`, `run` what they gave.
+    """
+    peak = max(abs(z) for pair in problem["initial"].values() for z in pair)
+    solver = choose_solver(str(run.attrs["solver"]), peak)
+    again = {**problem, "solver": solver, "snapshot_every": 0}
+    said = {f"second_{key}": value for key, value in solver.items()}
+    try:
+        second = as_xarray(*contents("second run", again, simulate(**again)))
+        apart = difference(run, second).reindex(tau=run["tau"])
+    except IntegrationError as error:
+        second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)
+        said["second_refusal"] = str(error)
+    return _compared(run, second, apart).assign_attrs(said)
+
+
+def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
+    norms = at_times(second, run["tau"])
+    data = xr.Dataset(
+        {
+            f"second_{norm}": norms[norm].assign_attrs(
+                long_name=f"{run[norm].attrs['long_name']}, by another method", units="1"
+            )
+            for norm in ("linf", "l2")
+        }
+    )
+    data["difference"] = apart.assign_attrs(
+        long_name="largest difference of the norms of two runs, of full scale", units="1"
+    )
+    data["largest_difference"] = apart.max().assign_attrs(
+        long_name="its largest value: the error of the worse run", units="1"
+    )
+    data["parting"] = first_above(apart, LEVELS["visible"]).assign_attrs(
+        long_name=f"first tau at which the runs differ by {100 * LEVELS['visible']:g} %", units="1"
+    )
+    return data

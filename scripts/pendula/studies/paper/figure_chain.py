@@ -1,0 +1,112 @@
+"""Figure 1: a drawing of the chain, pairs of pendula on common strings linked by springs."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pendula.drawing import style
+
+SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
+COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
+COLOURS = {"x": style.COLOURS["A"], "y": style.COLOURS["B"]}  # A_n is the amplitude of x_n
+
+
+def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset:
+    """Return the points, on the page, of `pairs` pairs, the central one turned by `angles`.
+
+    The others are turned less, the farther they are from it: a picture, not a solution.
+    """
+    offsets = np.arange(pairs) - pairs // 2
+    place = SPACING * offsets[:, None]
+    turned = np.asarray(angles) * np.cos(np.pi * offsets[:, None] / (pairs + 1))
+    strings = _project(place, np.array([-OVERHANG, DEPTH + OVERHANG]), 0)
+    pivots = _project(place, np.array([0, DEPTH]), 0)
+    pendulum = ("offset", "member", "axis")
+    link = ("link", "member", "point", "axis")
+    return xr.Dataset(
+        {
+            "string": (("offset", "end", "axis"), strings, _about("ends of a common string")),
+            "pivot": (pendulum, pivots, _about("point from which a pendulum hangs")),
+            "bob": (pendulum, _hang(place, turned), _about("bob of a pendulum")),
+            "rest": (pendulum, _hang(place, 0 * turned), _about("bob of a pendulum at rest")),
+            "spring": (link, pivots[:-1, :, None] + _coil(), _about("torsional spring")),
+        },
+        {
+            "offset": ("offset", offsets, _about("place in the chain relative to n")),
+            "member": ("member", ["x", "y"], _about("pendulum of the pair")),
+            "axis": ("axis", ["across", "up"], _about("direction on the page")),
+        },
+    )
+
+
+def _about(title: str) -> dict[str, str]:
+    return {"long_name": title, "units": "1"}
+
+
+def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.ndarray:
+    """Return points on the page: what lies farther back is shown higher and to the right."""
+    return np.stack(np.broadcast_arrays(along + 0.6 * back, up + 0.42 * back), axis=-1)
+
+
+def _hang(place: np.ndarray, turned: np.ndarray) -> np.ndarray:
+    back = np.array([0, DEPTH]) + LENGTH * np.sin(turned)
+    return _project(place, back, -LENGTH * np.cos(turned))
+
+
+def _coil() -> np.ndarray:
+    """Return a coil along the chain from one pivot, the origin, to the next."""
+    turn = np.linspace(0, 2 * np.pi * COILS, 24 * COILS + 1)
+    share = LEAD + (1 - 2 * LEAD) * turn / turn[-1]
+    across = SPACING * share + 0.45 * COIL_RADIUS * (np.cos(turn) - 1)
+    coil = np.stack([across, COIL_RADIUS * np.sin(turn)], axis=-1)
+    return np.concatenate([[[0, 0]], coil, [[SPACING, 0]]])
+
+
+@style.styled
+def draw(data: xr.Dataset) -> Figure:
+    """Draw the chain from the back to the front, with the names of the angles and couplings."""
+    figure = style.new_figure(style.DOUBLE, 2.1)
+    axes = figure.subplots()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.margins(0.02, 0.1)
+    _draw_row(axes, data.sel(member="y"))
+    for string in data["string"].values:
+        axes.plot(*string.T, color="black", linewidth=1.2)
+    _draw_row(axes, data.sel(member="x"))
+    _name_couplings(axes, data)
+    return figure
+
+
+def _draw_row(axes: Axes, row: xr.Dataset) -> None:
+    member = str(row["member"].values)
+    for spring in row["spring"].values:
+        axes.plot(*spring.T, color="0.35", linewidth=0.8)
+    for offset, pendulum in row.groupby("offset"):
+        pivot, bob, rest = (pendulum[name].values.squeeze() for name in ("pivot", "bob", "rest"))
+        axes.plot(*np.stack([pivot, rest]).T, color="0.5", linewidth=0.7, dashes=(3, 2))
+        axes.plot(*np.stack([pivot, bob]).T, color=COLOURS[member], linewidth=1.5)
+        axes.plot(*bob, "o", color=COLOURS[member], markersize=9, markeredgecolor="black")
+        axes.plot(*pivot, "o", color="black", markersize=2.5)
+        name = f"${member}_{{n{offset:+d}}}$" if offset else f"${member}_n$"
+        # on the side to which the pendulum is turned, away from its dashed place of rest
+        side, ha = (1, "left") if bob[0] >= rest[0] else (-1, "right")
+        axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")
+
+
+def _name_couplings(axes: Axes, data: xr.Dataset) -> None:
+    coil = data["spring"].isel(link=-1, member=1)
+    spring = [float(coil[:, 0].mean()), float(coil[:, 1].max())]
+    string = data["string"].isel(offset=0, end=1).values
+    names = {"springs: coupling $C$": spring, "common strings: coupling $D(t)$": string}
+    for name, point in names.items():
+        axes.annotate(
+            name,
+            point,
+            (point[0], string[1] + 0.25),
+            ha="center",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2},
+        )

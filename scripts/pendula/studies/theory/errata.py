@@ -1,0 +1,144 @@
+"""Errors and gaps of the paper, each with the smallest example that anyone can rerun."""
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.simulation.simulate import simulate
+
+from .bounds import (
+    theorem_2_constants,
+    theorem_2_gap,
+    widened_barrier,
+    widened_bound,
+    widened_delta_0,
+)
+from .runs import run, total_energy
+
+
+def alternating(sites: int, x: float) -> np.ndarray:
+    """Return A_n = -B_n = (-1)^n x, shape (2, N)."""
+    wave = x * (-1.0) ** np.arange(sites)
+    return np.stack([wave, -wave]).astype(complex)
+
+
+def theorem_3_margin(constants, amplitudes: np.ndarray, boundary: str, drive: float) -> float:
+    """Return H minus the lower bound of Theorem 3's proof with `drive` times gamma in it.
+
+    The paper prints one, the right number is two. The quartic terms of both sides are equal, so
+    that the sign does not depend on the size of the data.
+    """
+    epsilon, gamma, omega = constants
+    density = np.abs(amplitudes) ** 2
+    quartic = np.sum(density**2, axis=1)
+    constant = abs(omega) + drive * gamma + 4.0 * epsilon
+    linear = constant * np.sqrt(amplitudes.shape[1]) * np.sum(np.sqrt(quartic))
+    return total_energy(constants, boundary, amplitudes) - (0.25 * quartic.sum() - linear)
+
+
+def check_theorem_3_constant(constants, x: float = 0.1, longest: int = 9) -> dict:
+    """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails."""
+    sizes = np.arange(1, longest + 1, 2)
+    margins = np.array(
+        [
+            [theorem_3_margin(constants, alternating(n, x), "dirichlet", k) for k in (1.0, 2.0)]
+            for n in sizes
+        ]
+    )
+    failing = sizes[margins[:, 0] < 0]
+    return table(
+        "The lower bound in the proof of Theorem 3 on A = -B = x (-1)^n",
+        {"sites": sizes},
+        printed=variable(margins[:, 0], ("sites",), "H minus the bound with gamma, as printed"),
+        corrected=variable(margins[:, 1], ("sites",), "H minus the bound with 2 gamma"),
+        violation=variable(
+            -margins[:, 1], ("sites",), "excess of the corrected bound over H", tolerance=1e-12
+        ),
+        smallest=variable(
+            failing.min() if len(failing) else 0, (), "smallest chain that breaks the printed bound"
+        ),
+    )
+
+
+def check_theorem_2_case(constants, pair=(1.0, 0.1), sites: int = 61) -> dict:
+    """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
+    amplitudes = np.zeros((2, sites), complex)
+    amplitudes[:, sites // 2] = pair
+    start = float(np.sum(np.abs(amplitudes) ** 2))
+    energy = total_energy(constants, "dirichlet", amplitudes)
+    delta_0, c_0 = theorem_2_constants(constants)
+    numbers = {
+        "start": (start, "P(0) of the case"),
+        "depth": (-energy, "-H of the case"),
+        "barrier": (theorem_2_gap(constants) ** 2, "barrier of -H in (25)"),
+        "delta_0": (delta_0, "radius of Theorem 2"),
+        "c_0": (c_0, "constant of Theorem 2"),
+        "widened_barrier": (widened_barrier(constants)[1], "barrier of -H with the bonds kept"),
+        "widened_delta_0": (widened_delta_0(constants), "radius of the widened theorem"),
+        "widened_bound": (float(widened_bound(energy, start, constants)), "its bound on P"),
+    }
+    return table(
+        "The small case at Omega = -4 and the region that Theorem 2 covers",
+        {},
+        **{name: variable(value, (), text) for name, (value, text) in numbers.items()},
+    )
+
+
+def check_negative_depth(constants, longest: float = 10.0) -> dict:
+    """Find where -H > 0, which Theorem 2's proof takes for granted, fails: one pair (x, 0).
+
+    By (25) -H is positive for P < 4 a; beyond, the quartic term wins.
+    """
+    sizes = np.linspace(0.0, longest, 401)[1:]
+    pairs = [np.array([[x], [0.0]], complex) for x in sizes]
+    depth = -np.array([total_energy(constants, "dirichlet", pair) for pair in pairs])
+    negative = sizes[depth <= 0]
+    assured = depth[sizes**2 < 4.0 * theorem_2_gap(constants)]
+    return table(
+        "The sign of -H for Omega < -2 gamma",
+        {"x": sizes},
+        depth=variable(depth, ("x",), "-H of the pair (x, 0)"),
+        first_negative=variable(
+            negative.min() if len(negative) else np.inf, (), "smallest x with -H <= 0"
+        ),
+        assured=variable(
+            -assured.min(), (), "-(smallest -H) for P below 4 (|Omega| - 2 gamma)", tolerance=0.0
+        ),
+    )
+
+
+def check_energy_drift(solver: dict, end_time: float = 10.0, omegas=(8.0, -4.0, 0.0)) -> dict:
+    """Run the small cases by the paper's solver: is H kept to the order of 1e-6?"""
+    drift = []
+    for omega in omegas:
+        trajectory = simulate(
+            epsilon=1.0,
+            gamma=1.0,
+            omega=omega,
+            half_width=30,
+            boundary="dirichlet",
+            initial={0: (1.0, 0.1)},
+            end_time=end_time,
+            output_step=0.025,
+            solver=solver,
+        )
+        drift.append(np.abs(trajectory.energy - trajectory.energy[0]).max())
+    return table(
+        f"Drift of the energy by tau = {end_time:g}, (A0, B0) = (1, 0.1), {solver['name']}",
+        {"omega": np.asarray(omegas)},
+        drift=variable(drift, ("omega",), "largest |H - H(0)|"),
+    )
+
+
+def check_opposite(constants, sites: int, end_time: float, seed: int = 11) -> dict:
+    """Show that A = -B is invariant too: the drive acts there as -2 gamma conj(A).
+
+    The paper mentions A = B alone, where the drive is silent.
+    """
+    rng = np.random.default_rng(seed)
+    a = rng.normal(size=sites) + 1j * rng.normal(size=sites)
+    final = run(constants, "dirichlet", np.stack([a, -a]), [0.0, end_time]).final
+    return table(
+        "The second invariant reduction, A = -B",
+        {},
+        departure=variable(np.abs(final[0] + final[1]).max(), (), "|A + B|", tolerance=0.0),
+    )

@@ -1,0 +1,55 @@
+"""What the checks share: the library's equations on complex amplitudes, short runs, random data.
+
+The solver is dop853 at tolerances so tight that no check measures it instead of the paper.
+"""
+
+import numpy as np
+
+from pendula.models.amplitudes import ENDS, Chain
+from pendula.models.amplitudes_rates import rates
+from pendula.models.energy import energy
+from pendula.simulation.lattice import WHOLE, pack, unpack
+from pendula.simulation.simulate import Trajectory, integrate
+
+BOUNDARIES = tuple(ENDS)
+TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
+TIGHT = {"name": "dop853", **TOLERANCES}
+
+
+def make_chain(constants: tuple[float, float, float], boundary: str) -> Chain:
+    """Return the whole chain with (epsilon, gamma, omega) and two equal ends."""
+    return Chain(*map(float, constants), ENDS[boundary], ENDS[boundary])
+
+
+def run(constants, boundary: str, amplitudes: np.ndarray, times, solver=TIGHT) -> Trajectory:
+    """Integrate amplitudes (2, N) over `times` on the full chain, without any short cut."""
+    return integrate(constants, boundary, amplitudes, WHOLE, np.asarray(times, float), solver)
+
+
+def right_hand_side(constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
+    """Return (dA/dtau, dB/dtau), shape (2, N), as the library computes them."""
+    y = pack(amplitudes, WHOLE)
+    dy = np.zeros_like(y)
+    rates(make_chain(constants, boundary), y, dy)
+    return unpack(dy, WHOLE)
+
+
+def total_energy(constants, boundary: str, amplitudes: np.ndarray) -> float:
+    """Return H of equation (8) for amplitudes (2, N), as the library computes it."""
+    return float(energy(make_chain(constants, boundary), pack(amplitudes, WHOLE)))
+
+
+def squared_norm(l2: np.ndarray) -> np.ndarray:
+    """Return P = |A|^2 + |B|^2 in l2 from the norms of A and B along the first axis."""
+    return l2[0] ** 2 + l2[1] ** 2
+
+
+def mean_spacing(count: int, span: float) -> np.ndarray:
+    """Return `count` + 1 equal output times from 0 to `span`."""
+    return span * np.arange(count + 1) / count
+
+
+def random_amplitudes(rng: np.random.Generator, sites: int, norm: float) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N) scaled to the l2 norm `norm` of the pair."""
+    drawn = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
+    return norm * drawn / np.sqrt(np.sum(np.abs(drawn) ** 2))

@@ -1,0 +1,150 @@
+"""The stability chart measured: growth of tiny data under the full equations."""
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.models.linear_flow import flow
+
+from .batch import run_powers
+from .linear import finite_rate, finite_threshold, gamma_0, infinite_rate, stable_windows
+from .runs import random_amplitudes
+
+TINY = 1e-130
+"""Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
+CURVE_POINTS = 1601  # resolves the teeth of the finite chain's threshold
+
+
+def tiny_tolerances(rtol: float = 1e-9) -> dict:
+    """Return tolerances of which the absolute one is below the tiny data."""
+    return {"rtol": rtol, "atol": rtol * TINY}
+
+
+def log_slope(start: float, end: float, span: float) -> float:
+    """Return the growth rate of a norm from its squares at two times, `span` apart."""
+    return 0.5 * float(np.log(end / start)) / span
+
+
+def flow_slope(amplitudes: np.ndarray, constants, boundary: str, end_time: float) -> float:
+    """Return what the exact linear flow gives for the growth rate over the second half."""
+    epsilon, gamma, omega = constants
+    norms = []
+    for tau in (0.5 * end_time, end_time):
+        moved = flow(amplitudes, tau, epsilon, gamma, omega, boundary)
+        norms.append(np.sum(np.abs(moved) ** 2))
+    return log_slope(*norms, 0.5 * end_time)
+
+
+def measured_slopes(cells, boundary: str, data: np.ndarray, end_time: float) -> np.ndarray:
+    """Return the growth rates of TINY * data over the second half of nonlinear runs, by cell."""
+    times = [0.0, 0.5 * end_time, end_time]
+    count = len(cells)
+    starts = [TINY * data] * count
+    powers, _ = run_powers(cells, [boundary] * count, starts, times, tiny_tolerances())
+    return np.array([log_slope(p[1], p[2], 0.5 * end_time) for p in powers])
+
+
+def running_times(gammas, longest: float, foldings: float) -> np.ndarray:
+    """Return how long to run at each gamma: until a mode can outgrow another by e^foldings."""
+    fastest = 2.0 * np.abs(np.asarray(gammas, float))
+    return np.minimum(longest, foldings / np.maximum(fastest, 1e-300))
+
+
+def check_chart(
+    omegas,
+    gammas,
+    epsilon: float,
+    sites: int,
+    boundary: str,
+    end_time: float,
+    foldings: float = np.inf,
+    seed: int = 5,
+) -> dict:
+    """Measure growth rates on a grid of (Omega, gamma) and set them beside the predictions.
+
+    From random data of norm 1e-130 the nonlinear equations run to `end_time`; the rate is the
+    slope of log l2 over the second half. It must equal that of the exact linear flow from the
+    same data, and tends to the finite chain's largest rate as modes separate. On a short chain
+    a mode that grows alone leaves nothing but rounding on its nodes, where a solver with relative
+    tolerances gets lost: there `foldings` must end the run before.
+    """
+    omegas, gammas = np.asarray(omegas, float), np.asarray(gammas, float)
+    data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
+    times = running_times(gammas, end_time, foldings)
+    measured, exact = [], []
+    for gamma, end in zip(gammas, times, strict=True):
+        cells = [(epsilon, gamma, omega) for omega in omegas]
+        measured.append(measured_slopes(cells, boundary, data, end))
+        exact.append([flow_slope(data, cell, boundary, end) for cell in cells])
+    measured, exact, dims = np.array(measured).T, np.array(exact).T, ("omega", "gamma")
+    grid = omegas[:, None], gammas[None, :]
+    finite = finite_rate(*grid, epsilon, sites, boundary)
+    fine = np.linspace(omegas[0], omegas[-1], CURVE_POINTS)
+    return table(
+        f"Growth rates on {sites} sites, {boundary} ends, measured and predicted",
+        {"omega": omegas, "gamma": gammas, "curve_omega": fine},
+        measured=variable(measured, dims, "growth rate of tiny data", "1/tau"),
+        exact_flow=variable(exact, dims, "the same by the exact linear flow", "1/tau"),
+        finite_rate=variable(finite, dims, "largest rate of the finite chain", "1/tau"),
+        infinite_rate=variable(
+            infinite_rate(*grid, epsilon), dims, "largest rate of the infinite chain", "1/tau"
+        ),
+        infinite_threshold=variable(gamma_0(omegas, epsilon), ("omega",), "gamma_0 of (12)"),
+        finite_threshold=variable(
+            finite_threshold(omegas, epsilon, sites, boundary), ("omega",), "threshold of N sites"
+        ),
+        infinite_curve=variable(
+            gamma_0(fine, epsilon), ("curve_omega",), "gamma_0 of (12), finely"
+        ),
+        finite_curve=variable(
+            finite_threshold(fine, epsilon, sites, boundary),
+            ("curve_omega",),
+            "threshold of N sites, finely",
+        ),
+        sites=variable(sites, (), "number of sites N"),
+        error=variable(
+            np.abs(measured - exact), dims, "measured minus exact flow", "1/tau", tolerance=1e-6
+        ),
+        misclassified=variable(
+            misclassified(measured, finite, times),
+            (),
+            "cells whose measured growth contradicts the finite chain's threshold",
+            tolerance=0,
+        ),
+    )
+
+
+def misclassified(measured: np.ndarray, finite: np.ndarray, end_time) -> int:
+    """Count cells that grow though stable, or do not though unstable, beyond what time resolves.
+
+    Over half the time a bounded beat changes the slope by a few units over `end_time`.
+    """
+    resolution = 6.0 / np.asarray(end_time)
+    grows = (finite == 0.0) & (measured > resolution)
+    stays = (finite > 2.0 * resolution) & (measured < 0.5 * finite)
+    return int(np.sum(grows | stays))
+
+
+def check_measured_windows(
+    gamma: float, epsilon: float, sites: int, boundary: str, end_time: float, seed: int = 6
+) -> dict:
+    """Run tiny data in the middle of each window of stability in [0, 4 epsilon] and between them.
+
+    In the middle of a window l2 must stay within the factor that the exact flow allows, between
+    two windows it must grow at about 2 |gamma|.
+    """
+    windows = stable_windows(gamma, epsilon, sites, boundary)
+    edges = windows.ravel()[1:-1].reshape(-1, 2)
+    omegas = np.sort(np.concatenate([windows.mean(axis=1), edges.mean(axis=1)]))
+    data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
+    cells = [(epsilon, gamma, omega) for omega in omegas]
+    measured = measured_slopes(cells, boundary, data, end_time)
+    finite = finite_rate(omegas, gamma, epsilon, sites, boundary)
+    return table(
+        f"Growth inside and between the windows of stability of {sites} sites",
+        {"omega": omegas},
+        measured=variable(measured, ("omega",), "growth rate of tiny data", "1/tau"),
+        finite_rate=variable(finite, ("omega",), "largest rate of the finite chain", "1/tau"),
+        misclassified=variable(
+            misclassified(measured, finite, end_time), (), "contradictions", tolerance=0
+        ),
+    )

@@ -1,0 +1,102 @@
+"""The right-hand side against equation (4), and the laws that its arithmetic keeps exactly."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
+from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes_rates import LANES, midpoint_rates, rates, rates_at
+from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
+
+CONSTANTS = (0.7, 1.3, -2.1)
+WHOLE = Reduction(even=False, synchronised=False)
+REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
+
+
+def library_slope(z, numbers, boundary, reduction=WHOLE):
+    """Return dz/dtau as the library computes it on what `reduction` leaves of the chain."""
+    chain = Chain(*numbers, *choose_ends(boundary, reduction))
+    y = pack(z, reduction)
+    dy = np.zeros_like(y)
+    rates(chain, y, dy)
+    return unpack(dy, reduction)
+
+
+@pytest.mark.parametrize("reduction", REDUCTIONS)
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("half_width", [1, 2, 4, 5, 7, 8])
+def test_rates_are_equation_4(half_width, boundary, reduction):
+    z = random_chain(half_width, **reduction._asdict())
+    expected = slope(z, CONSTANTS, boundary)
+    actual = library_slope(z, CONSTANTS, boundary, reduction)
+    np.testing.assert_allclose(actual, expected, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_a_chain_of_one_pair_is_equation_4(boundary):
+    z = random_chain(0)
+    expected = slope(z, CONSTANTS, boundary)
+    np.testing.assert_allclose(library_slope(z, CONSTANTS, boundary), expected, rtol=1e-13)
+
+
+@given(chains(even=True), constants, boundaries)
+def test_rates_of_even_data_are_even_to_the_last_bit(z, numbers, boundary):
+    out = library_slope(z, numbers, boundary)
+    np.testing.assert_array_equal(out, out[:, ::-1])
+
+
+@given(chains(widths=(1, 4), even=True), constants, boundaries)
+def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, numbers, boundary):
+    half = library_slope(z, numbers, boundary, Reduction(even=True, synchronised=False))
+    np.testing.assert_array_equal(half, library_slope(z, numbers, boundary))
+
+
+@given(chains(synchronised=True), constants, boundaries)
+def test_one_component_has_the_bits_of_both_where_a_equals_b(z, numbers, boundary):
+    one = library_slope(z, numbers, boundary, Reduction(even=False, synchronised=True))
+    np.testing.assert_array_equal(one, library_slope(z, numbers, boundary))
+
+
+@given(chains(), constants, boundaries)
+def test_exchange_of_a_and_b_exchanges_the_bits_of_the_rates(z, numbers, boundary):
+    exchanged = library_slope(z[::-1], numbers, boundary)
+    np.testing.assert_array_equal(exchanged, library_slope(z, numbers, boundary)[::-1])
+
+
+@given(chains(), constants, boundaries)
+def test_conjugation_reverses_the_rates_to_the_last_bit(z, numbers, boundary):
+    reversed_rates = library_slope(np.conj(z), numbers, boundary)
+    np.testing.assert_array_equal(reversed_rates, -np.conj(library_slope(z, numbers, boundary)))
+
+
+@given(chains(even=True), constants)
+def test_even_data_cannot_tell_free_ends_from_a_ring(z, numbers):
+    ring = library_slope(z, numbers, "periodic")
+    np.testing.assert_array_equal(ring, library_slope(z, numbers, "free"))
+
+
+@pytest.mark.parametrize("sites", range(2 * LANES, 4 * LANES + 1))
+def test_four_sites_at_a_time_get_the_bits_of_one_by_one(sites):
+    chain = Chain(*CONSTANTS, *choose_ends("dirichlet", WHOLE))
+    y = pack(random_chain(sites)[:, :sites], WHOLE)
+    at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
+    rates(chain, y, at_once)
+    for re, j in itertools.product((0, 2), range(1, sites + 1)):
+        rates_at(chain, (y,), re, j, one_by_one)
+    np.testing.assert_array_equal(at_once, one_by_one)
+
+
+@pytest.mark.parametrize("half_width", [3, 7])
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_density(boundary, half_width):
+    old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
+    mean = (old + new) / 2
+    density = (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
+    linear = slope(mean, CONSTANTS, boundary) + 0.5j * np.abs(mean) ** 2 * mean
+    chain = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
+    middle, dy = np.zeros((2, 4, 2 * half_width + 3))
+    midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
+    expected = linear - 0.5j * density * mean
+    np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)

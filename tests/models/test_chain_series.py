@@ -1,0 +1,72 @@
+"""The power series of the chain against the equations themselves."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from oracle import BOUNDARIES, boundaries, chains, constants, power_series
+from pendula.compiled import generic
+from pendula.models.amplitudes import Chain
+from pendula.models.amplitudes_series import LONG, continue_series
+from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
+from pendula.vectors import LANES
+
+WHOLE = Reduction(even=False, synchronised=False)
+
+
+@generic
+def fill(chain, y, work):
+    series = lay_out(work, y)
+    write_state(y, series)
+    continue_series(chain, series)
+
+
+def coefficients(z, numbers, boundary, reduction):
+    """Return the coefficients (order + 1, 2, N) by the library, complex."""
+    y = pack(z, reduction)
+    work = np.full((WORK, *y.shape), np.nan)
+    fill(Chain(*numbers, *choose_ends(boundary, reduction)), y, work)
+    components, blocks = y.shape[0] // 2, -(-(y.shape[1] - 2) // LANES)
+    c = work.reshape(-1)[: components * blocks * BLOCK]
+    c = c.reshape(components, blocks, ORDER + 1, 3, LANES)[:, :, :, :2]
+    c = c.transpose(2, 0, 3, 1, 4).reshape(ORDER + 1, y.shape[0], blocks * LANES)
+    c = np.pad(c, ((0, 0), (0, 0), (1, 1)))[:, :, : y.shape[1]]
+    return np.array([unpack(state, reduction) for state in c])
+
+
+@pytest.mark.parametrize(("even", "synchronised"), [(0, 0), (1, 0), (0, 1), (1, 1)])
+def test_each_kind_of_half_continues_the_series(even, synchronised):
+    @given(z=chains(even=even, synchronised=synchronised), numbers=constants, boundary=boundaries)
+    @settings(max_examples=30)
+    def check(z, numbers, boundary):
+        expected = power_series(z, numbers, boundary, ORDER)
+        for reduction in (WHOLE, find_reduction(z)):
+            actual = coefficients(z, numbers, boundary, reduction)
+            size = np.abs(expected).max(axis=(1, 2), keepdims=True)
+            np.testing.assert_allclose(actual / (size + 1), expected / (size + 1), atol=1e-13)
+
+    check()
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "free"])
+def test_waves_along_a_long_chain_give_the_bits_of_its_half_order_by_order(boundary):
+    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * LONG // 3, 2)) @ (1.0, 1j)
+    z = np.concatenate([half[:, :0:-1], half], axis=1)
+    assert half.shape[1] <= LANES * LONG < z.shape[1]
+    runs = [
+        coefficients(z, (1.0, 0.7, -4.0), boundary, kept) for kept in (WHOLE, find_reduction(z))
+    ]
+    np.testing.assert_array_equal(*runs)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("sites", [1, 3, 5, 7, 9, 11, 13, 15, 17])
+def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks_end(
+    boundary, sites
+):
+    half = np.random.default_rng(sites).normal(size=(1, (sites + 1) // 2, 2)) @ (1.0, 1j)
+    z = np.repeat(np.concatenate([half[:, :0:-1], half], axis=1), 2, axis=0)
+    whole = coefficients(z, (1.0, 0.7, -4.0), boundary, WHOLE)
+    for even, synchronised in [(sites > 1, False), (False, True), (sites > 1, True)]:
+        kept = Reduction(even=even, synchronised=synchronised)
+        np.testing.assert_array_equal(coefficients(z, (1.0, 0.7, -4.0), boundary, kept), whole)

@@ -1,0 +1,62 @@
+"""auto: the error that was asked for is kept, or the run is refused."""
+
+import numpy as np
+import pytest
+from oracle import CASES
+from pendula.configuration.messages import ConfigurationError, load
+from pendula.simulation.automatic import controls, difference
+from pendula.simulation.simulate import IntegrationError, simulate
+
+
+def run(case, error, end_time):
+    omega, pair = CASES[case]
+    return simulate(
+        epsilon=1.0,
+        gamma=1.0,
+        omega=omega,
+        half_width=30,
+        boundary="dirichlet",
+        initial={0: pair},
+        end_time=end_time,
+        output_step=0.1,
+        solver=error if isinstance(error, dict) else {"name": "auto", "error": error},
+    )
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("error", [1e-2, 1e-6, 1e-11])
+def test_the_error_that_was_asked_for_is_kept(case, error):
+    exact = run(case, controls(1e-15), 5.0)
+    kept = run(case, error, 5.0)
+    assert difference(kept, exact).max() < error
+    assert kept.solver["estimated_error"] <= error == kept.solver["requested_error"]
+
+
+def test_chaos_asks_for_more_digits():
+    loose, tight = (run("fig4_large", 1e-4, end).solver["rtol"] for end in (3.0, 15.0))
+    assert tight < loose
+
+
+def test_what_double_precision_cannot_do_is_refused_with_the_time_it_lasts():
+    with pytest.raises(IntegrationError, match=r"^auto: .* agree to 1e-06 only before tau = 1\d"):
+        run("fig4_small", 1e-6, 50.0)
+
+
+def test_the_run_is_that_of_the_solver_picked():
+    picked = run("fig3_small", 1e-8, 5.0)
+    plain = {key: picked.solver[key] for key in ("name", "rtol", "atol")}
+    np.testing.assert_array_equal(run("fig3_small", plain, 5.0).final, picked.final)
+
+
+def test_differences_are_relative_to_the_largest_value_of_each_norm():
+    exact = run("fig3_small", controls(1e-12), 1.0)
+    linf = exact.linf.copy()
+    linf[1, 3] += 0.5
+    assert difference(exact._replace(linf=linf), exact)[3] == pytest.approx(0.5 / linf[0].max())
+    assert difference(exact, exact).max() == 0.0
+
+
+def test_the_error_is_checked_before_the_run():
+    case = {"omega": 1, "solver": {"name": "auto", "error": 1e-20}}
+    with pytest.raises(ConfigurationError, match=r"solver.error: is 1e-20; it must be at least"):
+        load({"cases": {"mine": case}})

@@ -1,0 +1,89 @@
+"""What is refused before it starts, and what is not."""
+
+import numpy as np
+import pytest
+from oracle import SOLVERS, random_chain
+from pendula.simulation.feasibility import find_obstacle
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import IntegrationError, integrate, output_times
+
+NUMBERS = (1.0, 1.0, -4.0)
+WHOLE = Reduction(even=False, synchronised=False)
+
+
+def obstacle(name="dop853", size=1.0, span=50.0, numbers=NUMBERS, **controls):
+    return find_obstacle(numbers, size * random_chain(2), span, SOLVERS[name] | controls)
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_ordinary_runs_meet_no_obstacle(name):
+    assert obstacle(name) is None
+    assert obstacle(name, size=0.0) is None
+    assert obstacle(name, size=100.0) is None
+
+
+@pytest.mark.parametrize("name", ["splitting", "crank_nicolson"])
+def test_runs_of_more_than_a_milliard_steps_are_refused(name):
+    assert obstacle(name, step=50e-9) is None
+    assert obstacle(name, step=49e-9) == (
+        "the run takes 1e+09 steps, more than 1e+09: the step is too short"
+    )
+    for step in (0.0, -0.1, np.nan):
+        assert "must be positive" in obstacle(name, step=step)
+
+
+def test_steps_too_long_for_the_series_of_the_linear_flow_are_refused():
+    """At 100 its terms would cancel to noise, at 1000 they overflow and the sum never ends."""
+    assert "linear terms" in obstacle("splitting", step=100.0, size=0.0)
+    assert "linear terms" in obstacle("splitting", step=2.0, numbers=(1.0, 1.0, 1e3))
+    assert obstacle("splitting", step=1.0) is None
+
+
+@pytest.mark.parametrize("name", ["taylor", "dop853", "ode45"])
+def test_tolerances_below_rounding_are_refused(name):
+    assert obstacle(name, rtol=1e-15, atol=1e-15) is None
+    assert obstacle(name, rtol=1e-40, atol=1e-14) is None  # the absolute one is enough
+    assert "below the rounding" in obstacle(name, rtol=1e-17, atol=1e-18)
+    assert "not both numbers" in obstacle(name, rtol=np.nan)
+    assert "smaller than the absolute tolerance" in obstacle(name, size=1e-30, atol=1e-20)
+
+
+def test_squares_that_vanish_are_refused():
+    assert "squares vanish" in obstacle("taylor", size=1e-170, atol=1e-190)
+    assert "square of the absolute tolerance" in obstacle("dop853", size=1e-145, atol=1e-157)
+    assert obstacle("taylor", size=1e-145, atol=1e-157) is None
+
+
+def test_data_too_fast_to_follow_and_constants_that_are_no_numbers_are_refused():
+    assert "radians" in obstacle(size=1e5)
+    assert "overflow" in obstacle(size=1e200)
+    assert "not finite" in obstacle(numbers=(1.0, np.nan, 0.0))
+    assert "not finite" in obstacle(size=np.inf)
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_a_result_that_overflows_is_no_result(name):
+    """Amplitudes of 1e80 can be followed for a moment, but their energy overflows."""
+    controls = SOLVERS[name] | ({"step": 1e-162} if "step" in SOLVERS[name] else {})
+    controls |= {"atol": 1e70} if "atol" in controls else {}
+    with pytest.raises(IntegrationError, match=r"overflow|finite|unit of time|step fell"):
+        integrate(
+            NUMBERS, "dirichlet", 1e80 * random_chain(1), WHOLE, np.array([0.0, 1e-160]), controls
+        )
+
+
+@pytest.mark.parametrize("name", ["taylor", "dop853", "ode45"])
+def test_data_at_rest_stay_at_rest_for_any_time(name):
+    times, rest = output_times(1e7, 1e7), np.zeros((2, 3), complex)
+    final = integrate(NUMBERS, "dirichlet", rest, WHOLE, times, SOLVERS[name]).final
+    np.testing.assert_array_equal(final, 0.0)
+
+
+def test_power_series_beyond_the_doubles_are_refused():
+    """Slowly or quickly, dop853 does it; taylor would take the whole run in one step."""
+    slow, fast = (1e-25, 1e-25, 1e-25), (1e25, 1e25, 1e25)
+    for numbers, span, size in ((slow, 1e25, 1e-20), (fast, 1e-25, 1.0)):
+        tolerances = {"atol": 1e-12 * size}
+        assert "unit of time" in obstacle("taylor", size, span, numbers, **tolerances)
+        assert obstacle("dop853", size, span, numbers, **tolerances) is None
+    assert obstacle("taylor", 1e-20, 1.0, (0.0, 0.0, 0.0), atol=1e-32) is None  # nothing moves

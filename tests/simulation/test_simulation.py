@@ -1,0 +1,191 @@
+"""Laws of the equations, kept by every solver at every end of the chain, and faults of a run."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numba.core.runtime import _nrt_python, rtsys
+from oracle import BOUNDARIES, SOLVERS, boundaries, chains, constants, random_chain
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import IntegrationError, integrate, output_times, simulate
+
+WHOLE = Reduction(even=False, synchronised=False)
+TIMES = output_times(1.0, 0.25)
+CLOSE = {  # over a unit of time, worst case
+    "ode45": 1e-4,
+    "dop853": 1e-8,
+    "taylor": 1e-8,
+    "splitting": 1e-7,
+    "crank_nicolson": 1e-8,
+}
+each_solver = pytest.mark.parametrize("name", SOLVERS)
+each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)
+
+
+def run(name, z, numbers=(1.0, 1.0, -4.0), boundary="dirichlet", reduction=WHOLE, times=TIMES):
+    """Integrate z with the named solver and keep every output's moduli."""
+    return integrate(numbers, boundary, z, reduction, times, SOLVERS[name], snapshot_every=1)
+
+
+def assert_same_bits(one, other, *fields):
+    for field in fields:
+        np.testing.assert_array_equal(getattr(one, field), getattr(other, field), err_msg=field)
+
+
+@each_solver
+@given(z=chains(widths=(1, 4), even=True), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_half_of_an_even_chain_has_the_bits_of_the_whole(name, z, numbers, boundary):
+    half = run(name, z, numbers, boundary, Reduction(even=True, synchronised=False))
+    whole = run(name, z, numbers, boundary)
+    assert_same_bits(half, whole, "final", "linf", "l2", "energy", "modulus", "outcome")
+
+
+@each_solver
+@given(z=chains(synchronised=True), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_one_component_has_the_bits_of_both_where_a_equals_b(name, z, numbers, boundary):
+    one = run(name, z, numbers, boundary, Reduction(even=False, synchronised=True))
+    both = run(name, z, numbers, boundary)
+    assert_same_bits(one, both, "final", "linf", "l2", "modulus", "outcome")
+    np.testing.assert_allclose(one.energy, both.energy, rtol=1e-13, atol=1e-12)
+
+
+@each_solver
+@each_boundary
+def test_chaos_does_not_make_an_even_solution_lopsided(name, boundary):
+    z = random_chain(6, even=True)
+    final = run(name, z, (1.0, 1.0, 0.0), boundary, times=output_times(30.0, 1.0)).final
+    np.testing.assert_array_equal(final, final[:, ::-1])
+
+
+@each_solver
+@each_boundary
+def test_an_unstable_difference_does_not_part_equal_components(name, boundary):
+    z = random_chain(6, synchronised=True)
+    final = run(name, z, (1.0, 3.0, 0.0), boundary, times=output_times(20.0, 1.0)).final
+    np.testing.assert_array_equal(final[0], final[1])
+
+
+@each_solver
+@given(z=chains(), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_exchange_of_a_and_b_exchanges_the_bits(name, z, numbers, boundary):
+    straight, exchanged = (run(name, data, numbers, boundary) for data in (z, z[::-1]))
+    np.testing.assert_array_equal(exchanged.final, straight.final[::-1])
+    np.testing.assert_array_equal(exchanged.l2, straight.l2[::-1])
+
+
+@each_solver
+@given(z=chains(widths=(0, 2)), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_conjugation_reverses_time(name, z, numbers, boundary):
+    there = run(name, z, numbers, boundary).final
+    back = np.conj(run(name, np.conj(there), numbers, boundary).final)
+    np.testing.assert_allclose(back, z, atol=CLOSE[name])
+
+
+@each_solver
+@given(z=chains(), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_without_drive_both_norms_are_conserved(name, z, numbers, boundary):
+    l2 = run(name, z, (numbers[0], 0.0, numbers[2]), boundary).l2
+    np.testing.assert_allclose(l2, np.tile(l2[:, :1], l2.shape[1]), atol=CLOSE[name])
+
+
+@each_solver
+@given(z=chains(synchronised=True), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_where_a_equals_b_the_norm_is_conserved(name, z, numbers, boundary):
+    l2 = run(name, z, numbers, boundary, Reduction(even=False, synchronised=True)).l2
+    np.testing.assert_allclose(l2, np.tile(l2[:, :1], l2.shape[1]), atol=CLOSE[name])
+
+
+@pytest.mark.parametrize(
+    ("name", "drift"),
+    [
+        ("ode45", 1e-3),
+        ("dop853", 1e-9),
+        ("taylor", 1e-9),
+        ("splitting", 1e-7),
+        ("crank_nicolson", 1e-9),
+    ],
+)
+@given(z=chains(), numbers=constants, boundary=boundaries)
+@settings(max_examples=20)
+def test_energy_is_conserved(name, drift, z, numbers, boundary):
+    energy = run(name, z, numbers, boundary).energy
+    assert np.abs(energy - energy[0]).max() < drift * max(1.0, np.abs(energy[0]))
+
+
+@each_solver
+def test_even_data_cannot_tell_free_ends_from_a_ring(name):
+    z = random_chain(4, even=True)
+    free, ring = (run(name, z, boundary=boundary) for boundary in ("free", "periodic"))
+    assert_same_bits(free, ring, "final", "linf", "l2", "energy")
+
+
+@each_solver
+def test_a_ring_has_no_first_site(name):
+    z = random_chain(3)
+    turned = run(name, np.roll(z, 2, axis=1), boundary="periodic").final
+    straight = run(name, z, boundary="periodic").final
+    np.testing.assert_allclose(turned, np.roll(straight, 2, axis=1), atol=CLOSE[name])
+
+
+@pytest.mark.parametrize(("boundary", "bonds"), [("dirichlet", 2), ("free", 0), ("periodic", 0)])
+def test_one_undriven_pair_rotates_at_a_known_rate(boundary, bonds):
+    z = np.array([[1.5 - 0.5j], [0.3 + 1j]])
+    epsilon, omega = 0.7, -2.1
+    rate = omega - bonds * epsilon + 0.5 * np.abs(z) ** 2
+    final = run("dop853", z, (epsilon, 0.0, omega), boundary).final
+    np.testing.assert_allclose(final, z * np.exp(-1j * rate), rtol=1e-10)
+
+
+@each_boundary
+def test_uncoupled_sites_rotate_each_at_its_own_rate(boundary):
+    z = random_chain(3)
+    final = run("dop853", z, (0.0, 0.0, 1.7), boundary).final
+    np.testing.assert_allclose(final, z * np.exp(-1j * (1.7 + 0.5 * np.abs(z) ** 2)), rtol=1e-9)
+
+
+def test_simulate_gives_components_sites_and_times():
+    case = {"epsilon": 1, "gamma": 1, "omega": -4, "half_width": 2, "boundary": "free"}
+    case |= {"initial": {0: (1, 0.5j), 1: (0, 2)}, "end_time": 1, "output_step": 0.25}
+    trajectory = simulate(**case, solver=SOLVERS["dop853"], snapshot_every=2)
+    np.testing.assert_array_equal(trajectory.tau, [0, 0.25, 0.5, 0.75, 1])
+    assert trajectory.linf.shape == trajectory.l2.shape == (2, 5)
+    assert trajectory.modulus.shape == (2, 5, 3)
+    np.testing.assert_array_equal(trajectory.modulus[:, :, 0], [[0, 0, 1, 0, 0], [0, 0, 0.5, 2, 0]])
+    np.testing.assert_allclose(trajectory.modulus[:, :, -1], np.abs(trajectory.final), rtol=1e-12)
+    np.testing.assert_allclose(trajectory.linf[:, 0], [1, 2], rtol=1e-15)
+
+
+def test_outputs_include_both_ends_and_exact_integers():
+    times = output_times(70.0, 0.025)
+    assert len(times) == 2801
+    np.testing.assert_array_equal(times[::40], np.arange(71))
+    np.testing.assert_allclose(np.diff(times), 0.025, rtol=1e-11)
+    assert output_times(3.0, 1 / 49)[49] == 1.0  # although 49 * (1 / 49) is not 1
+
+
+@each_solver
+@pytest.mark.parametrize("value", [np.nan, np.inf, complex(0, np.nan), 1e100, 1e200])
+def test_data_that_cannot_be_integrated_end_in_an_error(name, value):
+    z = random_chain(2)
+    z[1, 3] = value
+    with pytest.raises(IntegrationError, match=rf"^{name} stopped at tau = 2.5: the "):
+        run(name, z, times=2.5 + TIMES)
+
+
+@given(st.sampled_from(sorted(SOLVERS)), st.sampled_from([1.0, 40.0]))
+@settings(max_examples=6)
+def test_no_memory_is_taken_per_step(name, end_time):
+    """Compiled code counts its allocations: a long run must make as few as a short one."""
+    _nrt_python.memsys_enable_stats()
+    counts = []
+    for end in (0.5, end_time):
+        before = rtsys.get_allocation_stats().alloc
+        run(name, random_chain(2), times=np.linspace(0.0, end, 3))
+        counts.append(rtsys.get_allocation_stats().alloc - before)
+    assert counts[0] == counts[1]

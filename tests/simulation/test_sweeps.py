@@ -1,0 +1,59 @@
+"""Sweeps: the statistics that the paper's figures and captions speak of."""
+
+import numpy as np
+import pytest
+from pendula.simulation.simulate import simulate
+from pendula.simulation.sweep import sweep
+
+PROBLEM = {
+    "epsilon": 1.0,
+    "gamma": 1.0,
+    "omega": -4.0,
+    "half_width": 30,
+    "boundary": "dirichlet",
+    "initial": {0: (1.0, 0.1)},
+    "end_time": 3.0,
+    "output_step": 0.025,
+    "solver": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
+    "snapshot_every": 0,
+}
+WINDOWS = [(1.0, 2.0), (0.0, 3.0)]
+
+
+@pytest.fixture(scope="module")
+def swept():
+    return sweep(PROBLEM, [4, 7], WINDOWS)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(**{**PROBLEM, "half_width": 7})
+
+
+def test_the_shape_is_half_width_quantity_statistic_window(swept):
+    assert swept.l2.shape == swept.linf.shape == (2, 3, 2, 2)
+
+
+@pytest.mark.parametrize(("window", "first", "last"), [(0, 40, 80), (1, 0, 120)])
+def test_maxima_are_those_of_the_trajectory_over_the_whole_window(swept, run, window, first, last):
+    inside = slice(first, last + 1)
+    pair = np.hypot(run.l2[0], run.l2[1])[inside]
+    np.testing.assert_allclose(
+        swept.l2[1, :, 0, window], [*run.l2[:, inside].max(axis=1), pair.max()], rtol=1e-14
+    )
+    np.testing.assert_allclose(
+        swept.linf[1, :, 0, window],
+        [*run.linf[:, inside].max(axis=1), run.linf[:, inside].max()],
+    )
+
+
+def test_means_are_integrals_over_the_window(swept, run):
+    inside = slice(40, 81)
+    integral = np.trapezoid(run.l2[:, inside], run.tau[inside], axis=1)
+    np.testing.assert_allclose(swept.l2[1, :2, 1, 0], integral, rtol=1e-12)
+
+
+def test_progress_is_told_for_each_half_width():
+    told = []
+    sweep(PROBLEM, [3, 4], [(0.0, 0.5)], told.append)
+    assert told == ["half-width 3 done (1 of 2)", "half-width 4 done (2 of 2)"]

@@ -1,0 +1,56 @@
+"""Ensembles: perturbed data keep what they must, and statistics are those of NumPy."""
+
+import numpy as np
+import pytest
+from pendula.simulation.simulate import simulate
+from pendula.simulation.sweep import pair_l2
+from pendula.studies.chaos import ensembles
+
+PROBLEM = {
+    "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 6, "boundary": "dirichlet",
+    "initial": {0: (1.0, 0.1)}, "end_time": 3.0, "output_step": 0.5,
+    "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
+}  # fmt: skip
+
+
+def test_even_data_stay_even():
+    initial = {0: (1, 2), 2: (3, 4j), -2: (3, 4j)}
+    drawn = ensembles.perturb(initial, 1e-3, np.random.default_rng(0))
+    assert drawn[2] == drawn[-2] and drawn[0] != initial[0]
+
+
+def test_the_perturbation_has_the_relative_size_asked_for():
+    initial = dict.fromkeys(range(500), (5.0, 0.2j))
+    drawn = ensembles.perturb(initial, 1e-4, np.random.default_rng(0))
+    relative = [(np.array(drawn[n]) / initial[n] - 1) / 1e-4 for n in initial]
+    assert np.std(np.real(relative)) == pytest.approx(1, abs=0.1)
+    assert np.std(np.imag(relative)) == pytest.approx(1, abs=0.1)
+
+
+def test_without_perturbation_every_member_is_the_run_itself():
+    l2, _ = ensembles.run_members(PROBLEM, 0.0, 2)
+    np.testing.assert_array_equal(l2, [pair_l2(simulate(**PROBLEM))] * 2)
+
+
+def test_members_differ_and_a_seed_gives_the_same_again():
+    one, _ = ensembles.run_members(PROBLEM, 1e-3, 3, seed=5)
+    again, _ = ensembles.run_members(PROBLEM, 1e-3, 3, seed=5)
+    other, _ = ensembles.run_members(PROBLEM, 1e-3, 3, seed=6)
+    np.testing.assert_array_equal(one, again)
+    assert len(np.unique(np.concatenate([one, other])[:, 2, -1])) == 6
+
+
+def test_a_swept_ensemble_has_the_shape_of_a_sweep_for_each_member():
+    l2, linf = ensembles.sweep_members(PROBLEM, [2, 4], [(1.0, 3.0)], 1e-3, 3)
+    assert l2.shape == linf.shape == (3, 2, 3, 2, 1)
+    assert np.all(l2.std(axis=0) > 0)
+
+
+def test_bands_and_moments_are_those_over_the_members():
+    values = np.arange(11.0)[:, None] * [1.0, 10.0]
+    np.testing.assert_allclose(ensembles.bands(values)[2], [5.0, 50.0])
+    np.testing.assert_allclose(ensembles.bands(values)[0], [0.5, 5.0])
+    found = ensembles.moments(values)
+    np.testing.assert_allclose(found["mean"], [5.0, 50.0])
+    np.testing.assert_allclose(found["deviation"][0], np.sqrt(11.0))
+    np.testing.assert_allclose(found["error"][0], 1.0)

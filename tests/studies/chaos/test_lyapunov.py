@@ -1,0 +1,90 @@
+"""Lyapunov exponents: what any Hamiltonian flow promises of them, and chaos against order."""
+
+import numpy as np
+import pytest
+from oracle import CASES, random_chain
+from pendula.models.amplitudes import Chain
+from pendula.models.tangent import ROWS
+from pendula.simulation.lattice import Reduction, choose_ends, pack
+from pendula.studies.chaos import lyapunov
+from pendula.studies.chaos.changes import PARITIES
+from pendula.studies.chaos.orthonormal import inner, orthonormalise
+from pendula.studies.chaos.tangents import Growth
+
+WHOLE = Reduction(even=False, synchronised=False)
+HALF = Reduction(even=True, synchronised=False)
+CONSTANTS = {"epsilon": 1.0, "gamma": 1.0, "boundary": "dirichlet"}
+
+
+def problem(case, half_width):
+    omega, pair = CASES[case]
+    return {**CONSTANTS, "omega": omega, "half_width": half_width, "initial": {0: pair}}
+
+
+@pytest.fixture(scope="module")
+def all_changes():
+    return lyapunov.follow_all(problem("fig3_large", 1), 200.0)
+
+
+def test_the_sum_of_all_exponents_is_zero_at_every_time(all_changes):
+    np.testing.assert_allclose(all_changes.stretch.sum(axis=0), 0.0, atol=1e-5)
+
+
+def test_exponents_come_in_pairs_of_opposite_sign(all_changes):
+    rates = lyapunov.exponents(all_changes, 50.0)
+    assert rates[0] > 0.3
+    np.testing.assert_allclose(rates, -rates[::-1], atol=0.05)
+
+
+def test_two_exponents_vanish(all_changes):
+    rates = lyapunov.exponents(all_changes, 50.0)
+    np.testing.assert_allclose(rates[5:7], 0.0, atol=0.05)
+
+
+def test_orthonormalising_measures_what_a_qr_decomposition_does():
+    states = np.array([pack(random_chain(2, seed=seed), WHOLE) for seed in range(4)])
+    bundle, lengths = np.concatenate(states), np.empty(3)
+    chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", WHOLE))
+    orthonormalise(chain, bundle, lengths)
+    vectors = states[1:, :, 1:-1].reshape(3, -1).T
+    expected = np.log(np.abs(np.diag(np.linalg.qr(vectors)[1])))
+    np.testing.assert_allclose(lengths, expected, rtol=1e-12)
+    after = bundle.reshape(4, ROWS, -1)[1:, :, 1:-1].reshape(3, -1)
+    np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
+
+
+def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
+    u, v = random_chain(3, even=True, seed=1), random_chain(3, even=True, seed=2)
+    products = [
+        inner(Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept)), pack(u, kept), pack(v, kept))
+        for kept in (WHOLE, HALF)
+    ]
+    assert products[0] == pytest.approx(np.sum(u.conj() * v).real)
+    assert products[1] == pytest.approx(products[0], rel=1e-13)
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+def test_the_chain_is_chaotic_at_omega_zero(parity):
+    growth = lyapunov.follow_parity(problem("fig4_small", 15), parity, 60.0)
+    assert lyapunov.exponents(growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+def test_small_data_at_omega_minus_4_are_regular(parity):
+    growth = lyapunov.follow_parity(problem("fig3_small", 15), parity, 60.0)
+    assert abs(lyapunov.exponents(growth, 20.0)[0]) < 0.02
+
+
+def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts():
+    tau = np.arange(0.0, 81.0)
+    wiggle = np.where(tau // 10 % 2 == 0, 1.0, -1.0)
+    stretch = 0.5 * tau + np.concatenate([[0.0], np.cumsum(0.1 * wiggle[:-1])])
+    growth = Growth(tau, stretch[None], np.ones(81))
+    assert lyapunov.exponents(growth, 0.0) == pytest.approx([0.5])
+    assert lyapunov.spread_of(growth, 0.0) == pytest.approx([0.1 / np.sqrt(7)])
+
+
+def test_data_that_are_not_even_have_no_parities():
+    lopsided = {**problem("fig3_small", 2), "initial": {1: (1.0, 0.1)}}
+    with pytest.raises(ValueError, match="even in n"):
+        lyapunov.follow_parity(lopsided, "odd", 1.0)

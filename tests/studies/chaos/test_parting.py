@@ -1,0 +1,44 @@
+"""Parting times: a growth known in closed form, and a chaotic case followed at two tolerances."""
+
+import numpy as np
+import pytest
+from oracle import CASES
+from pendula.studies.chaos import parting
+from pendula.studies.chaos.lyapunov import follow_parity
+
+TAU = np.linspace(0.0, 20.0, 2001)
+
+
+def test_errors_made_all_along_grow_to_their_integral():
+    rate = 1.5
+    log = parting.amplification(TAU, rate * TAU, np.ones_like(TAU))
+    np.testing.assert_allclose(log[10:], np.log(np.expm1(rate * TAU[10:]) / rate), atol=0.02)
+
+
+def test_a_solution_that_grows_like_its_errors_keeps_their_relative_size():
+    log = parting.amplification(TAU, 1.5 * TAU, np.exp(1.5 * TAU))
+    np.testing.assert_allclose(log[1:], np.log(TAU[1:]), atol=1e-9)
+
+
+def test_a_thousandth_of_the_error_parts_later_by_its_logarithm_over_the_rate():
+    log = parting.amplification(TAU, 2.0 * TAU, np.ones_like(TAU))
+    early, late = (parting.predict(TAU, log, error) for error in (1e-6, 1e-9))
+    assert late - early == pytest.approx(np.log(1e3) / 2.0, abs=0.02)
+
+
+def test_what_never_grows_never_parts():
+    log = parting.amplification(TAU, np.zeros_like(TAU), np.ones_like(TAU))
+    assert np.isnan(parting.predict(TAU, log, 1e-6))
+
+
+def test_a_chaotic_run_parts_when_predicted():
+    omega, pair = CASES["fig4_small"]
+    problem = {
+        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 15, "boundary": "dirichlet",
+        "initial": {0: pair}, "end_time": 16.0, "output_step": 0.125,
+    }  # fmt: skip
+    growth = follow_parity(problem, "even", 16.0)
+    log = parting.amplification(growth.tau, growth.stretch[0], growth.size)
+    found = parting.measure(problem, [1e-6])
+    made = found.early[0] / np.exp(log[parting.early_index(growth.tau)])
+    assert found.time[0] == pytest.approx(parting.predict(growth.tau, log, made), abs=3.0)

@@ -1,0 +1,89 @@
+"""Lost evenness: an arithmetic that is not even, and odd parts that grow as the tangents say."""
+
+import numpy as np
+import pytest
+from oracle import BOUNDARIES, CASES, random_chain, slope
+from pendula.models.amplitudes import Chain
+from pendula.simulation.lattice import Reduction, choose_ends, pack, place, unpack
+from pendula.studies.chaos import symmetry
+from pendula.studies.chaos.changes import random_change
+from pendula.studies.chaos.tangents import grow
+
+CONSTANTS = (0.7, 1.3, -2.1)
+WHOLE = Reduction(even=False, synchronised=False)
+
+
+def problem(case, **changes):
+    omega, pair = CASES[case]
+    return {
+        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 10, "boundary": "dirichlet",
+        "initial": {0: pair}, "end_time": 6.0, "output_step": 0.25,
+        "solver": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}, **changes,
+    }  # fmt: skip
+
+
+def lopsided(z, boundary):
+    y = pack(z, WHOLE)
+    dy = np.zeros_like(y)
+    symmetry.lopsided_rates(Chain(*CONSTANTS, *choose_ends(boundary, WHOLE)), y, dy)
+    return unpack(dy, WHOLE)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_the_lopsided_rates_are_equation_4(boundary):
+    z = random_chain(4)
+    expected = slope(z, CONSTANTS, boundary)
+    np.testing.assert_allclose(lopsided(z, boundary), expected, rtol=1e-13, atol=1e-13)
+
+
+def test_the_lopsided_rates_of_even_data_are_even_but_for_rounding():
+    rate = lopsided(random_chain(30, even=True), "dirichlet")
+    assert 0 < np.abs(rate - rate[:, ::-1]).max() < 1e-13
+
+
+def test_the_odd_part_is_measured_relative_to_the_whole():
+    even, odd = random_chain(3, even=True), random_chain(3, seed=1)
+    odd = odd - odd[:, ::-1]
+    sizes = np.empty(3)
+    for i, z in enumerate((even, odd, even + 0.5 * odd)):
+        symmetry.observe_odd(None, pack(z, WHOLE), i, sizes)
+    mixed = 0.5 * np.linalg.norm(odd) / np.linalg.norm(even + 0.5 * odd)
+    np.testing.assert_allclose(sizes, [0.0, 1.0, mixed], rtol=1e-13)
+
+
+def test_an_odd_perturbation_grows_as_the_tangent_dynamics_says():
+    case, size = problem("fig4_small"), 1e-7
+    amplitudes = place(case["initial"], 10)
+    change = random_change(21, "odd", np.random.default_rng(0))
+    change *= size / np.linalg.norm(change)
+    odd = symmetry.follow_odd_part(case, amplitudes + change)
+    growth = grow((1.0, 1.0, 0.0), "dirichlet", amplitudes, change[None], 6.0)
+    expected = size * np.exp(growth.stretch[0]) / growth.size
+    np.testing.assert_allclose(odd, expected, rtol=2e-3)
+
+
+def test_evenness_is_lost_by_rounding_where_the_chain_is_chaotic_only():
+    chaotic = symmetry.follow_odd_part(
+        problem("fig4_small", end_time=12.0), place({0: (1, 0.1)}, 10)
+    )
+    regular = symmetry.follow_odd_part(
+        problem("fig3_small", end_time=12.0), place({0: (1, 0.1)}, 10)
+    )
+    assert chaotic[0] == regular[0] == 0.0
+    assert regular[-1] < 1e-13 < 1e-11 < chaotic[-1]
+
+
+def test_members_are_perturbed_by_the_size_asked_for_and_seeded():
+    case = problem("fig3_small", end_time=1.0)
+    one, same, other = (symmetry.break_symmetry(case, 1e-6, 2, seed) for seed in (1, 1, 2))
+    np.testing.assert_allclose(one.perturbed[:, 0], 1e-6, rtol=1e-6)
+    np.testing.assert_array_equal(one.perturbed, same.perturbed)
+    assert not np.array_equal(one.perturbed, other.perturbed)
+    assert not np.array_equal(*one.perturbed)
+
+
+def test_the_rate_of_growth_is_that_between_two_sizes():
+    tau = np.linspace(0.0, 10.0, 101)
+    odd = np.minimum(1e-12 * np.exp(3.0 * tau), 1.0)
+    assert symmetry.growth_between(tau, odd, 1e-9, 1e-4) == pytest.approx(3.0)
+    assert np.isnan(symmetry.growth_between(tau, 1e-12 + 0 * tau, 1e-9, 1e-4))

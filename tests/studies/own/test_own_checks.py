@@ -1,0 +1,106 @@
+"""The checks of any case: errors, chaos, the paper's statements; each also where it must fail."""
+
+import numpy as np
+import pytest
+from pendula import Case, check, simulate
+from pendula.studies.own import second_run, sensitivity, statements
+from pendula.studies.theory.bounds import best_bound, extent, theorem_1_bound, widened_bound
+from pendula.studies.theory.linear import gamma_0, infinite_rate
+from pendula.studies.theory.runs import total_energy
+
+STILL = Case(omega=8, half_width=8, end_time=10)
+SEA = Case(omega=0, half_width=12, end_time=30)
+
+
+@pytest.fixture(scope="module")
+def still():
+    return check(STILL)
+
+
+@pytest.fixture(scope="module")
+def sea():
+    return check(SEA)
+
+
+def test_every_number_has_a_name_and_units(still):
+    for name, variable in still.variables.items():
+        assert variable.attrs["long_name"] and variable.attrs["units"], name
+    assert still.attrs["omega"] == 8 and still.attrs["second_name"] == "dop853"
+
+
+def test_a_regular_case_is_true_to_the_end(still):
+    assert float(still["largest_difference"]) < 1e-11 and np.isnan(still["parting"])
+    assert still["chaotic"] == 0 and np.isnan(still["rounding_parting"])
+
+
+def test_a_chaotic_case_is_found_out(sea):
+    assert sea["chaotic"] == 1 and 1.0 < float(sea["exponent"]) < 2.5
+    assert 10 < float(sea["parting"]) < 30
+    assert abs(float(sea["rounding_parting"] - sea["parting"])) < 6
+
+
+def test_tiny_data_that_only_grow_are_no_chaos():
+    tiny = Case(omega=2, half_width=3, initial={0: (1e-20, 1e-21)}, end_time=10,
+                solver={"name": "taylor", "atol": 1e-34})  # fmt: skip
+    found = check(tiny)
+    assert "second_refusal" not in found.attrs and float(found["largest_difference"]) < 1e-9
+    assert found["chaotic"] == 0 and float(found["exponent"]) > 1
+
+
+def test_a_coarse_run_parts_though_nothing_is_chaotic():
+    coarse = STILL.changed(solver={"name": "crank_nicolson", "step": 0.025}, initial={0: (5, 1)})
+    found = check(coarse)
+    assert np.isfinite(found["parting"]) and found["chaotic"] == 0
+
+
+def test_a_refused_second_run_leaves_its_reason_and_no_numbers():
+    run = simulate(STILL)
+    problem = STILL.shown_problem() | {"initial": {0: (1e-160, 0)}}
+    again = second_run.run_again(problem, run)
+    assert "squares vanish" in again.attrs["second_refusal"]
+    assert np.isnan(again["largest_difference"]) and np.isnan(again["difference"]).all()
+
+
+def test_a_wrong_run_breaks_lemma_2_and_its_bound():
+    run = simulate(STILL)
+    run["l2"] = run["l2"] * np.exp(5.0 * run["tau"])
+    found = statements.beside_bounds(run)
+    assert found["from_start"]["data"] > 1 and found["ratio"]["data"] > 1
+
+
+def test_the_numbers_of_lemma_1_and_of_the_balance(still):
+    assert float(still["gamma_0"]) == 2.0 and still["finite_rate"] == 0
+    assert float(still["finite_threshold"]) >= 2.0
+    assert float(still["balance_error"]) < 1e-12 and str(still["region"].values) == "theorem 1"
+    assert float(still["from_start"]) <= 1 and float(still["energy_drift"]) < 1e-10
+
+
+@pytest.mark.parametrize("initial", [{0: (0, 0)}, {0: (1, 1)}])
+def test_chains_that_hardly_move_are_no_error(initial):
+    found = check(Case(omega=1, half_width=0, boundary="periodic", initial=initial, end_time=0.1))
+    assert found["chaotic"] == 0 and float(found["energy_drift"]) < 1e-13
+
+
+def test_changes_keep_to_what_the_run_keeps():
+    even = sensitivity.follow(SEA.problem(end_time=4))
+    odd = sensitivity.follow(SEA.changed(initial={1: (1, 0.1)}).problem(end_time=4))
+    assert even.stretch[0, -1] > 1 and odd.stretch[0, -1] > 1
+    assert even.tau[-1] == odd.tau[-1] == 4
+
+
+def test_a_negative_coupling_is_that_of_the_staggered_chain():
+    rng = np.random.default_rng(3)
+    signs = (-1.0) ** np.arange(9)
+    for _ in range(50):
+        state = rng.normal(size=(2, 9)) + 1j * rng.normal(size=(2, 9))
+        constants, mirrored = (-1.3, 0.4, 2.0), (1.3, 0.4, 7.2)
+        energy = total_energy(constants, "dirichlet", state)
+        assert energy == pytest.approx(total_energy(mirrored, "dirichlet", signs * state))
+        power = float(np.sum(np.abs(state) ** 2))
+        for bound in (theorem_1_bound, lambda e, c: widened_bound(e, 1.0, c)):
+            assert bound(energy, constants) == pytest.approx(bound(energy, mirrored))
+        assert power <= theorem_1_bound(energy, constants)
+        assert best_bound(energy, power, 9, constants, "dirichlet") >= power
+    assert extent(constants) == pytest.approx(extent(mirrored))
+    assert gamma_0(2.0, -1.3) == pytest.approx(gamma_0(7.2, 1.3))
+    assert infinite_rate(-2.0, 0.5, -1.0) == pytest.approx(infinite_rate(2.0, 0.5, 1.0))

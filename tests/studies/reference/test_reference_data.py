@@ -1,0 +1,116 @@
+"""The committed references, against solvers and integer arithmetic that know nothing of heyoka."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+import fixed_point
+import numpy as np
+import pytest
+from oracle import CASES, hamiltonian
+from pendula.datasets.netcdf import read
+from pendula.simulation.simulate import simulate
+from pendula.studies.reference.precision import BITS
+from pendula.studies.reference.verify import LIMIT
+
+FOLDER = Path(__file__).resolve().parents[1] / "baseline/reference"
+NAMES = [*CASES, "fig4_small.double"]
+
+
+@cache
+def reference(name):
+    return read(FOLDER / f"{name}.nc")
+
+
+def amplitudes(name, tau):
+    """Return the complex amplitudes (2, 61) of a snapshot."""
+    data = reference(name)
+    parts = data["amplitude"].values[..., data["snapshot_tau"].values == tau]
+    return (parts[0] + 1j * parts[1])[..., 0]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_both_runs_agree_at_every_time(name):
+    data = reference(name)
+    assert np.all(data["discrepancy"] < LIMIT)
+    assert data.attrs["largest_discrepancy"] == data["discrepancy"].values.max()
+    assert np.all(data["amplitude_discrepancy"] < LIMIT)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_energy_is_constant(name):
+    data, case = reference(name), name.removesuffix(".double")
+    assert np.all(data["energy"] == data["energy"][0])
+    assert data.attrs["energy_drift"] < LIMIT
+    omega, pair = CASES[case]
+    exact = hamiltonian(np.array(pair, complex)[:, None], (1, 1, omega), "dirichlet")
+    assert data["energy"][0] == pytest.approx(exact, rel=4e-16)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_data_start_as_the_paper_says(name):
+    data, case = reference(name), name.removesuffix(".double")
+    for norm in ("linf", "l2"):
+        np.testing.assert_array_equal(data[norm][:, 0], CASES[case][1])
+    assert json.loads(data.attrs["initial"]) == {"0": list(CASES[case][1])}
+    assert (data.attrs["epsilon"], data.attrs["gamma"]) == (1, 1)
+    assert data.attrs["omega"] == CASES[case][0]
+    assert (data.attrs["half_width"], data.attrs["boundary"]) == (30, "dirichlet")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_dataset_says_what_it_holds(name):
+    data, end = reference(name), 70 if name in ("fig2_large", "fig3_large") else 50
+    np.testing.assert_array_equal(data["tau"], np.arange(40 * end + 1) / 40)
+    snapshots = [tau for tau in (1, 2, 5, 10, 20, 30, 40, 50, 70) if tau <= end]
+    np.testing.assert_array_equal(data["snapshot_tau"], snapshots)
+    runs = (data.attrs["solver_bits"], data.attrs["second_run_bits"])
+    assert runs == BITS[name.removesuffix(".double")]
+    for variable in data.variables.values():
+        assert variable.attrs["long_name"] and variable.attrs["units"]
+    assert "doubles" in data.attrs["parameters_mean"] or not name.endswith("double")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_snapshots_have_the_norms_of_their_time(name):
+    data = reference(name)
+    np.testing.assert_array_equal(data["amplitude"], data["amplitude"][:, :, ::-1])
+    for tau in data["snapshot_tau"].values:
+        moduli, there = np.abs(amplitudes(name, tau)), data.sel(tau=tau)
+        np.testing.assert_allclose(moduli.max(axis=1), there["linf"], rtol=1e-15)
+        np.testing.assert_allclose(np.sqrt((moduli**2).sum(axis=1)), there["l2"], rtol=1e-15)
+
+
+@pytest.mark.parametrize("solver", ["taylor", "dop853"])
+@pytest.mark.parametrize("case", CASES)
+def test_our_solvers_agree_while_doubles_suffice(case, solver):
+    omega, pair = CASES[case]
+    run = simulate(
+        epsilon=1.0, gamma=1.0, omega=omega, half_width=30, boundary="dirichlet",
+        initial={0: pair}, end_time=5.0, output_step=0.025,
+        solver={"name": solver, "rtol": 1e-14, "atol": 1e-14},
+    )  # fmt: skip
+    data = reference(case).sel(tau=slice(0, 5))
+    np.testing.assert_allclose(data["linf"], run.linf, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(data["l2"], run.l2, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(amplitudes(case, 5), run.final, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_integer_arithmetic_gives_the_same_doubles(case):
+    pair = ("1", "0.1") if case.endswith("small") else ("5", "1")
+    z = fixed_point.integrate(pair, int(CASES[case][0]), 1)
+    np.testing.assert_array_equal(z[:, 10:19], amplitudes(case, 1)[:, 26:35])
+    there = reference(case).sel(tau=1)
+    np.testing.assert_allclose(np.linalg.norm(z, axis=1), there["l2"], rtol=1e-15)
+    np.testing.assert_allclose(np.abs(z).max(axis=1), there["linf"], rtol=1e-15)
+
+
+def test_one_tenth_and_the_double_beside_it_part_after_tau_26():
+    """They start 5.6e-18 apart; the norms differ by 1e-12 at tau = 11, by one at tau = 29."""
+    decimal, double = reference("fig4_small"), reference("fig4_small.double")
+    apart = np.abs(decimal["l2"] - double["l2"]).max("component")
+    assert np.all(apart.sel(tau=slice(0, 5)) < 1e-12)
+    first = float(apart["tau"][apart > 1e-2][0])
+    assert 26 < first < 27
+    assert apart.sel(tau=slice(30, 50)).max() > 1

@@ -1,0 +1,139 @@
+"""How references are made: the equations once more, decimals, precision, and what goes wrong."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from oracle import CASES, hamiltonian, random_chain, slope
+from pendula.datasets.netcdf import read
+from pendula.simulation.lattice import Reduction, pack, place
+from pendula.studies.reference import half_chain
+from pendula.studies.reference.numbers import HEYOKA, HeyokaMissingError, Numbers
+from pendula.studies.reference.precision import BITS
+from pendula.studies.reference.run import Run, integrate, start
+from pendula.studies.reference.verify import LIMIT, UnverifiedError, compare, require_agreement
+from reference.integrate_reference import integrate_reference
+
+ROOT = Path(__file__).resolve().parents[2]
+HALF = Reduction(even=True, synchronised=False)
+NUMBERS = (0.7, 1.3, -4.0)
+
+
+def problem(case="fig4_large", **changes):
+    omega, pair = CASES[case]
+    return {
+        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 30, "boundary": "dirichlet",
+        "initial": {0: pair}, "end_time": 1.0, "output_step": 0.025, **changes,
+    }  # fmt: skip
+
+
+def rows_of(z):
+    """Return the state (row, site) of the right half of an even chain (2, N)."""
+    return pack(z, HALF)[:, 1:-1]
+
+
+def made_up(bits, shift=0.0):
+    """Return a run in doubles whose l2 norm is off by `shift` at the last of three times."""
+    series, state = np.ones((2, 3)), np.ones((1, 4, 5))
+    l2 = series + np.array([0.0, 0.0, shift])
+    times = np.array([0.0, 0.5, 1.0])
+    return Run(times, series, l2, times, times[:1], state, bits, 40, 2.0**-bits, 7)
+
+
+@pytest.mark.parametrize("half_width", [0, 1, 2, 7])
+def test_norms_and_energy_are_those_of_the_whole_chain(half_width):
+    chains = [random_chain(half_width, even=True, seed=seed) for seed in range(3)]
+    states = np.array([rows_of(z) for z in chains])
+    linf, l2 = half_chain.norms(states)
+    np.testing.assert_allclose(linf.T, [np.abs(z).max(axis=1) for z in chains], rtol=1e-14)
+    np.testing.assert_allclose(l2.T, [np.linalg.norm(z, axis=1) for z in chains], rtol=1e-14)
+    energies = half_chain.energy(half_chain.Constants(*NUMBERS), states)
+    exact = [hamiltonian(z, NUMBERS, "dirichlet") for z in chains]
+    np.testing.assert_allclose(energies, exact, rtol=1e-12, atol=1e-12)
+
+
+def test_runs_that_part_are_refused_with_the_time():
+    run, check = made_up(192), made_up(176, shift=2 * LIMIT)
+    with pytest.raises(UnverifiedError, match=r"fig9: runs of 192 and 176 bits.* tau = 1 on"):
+        require_agreement("fig9", run, check, compare(run, check))
+    require_agreement("fig9", run, run, compare(run, run))
+
+
+def test_a_run_that_is_not_a_number_is_refused():
+    run, check = made_up(192), made_up(176, shift=np.nan)
+    with pytest.raises(UnverifiedError):
+        require_agreement("fig9", run, check, compare(run, check))
+
+
+def test_without_heyoka_the_message_says_what_to_install(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "heyoka", None)
+    with pytest.raises(HeyokaMissingError, match=HEYOKA):
+        integrate_reference(str(tmp_path / "x.nc"), "x", problem(), [1], (64, 80), True)
+
+
+def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
+    conda = yaml.safe_load((ROOT / "workflow/envs/reference.yaml").read_text())
+    extra = set(conda["dependencies"][-1]["pip"])
+    extra -= set((ROOT / "environment.txt").read_text().split())
+    assert {pin.split("==")[0] for pin in extra} == {"heyoka", "cloudpickle"}
+    assert HEYOKA in extra
+    for text in ("README.md", "workflow/rules/reference.smk"):
+        assert set(re.findall(r"heyoka==[\d.]+", (ROOT / text).read_text())) == {HEYOKA}
+
+
+def test_a_parameter_is_the_decimal_that_is_printed():
+    heyoka = pytest.importorskip("heyoka")
+    tenth = Numbers(200).given(0.1)
+    assert tenth * 10 == 1 and tenth == heyoka.real("0.1", 200)
+    assert Numbers(200, decimal=False).given(0.1) == heyoka.real(0.1, 200) != tenth
+
+
+@pytest.mark.parametrize("half_width", [0, 1, 6])
+def test_the_equations_are_those_of_the_oracle(half_width):
+    heyoka = pytest.importorskip("heyoka")
+    z = random_chain(half_width, even=True)
+    pairs = half_chain.right_hand_side(heyoka, half_chain.Constants(*NUMBERS), half_width)
+    variables, rates = zip(*pairs, strict=True)
+    values = heyoka.cfunc(rates, variables, compact_mode=True)(rows_of(z).ravel())
+    exact = rows_of(slope(z, NUMBERS, "dirichlet"))
+    np.testing.assert_allclose(values.reshape(4, -1), exact, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"boundary": "free"}, {"initial": {1: (1.0, 0.0)}}, {"boundary": "periodic"}]
+)
+def test_what_half_a_dirichlet_chain_cannot_hold_is_refused(changes):
+    pytest.importorskip("heyoka")
+    with pytest.raises(ValueError, match="the reference"):
+        start(problem(**changes), Numbers(100))
+
+
+def test_the_start_is_the_lattice_of_the_other_solvers():
+    pytest.importorskip("heyoka")
+    initial = {-2: (0.5j, 1), 0: (1, 0.25), 2: (0.5j, 1)}
+    state = start(problem(initial=initial), Numbers(100))
+    np.testing.assert_array_equal(state.astype(float), rows_of(place(initial, 30)))
+
+
+@pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
+def test_a_short_stretch_made_again_gives_the_same_doubles(case, tmp_path):
+    pytest.importorskip("heyoka")
+    path = tmp_path / "again.nc"
+    integrate_reference(str(path), case, problem(case), [0.31, 1, 2], BITS[case], True)
+    again, kept = read(path), read(ROOT / f"tests/baseline/reference/{case}.nc")
+    np.testing.assert_array_equal(again["snapshot_tau"], [1])
+    np.testing.assert_array_equal(again["amplitude"], kept["amplitude"][..., :1])
+    for name in ("linf", "l2", "energy"):
+        np.testing.assert_array_equal(again[name], kept[name].sel(tau=slice(0, 1)))
+    assert again["discrepancy"].max() < 1e-30
+
+
+def test_fewer_bits_and_another_order_give_an_error_of_their_size():
+    pytest.importorskip("heyoka")
+    short = problem("fig3_large", half_width=6, end_time=0.5)
+    coarse, fine = (integrate(short, [], bits) for bits in (100, 150))
+    assert coarse.order < fine.order
+    assert 2.0**-105 < compare(coarse, fine).norms.max() < 2.0**-88

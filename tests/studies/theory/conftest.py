@@ -1,0 +1,18 @@
+"""The checks of the full reproduction, each run once for all tests."""
+
+from functools import cache
+
+import pytest
+from pendula.studies.theory.catalogue import run_check
+
+
+@pytest.fixture(scope="session")
+def checked():
+    """Return a function: the numbers of a check by its name."""
+    return cache(run_check)
+
+
+@pytest.fixture(scope="session")
+def numbers(checked):
+    """Return a function: the values of one variable of a check."""
+    return lambda name, variable: checked(name)["data_vars"][variable]["data"]

@@ -1,0 +1,146 @@
+"""The explicit constants of Theorems 1 to 3, and how they fit together."""
+
+import numpy as np
+import pytest
+from pendula.studies.theory.bounds import (
+    coercivity,
+    extent,
+    proven_region,
+    theorem_1_bound,
+    theorem_2_bound,
+    theorem_2_constants,
+    theorem_3_bound,
+    widened_barrier,
+    widened_bound,
+    widened_delta_0,
+)
+from pendula.studies.theory.inequalities import energy_ratios
+from pendula.studies.theory.runs import total_energy
+from pendula.studies.theory.search import maximise
+from pendula.studies.theory.worst import ring_energy
+
+NEGATIVE = (1.0, 1.0, -4.0)
+PARAMETERS = [NEGATIVE, (0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0)]
+
+
+def start_of(omega, pair):
+    amplitudes = np.zeros((2, 61), complex)
+    amplitudes[:, 30] = pair
+    constants = (1.0, 1.0, omega)
+    power = float(np.sum(np.abs(amplitudes) ** 2))
+    return total_energy(constants, "dirichlet", amplitudes), power, constants
+
+
+@pytest.mark.parametrize(
+    ("omega", "pair", "region"),
+    [
+        (8.0, (1.0, 0.1), "theorem 1"),
+        (8.0, (5.0, 1.0), "theorem 1"),
+        (-4.0, (0.3, 0.1), "theorem 2"),
+        (-4.0, (0.75, 0.0), "theorem 2 by its energy"),
+        (-4.0, (1.0, 0.1), "theorem 2 widened"),
+        (-4.0, (5.0, 1.0), "none"),
+        (0.0, (1.0, 0.1), "none"),
+    ],
+)
+def test_region_of_each_case(omega, pair, region):
+    energy, power, constants = start_of(omega, pair)
+    assert proven_region(energy, power, constants, "dirichlet") == region
+
+
+def test_widening_does_not_hold_where_a_constant_has_no_gradient():
+    energy, power, constants = start_of(-4.0, (1.0, 0.1))
+    assert proven_region(energy, power, constants, "free") == "none"
+    flat = np.full((2, 101), 0.2j)
+    flat[1] *= -1
+    depth = -total_energy(NEGATIVE, "free", flat)
+    assert depth < coercivity(np.sum(np.abs(flat) ** 2), NEGATIVE) + 4.0
+
+
+def test_numbers_at_omega_minus_4():
+    assert theorem_2_constants(NEGATIVE) == (0.4, 10.0)
+    assert widened_barrier(NEGATIVE) == pytest.approx((8.394, 13.399), abs=1e-3)
+    assert widened_delta_0(NEGATIVE) == pytest.approx(1.340, abs=1e-3)
+    energy, power, _ = start_of(-4.0, (1.0, 0.1))
+    assert widened_bound(energy, power, NEGATIVE) == pytest.approx(3.3858, abs=1e-4)
+    assert theorem_1_bound(5.5, (1.0, 1.0, 8.0)) == 2.75
+
+
+@pytest.mark.parametrize("constants", PARAMETERS)
+def test_theorem_2_covers_its_whole_ball(constants):
+    delta_0, c_0 = theorem_2_constants(constants)
+    for delta in delta_0 * np.array([1e-6, 0.1, 0.5, 0.999]):
+        deepest = -extent(constants) * delta
+        assert theorem_2_bound(deepest, delta, constants) <= c_0 * delta * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("constants", PARAMETERS)
+def test_barrier_is_the_maximum_of_the_coercivity(constants):
+    power = np.linspace(1e-3, 30.0, 300001)
+    top, barrier = widened_barrier(constants)
+    heights = coercivity(power, constants)
+    assert barrier == pytest.approx(heights.max(), rel=1e-8)
+    assert top == pytest.approx(power[np.argmax(heights)], abs=1e-3)
+    assert coercivity(widened_bound(-0.5 * barrier, 0.1, constants), constants) == pytest.approx(
+        0.5 * barrier
+    )
+
+
+@pytest.mark.parametrize("constants", PARAMETERS)
+def test_coercivity_takes_the_worst_split_between_a_and_b(constants):
+    epsilon, gamma, omega = constants
+    angle = np.linspace(0.0, np.pi / 4, 20001)
+    for power in (0.5, 3.0, 7.0, 12.0):
+        p, q = power * np.cos(angle) ** 2, power * np.sin(angle) ** 2
+        split = abs(omega) * power - gamma * (np.sqrt(p) + np.sqrt(q)) ** 2
+        split = split - (p**3 + q**3) / (64 * epsilon)
+        assert coercivity(power, constants) == pytest.approx(split.min(), abs=1e-6)
+
+
+def test_coercivity_holds_against_a_search():
+    def shortfall(points):
+        values = []
+        for point in points:
+            raw = point[:-1].reshape(4, -1)
+            z = np.stack([raw[0] + 1j * raw[1], raw[2] + 1j * raw[3]])
+            power = 12.0 / (1.0 + np.exp(-np.clip(point[-1], -7.0, 7.0)))
+            z = z * np.sqrt(power / np.sum(np.abs(z) ** 2))
+            energy = total_energy(NEGATIVE, "dirichlet", z)
+            values.append((coercivity(power, NEGATIVE) + energy) / power)
+        return np.array(values)
+
+    start = np.random.default_rng(1).normal(size=21)
+    assert maximise(shortfall, start, 1.0, 120, 24, 2)[1] < 0.0
+
+
+def test_theorem_3_is_attained_on_a_ring_and_its_constant_grows_with_n(numbers):
+    assert numbers("worst", "attained") == pytest.approx(1.0)
+    bounds = [theorem_3_bound(-10.0, n, NEGATIVE) for n in (1, 11, 61, 401)]
+    assert np.all(np.diff(bounds) > 0)
+
+
+def test_ring_energy_written_apart_agrees():
+    z = np.random.default_rng(3).normal(size=(2, 5)) + 0.3j
+    assert ring_energy(NEGATIVE, z) == pytest.approx(total_energy(NEGATIVE, "periodic", z))
+
+
+def test_search_finds_the_top_of_a_narrow_hill():
+    scales = 10.0 ** np.arange(4)
+
+    def hill(points):
+        return -np.sum(scales * (points - 1.0) ** 2, axis=1)
+
+    point, value, history = maximise(hill, np.zeros(4), 0.5, 150, 12, 0)
+    np.testing.assert_allclose(point, 1.0, atol=1e-4)
+    assert np.all(np.diff(history) >= 0) and history[-1] == value
+
+
+def test_searches_come_near_to_the_value_of_tiny_data(numbers):
+    ratio = numbers("worst", "worst") / numbers("worst", "small_data")
+    assert (ratio[numbers("worst", "family") != "theorem_3"] > 0.98).all()
+
+
+def test_energy_bounds_are_below_the_energy():
+    rng = np.random.default_rng(5)
+    z = rng.normal(size=(2, 7)) + 1j * rng.normal(size=(2, 7))
+    assert max(energy_ratios(rng, z, "dirichlet")) <= 0.0

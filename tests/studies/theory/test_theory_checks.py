@@ -1,0 +1,35 @@
+"""Every check of the full reproduction holds, and says so in a form that a file can keep."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.datasets.checks import broken, variable
+from pendula.studies.theory.catalogue import CHECKS, GROUPS, run_check
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_check_holds(name, checked):
+    assert broken(checked(name)) == {}
+
+
+def test_checks_are_repeatable(numbers):
+    again = run_check("samples")["data_vars"]["ratio"]["data"]
+    np.testing.assert_array_equal(numbers("samples", "ratio"), again)
+
+
+def test_table_becomes_a_dataset(tmp_path, checked):
+    ds = xr.Dataset.from_dict(checked("theorem_3_constant"))
+    ds.to_netcdf(tmp_path / "check.nc")
+    again = xr.load_dataset(tmp_path / "check.nc")
+    xr.testing.assert_identical(ds, again)
+    assert all({"long_name", "units"} <= set(v.attrs) for v in again.data_vars.values())
+
+
+def test_groups_hold_every_check_once():
+    assert sorted(name for group in GROUPS.values() for name in group) == sorted(CHECKS)
+
+
+@pytest.mark.parametrize("value", [2.0, np.nan, np.inf])
+def test_values_above_tolerance_or_no_numbers_break_a_check(value):
+    check = {"data_vars": {"error": variable([0.0, value], ("x",), "error", tolerance=1.0)}}
+    assert "error" in broken(check)

@@ -1,0 +1,230 @@
+"""The ledger: complete, computed, and turned over by other numbers."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from made_up import ensembles, paper_sweeps, paper_trajectories
+from made_up_unbounded import spread, unbounded_runs
+from pendula.ledger.claims import CLAIMS
+from pendula.ledger.evaluate import decide, evaluate, needed
+from pendula.ledger.verdicts import Verdict
+from pendula.studies.theory.catalogue import CHECKS
+
+HOLDS = {Verdict.CONFIRMED, Verdict.CAVEAT}
+CLAIM = {claim.name: claim for claim in CLAIMS}
+
+
+@pytest.fixture(scope="module")
+def sources(checked):
+    checks = {f"checks/{name}": xr.Dataset.from_dict(checked(name)) for name in CHECKS}
+    checks["checks/ensembles"] = ensembles()
+    return checks | paper_trajectories() | paper_sweeps() | unbounded_runs()
+
+
+def test_rows_are_many_named_once_and_need_what_exists(sources):
+    assert len(CLAIMS) >= 30
+    assert len(CLAIM) == len(CLAIMS)
+    assert set(needed()) <= set(sources)
+
+
+def test_rows_are_ready_for_json_and_verdicts_from_the_enumeration(sources):
+    rows = json.loads(json.dumps(evaluate(sources), allow_nan=False))
+    assert [row["name"] for row in rows] == [claim.name for claim in CLAIMS]
+    for row in rows:
+        assert row["verdict"] in set(Verdict)
+        assert row["measured"], row["name"]
+        assert (row["verdict"] == Verdict.CONFIRMED) == (row["because"] == ""), row
+
+
+def test_without_datasets_nothing_is_decided():
+    rows = evaluate({})
+    assert {row["verdict"] for row in rows} == {Verdict.UNDECIDED}
+    assert all("was not made" in row["because"] for row in rows)
+
+
+def test_short_runs_and_sweeps_do_not_decide(sources):
+    short = sources["trajectories/fig4_small"].sel(tau=slice(0, 15))
+    finding = decide(CLAIM["fig4_settles"], sources | {"trajectories/fig4_small": short})
+    assert finding.verdict == Verdict.UNDECIDED and "tau = 15" in finding.because
+    brief = sources["unbounded/fig4_small"].sel(tau=slice(0, 50))
+    finding = decide(CLAIM["unbounded_in_time"], sources | {"unbounded/fig4_small": brief})
+    assert finding.verdict == Verdict.UNDECIDED and "tau = 50" in finding.because
+    narrow = sources["sweeps/fig5_left"].sel(window=["[10, 40]"])
+    finding = decide(CLAIM["fig5_decreases"], sources | {"sweeps/fig5_left": narrow})
+    assert finding.verdict == Verdict.UNDECIDED and "[10, 50]" in finding.because
+
+
+def test_an_ensemble_that_cannot_tell_says_so(sources):
+    noisy = sources[ENSEMBLES].copy(deep=True)
+    noisy["l2_error"] = noisy["l2_error"] + 20.0
+    finding = decide(CLAIM["ensemble_fig6_grows"], sources | {ENSEMBLES: noisy})
+    assert finding.verdict == Verdict.UNDECIDED and "less than its error" in finding.because
+    few = sources[ENSEMBLES].isel(half_width=slice(0, 3))
+    finding = decide(CLAIM["ensemble_fig5_grows"], sources | {ENSEMBLES: few})
+    assert finding.verdict == Verdict.UNDECIDED and "six" in finding.because
+    fewer = sources[ENSEMBLES].sel(case=["fig3_large"])
+    finding = decide(CLAIM["ensemble_fig4_alike"], sources | {ENSEMBLES: fewer})
+    assert finding.verdict == Verdict.UNDECIDED and "fig4_small" in finding.because
+
+
+def scaled(name, factor, **selection):
+    """Return a change of a dataset: one variable times a factor, at some coordinates or all."""
+
+    def change(ds):
+        ds = ds.copy(deep=True)
+        if selection:
+            ds[name].loc[selection] = ds[name].loc[selection] * factor
+        else:
+            ds[name] = ds[name] * factor + (factor if factor > 1 else 0)
+        return ds
+
+    return change
+
+
+def after(name, factor, start, component="A"):
+    return scaled(name, factor, component=component, tau=slice(start, None))
+
+
+def replaced(name, values):
+    def change(ds):
+        ds = ds.copy(deep=True)
+        ds[name][:] = np.reshape(values, (-1, *[1] * (ds[name].ndim - 1)))
+        return ds
+
+    return change
+
+
+def keeping_attributes(change):
+    def changed(ds):
+        result = change(ds)
+        for name in ds.data_vars:
+            result[name].attrs = ds[name].attrs
+        return result
+
+    return changed
+
+
+def window_map_without_level(data):
+    return data.assign(l2=data["l2"] * data["half_width"] ** 0.2)
+
+
+ENSEMBLES = "checks/ensembles"
+FLIPS = {
+    "hamiltonian": ("checks/gradient", scaled("error", 1e6)),
+    "conserved": ("checks/conservation", scaled("energy_drift", 10.0)),
+    "no_gauge": ("checks/conservation", scaled("gauge_defect", 0.0)),
+    "pt_form": ("checks/pt_form", scaled("trajectory", 10.0)),
+    "pt_energy": ("checks/pt_form", scaled("energy_gradient", 10.0)),
+    "pt_symmetry": ("checks/pt_form", scaled("pt", 10.0)),
+    "exchange": ("checks/symmetries", scaled("exchange", 2.0)),
+    "synchronised": ("checks/symmetries", scaled("scalar", 2.0)),
+    "slow_time": ("checks/expansion", scaled("order", 0.3)),
+    "drive_sign": ("checks/expansion", scaled("order", 0.3)),
+    "dispersion": ("checks/dispersion", scaled("error", 2.0)),
+    "stable_below": ("checks/chart", scaled("measured", 2.0)),
+    "unstable_above": ("checks/chart", scaled("measured", 0.0)),
+    "unstable_band": ("checks/chart", scaled("infinite_rate", 0.0)),
+    "threshold_growth": ("checks/threshold", scaled("error", 2.0)),
+    "growth_bound": ("trajectories/fig3_large", scaled("l2", 100.0, tau=slice(20, None))),
+    "balance": ("checks/balance", scaled("integrated", 2.0)),
+    "inequalities": ("checks/inequalities", scaled("ratio", 2.0)),
+    "theorem_1": ("checks/samples", scaled("worst", 2.0)),
+    "theorem_2": ("checks/worst", scaled("worst", 5.0)),
+    "positive_depth": ("checks/negative_depth", scaled("assured", -1.0)),
+    "theorem_3": ("checks/samples", scaled("worst", 2.0)),
+    "sharp_bounds": ("checks/worst", scaled("worst", 0.5)),
+    "fig2_bounded": ("trajectories/fig2_large", scaled("l2", 5.0)),
+    "fig2_centre": ("trajectories/fig2_small", after("linf", 4.0, 20)),
+    "fig2_exchange": ("trajectories/fig2_small", after("l2", 0.0, 5)),
+    "fig2_maxima": ("trajectories/fig2_small", after("linf", 4.0, 30)),
+    "fig2_separate": ("trajectories/fig2_large", after("l2", 5.0, 20, "B")),
+    "fig2_alone": ("trajectories/fig2_large", after("linf", 6.0, 20, "B")),
+    "fig3_alike": ("trajectories/fig3_small", after("l2", 5.0, 20)),
+    "fig3_mix": ("trajectories/fig3_large", after("l2", 0.2, 10, "B")),
+    "fig3_excited": ("trajectories/fig3_large", scaled("l2", 0.2, tau=slice(1, None))),
+    "fig3_maximum": ("trajectories/fig3_large", after("linf", 3.0, 20)),
+    "fig4_unstable": ("trajectories/fig4_small", scaled("l2", 0.04, tau=slice(0.1, None))),
+    "fig4_settles": ("trajectories/fig4_small", after("linf", 2.0, 30)),
+    "fig4_l2_larger": ("trajectories/fig4_large", scaled("l2", 0.2)),
+    "fig4_many": ("trajectories/fig4_large", scaled("l2", 0.5)),
+    "fig4_alike": ("trajectories/fig4_large", scaled("l2", 1.5, tau=slice(5, None))),
+    "equilibrium": ("trajectories/fig4_small", scaled("modulus", 0.0, site=slice(55, None))),
+    "finite_bound": ("trajectories/fig4_small", scaled("l2", 5.0)),
+    "energy_small": ("trajectories/fig2_small", scaled("energy", 2.0, tau=slice(20, None))),
+    "energy_large": ("trajectories/fig2_large", scaled("energy", 2.0, tau=slice(20, None))),
+    "fig5_grows": ("sweeps/fig5_right", replaced("l2", 15.0 + np.zeros(8))),
+    "fig5_conjecture": ("sweeps/fig5_right", replaced("l2", 15.0 - np.arange(8.0))),
+    "fig5_maximum": ("sweeps/fig5_right", replaced("linf", 5.0 + np.arange(8.0))),
+    "fig5_decreases": ("sweeps/fig5_left", replaced("l2", 1.0 + 0.1 * np.arange(8.0))),
+    "fig5_theorem_2": ("sweeps/fig5_left", replaced("l2", 5.0 + np.zeros(8))),
+    "fig5_caption": ("sweeps/fig5_left", replaced("l2", 1.2 + np.zeros(8))),
+    "fig5_not_shown": ("checks/not_shown", replaced("l2", np.arange(1.0, 10.0))),
+    "fig6_constant": ("sweeps/fig6_left", replaced("l2", 5.0 + np.arange(8.0))),
+    "fig6_theorem_1": ("sweeps/fig6_left", replaced("l2", 20.0 + np.zeros(8))),
+    "fig6_grows": ("sweeps/fig6_right", replaced("l2", 15.0 + np.zeros(8))),
+    "fig6_diverges": ("sweeps/fig6_right", replaced("l2", 15.0 + np.zeros(8))),
+    "fig6_not_technical": ("sweeps/fig6_right", replaced("l2", 2.0 + np.zeros(8))),
+    "ensemble_fig3": (ENSEMBLES, scaled("l2", 0.2, tau=slice(10, None))),
+    "ensemble_fig4_settles": (ENSEMBLES, scaled("linf", 2.0, tau=slice(30, None))),
+    "ensemble_fig4_alike": (ENSEMBLES, scaled("l2", 2.0, case="fig4_large")),
+    "ensemble_fig5_grows": (ENSEMBLES, scaled("l2_mean", 0.4, half_width=slice(30, 40))),
+    "ensemble_fig5_maximum": (ENSEMBLES, scaled("linf_mean", 2.0, half_width=slice(60, None))),
+    "ensemble_fig6_grows": (ENSEMBLES, scaled("l2_mean", 0.4, half_width=slice(20, None))),
+    "ensemble_fig6_diverges": (ENSEMBLES, scaled("l2_error", 99.0, half_width=slice(40, None))),
+    "second_solver": ("trajectories/fig4_small.crank_nicolson", scaled("l2", 2.0)),
+    "second_solver_sweeps": ("sweeps/fig5_right.crank_nicolson", scaled("l2", 2.0)),
+    "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),
+    "unbounded_band": ("unbounded/omegas", lambda _: spread([0.5, 0.0, 0.5], variants=3)),
+    "unbounded_front": ("unbounded/omegas", scaled("predicted_speed", 0.9)),
+    "unbounded_equilibrium": ("unbounded/thermal", scaled("power", 0.5)),
+    "unbounded_maximum": (
+        "unbounded/fig4_small",
+        lambda run: run.assign(linf=run["linf"] * (run["tau"] + 1.0) ** 0.2),
+    ),
+    "unbounded_large": ("unbounded/fig3_large", lambda _: spread(0.1)),
+    "unbounded_small": ("unbounded/fig3_small", lambda _: spread(0.1)),
+    "unbounded_stable": ("unbounded/fig2_large", lambda _: spread(0.1)),
+    "unbounded_window": ("unbounded/map_fig5_right", window_map_without_level),
+}
+
+
+@pytest.mark.parametrize("name", FLIPS)
+def test_claim_holds_and_flips_when_its_numbers_change(name, sources):
+    before = decide(CLAIM[name], sources)
+    assert before.verdict in {*HOLDS, Verdict.UNDECIDED}, before
+    source, change = FLIPS[name]
+    damaged = sources | {source: keeping_attributes(change)(sources[source])}
+    assert decide(CLAIM[name], damaged).verdict == Verdict.NOT_REPRODUCED
+
+
+def test_claims_of_misprints_flip_when_the_misprint_is_mended(sources):
+    mended = sources["checks/theorem_3_constant"].copy(deep=True)
+    mended["printed"] = mended["corrected"]
+    for name, source in (("theorem_3_proof", mended), ("printed_time", None)):
+        assert decide(CLAIM[name], sources).verdict == Verdict.NOT_REPRODUCED
+        if source is not None:
+            changed = sources | {"checks/theorem_3_constant": source}
+            assert decide(CLAIM[name], changed).verdict == Verdict.CONFIRMED
+    mended = sources["checks/expansion"].copy(deep=True)
+    mended["order"][:] = 3.0
+    changed = sources | {"checks/expansion": mended}
+    assert decide(CLAIM["printed_time"], changed).verdict == Verdict.CONFIRMED
+
+
+def test_every_claim_can_fall_or_says_that_no_number_can_settle_it():
+    always_open = {"one_integral", "fig6_caption"}
+    mended = {"theorem_3_proof", "printed_time"}
+    assert set(CLAIM) == set(FLIPS) | always_open | mended
+
+
+def test_region_word_changes_with_the_data(sources):
+    finding = decide(CLAIM["fig5_theorem_2"], sources)
+    assert finding.verdict == Verdict.CAVEAT and "bonds" in finding.because
+    tiny = sources["trajectories/fig3_small"].copy(deep=True)
+    tiny["l2"] *= 0.3
+    tiny["energy"] *= 0.09
+    inside = sources | {"trajectories/fig3_small": tiny}
+    inside["sweeps/fig5_left"] = replaced("l2", 0.3 + np.zeros(8))(sources["sweeps/fig5_left"])
+    assert decide(CLAIM["fig5_theorem_2"], inside).verdict == Verdict.CONFIRMED

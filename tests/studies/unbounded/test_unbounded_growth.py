@@ -1,0 +1,128 @@
+"""The speed of linear spreading, growth laws of made-up series, and the state behind the front."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from oracle import hamiltonian, random_chain
+from pendula.measures.growth import fit_power, local_powers
+from pendula.studies.unbounded.fronts import speeds
+from pendula.studies.unbounded.linear_front import growth_rate, linear_front
+from pendula.studies.unbounded.sea import (
+    complex_pair,
+    distribution,
+    energy_terms,
+    profile,
+    spectrum,
+    with_ghosts,
+)
+
+
+def test_the_speed_at_omega_zero_is_that_of_the_saddle_point():
+    front = linear_front(1.0, 1.0, 0.0)
+    assert front.speed == pytest.approx(2.912, abs=5e-4)
+    k, step = front.wave_number + 1j * front.decay, 1e-5
+    rate = growth_rate(k, 1.0, 1.0, 0.0)
+    assert rate == pytest.approx(front.speed * front.decay, rel=1e-9)
+    along = (growth_rate(k + step, 1.0, 1.0, 0.0) - growth_rate(k - step, 1.0, 1.0, 0.0)) / step
+    assert along == pytest.approx(0.0, abs=1e-5)
+
+
+def test_in_the_middle_of_the_band_the_saddle_is_known():
+    """There s = 2 epsilon sin k, so that decay tanh decay = 1 and v = 2 sinh decay."""
+    front = linear_front(1.0, 1.0, 2.0)
+    assert front.decay * np.tanh(front.decay) == pytest.approx(1.0, abs=1e-6)
+    assert front.speed == pytest.approx(2.0 * np.sinh(front.decay), rel=1e-6)
+    assert front.wave_number == pytest.approx(np.pi / 2, abs=1e-6)
+
+
+def test_speeds_are_symmetric_about_the_middle_and_scale_with_the_equations():
+    assert linear_front(1.0, 1.0, 0.5).speed == pytest.approx(linear_front(1.0, 1.0, 3.5).speed)
+    one, twice = linear_front(1.0, 1.0, 0.5), linear_front(2.0, 2.0, 1.0)
+    assert twice.speed == pytest.approx(2.0 * one.speed)
+
+
+def test_at_the_edge_of_the_band_the_front_becomes_the_fastest_wave():
+    inside, outside = linear_front(1.0, 1.0, -1.999), linear_front(1.0, 1.0, -2.001)
+    assert inside.speed == pytest.approx(outside.speed, abs=5e-3)
+    assert outside.decay == outside.delay == 0.0 < inside.decay
+
+
+def test_a_linear_front_bounds_the_linear_chain():
+    """Beyond v tau, the solution of the linearised equation is as small as the bound says."""
+    sites, tau = 401, 10.0
+    front = linear_front(1.0, 1.0, 0.0)
+    kappa = 2.0 * (1.0 - np.cos(2.0 * np.pi * np.arange(sites) / sites))
+    s = np.sqrt(4.0 - kappa**2 + 0j)
+    # D = x + i y: x' = -(kappa + 2) y and y' = (kappa - 2) x, from x = y = 1 on one site
+    x = np.fft.ifft(np.cosh(s * tau) - (kappa + 2.0) * np.sinh(s * tau) / s).real
+    size = np.abs(x[: sites // 2])
+    n = np.arange(sites // 2)
+    rounding = 1e-14 * size.max()
+    bound = np.exp(-front.decay * (n - front.speed * tau))
+    assert (size <= 3.0 * bound + rounding).all()
+    reached = np.flatnonzero(size > 1.0).max()
+    assert abs(reached - (front.speed * tau - front.delay * np.log(tau))) < 2.0
+
+
+def made_up(power, members=6, noise=0.05):
+    """Return a power of tau with noise that keeps its memory for ten units of tau."""
+    rng = np.random.default_rng(5)
+    tau = np.linspace(0.0, 400.0, 1601)
+    white = rng.normal(size=(members, tau.size))
+    waves = np.array([np.convolve(series, np.ones(40) / 6.3, "same") for series in white])
+    return tau, 7.0 * np.maximum(tau, 0.1) ** power * np.exp(noise * waves)
+
+
+@pytest.mark.parametrize("power", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("members", [1, 6])
+def test_the_power_of_a_made_up_series_is_found_within_its_error(power, members):
+    found = fit_power(*made_up(power, members), start=20.0)
+    assert found.error < 0.03
+    assert abs(found.exponent - power) < 4.0 * found.error
+
+
+def test_local_powers_see_where_the_law_changes():
+    tau, _ = made_up(0.5)
+    values = np.where(tau < 100.0, tau, 10.0 * np.sqrt(tau)).clip(0.1)[None]
+    middles, powers = local_powers(tau, values, 3)
+    np.testing.assert_allclose(middles, [70.7, 141.4, 282.8], rtol=1e-3)
+    np.testing.assert_allclose([p.exponent for p in powers], [1.0, 0.5, 0.5], atol=1e-6)
+
+
+def test_the_speed_of_a_made_up_front():
+    tau = np.arange(2.0, 202.0, 2.0)
+    way = np.floor(2.5 * tau - 1.4 * np.log(tau))
+    run = xr.Dataset(
+        {
+            "front": (("variant", "member", "piece_tau", "level"), way[None, None, :, None]),
+            "predicted_delay": ("variant", [1.4]),
+        },
+        {"piece_tau": tau, "level": [1e-2]},
+    )
+    plain, error = speeds(run)
+    corrected, _ = speeds(run, corrected=True)
+    assert plain[0] < 2.495 and corrected[0] == pytest.approx(2.5, abs=error[0])
+
+
+def test_terms_of_the_energy_add_up_to_it():
+    z = random_chain(9, even=True)
+    state = np.zeros((4, 12))
+    half = z[:, 9:]
+    state[:, 1:-1] = half[0].real, half[0].imag, half[1].real, half[1].imag
+    terms = energy_terms(state, (1.2, 0.7, -3.0))
+    bonds = terms[3]
+    both = 2.0 * terms.sum() - terms[:3, 0].sum()  # the centre has no twin, each bond has one
+    assert both == pytest.approx(hamiltonian(z, (1.2, 0.7, -3.0), "dirichlet"), rel=1e-12)
+    assert (bonds <= 0).all()
+
+
+def test_profile_spectrum_and_distribution():
+    np.testing.assert_allclose(profile(np.arange(10.0)[None], np.array([0, 2, 10])), [[0.5, 5.5]])
+    wave = 3.0 * np.exp(2j * np.pi * 5 / 16 * np.arange(40))
+    expected = np.zeros(16)
+    expected[5] = 9.0 * 16
+    np.testing.assert_allclose(spectrum(wave, 16), expected, atol=1e-10)
+    assert spectrum(wave, 16).mean() == pytest.approx(9.0)
+    moduli = np.random.default_rng(0).random(50)
+    assert distribution(moduli, np.linspace(0, 2, 9)).sum() * 0.25 == pytest.approx(1.0)
+    assert complex_pair(with_ghosts(np.ones((4, 3))))[1].tolist() == [1 + 1j] * 3

@@ -1,0 +1,120 @@
+"""Long runs in pieces: checkpoints keep the bits, members differ, maps know free chains."""
+
+import numpy as np
+import pytest
+from pendula.studies.unbounded import spread as spread_module
+from pendula.studies.unbounded.members import member
+from pendula.studies.unbounded.spread import SERIES, spread
+from pendula.studies.unbounded.window_map import maxima, window_map
+
+PROBLEM = {
+    "epsilon": 1.0,
+    "gamma": 1.0,
+    "omega": 0.0,
+    "initial": {0: (1.0, 0.1)},
+    "half_width": None,
+    "end_time": 40.0,
+    "output_step": 0.25,
+    "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
+    "rest": 1e-20,
+}
+
+
+class StoppedError(Exception):
+    pass
+
+
+@pytest.fixture
+def interrupted(monkeypatch, tmp_path):
+    """Return the checkpoint of a run that was killed at its 14th piece, after 10 were kept."""
+    calls, advance = [], spread_module.advance
+
+    def stop(*arguments):
+        calls.append(1)
+        if len(calls) > 13:
+            raise StoppedError
+        return advance(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(spread_module, "advance", stop)
+        with pytest.raises(StoppedError):
+            spread(PROBLEM, tmp_path / "kept.npz", keep_every=5)
+    return tmp_path / "kept.npz"
+
+
+def count_pieces(monkeypatch):
+    done, advance = [], spread_module.advance
+    monkeypatch.setattr(spread_module, "advance", lambda *a: done.append(1) or advance(*a))
+    return done
+
+
+def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted(
+    interrupted, monkeypatch
+):
+    whole = spread(PROBLEM)
+    done = count_pieces(monkeypatch)
+    continued = spread(PROBLEM, interrupted)
+    assert len(done) == 10
+    for name in (*SERIES, "state"):
+        assert np.array_equal(getattr(whole, name), getattr(continued, name)), name
+
+
+def test_a_checkpoint_of_another_problem_is_not_taken(interrupted, monkeypatch):
+    other = {**PROBLEM, "omega": 0.5}
+    done = count_pieces(monkeypatch)
+    spread({**other, "end_time": 24.0}, interrupted)
+    assert len(done) == 12
+
+
+def test_series_are_at_every_output_once():
+    run = spread({**PROBLEM, "end_time": 6.0})
+    np.testing.assert_array_equal(run.tau, 0.25 * np.arange(25))
+    assert run.l2.shape == run.linf.shape == run.energy.shape == (25,)
+    assert run.front.shape == (3, 4) and (np.diff(run.front[-1]) <= 0).all()
+    assert run.l2[0] == pytest.approx(np.hypot(1.0, 0.1)) and run.linf[0] == 1.0
+
+
+def test_members_differ_by_little_and_are_the_same_every_time():
+    first, again, second = (member(PROBLEM["initial"], n) for n in (1, 1, 2))
+    assert member(PROBLEM["initial"], 0) == PROBLEM["initial"]
+    assert first == again != second
+    assert first[0][0] == pytest.approx(1.0, rel=1e-5)
+
+
+def test_chaos_makes_of_members_different_runs():
+    runs = [spread({**PROBLEM, "initial": member(PROBLEM["initial"], n)}) for n in (0, 1)]
+    apart = np.abs(runs[0].l2 / runs[1].l2 - 1.0)
+    assert apart[:8].max() < 1e-3 < apart.max()
+    assert runs[0].front[-1, 0] == runs[1].front[-1, 0]
+
+
+def test_a_map_has_the_maxima_of_each_chain_and_stops_at_the_first_free_one(monkeypatch):
+    done = count_pieces(monkeypatch)
+    found = window_map({**PROBLEM, "end_time": 20.0}, [4, 300, 2000], np.array([12.0, 20.0]))
+    assert len(done) == 20
+    assert found.arrival[0] == 2.0 and np.isnan(found.arrival[1:]).all()
+    assert np.array_equal(found.l2[1], found.l2[2])
+    assert (found.l2[1] > found.l2[0]).all() and (np.diff(found.l2, axis=1) >= 0).all()
+
+
+def test_maxima_start_at_ten_and_include_the_end():
+    tau = np.arange(0.0, 20.5, 0.5)
+    series = np.where(tau < 10, 99.0, tau)
+    np.testing.assert_array_equal(maxima(tau, series, np.array([12.0, 15.5])), [12.0, 15.5])
+
+
+def test_a_tolerance_of_1e_8_is_enough_for_the_sea():
+    """Other tolerances make other trajectories of the same power, and the same front."""
+    powers, fronts = {}, set()
+    for tolerance in (1e-8, 1e-11):
+        solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+        runs = [
+            spread({**PROBLEM, "solver": solver, "initial": member(PROBLEM["initial"], number)})
+            for number in range(4)
+        ]
+        powers[tolerance] = np.array([(run.l2**2)[run.tau > 20.0].mean() for run in runs])
+        fronts |= {run.front[-1, 0] for run in runs}
+    loose, tight = powers.values()
+    error = np.hypot(loose.std(ddof=1), tight.std(ddof=1)) / 2.0
+    assert abs(loose.mean() - tight.mean()) < 3.0 * error < 0.1 * tight.mean()
+    assert len(fronts) == 1

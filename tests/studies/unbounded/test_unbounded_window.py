@@ -1,0 +1,97 @@
+"""The active window: the numbers are those of the whole chain, and it opens before the front."""
+
+import numpy as np
+import pytest
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import integrate, output_times, simulate
+from pendula.studies.unbounded.scale import measure
+from pendula.studies.unbounded.spread import spread
+from pendula.studies.unbounded.window import BLOCK, advance, open_window, powers, widen
+
+TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
+LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
+
+
+def problem(omega=-4.0, pair=(1.0, 0.1), half_width=None, end_time=40.0, solver=TIGHT):
+    return {
+        "epsilon": 1.0,
+        "gamma": 1.0,
+        "omega": omega,
+        "initial": {0: pair},
+        "half_width": half_width,
+        "end_time": end_time,
+        "output_step": 0.5,
+        "solver": solver,
+        "rest": 1e-20,
+    }
+
+
+@pytest.mark.parametrize("half_width", [None, 30, 70, 150])
+def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width):
+    windowed = problem(half_width=half_width)
+    whole = {**windowed, "half_width": half_width or 150, "boundary": "dirichlet"}
+    del whole["rest"]
+    one, other = spread(windowed), simulate(**whole)
+    np.testing.assert_allclose(one.tau, other.tau, rtol=1e-14)
+    np.testing.assert_allclose(one.l2, np.hypot(*other.l2), rtol=1e-12)
+    np.testing.assert_allclose(one.linf, other.linf.max(axis=0), atol=1e-12)
+    np.testing.assert_allclose(one.energy, other.energy, rtol=1e-12)
+
+
+def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
+    windowed = problem(omega=0.0, end_time=8.0)
+    one = spread(windowed)
+    amplitudes = np.zeros((2, 301), complex)
+    amplitudes[:, 150] = 1.0, 0.1
+    times = output_times(8.0, 0.5)
+    nothing_reduced, constants = Reduction(False, False), (1.0, 1.0, 0.0)
+    whole = integrate(constants, "dirichlet", amplitudes, nothing_reduced, times, TIGHT)
+    assert np.array_equal(whole.final, whole.final[:, ::-1])
+    width = one.width[-1]
+    right = whole.final[:, 150 : 151 + width]
+    assert width == 2 * BLOCK
+    np.testing.assert_allclose(one.state[0, 1:-1] + 1j * one.state[1, 1:-1], right[0], atol=1e-10)
+    np.testing.assert_allclose(one.state[2, 1:-1] + 1j * one.state[3, 1:-1], right[1], atol=1e-10)
+
+
+def test_the_window_opens_by_blocks_and_never_beyond_the_chain():
+    free = spread(problem(end_time=60.0, solver=LOOSE))
+    assert not (np.diff(free.width) % BLOCK).any() and free.width[-1] > 2 * BLOCK
+    assert (free.front.max(axis=1) < free.width).all()
+    short = spread(problem(half_width=70, end_time=60.0, solver=LOOSE))
+    assert short.width.max() == short.width[-1] == 70
+
+
+@pytest.mark.parametrize("rest", [1e-10, 1e-40])
+def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
+    """Later it does: it is the growth of its leading edge that draws it."""
+    sites = {}
+    for cut in (rest, 1e-150):
+        state = open_window({0: (1.0, 0.1)}, None)
+        for piece in range(25):
+            state = widen(state, None, cut)
+            advance((1.0, 1.0, 0.0), state, np.array([2.0 * piece, 2.0 * piece + 2.0]), LOOSE)
+        sites[cut] = np.flatnonzero(powers(state) > 1e-6).max(), state.shape[1]
+    assert sites[rest][0] == sites[1e-150][0] and sites[rest][1] < sites[1e-150][1]
+    assert powers(state)[-8:].max() < 1e-290
+
+
+def test_data_must_be_even():
+    with pytest.raises(ValueError, match="even in n"):
+        open_window({0: (1.0, 0.0), 1: (1.0, 0.0)}, None)
+    assert open_window({-1: (1.0, 0.0), 1: (1.0, 0.0)}, None).shape == (4, BLOCK + 4)
+
+
+def test_one_component_is_enough_where_a_equals_b():
+    one = spread(problem(pair=(1.0, 1.0), end_time=4.0))
+    assert one.state.shape[0] == 2
+    np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
+
+
+def test_memory_is_proportional_to_the_window():
+    widths = np.array([4000, 8000, 16_000])
+    memory = measure(widths=widths, duration=0.02)["memory"].values
+    a_site = np.diff(memory) / np.diff(widths)
+    # a complex pair is 32 bytes; dop853 keeps 11 more of them, and the stretch that it works on
+    np.testing.assert_allclose(a_site, 32 * 13, rtol=0.1)
+    assert memory[0] < 4000 * 32 * 13 + 1e6
