@@ -6,7 +6,7 @@ import pytest
 import yaml
 from pendula.configuration.messages import ConfigurationError, load
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def faults(settings) -> list[str]:

@@ -14,7 +14,7 @@ from pendula.simulation.lattice import Reduction, place
 from pendula.simulation.observables import observe
 from pendula.simulation.simulate import integrate, output_times
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 CASE, TAU = "fig2_large", 5.0
 TIGHT = {"name": "dop853", "rtol": 1e-13, "atol": 1e-13}
 

@@ -13,7 +13,7 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.reference.precision import BITS
 from pendula.studies.reference.verify import LIMIT
 
-FOLDER = Path(__file__).resolve().parents[1] / "baseline/reference"
+FOLDER = Path(__file__).resolve().parents[2] / "baseline/reference"
 NAMES = [*CASES, "fig4_small.double"]
 
 

@@ -17,7 +17,7 @@ from pendula.studies.reference.run import Run, integrate, start
 from pendula.studies.reference.verify import LIMIT, UnverifiedError, compare, require_agreement
 from reference.integrate_reference import integrate_reference
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 HALF = Reduction(even=True, synchronised=False)
 NUMBERS = (0.7, 1.3, -4.0)
 

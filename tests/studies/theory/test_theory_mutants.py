@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-LIBRARY = Path(__file__).parents[2] / "scripts" / "pendula"
+LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
 MUTANTS = Path(__file__).parent / "mutants.py"
 
 MUTATIONS = {
