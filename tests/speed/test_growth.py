@@ -1,11 +1,11 @@
-"""How cost grows, what batches save, and what the machine could do."""
+"""How cost grows, and what the machine could do."""
 
 import numpy as np
 import pytest
 import xarray as xr
 from pendula.datasets.netcdf import read, write
 from pendula.plots import cost_growth
-from pendula.speed import batching, growth, limits, machine
+from pendula.speed import growth, limits, machine
 from pendula.speed.growth_table import write_table
 from scipy.integrate._ivp import dop853_coefficients as published
 
@@ -13,9 +13,6 @@ from scipy.integrate._ivp import dop853_coefficients as published
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(batching, "SITES", (1, 3))
-        patch.setattr(batching, "BATCHES", (2, 9))
-        patch.setattr(batching, "TURNS", 3)
         patch.setattr(growth, "SITES", (11, 101))
         patch.setattr(growth, "END_TIMES", (1.0, 4.0))
         patch.setattr(growth, "REPEAT", 1)
@@ -25,7 +22,7 @@ def measured(tmp_path_factory):
             "epsilon": 1.0, "gamma": 1.0, "omega": -4.0, "half_width": 4,
             "boundary": "dirichlet", "initial": {0: (1.0, 0.1)},
         }  # fmt: skip
-        variables = growth.measure(problem) | batching.measure()
+        variables = growth.measure(problem)
     path = tmp_path_factory.mktemp("growth") / "growth.nc"
     write(path, variables, machine.describe())
     return read(path)
@@ -46,38 +43,21 @@ def test_memory_grows_with_the_chain_and_not_faster(measured):
 def test_no_run_is_faster_than_the_machine(measured):
     data = cost_growth.gather(measured)
     assert bool((data["carried"].sel(solver="dop853") < 2 * data["arithmetic_limit"]).all())
-    assert len(cost_growth.draw(data).axes) == 4
-
-
-def test_gains_lie_between_the_least_and_the_largest_turn(measured):
-    assert measured["gain"].dims == ("short_sites", "batch") and measured["gain"].shape == (2, 2)
-    assert bool((measured["gain_least"] <= measured["gain"]).all())
-    assert bool((measured["gain"] <= measured["gain_most"]).all())
-
-
-def test_nine_runs_of_one_site_are_cheaper_in_a_batch(measured):
-    assert float(measured["gain"].sel(short_sites=1, batch=9)) > 1.5  # about 4 on a quiet machine
+    assert len(cost_growth.draw(data).axes) == 3
 
 
 def made_up_growth():
-    """Return costs of 2 and 3 µs at 1001 sites, of 3 and 6 at 100 001, and known gains."""
+    """Return costs of 2 and 3 µs at 1001 sites, of 3 and 6 at 100 001."""
     costs = 1e-6 * np.array([[2.0, 3.0], [3.0, 6.0]])
-    grid = ("short_sites", "batch")
     return xr.Dataset(
         {
             "seconds": (("sites", "solver"), costs),
             "long_seconds": (("end_time", "solver"), costs[:1]),
-            "alone_seconds": (grid, [[4e-3]]),
-            "gain": (grid, [[2.5]]),
-            "gain_least": (grid, [[2.25]]),
-            "gain_most": (grid, [[2.75]]),
         },
         coords={
             "sites": ("sites", [1001, 100_001], {"long_name": "number of sites N"}),
             "end_time": ("end_time", [10.0], {"long_name": "slow time at the end"}),
             "solver": ["dop853", "taylor"],
-            "short_sites": [3],
-            "batch": [8],
         },
     )
 
@@ -85,7 +65,7 @@ def made_up_growth():
 def test_the_table_says_what_was_measured():
     lines = write_table(made_up_growth()).splitlines()
     assert "| 1001 | 2 | 3 |" in lines and "| 100001 over 1001 | 1.5 | 2 |" in lines
-    assert "| 10 | 2 | 3 |" in lines and "| 3 | 4 | 2.5 (2.25 to 2.75) |" in lines
+    assert "| 10 | 2 | 3 |" in lines
 
 
 def test_the_table_compares_only_chains_that_were_measured():

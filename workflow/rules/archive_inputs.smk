@@ -4,7 +4,7 @@
 def deposited(wildcards):
     """Return what `rule all` makes, and all that its figures are drawn from."""
     between = [f"results/{name}.nc" for name in makers()]
-    apart = [*rules.hard_cases.output, *kernels(*ALL_SOLVERS, "batch")]
+    apart = [*rules.hard_cases.output, *kernels(*ALL_SOLVERS)]
     copies = handed_out.difference(records(wildcards))  # complete only when every rule is read
     return sorted({*rules.all.input, *between, *apart, *copies})
 

@@ -33,7 +33,7 @@ rule work_precision:
 rule cost_growth:
     input:
         code=code("speed/measure_growth.py"),
-        kernels=kernels("dop853", "taylor", "batch"),
+        kernels=kernels("dop853", "taylor"),
     output:
         data="results/speed/growth.nc",
         table="results/speed/growth.md",
@@ -45,7 +45,7 @@ rule cost_growth:
     params:
         problem=SETTINGS.problem("fig3_small"),
     message:
-        "Timing longer chains, longer runs, and runs in batches"
+        "Timing longer chains and longer runs"
     script:
         "../../scripts/speed/measure_growth.py"
 

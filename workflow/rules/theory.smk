@@ -1,28 +1,11 @@
 # The paper's theory on numbers: the checks, the ledger of its claims, and figures that show them.
 
 
-rule compile_batch:
-    "Compile the runs in lanes before the jobs that share them"
-    input:
-        code=code("theory/compile_batch.py"),
-    output:
-        kernels="results/kernels/batch.txt",
-    log:
-        "results/logs/kernels/batch.log",
-    priority: 19
-    conda:
-        "../envs/pinned.yaml"
-    message:
-        "Compiling batches of short chains"
-    script:
-        "../../scripts/theory/compile_batch.py"
-
-
 rule check_equations:
     "Section 2: structure, symmetries, expansion; and the errors and gaps of the paper"
     input:
         code=code("theory/run_checks.py"),
-        kernels=kernels("ode45", "dop853", "batch"),
+        kernels=kernels("ode45", "dop853", "taylor"),
     output:
         datasets=checks(*GROUPS["equations"]),
     log:

@@ -1,6 +1,4 @@
-"""How the cost of a run grows with the chain and with time, how near it is to the limits, and what
-batches of short chains save.
-"""
+"""How the cost of a run grows with the chain and with time, and how near it is to the limits."""
 
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,7 +9,7 @@ from pendula.drawing import style
 
 def gather(growth: xr.Dataset) -> xr.Dataset:
     """Return what is drawn: the measurements, sites carried a second, and the machine's limits."""
-    measured = ["seconds", "long_seconds", "gain", "gain_least", "gain_most"]
+    measured = ["seconds", "long_seconds"]
     carried = growth["steps"] / growth["seconds"]
     arithmetic = growth["arithmetic"] / growth["operations"]
     memory = growth["bandwidth"] / growth["traffic"]
@@ -28,16 +26,15 @@ def gather(growth: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw(data: xr.Dataset) -> Figure:
-    """Draw the cost over sites and over time, the throughput with its limits, and batches."""
-    figure = style.new_figure(style.DOUBLE, 4.6)
-    (sites, time), (throughput, batches) = figure.subplots(2, 2)
+    """Draw the cost over sites and over time, and the throughput with its limits."""
+    figure = style.new_figure(style.DOUBLE, 2.4)
+    sites, time, throughput = figure.subplots(1, 3)
     _draw_cost(sites, data["seconds"], "sites")
     _draw_cost(time, data["long_seconds"], "end_time")
     sites.set_xlabel("number of sites $N$")
     time.set_xlabel(r"end time $\tau$")
     sites.legend()
     _draw_throughput(throughput, data)
-    _draw_batches(batches, data)
     return figure
 
 
@@ -63,26 +60,3 @@ def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
     axes.set_xlabel("number of sites $N$")
     axes.set_ylabel(r"sites $\times$ steps per second")
     axes.legend(loc="lower right")
-
-
-def _draw_batches(axes: Axes, data: xr.Dataset) -> None:
-    """Draw how many times cheaper a run is in a batch; bars from the least to the largest."""
-    looks = zip(data["batch"].values, ("-", "--"), strict=True)
-    for size, line in looks:
-        row = data.sel(batch=size)
-        spread = [row["gain"] - row["gain_least"], row["gain_most"] - row["gain"]]
-        axes.errorbar(
-            data["short_sites"],
-            row["gain"],
-            spread,
-            color=style.COLOURS["taylor"],
-            marker=".",
-            linestyle=line,
-            label=f"{size} runs by Taylor",
-        )
-    axes.axhline(1.0, color="0.4", lw=0.8, dashes=(1, 1))
-    axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("number of sites $N$")
-    axes.set_ylabel("time alone / time in a batch")
-    axes.legend()

@@ -9,7 +9,7 @@ from pendula.models.amplitudes import ENDS, Chain
 from pendula.models.amplitudes_rates import rates
 from pendula.models.energy import energy
 from pendula.simulation.lattice import WHOLE, pack, unpack
-from pendula.simulation.simulate import Trajectory, integrate
+from pendula.simulation.simulate import IntegrationError, Trajectory, integrate
 
 BOUNDARIES = tuple(ENDS)
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
@@ -42,6 +42,28 @@ def total_energy(constants, boundary: str, amplitudes: np.ndarray) -> float:
 def squared_norm(l2: np.ndarray) -> np.ndarray:
     """Return P = |A|^2 + |B|^2 in l2 from the norms of A and B along the first axis."""
     return l2[0] ** 2 + l2[1] ** 2
+
+
+def run_powers(constants, boundaries, amplitudes, times, tolerances=TOLERANCES):
+    """Integrate many independent problems; return P (run, time) and H at the first time (run,).
+
+    `constants` holds (epsilon, gamma, Omega) of each run, `boundaries` the name of its ends,
+    `amplitudes` its data (2, N). Each run goes by `taylor` on the whole chain. Where a solver
+    refuses a run or gives it up, P is infinite at all times after the first: such a run breaks
+    every bound, and nothing that is read off it can pass for a number.
+    """
+    solver, times = {"name": "taylor", **tolerances}, np.asarray(times, float)
+    runs = list(zip(constants, boundaries, amplitudes, strict=True))
+    powers, energies = np.full((len(runs), len(times)), np.inf), np.empty(len(runs))
+    for i, (numbers, boundary, data) in enumerate(runs):
+        try:
+            trajectory = run(numbers, boundary, data, times, solver)
+        except IntegrationError:
+            powers[i, 0] = np.sum(np.abs(data) ** 2)
+            energies[i] = total_energy(numbers, boundary, data)
+        else:
+            powers[i], energies[i] = squared_norm(trajectory.l2), trajectory.energy[0]
+    return powers, energies
 
 
 def mean_spacing(count: int, span: float) -> np.ndarray:

@@ -4,7 +4,6 @@ import numpy as np
 
 from pendula.datasets.checks import table, variable
 
-from .batch import run_powers
 from .bounds import (
     theorem_1_bound,
     theorem_2_bound,
@@ -14,7 +13,7 @@ from .bounds import (
     widened_barrier,
     widened_bound,
 )
-from .runs import BOUNDARIES, mean_spacing, total_energy
+from .runs import BOUNDARIES, mean_spacing, run_powers, total_energy
 
 FAMILIES = ("theorem_1", "theorem_2_ball", "theorem_2_energy", "theorem_2_widened", "theorem_3")
 

@@ -5,9 +5,8 @@ import numpy as np
 from pendula.datasets.checks import table, variable
 from pendula.models.linear_flow import flow
 
-from .batch import run_powers
 from .linear import finite_rate, finite_threshold, gamma_0, infinite_rate, stable_windows
-from .runs import random_amplitudes
+from .runs import random_amplitudes, run_powers
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""

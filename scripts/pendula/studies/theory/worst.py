@@ -5,9 +5,8 @@ import numpy as np
 from pendula.datasets.checks import table, variable
 from pendula.models.linear_flow import curvatures
 
-from .batch import run_powers
 from .bounds import extent, theorem_2_constants, theorem_2_gap
-from .runs import mean_spacing
+from .runs import mean_spacing, run_powers
 from .sampling import FAMILIES, bound, largest_power
 from .search import maximise
 

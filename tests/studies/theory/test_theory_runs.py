@@ -1,9 +1,8 @@
-"""Random data of unlike ends in one call."""
+"""Many runs of unlike ends: each against a run by another solver, and what a lost one counts as."""
 
 import numpy as np
 from oracle import BOUNDARIES, hamiltonian
-from pendula.studies.theory.batch import run_powers
-from pendula.studies.theory.runs import run, squared_norm
+from pendula.studies.theory.runs import run, run_powers, squared_norm
 
 TIMES = [0.0, 0.5, 1.0]
 
@@ -25,10 +24,12 @@ def test_each_run_keeps_its_place_its_ends_and_its_parameters():
         np.testing.assert_allclose(energies[i], hamiltonian(data[i], constants[i], boundary))
 
 
-def test_a_run_that_is_given_up_has_an_infinite_power_from_then_on():
+def test_a_run_that_is_refused_has_an_infinite_power_after_its_start():
     constants, boundaries, data = draw(4)
     constants[2, 0] = 1e300
-    powers, _ = run_powers(constants, boundaries, data, TIMES)
+    powers, energies = run_powers(constants, boundaries, data, TIMES)
     lost = np.zeros((4, 3), bool)
     lost[2, 1:] = True
     np.testing.assert_array_equal(powers == np.inf, lost)
+    np.testing.assert_allclose(powers[2, 0], np.sum(np.abs(data[2]) ** 2))
+    np.testing.assert_allclose(energies[2], hamiltonian(data[2], constants[2], boundaries[2]))
