@@ -3,9 +3,8 @@
 from pathlib import Path
 
 from pendula.datasets.files import complete_or_absent
-from pendula.figure_diff import findings, page
-from pendula.figure_diff.baseline import environment, recorded
-from pendula.figure_diff.comparison import compare
+from pendula.figure_diff import comparison_page, findings
+from pendula.figure_diff.baseline import compare, environment, recorded
 
 
 def compare_results(
@@ -13,13 +12,15 @@ def compare_results(
 ) -> None:
     """Compare the files `results` (results/topic/name) with the folder `baseline`.
 
-    Faults do not fail this job, so that Snakemake keeps the page; they fail the rule figure_diff.
+    `accepted` are the files of that folder; the rule names them so that a change of one reruns this
+    job. Faults do not fail it, so that Snakemake keeps the page; they fail the rule figure_diff.
     """
     made, folder = Path(results[0]).parts[0], Path(baseline)
     names = [Path(path).relative_to(made).as_posix() for path in results]
     found = compare(names, Path(made), folder)
     with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
-        new_html.write_text(page.render(found, Path(made), folder, _note(folder)), "utf-8")
+        page = comparison_page.render(found, Path(made), folder, _note(folder))
+        new_html.write_text(page, "utf-8")
         findings.dump(found, new_verdict)
 
 

@@ -15,7 +15,13 @@ from pendula.sources import SCRIPTS
 
 PROJECT = SCRIPTS.parent
 NAMES = (
-    *("Snakefile", "README.md", "LICENSE", "config/config.yaml", "scripts/pendula/models/amplitudes.py"),
+    *(
+        "Snakefile",
+        "README.md",
+        "LICENSE",
+        "config/config.yaml",
+        "scripts/pendula/models/amplitudes.py",
+    ),
     *("results/figures/fig2.png", "results/figures/fig2.nc", "results/trajectories/mine a.nc"),
 )
 

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import made_up_results as made_up
 import pytest
-from pendula.figure_diff import baseline
-from pendula.figure_diff.comparison import compare
+from pendula.figure_diff import baseline, tolerances
 from pendula.figure_diff.findings import Finding
+
+TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / tolerances.FILE
 
 
 class Run(NamedTuple):
@@ -18,13 +19,17 @@ class Run(NamedTuple):
     made: Path
     accepted: Path
 
+    def compare(self, names) -> list[Finding]:
+        """Compare these files of the run with the baseline."""
+        return baseline.compare(names, self.made, self.accepted)
+
     def findings(self, names=made_up.NAMES) -> dict[str, Finding]:
         """Compare, and return what was found of each file."""
-        return {finding.name: finding for finding in compare(names, self.made, self.accepted)}
+        return {finding.name: finding for finding in self.compare(names)}
 
     def faults(self, names=made_up.NAMES) -> list[str]:
         """Compare, and return the lines of the faults."""
-        return [each.line for each in self.findings(names).values() if each.is_fault]
+        return [each.line for each in self.compare(names) if each.is_fault]
 
     def move_to_another_environment(self) -> None:
         """Make the baseline one that another matplotlib has drawn."""
@@ -39,6 +44,7 @@ def accepted_run(tmp_path_factory) -> Run:
     folder = tmp_path_factory.mktemp("figure_diff")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
     baseline.accept(made_up.NAMES, *run)
+    shutil.copy(TOLERANCES, run.accepted)
     return run
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.drawing import style
-from pendula.figure_diff import images, pictures
+from pendula.figure_diff import compare_images
+from pendula.figure_diff.compare_images import EXACT, LOOK, Pixels
 from pendula.figure_diff.findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY
-from pendula.figure_diff.pictures import Picture
 from PIL import Image
 
 FAULTS = {
@@ -33,19 +33,19 @@ def test_faults_are_found_where_the_curves_have_moved(any_environment, fault):
     assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
 
 
-def _pixels(**changes) -> Picture:
+def _pixels(**changes) -> Pixels:
     figure = made_up.draw(regular(), **changes)
     figure.canvas.draw()
-    return Picture(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [])
+    return Pixels(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [])
 
 
-def _otherwise(monkeypatch, key, value) -> Picture:
+def _otherwise(monkeypatch, key, value) -> Pixels:
     monkeypatch.setitem(style._RC, key, value)
     return _pixels()
 
 
-def _look(was: Picture, now: Picture) -> str:
-    return images.judge(PICTURE, was, now, images.LOOK, moved=False).status
+def _status(was: Pixels, now: Pixels, method: str) -> str:
+    return compare_images.judge(PICTURE, was, now, method, moved=False).status
 
 
 @pytest.mark.parametrize(
@@ -54,27 +54,27 @@ def _look(was: Picture, now: Picture) -> str:
 )
 def test_letters_drawn_otherwise_look_the_same(monkeypatch, key, value):
     was, now = _pixels(), _otherwise(monkeypatch, key, value)
-    assert (was.pixels != now.pixels).any()
-    assert _look(was, now) == NEARLY
-    assert images.judge(PICTURE, was, now, images.EXACT, moved=False).status == DIFFERENT
+    assert (was.colours != now.colours).any()
+    assert _status(was, now, LOOK) == NEARLY
+    assert _status(was, now, EXACT) == DIFFERENT
 
 
 @pytest.mark.parametrize("step", [(0, 1), (1, 0), (2, -2)])
 def test_a_shift_by_a_pixel_looks_the_same(step):
     was = _pixels()
-    shifted = Picture(np.roll(was.pixels, step, (0, 1)), [])
-    assert _look(was, shifted) == NEARLY
+    shifted = Pixels(np.roll(was.colours, step, (0, 1)), [])
+    assert _status(was, shifted, LOOK) == NEARLY
 
 
 def test_other_letters_do_not_look_the_same(monkeypatch):
     was, now = _pixels(), _pixels(label="energy")
-    assert _look(was, now) == DIFFERENT
+    assert _status(was, now, LOOK) == DIFFERENT
 
 
 def test_a_single_shade_is_nearly_the_same_by_pixels():
     was = _pixels()
-    now = Picture(np.where(was.pixels > 250, 253, was.pixels).astype(np.uint8), [])
-    assert images.judge(PICTURE, was, now, images.EXACT, moved=False).status == NEARLY
+    now = Pixels(np.where(was.colours > 250, 253, was.colours).astype(np.uint8), [])
+    assert _status(was, now, EXACT) == NEARLY
 
 
 @pytest.mark.parametrize("kept", [100, 5000], ids=["header", "half of the pixels"])
@@ -86,13 +86,13 @@ def test_a_damaged_picture(any_environment, kept):
 
 
 def test_another_size(run):
-    pixels = pictures.read(run.made / PICTURE).pixels
-    Image.fromarray(pixels[:-10]).save(run.made / PICTURE)
+    colours = compare_images.read(run.made / PICTURE).colours
+    Image.fromarray(colours[:-10]).save(run.made / PICTURE)
     assert "pixels in place of" in run.faults()[0]
 
 
 def test_a_saved_figure_names_its_panels(run):
-    left, right = pictures.read(run.made / PICTURE).panels
+    left, right = compare_images.read(run.made / PICTURE).panels
     assert left[2] < right[0] and left[1] == right[1] and left[3] == right[3]
 
 

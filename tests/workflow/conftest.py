@@ -8,7 +8,7 @@ from helpers import ROOT
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
-    *("tests/baseline/reference", "tests/baseline/speed"),
+    *("tests/baseline/reference", "tests/baseline/speed", "tests/baseline/tolerances.yaml"),
 )
 
 

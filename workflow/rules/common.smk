@@ -1,5 +1,4 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
-import glob
 import os
 import sys
 
@@ -40,8 +39,6 @@ OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 CHAOS_CHECKS = ["lyapunov", "symmetry", "ensembles"]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
-
-BASELINE = f"{workflow.basedir}/tests/baseline"
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
 if absent:
@@ -92,10 +89,3 @@ def reference_problem(case):
 def figure(name, prefix=""):
     kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
     return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
-
-
-def baseline_of(results):
-    """Return the accepted files beside these results, and the record of them."""
-    folders = sorted({path.split("/")[1] for path in results})
-    patterns = ["accepted.json", *(f"{folder}/*" for folder in folders)]
-    return sorted(path for name in patterns for path in glob.glob(f"{BASELINE}/{name}"))

@@ -2,7 +2,17 @@
 # The comparison is a job that always succeeds, since Snakemake deletes what a failed job wrote;
 # the rule `figure_diff` then tells the faults and fails.
 
-COMPARED = [path for path in rules.all.input if path.endswith((".nc", ".png"))]
+import glob
+
+BASELINE = f"{workflow.basedir}/tests/baseline"
+ACCEPTABLE = [path for path in rules.all.input if path.endswith((".nc", ".png"))]
+
+
+def accepted_files(wildcards):
+    """Return the files of the baseline beside these results, its record and its tolerances."""
+    folders = sorted({path.split("/")[1] for path in ACCEPTABLE})
+    patterns = ["accepted.json", "tolerances.yaml", *(f"{folder}/*" for folder in folders)]
+    return sorted(path for name in patterns for path in glob.glob(f"{BASELINE}/{name}"))
 
 
 rule figure_diff:
@@ -24,8 +34,8 @@ rule figure_diff:
 rule compare_results:
     input:
         code=code("figure_diff/compare_results.py"),
-        results=COMPARED,
-        accepted=baseline_of(COMPARED),
+        results=ACCEPTABLE,
+        accepted=accepted_files,
     output:
         html="results/figure_diff/index.html",
         verdict="results/figure_diff/verdict.json",
@@ -45,7 +55,7 @@ rule accept_figures:
     "Takes the datasets and figures of this run as the baseline in tests/baseline"
     input:
         code=code("figure_diff/accept_results.py"),
-        results=COMPARED,
+        results=ACCEPTABLE,
     log:
         "results/logs/figure_diff/acceptance.log",
     conda:

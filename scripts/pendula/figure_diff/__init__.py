@@ -1,1 +1,1 @@
-"""What a run made, compared with the accepted baseline: numbers, pictures, and a page of both."""
+"""Compares what a run made with the accepted baseline: data, images, and one page about both."""

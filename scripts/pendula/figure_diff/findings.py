@@ -1,4 +1,4 @@
-"""What the comparison of one file found, in a word and in one line."""
+"""What the comparison of one file found: a status, and one line for people."""
 
 import json
 from collections.abc import Iterable
@@ -14,7 +14,11 @@ STATUSES = (*FAULTS, NEARLY, IDENTICAL)
 
 @dataclass(frozen=True)
 class Finding:
-    """One file, named as below results/; `moved`: its curves are alike, but not in place."""
+    """The finding for one file, which `name` gives by its path below results/.
+
+    `moved` is true where the curves are within tolerance but no longer in the same place, so that
+    an image of them may not be compared pixel by pixel.
+    """
 
     name: str
     status: str
@@ -33,11 +37,11 @@ class Finding:
 
 
 def dump(findings: Iterable[Finding], path: str | Path) -> None:
-    """Write the findings as JSON."""
+    """Write the findings to `path` as JSON."""
     text = json.dumps([asdict(finding) for finding in findings], indent=1)
     Path(path).write_text(text + "\n", encoding="utf-8")
 
 
 def load(path: str | Path) -> list[Finding]:
-    """Read them again."""
+    """Return the findings that `dump` wrote to `path`."""
     return [Finding(**entry) for entry in json.loads(Path(path).read_text(encoding="utf-8"))]

@@ -8,12 +8,13 @@ from markupsafe import Markup
 HERE = Path(__file__).parent
 
 
-def render(template: str, **values) -> str:
-    """Return the page of templates/`template`, which extends base.html.j2, filled with values.
+def render(template: str, folder: Path = HERE / "templates", **values) -> str:
+    """Return the page of `template` in `folder`, which extends base.html.j2, filled with values.
 
-    Text is escaped; a value that the template names and nobody gave is an error.
+    The templates of this package are found from every folder. Text is escaped, and a value that the
+    template names and nobody gave is an error.
     """
-    loader = FileSystemLoader(HERE / "templates")
+    loader = FileSystemLoader([folder, HERE / "templates"])
     environment = Environment(
         loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,

@@ -31,5 +31,9 @@ def picture(path: str | Path, alt: str, link: str) -> Picture:
     if not png.startswith(SIGNATURE) or len(png) < 24:
         raise PictureError(f"{path} is no PNG: delete it and run snakemake to make it again")
     width, height = struct.unpack(">II", png[16:24])
-    address = f"data:image/png;base64,{base64.b64encode(png).decode()}"
-    return Picture(address, width, height, alt, link)
+    return Picture(address_of(png), width, height, alt, link)
+
+
+def address_of(png: bytes) -> str:
+    """Return the address that holds a PNG itself, for a page that asks no network."""
+    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
