@@ -9,7 +9,7 @@ import numpy as np
 from pendula.compiled import generic
 from pendula.integrators import crank_nicolson, dop853, ode45, taylor
 from pendula.models.blocks import BLOCK, ORDER
-from pendula.vectors import LANES
+from pendula.simd import LANES
 from scipy.integrate import solve_ivp
 
 START = 2.0 + 0.5j

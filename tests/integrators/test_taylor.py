@@ -11,9 +11,9 @@ from pendula.compiled import generic
 from pendula.integrators import taylor, taylor_step
 from pendula.integrators.outcome import DONE
 from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, place
 from pendula.simulation.simulate import integrate, output_times
-from pendula.vectors import LANES
 
 WHOLE = Reduction(even=False, synchronised=False)
 TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}

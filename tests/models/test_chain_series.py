@@ -8,8 +8,8 @@ from pendula.compiled import generic
 from pendula.models.amplitudes import Chain
 from pendula.models.amplitudes_series import LONG, continue_series
 from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
-from pendula.vectors import LANES
 
 WHOLE = Reduction(even=False, synchronised=False)
 

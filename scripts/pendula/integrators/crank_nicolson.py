@@ -12,9 +12,9 @@ and the run ends with a fault where cutting does not help.
 import numpy as np
 
 from pendula.compiled import copy, generic, inlined, kernel
+from pendula.simd import largest_in_rows
 
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
-from .reductions import largest_of_rows
 
 PAST = 6
 WORK = 3 + PAST  # arrays of the size of a state
@@ -32,7 +32,7 @@ def update(old, h, slope, new):
             value = old[row, j] + h * slope[row, j]
             slope[row, j] = abs(value - new[row, j])
             new[row, j] = value
-    return largest_of_rows(slope, old.shape[0])
+    return largest_in_rows(slope, old.shape[0])
 
 
 @kernel

@@ -5,9 +5,9 @@ from math import sqrt
 import numpy as np
 
 from pendula.compiled import kernel
+from pendula.simd import largest_magnitude
 
 from .dop853_tableau import E3, E5
-from .reductions import largest
 
 
 @kernel
@@ -27,7 +27,7 @@ def weighted_norm(v, y, w, spare, tolerances, sites):
             scale = atol + rtol * sqrt(max(before, after))
             squares[size + i] = (v[re, j] * v[re, j] + v[im, j] * v[im, j]) / (scale * scale)
         size += count
-    return sqrt(largest(squares[:size]))
+    return sqrt(largest_magnitude(squares[:size]))
 
 
 @kernel

@@ -15,9 +15,9 @@ from math import sqrt
 import numpy as np
 
 from pendula.compiled import copy, inlined, kernel
+from pendula.simd import largest_in_rows
 
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .reductions import largest_of_rows
 
 WORK = 9  # arrays of the size of a state
 # b - b^ of the pair: what the two solutions differ by
@@ -83,7 +83,7 @@ def relative_error(y, w, k, threshold, scratch):
             after = w[re, j] * w[re, j] + w[im, j] * w[im, j]
             error = scratch[re, j] * scratch[re, j] + scratch[im, j] * scratch[im, j]
             scratch[re // 2, j] = error / max(max(before, after), floor)
-    return sqrt(largest_of_rows(scratch, y.shape[0] // 2))
+    return sqrt(largest_in_rows(scratch, y.shape[0] // 2))
 
 
 @kernel

@@ -19,7 +19,7 @@ from pendula.models.blocks import (
     start_of,
     write_state,
 )
-from pendula.vectors import LANES, load, store
+from pendula.simd import LANES, load, store
 
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .taylor_step import allowed_step, size, up_to

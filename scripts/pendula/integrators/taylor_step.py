@@ -10,9 +10,8 @@ from math import sqrt
 import numpy as np
 
 from pendula.compiled import kernel, merged
-from pendula.lanes import larger, largest_lane
 from pendula.models.blocks import BLOCK, STEP, X, Y
-from pendula.vectors import fill, load
+from pendula.simd import fill, larger_magnitude, largest_lane, load
 
 SQUARES = 1e-280
 """Below this, squares lose digits or vanish."""
@@ -25,7 +24,8 @@ def largest(series, k):
     for block in range(series.components * series.blocks):
         u = block * BLOCK + k * STEP
         x, y = load(m, u + X), load(m, u + Y)
-        square, part = larger(square, x * x + y * y), larger(part, larger(x, y))
+        square = larger_magnitude(square, x * x + y * y)
+        part = larger_magnitude(part, larger_magnitude(x, y))
     return square, part
 
 

@@ -7,8 +7,7 @@ leave up to fifteen sites of a row to be done one by one, half of a chain of the
 from math import cos, sin
 
 from pendula.compiled import kernel, merged
-from pendula.fours import fours
-from pendula.vectors import LANES
+from pendula.simd import LANES, vec4_views
 
 from .amplitudes import close, modulus2, site_rates
 
@@ -29,7 +28,7 @@ def everywhere(at):
         if dy.shape[1] - 2 < 2 * LANES:
             walk(chain, states, dy, 1)
         else:
-            walk(chain, fours(states), fours((dy,))[0], LANES)
+            walk(chain, vec4_views(states), vec4_views((dy,))[0], LANES)
 
     return write
 

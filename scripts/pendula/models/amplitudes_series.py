@@ -5,8 +5,7 @@ cubic term, which `cauchy` sums. Sites go four at a time.
 """
 
 from pendula.compiled import kernel, merged
-from pendula.lanes import seen_left, seen_right
-from pendula.vectors import load, store
+from pendula.simd import left_neighbours, load, right_neighbours, store
 
 from .amplitudes import PERIODIC, Chain, linear_field
 from .block_ends import close
@@ -67,7 +66,7 @@ def build(left_of, right_of):
     return next_order
 
 
-next_order = build(seen_left, seen_right)
+next_order = build(left_neighbours, right_neighbours)
 
 
 @kernel

@@ -5,8 +5,7 @@ sites hold, and what sums or compares whole blocks need not know of it.
 """
 
 from pendula.compiled import merged
-from pendula.lanes import keep
-from pendula.vectors import fill, load, store
+from pendula.simd import fill, keep_lanes, load, store
 
 from .amplitudes import FREE, MIRROR, PERIODIC
 from .blocks import LEFT, RIGHT, STEP, X, Y, ghosts_of, start_of
@@ -20,7 +19,7 @@ def close_right(chain, m, first, last, inside, ghosts):
         seen = m[last + inside - 1]
     elif chain.right == PERIODIC:
         seen = m[first]
-    store(m, last, keep(load(m, last), inside, seen))
+    store(m, last, keep_lanes(load(m, last), inside, seen))
     store(m, ghosts + RIGHT, fill(seen))
 
 

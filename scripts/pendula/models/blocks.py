@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel, merged
-from pendula.vectors import LANES
+from pendula.simd import LANES
 
 ORDER = 16
 X, Y, DENSITY = 0, LANES, 2 * LANES  # where the parts of a coefficient are; density is |A|^2 / 2

@@ -7,7 +7,7 @@ loaded serves twice. Everywhere `i` is where the block begins.
 """
 
 from pendula.compiled import merged
-from pendula.vectors import fill, load, store
+from pendula.simd import fill, load, store
 
 from .blocks import DENSITY, STEP, X, Y
 

@@ -1,0 +1,376 @@
+"""Vectors of four doubles in compiled code: one value that holds four neighbouring sites.
+
+What there is. A `Vector` is four doubles in one vector register, its lanes, numbered 0 to 3.
+`load` and `store` move one between a register and four neighbouring numbers of an array, `fill`
+repeats one number, + - * and unary - work lane by lane. `left_neighbours` and `right_neighbours`
+shift lanes, so that each site sees the one beside it. `keep_lanes` replaces the lanes behind the
+last site, `larger_magnitude` and `largest_lane` find the largest absolute value. A `Vec4View` is a
+state (row, column) seen four columns at a time: `y[row, j]` of the view reads or writes the vector
+of the columns j to j + 3. A formula that is written once for `y[row, j]` therefore serves for one
+site, if it is given the array, and for four, if it is given the view.
+
+Why not LLVM's auto-vectoriser. It vectorises a loop over sites only where it can prove that no
+array overlaps another; it keeps the partial sums of a nested loop (a Cauchy product over the orders
+of a power series) in memory instead of registers; and it leaves the remainder of a row, up to
+fifteen sites, to a scalar loop, which is half of the paper's half chain. A kernel that is written
+with vectors says what is meant, and its speed does not depend on what a compiler proves.
+
+What is promised of bits. Each lane does the IEEE operations of one site, in the order in which
+they are written: no operation carries a fast-math flag, so LLVM neither reorders nor contracts
+them to fused multiply-adds. One site alone, four at a time, and any processor give the same bits.
+Where the processor has shorter vectors, LLVM splits each operation in two.
+
+Why magnitudes are compared as integers. Read as an integer, the bits of a double without their
+sign are in the order of the numbers, and NaN comes after infinity. A maximum taken that way never
+loses a NaN, as one of floating-point numbers may, and it may be reordered and so vectorised.
+
+What it rests upon. `numba.extending` and `numba.types` are public. Private, and free to change in
+any release of numba, are
+- `numba.core.typing.templates`, which tells numba the types of operators and of indexing. The
+  public `numba.extending.overload` could, but compiles one more function for every operator in
+  every kernel;
+- `numba.core.cgutils` and the methods `make_array`, `make_tuple` and `get_dummy_value` of the
+  context that numba hands to code generators. The array of `make_array` must have the members
+  `data` and `shape`;
+- the rule that arrays are contiguous with the last index fastest, and that nothing checks bounds.
+`llvmlite.ir` is public, but it follows LLVM: `bitcast` to a typed pointer before a load or a store
+is a habit of LLVM before opaque pointers.
+
+When numba is upgraded, run tests/test_simd.py first: every operation has a test of its own, which
+names what broke. Then run tests/test_same_bits.py, which finds a changed order of operations, and
+compare the speed. If Vector operators break, look at `numba/core/typing/templates.py`; if load,
+store or views break, at `numba/np/arrayobj.py` and `numba/core/cgutils.py`.
+"""
+
+import operator
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.typing.templates import (
+    AbstractTemplate,
+    ConcreteTemplate,
+    infer_global,
+    signature,
+)
+from numba.extending import (
+    intrinsic,
+    lower_builtin,
+    models,
+    overload_attribute,
+    register_model,
+)
+
+from .compiled import kernel
+
+LANES = 4
+"""Numbers in a vector: 256 bits, the width of AVX2."""
+
+VECTOR = ir.VectorType(ir.DoubleType(), LANES)
+WHOLE = ir.IntType(64)
+BITS = ir.VectorType(WHOLE, LANES)
+LANE = ir.IntType(32)
+MAGNITUDE = 0x7FFF_FFFF_FFFF_FFFF
+"""All bits of a double but for its sign."""
+
+
+# --- The type, and what passes between registers and arrays -------------------------------------
+
+
+class Vector(types.Type):
+    """The type of four doubles. They live in registers only: there are no arrays of them."""
+
+    def __init__(self):
+        super().__init__("Vector")
+
+
+vector = Vector()
+
+
+@register_model(Vector)
+class VectorModel(models.PrimitiveModel):
+    def __init__(self, manager, fe_type):
+        super().__init__(manager, fe_type, VECTOR)
+
+
+def constant(kind, values):
+    return ir.Constant(ir.VectorType(kind, LANES), list(values))
+
+
+def address_in_array(context, builder, array_type, array, index):
+    """Return the address of the vector that starts at the flat `index` of an array."""
+    data = context.make_array(array_type)(context, builder, array).data
+    return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
+
+
+def repeat(builder, number):
+    """Return the vector that holds a number in all lanes."""
+    nothing = ir.Constant(VECTOR, ir.Undefined)
+    one = builder.insert_element(nothing, number, LANE(0))
+    return builder.shuffle_vector(one, nothing, constant(LANE, [0] * LANES))
+
+
+@intrinsic
+def fill(typing_context, number):
+    """Return the number in all lanes."""
+
+    def generate(context, builder, signature, arguments):
+        return repeat(builder, arguments[0])
+
+    return vector(types.float64), generate
+
+
+@intrinsic
+def load(typing_context, array, index):
+    """Return four numbers of a contiguous array from the flat `index` on; nothing is checked."""
+
+    def generate(context, builder, signature, arguments):
+        place = address_in_array(context, builder, signature.args[0], *arguments)
+        return builder.load(place, align=8)
+
+    return vector(array, types.intp), generate
+
+
+@intrinsic
+def store(typing_context, array, index, value):
+    """Write four numbers into a contiguous array from the flat `index` on; nothing is checked."""
+
+    def generate(context, builder, signature, arguments):
+        array, index, value = arguments
+        place = address_in_array(context, builder, signature.args[0], array, index)
+        builder.store(value, place, align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, vector), generate
+
+
+# --- Arithmetic, lane by lane -------------------------------------------------------------------
+
+
+def define_operator(symbol, instruction):
+    """Define `vector symbol vector` and `number symbol vector` by an instruction of LLVM."""
+
+    @infer_global(symbol)
+    class Template(ConcreteTemplate):
+        cases = [
+            signature(vector, vector, vector),
+            signature(vector, types.float64, vector),
+        ]
+
+    @lower_builtin(symbol, vector, vector)
+    def of_vectors(context, builder, signature, arguments):
+        return getattr(builder, instruction)(*arguments)
+
+    @lower_builtin(symbol, types.float64, vector)
+    def of_number_and_vector(context, builder, signature, arguments):
+        return getattr(builder, instruction)(repeat(builder, arguments[0]), arguments[1])
+
+
+define_operator(operator.add, "fadd")
+define_operator(operator.sub, "fsub")
+define_operator(operator.mul, "fmul")
+
+
+@infer_global(operator.neg)
+class Negative(ConcreteTemplate):
+    cases = [signature(vector, vector)]
+
+
+@lower_builtin(operator.neg, vector)
+def negate(context, builder, signature, arguments):
+    return builder.fneg(arguments[0])
+
+
+# --- What passes between the lanes --------------------------------------------------------------
+
+
+def define_shift(first):
+    """Return the function that takes four lanes in a row, from `first` on, of two vectors."""
+
+    @intrinsic
+    def shift(typing_context, one, other):
+        def generate(context, builder, signature, arguments):
+            return builder.shuffle_vector(*arguments, constant(LANE, range(first, first + LANES)))
+
+        return vector(one, other), generate
+
+    return shift
+
+
+right_neighbours = define_shift(1)
+"""Given a block of four sites and the next block, return each site's right neighbour."""
+left_neighbours = define_shift(LANES - 1)
+"""Given the block before and a block of four sites, return each site's left neighbour."""
+
+
+@intrinsic
+def keep_lanes(typing_context, value, count, other):
+    """Return the first `count` lanes of a vector, and the number `other` in the rest."""
+
+    def generate(context, builder, signature, arguments):
+        value, count, other = arguments
+        for lane in range(LANES):
+            inside = builder.icmp_signed("<", WHOLE(lane), count)
+            number = builder.select(inside, builder.extract_element(value, LANE(lane)), other)
+            value = builder.insert_element(value, number, LANE(lane))
+        return value
+
+    return vector(value, types.int64, types.float64), generate
+
+
+# --- The largest absolute value -----------------------------------------------------------------
+
+
+def magnitudes(builder, value):
+    """Return the bits of four doubles without their signs."""
+    return builder.and_(builder.bitcast(value, BITS), constant(WHOLE, [MAGNITUDE] * LANES))
+
+
+def larger_bits(builder, a, b):
+    return builder.select(builder.icmp_signed(">", a, b), a, b)
+
+
+@intrinsic
+def larger_magnitude(typing_context, one, other):
+    """Return in each lane the larger of two absolute values; NaN is larger than infinity."""
+
+    def generate(context, builder, signature, arguments):
+        bits = larger_bits(builder, *(magnitudes(builder, value) for value in arguments))
+        return builder.bitcast(bits, VECTOR)
+
+    return vector(one, other), generate
+
+
+@intrinsic
+def largest_lane(typing_context, value):
+    """Return the largest absolute value among the lanes; NaN is larger than infinity."""
+
+    def generate(context, builder, signature, arguments):
+        bits = magnitudes(builder, arguments[0])
+        lanes = [builder.extract_element(bits, LANE(lane)) for lane in range(LANES)]
+        while len(lanes) > 1:
+            lanes.append(larger_bits(builder, lanes.pop(0), lanes.pop(0)))
+        return builder.bitcast(lanes[0], ir.DoubleType())
+
+    return types.float64(value), generate
+
+
+@kernel
+def largest_magnitude(values):
+    """Return the largest absolute value of an array; NaN is larger than infinity.
+
+    LLVM vectorises this loop by itself, since integer comparisons may be reordered. `values` is
+    contiguous scratch space: its first element is overwritten, to turn bits into a number again.
+    """
+    bits = values.view(np.int64)
+    top = np.int64(0)
+    for i in range(bits.size):
+        top = max(top, bits[i] & MAGNITUDE)
+    bits[0] = top
+    return values[0]
+
+
+@kernel
+def largest_in_rows(scratch, rows):
+    """Return the largest absolute value in the first `rows` rows of a state, but for its ghosts.
+
+    The ghost columns of those rows are set to zero, and the first element is overwritten.
+    """
+    columns = scratch.shape[1]
+    for row in range(rows):
+        scratch[row, 0] = scratch[row, columns - 1] = 0.0
+    return largest_magnitude(scratch.reshape(-1)[: rows * columns])
+
+
+# --- A state seen four sites at a time ----------------------------------------------------------
+
+INDEX = types.UniTuple(types.intp, 2)
+
+
+class Vec4View(types.Type):
+    """The type of a view: an address and a shape. It does not keep the state alive."""
+
+    def __init__(self):
+        super().__init__("Vec4View")
+
+
+view_type = Vec4View()
+
+
+@register_model(Vec4View)
+class Vec4ViewModel(models.StructModel):
+    def __init__(self, manager, fe_type):
+        members = [("data", types.CPointer(types.float64)), ("shape", INDEX)]
+        super().__init__(manager, fe_type, members)
+
+
+def view_of(context, builder, array_type, state):
+    array = context.make_array(array_type)(context, builder, state)
+    view = cgutils.create_struct_proxy(view_type)(context, builder)
+    view.data, view.shape = array.data, array.shape
+    return view._getvalue()
+
+
+@intrinsic
+def vec4_views(typing_context, states):
+    """Return views of a tuple of contiguous (row, column) states; nothing is checked on access."""
+
+    def generate(context, builder, signature, arguments):
+        values = cgutils.unpack_tuple(builder, arguments[0])
+        pairs = zip(signature.args[0], values, strict=True)
+        views = [view_of(context, builder, array_type, state) for array_type, state in pairs]
+        return context.make_tuple(builder, signature.return_type, views)
+
+    return types.UniTuple(view_type, len(states))(states), generate
+
+
+@intrinsic
+def shape_of(typing_context, view):
+    def generate(context, builder, signature, arguments):
+        return cgutils.create_struct_proxy(view_type)(context, builder, arguments[0]).shape
+
+    return INDEX(view), generate
+
+
+@overload_attribute(Vec4View, "shape")
+def shape(view):
+    """Let `view.shape` be the shape of the state."""
+    return lambda view: shape_of(view)
+
+
+@infer_global(operator.getitem)
+class ReadVector(AbstractTemplate):
+    def generic(self, arguments, keywords):
+        if isinstance(arguments[0], Vec4View):
+            return signature(vector, arguments[0], INDEX)
+        return None
+
+
+@infer_global(operator.setitem)
+class WriteVector(AbstractTemplate):
+    def generic(self, arguments, keywords):
+        if isinstance(arguments[0], Vec4View):
+            return signature(types.void, arguments[0], INDEX, vector)
+        return None
+
+
+def address_in_view(context, builder, view, index):
+    """Return the address of the vector that starts at (row, column) of a view."""
+    view = cgutils.create_struct_proxy(view_type)(context, builder, view)
+    row, column = (builder.extract_value(index, i) for i in range(2))
+    columns = builder.extract_value(view.shape, 1)
+    place = builder.add(builder.mul(row, columns), column)
+    return builder.bitcast(builder.gep(view.data, [place]), VECTOR.as_pointer())
+
+
+@lower_builtin(operator.getitem, Vec4View, types.UniTuple)
+def read_vector(context, builder, signature, arguments):
+    return builder.load(address_in_view(context, builder, *arguments), align=8)
+
+
+@lower_builtin(operator.setitem, Vec4View, types.UniTuple, Vector)
+def write_vector(context, builder, signature, arguments):
+    view, index, value = arguments
+    builder.store(value, address_in_view(context, builder, view, index), align=8)
+    return context.get_dummy_value()

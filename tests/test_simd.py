@@ -1,0 +1,305 @@
+"""Each operation of `pendula.simd` by itself, against NumPy: on the day of a numba upgrade, the
+tests that fail name what broke. An error at the import of `simd` names a part of numba that has
+gone; the list of those parts, and where to look, is on top of the module.
+"""
+
+import math
+import operator
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pendula import simd
+from pendula.compiled import generic
+from pendula.simd import (
+    fill,
+    keep_lanes,
+    larger_magnitude,
+    largest_in_rows,
+    largest_lane,
+    largest_magnitude,
+    left_neighbours,
+    load,
+    right_neighbours,
+    store,
+    vec4_views,
+)
+
+ONE = np.array([1.0, -2.0, 3.5, 0.1])
+OTHER = np.array([0.3, 5.0, -7.0, 0.2])
+EIGHT = np.concatenate([ONE, OTHER])
+LARGE = [0.0, -0.0, 1e-320, -1.0, 1e300, -np.inf, np.nan, -np.nan]
+numbers = st.lists(st.floats(allow_nan=False), min_size=4, max_size=4).map(np.array)
+
+
+def lanes_of(function, *arguments):
+    """Return the vector that a compiled `function(out, ...)` stores at the start of `out`."""
+    out = np.full(simd.LANES, np.nan)
+    function(out, *arguments)
+    return out
+
+
+# --- Registers and arrays ---
+
+
+@generic
+def copy_vector(out, array, place):
+    store(out, 0, load(array, place))
+
+
+@pytest.mark.parametrize("place", range(5))
+def test_load_takes_four_numbers_from_any_place(place):
+    np.testing.assert_array_equal(lanes_of(copy_vector, EIGHT, place), EIGHT[place : place + 4])
+
+
+@generic
+def store_repeated(out, place, number):
+    store(out, place, fill(number))
+
+
+@pytest.mark.parametrize("place", range(5))
+def test_store_writes_four_numbers_and_no_more_and_fill_repeats_one(place):
+    out, expected = np.zeros(8), np.zeros(8)
+    store_repeated(out, place, 0.1)
+    expected[place : place + 4] = 0.1
+    np.testing.assert_array_equal(out, expected)
+
+
+@generic
+def copy_by_flat_index(out, array):
+    store(out, 0, load(array, 6))
+
+
+def test_load_counts_a_flat_index_through_the_rows_of_an_array():
+    array = np.arange(15.0).reshape(3, 5)
+    np.testing.assert_array_equal(lanes_of(copy_by_flat_index, array), [6, 7, 8, 9])
+
+
+@generic
+def add_vectors(out, a, b):
+    store(out, 0, load(a, 0) + load(b, 0))
+
+
+def test_four_numbers_are_one_register_to_llvm():
+    """No fewer: the code would be right, and slow."""
+    lanes_of(add_vectors, ONE, OTHER)
+    (code,) = add_vectors.inspect_llvm().values()
+    assert "fadd <4 x double>" in code
+
+
+# --- Arithmetic ---
+
+
+@generic
+def subtract_vectors(out, a, b):
+    store(out, 0, load(a, 0) - load(b, 0))
+
+
+@generic
+def multiply_vectors(out, a, b):
+    store(out, 0, load(a, 0) * load(b, 0))
+
+
+@generic
+def negate_vector(out, a):
+    store(out, 0, -load(a, 0))
+
+
+OPERATORS = {
+    "+": (add_vectors, operator.add),
+    "-": (subtract_vectors, operator.sub),
+    "*": (multiply_vectors, operator.mul),
+}
+
+
+@pytest.mark.parametrize("symbol", OPERATORS)
+@given(one=numbers, other=numbers)
+def test_operators_of_two_vectors_have_the_bits_of_numpy(symbol, one, other):
+    compiled, plain = OPERATORS[symbol]
+    with np.errstate(all="ignore"):
+        np.testing.assert_array_equal(lanes_of(compiled, one, other), plain(one, other))
+
+
+@generic
+def operate_with_number(out, number, a):
+    store(out, 0, number + load(a, 0))
+    store(out, 4, number - load(a, 0))
+    store(out, 8, number * load(a, 0))
+
+
+def test_operators_take_a_number_to_the_left_of_a_vector():
+    out = np.zeros(12)
+    operate_with_number(out, 0.7, ONE)
+    np.testing.assert_array_equal(out.reshape(3, 4), [0.7 + ONE, 0.7 - ONE, 0.7 * ONE])
+
+
+def test_minus_changes_the_sign_of_zero_too():
+    out = lanes_of(negate_vector, np.array([0.0, -0.0, 1.5, np.inf]))
+    np.testing.assert_array_equal(np.signbit(out), [True, False, True, True])
+    np.testing.assert_array_equal(out, [0.0, 0.0, -1.5, -np.inf])
+
+
+@generic
+def multiply_and_add(out, a, b, c):
+    store(out, 0, load(a, 0) * load(b, 0) + load(c, 0))
+
+
+def test_a_product_and_a_sum_are_never_fused():
+    """(1 + e)(1 - e) - 1 is zero when the product is rounded, -e^2 when it is not."""
+    e = np.full(4, 2.0**-30)
+    out = lanes_of(multiply_and_add, 1.0 + e, 1.0 - e, -np.ones(4))
+    np.testing.assert_array_equal(out, 0.0)
+
+
+# --- Lanes ---
+
+
+@generic
+def shift_both_ways(out, array):
+    store(out, 0, left_neighbours(load(array, 0), load(array, 4)))
+    store(out, 4, right_neighbours(load(array, 0), load(array, 4)))
+
+
+def test_shifts_show_each_site_its_neighbour():
+    out = np.zeros(8)
+    shift_both_ways(out, EIGHT)
+    np.testing.assert_array_equal(out[:4], EIGHT[3:7], "left neighbours of the second block")
+    np.testing.assert_array_equal(out[4:], EIGHT[1:5], "right neighbours of the first block")
+
+
+@generic
+def keep_some(out, a, count):
+    store(out, 0, keep_lanes(load(a, 0), count, 9.0))
+
+
+@pytest.mark.parametrize("count", range(5))
+def test_keep_lanes_replaces_what_follows_the_count(count):
+    expected = np.where(np.arange(4) < count, ONE, 9.0)
+    np.testing.assert_array_equal(lanes_of(keep_some, ONE, count), expected)
+
+
+# --- Magnitudes ---
+
+
+@generic
+def larger_of_vectors(out, a, b):
+    store(out, 0, larger_magnitude(load(a, 0), load(b, 0)))
+
+
+@generic
+def largest_of_vector(a):
+    return largest_lane(load(a, 0))
+
+
+def larger_of_numbers(a, b):
+    return math.nan if math.isnan(a) or math.isnan(b) else max(abs(a), abs(b))
+
+
+@pytest.mark.parametrize("other", LARGE)
+@pytest.mark.parametrize("one", LARGE)
+def test_the_larger_magnitude_is_found_in_each_lane_and_nan_wins(one, other):
+    a, b = np.array([one, 1.0, other, 1.0]), np.array([other, 2.0, one, -2.0])
+    expected = [larger_of_numbers(one, other), 2.0, larger_of_numbers(one, other), 2.0]
+    np.testing.assert_array_equal(lanes_of(larger_of_vectors, a, b), expected)
+
+
+@pytest.mark.parametrize("lane", range(4))
+@pytest.mark.parametrize("largest", [-1e-320, 2.0, -np.inf, np.nan, -np.nan])
+def test_the_largest_lane_is_found_wherever_it_is(largest, lane):
+    values = np.zeros(4)
+    values[(lane + 1) % 4] = np.inf if np.isnan(largest) else 0.0
+    values[lane] = largest
+    np.testing.assert_equal(largest_of_vector(values), abs(largest))
+
+
+@given(st.lists(st.floats(allow_nan=False), min_size=1, max_size=40))
+def test_the_largest_magnitude_of_an_array(values):
+    assert largest_magnitude(np.array(values)) == max(map(abs, values))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("place", [0, 3, 17, 32])
+def test_a_nan_of_either_sign_is_larger_than_infinity_in_an_array(sign, place):
+    """Zero by zero makes a NaN with the sign bit set on some processors."""
+    values = np.ones(33)
+    values[5] = np.inf
+    values[place] = np.copysign(np.nan, sign)
+    assert np.isnan(largest_magnitude(values))
+
+
+def test_ghosts_and_later_rows_do_not_count_as_largest():
+    scratch = np.full((4, 5), 9.0)
+    scratch[:2, 1:-1] = [[1, 2, 3], [3, 2, 4]]
+    assert largest_in_rows(scratch, 2) == 4
+
+
+# --- Views ---
+
+
+@generic
+def shape_of_view(state):
+    return vec4_views((state,))[0].shape
+
+
+def test_a_view_has_the_shape_of_its_state():
+    assert shape_of_view(np.zeros((3, 11))) == (3, 11)
+
+
+@generic
+def read_view(out, state, row, j):
+    store(out, 0, vec4_views((state,))[0][row, j])
+
+
+@pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
+def test_reading_a_view_gives_four_columns_of_a_row(row, j):
+    state = np.arange(33.0).reshape(3, 11)
+    np.testing.assert_array_equal(lanes_of(read_view, state, row, j), state[row, j : j + 4])
+
+
+@generic
+def write_view(state, row, j):
+    vec4_views((state,))[0][row, j] = fill(1.0)
+
+
+@pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
+def test_writing_a_view_changes_four_columns_of_a_row_and_nothing_else(row, j):
+    state, expected = np.zeros((3, 11)), np.zeros((3, 11))
+    write_view(state, row, j)
+    expected[row, j : j + 4] = 1.0
+    np.testing.assert_array_equal(state, expected)
+
+
+@generic
+def add_views(target, one, other):
+    views = vec4_views((target, one, other))
+    views[0][0, 0] = views[1][0, 0] + views[2][0, 0]
+
+
+def test_several_states_are_viewed_at_once_each_by_itself():
+    target = np.zeros((1, 4))
+    add_views(target, ONE[None], OTHER[None])
+    np.testing.assert_array_equal(target[0], ONE + OTHER)
+
+
+def write_sum(y, j):
+    """Write the sum of two rows; one column of an array, or four of a view."""
+    y[2, j] = y[0, j] + 0.5 * y[1, j]
+
+
+write_sum_compiled = generic(write_sum)
+
+
+@generic
+def write_sum_by_view(state, j):
+    write_sum_compiled(vec4_views((state,))[0], j)
+
+
+def test_what_is_written_for_one_site_serves_for_four():
+    state = np.random.default_rng(0).normal(size=(3, 9))
+    by_view, by_site = state.copy(), state.copy()
+    write_sum_by_view(by_view, 3)
+    for j in range(3, 7):
+        write_sum_compiled(by_site, j)
+    np.testing.assert_array_equal(by_view, by_site)
+    assert not np.array_equal(by_view, state)
