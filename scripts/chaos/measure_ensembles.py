@@ -1,6 +1,7 @@
 """Run seeded ensembles of chaotic cases and sweeps from data that differ in their last digits."""
 
 from pendula.datasets.netcdf import write
+from pendula.problem import by_name
 from pendula.studies.chaos.ensemble_table import case_bands, sweep_moments
 
 
@@ -17,8 +18,8 @@ def measure_ensembles(
     kernels: list[str] | tuple = (),
 ) -> None:
     """Run `members` of each case and `swept_members` of each sweep, perturbed by `size`."""
-    cases = case_bands(problems, size, members, seed)
-    sweeps = sweep_moments(swept_problems, half_widths, windows, size, swept_members, seed)
+    cases = case_bands(by_name(problems), size, members, seed)
+    sweeps = sweep_moments(by_name(swept_problems), half_widths, windows, size, swept_members, seed)
     counts = {"members": members, "swept_members": swept_members}
     write(data, cases | sweeps, {"perturbation": size, "seed": seed, **counts})
 

@@ -1,6 +1,7 @@
 """Measure Lyapunov exponents, and when solvers part from the truth as these predict."""
 
 from pendula.datasets.netcdf import write
+from pendula.problem import by_name
 from pendula.studies.chaos.tables import largest_exponents, parting_times, spectra
 
 
@@ -14,10 +15,11 @@ def measure_lyapunov(
     kernels: list[str] | tuple = (),
 ) -> None:
     """Follow `problems` to `end_time`, and all changes of `short_problems` to their own."""
-    growth = largest_exponents(problems, end_time)
-    times = parting_times(problems, tolerances, growth)
-    attributes = {"spectrum_half_width": next(iter(short_problems.values()))["half_width"]}
-    write(data, growth | times | spectra(short_problems, short_end_time), attributes)
+    cases, short_cases = by_name(problems), by_name(short_problems)
+    growth = largest_exponents(cases, end_time)
+    times = parting_times(cases, tolerances, growth)
+    attributes = {"spectrum_half_width": next(iter(short_cases.values())).half_width}
+    write(data, growth | times | spectra(short_cases, short_end_time), attributes)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Measure how even data lose their evenness: by rounding, and by small odd perturbations."""
 
 from pendula.datasets.netcdf import write
+from pendula.problem import by_name
 from pendula.studies.chaos.symmetry_table import odd_parts
 
 
@@ -14,7 +15,7 @@ def measure_symmetry(
 ) -> None:
     """Follow the odd part of each case, alone and with perturbations of relative `size`."""
     attributes = {"perturbation": size, "members": members, "seed": seed}
-    write(data, odd_parts(problems, size, members, seed), attributes)
+    write(data, odd_parts(by_name(problems), size, members, seed), attributes)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,13 @@
 """Set one case beside the paper's statements, and measure how far its run can be trusted."""
 
 from pendula.datasets.netcdf import read, save
+from pendula.problem import Problem
 from pendula.studies.own.checks import check_run
 
 
 def check_case(run: str, problem: dict, checks: str, kernels: list[str] | tuple = ()) -> None:
-    """Check the trajectory `run` of `problem` (the arguments of `simulate`)."""
-    save(checks, check_run(problem, read(run)))
+    """Check the trajectory `run` of `problem` (plain values of a Problem)."""
+    save(checks, check_run(Problem.of(problem), read(run)))
 
 
 if __name__ == "__main__":

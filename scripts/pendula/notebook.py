@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from pendula.configuration.messages import in_words, load
 from pendula.datasets.netcdf import Variable, as_xarray
+from pendula.problem import Problem
 from pendula.studies.own.checks import check_run
 
 from .configuration import cases as parameters
@@ -87,8 +88,8 @@ def simulate(case: Case, name: str = "case"):
     >>> bool(abs(run["energy"] - run["energy"][0]).max() < 1e-11)
     True
     """
-    problem = case.shown_problem()
-    trajectory = simulation.simulate(**problem)
+    problem = Problem.of(case.shown_problem())
+    trajectory = simulation.simulate(problem)
     variables, attributes = trajectory_dataset.contents(name, problem, trajectory)
     final = trajectory.final
     state = {
@@ -126,7 +127,7 @@ def sweep(
     asked = {"case": name, "half_widths": list(half_widths), "windows": list(windows)}
     # the case's own half-width counts for nothing here, and need not hold the initial data
     settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}})
-    checked, problem = settings.sweeps[name], settings.swept_problem(name)
+    checked, problem = settings.sweeps[name], Problem.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
     return as_xarray(
         *sweep_dataset.contents(name, problem, checked.half_widths, checked.windows, result)
@@ -144,4 +145,4 @@ def check(case: Case, run=None):
     ('theorem 1', True)
     """
     run = simulate(case) if run is None else run
-    return check_run(case.shown_problem(), run)
+    return check_run(Problem.of(case.shown_problem()), run)

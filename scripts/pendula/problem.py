@@ -1,17 +1,180 @@
-"""How windows and initial data are written in datasets; imports nothing, so that all may use it."""
+"""One initial-value problem of the equations (4): constants, chain, data, times and solver.
+
+The configuration makes a `Problem` of a case, the simulation integrates it, datasets describe it by
+their attributes: there is no second form of it in the library. Workflow and scripts pass it on as
+a mapping of plain values, since Snakemake compares such mappings from run to run: `Problem.plain`
+writes one, `Problem.of` reads it.
+"""
 
 import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+BOUNDARIES = ("dirichlet", "free", "periodic")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Constants:
+    """The constants of the equations (4), in the one order that they have everywhere.
+
+    Keywords are required, so that no two of them can change places.
+    """
+
+    epsilon: float  # coupling of neighbours
+    gamma: float  # strength of the drive
+    omega: float  # detuning Omega
+
+    @classmethod
+    def of(cls, values: Mapping) -> "Constants":
+        """Return the constants that a mapping holds, such as the attributes of a dataset."""
+        return cls(**{name: float(values[name]) for name in ("epsilon", "gamma", "omega")})
+
+    def scaled(self, factor: float) -> "Constants":
+        """Return all three times a factor: what another unit of time makes of them."""
+        return Constants(
+            epsilon=factor * self.epsilon, gamma=factor * self.gamma, omega=factor * self.omega
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """One initial-value problem of the equations (4) and how it is integrated.
+
+    Time is the slow time tau. `initial` is complex, of shape (2, 2r + 1): A and B on the sites
+    -r..r at tau = 0; all sites beyond are at rest. `half_width` is M, the chain has the sites
+    -M..M; None stands for a chain without ends. `snapshot_every` keeps |A_n| and |B_n| at each so
+    many outputs, 0 keeps none.
+
+    Raises ValueError where data lie outside the chain.
+    """
+
+    constants: Constants
+    half_width: int | None
+    boundary: str
+    initial: np.ndarray = field(repr=False)
+    end_time: float
+    output_step: float
+    solver: Mapping[str, Any]  # {"name": ..., **controls}
+    snapshot_every: int = 0
+
+    def __post_init__(self):
+        initial = np.array(self.initial, complex)
+        if initial.ndim != 2 or len(initial) != 2 or initial.shape[1] % 2 == 0:
+            raise ValueError(f"data of A and B on an odd number of sites, not {initial.shape}")
+        if self.half_width is not None:
+            require_inside(initial.shape[1] // 2, self.half_width)
+        initial.flags.writeable = False
+        object.__setattr__(self, "initial", initial)
+        object.__setattr__(self, "solver", MappingProxyType(dict(self.solver)))
+
+    @classmethod
+    def of(cls, values: Mapping) -> "Problem":
+        """Return the problem that a mapping of plain values describes (see `plain`)."""
+        rest = {key: value for key, value in values.items() if key not in Constants.__annotations__}
+        initial = on_sites(rest.pop("initial"))
+        return cls(constants=Constants.of(values), initial=initial, **rest)
+
+    def plain(self) -> dict[str, Any]:
+        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond."""
+        return {
+            "epsilon": self.constants.epsilon,
+            "gamma": self.constants.gamma,
+            "omega": self.constants.omega,
+            "half_width": self.half_width,
+            "boundary": self.boundary,
+            "initial": by_site(self.initial),
+            "end_time": self.end_time,
+            "output_step": self.output_step,
+            "solver": dict(self.solver),
+            "snapshot_every": self.snapshot_every,
+        }
+
+    def changed(self, **changes) -> "Problem":
+        """Return the problem with other values; those of `constants` may be given by name."""
+        named = {name: changes.pop(name) for name in Constants.__annotations__ if name in changes}
+        constants = replace(changes.pop("constants", self.constants), **named)
+        return replace(self, constants=constants, **changes)
+
+    @property
+    def sites(self) -> int:
+        """The number N = 2M + 1 of pairs in the chain."""
+        return 2 * self.half_width + 1
+
+    @property
+    def amplitudes(self) -> np.ndarray:
+        """A and B on the whole chain at tau = 0, complex of shape (2, N)."""
+        return place(self.initial, self.half_width)
+
+    @property
+    def times(self) -> np.ndarray:
+        """The output times 0, ..., end_time in equal steps; integers among them are exact."""
+        return output_times(self.end_time, self.output_step)
+
+
+def by_name(problems: Mapping[str, Mapping]) -> dict[str, Problem]:
+    """Return the problems that mappings of plain values describe, under their names."""
+    return {name: Problem.of(values) for name, values in problems.items()}
+
+
+def output_times(end_time: float, output_step: float) -> np.ndarray:
+    """Return 0, ..., end_time in equal steps; integers among them are exact."""
+    count = round(end_time / output_step)
+    return end_time * np.arange(count + 1) / count
+
+
+def place(initial: np.ndarray, half_width: int) -> np.ndarray:
+    """Return amplitudes (2, 2M + 1), at rest but for `initial` (2, 2r + 1) on the sites -r..r."""
+    reach = initial.shape[1] // 2
+    require_inside(reach, half_width)
+    amplitudes = np.zeros((2, 2 * half_width + 1), complex)
+    amplitudes[:, half_width - reach : half_width + reach + 1] = initial
+    return amplitudes
+
+
+def require_inside(site: int, half_width: int) -> None:
+    """Raise ValueError where there is no such site in the chain."""
+    if site > half_width:
+        raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
+
+
+def on_sites(initial: Mapping[int, tuple[complex, complex]]) -> np.ndarray:
+    """Return data {site: (A, B)} as an array of (2, 2r + 1) amplitudes on the sites -r..r."""
+    reach = max(map(abs, initial), default=0)
+    amplitudes = np.zeros((2, 2 * reach + 1), complex)
+    for site, pair in initial.items():
+        amplitudes[:, reach + site] = pair
+    return amplitudes
+
+
+def by_site(amplitudes: np.ndarray) -> dict[int, tuple[complex, complex]]:
+    """Return amplitudes (2, 2r + 1) as {site: (A, B)}, the sites at rest left out.
+
+    Where all are at rest the central site stands for them.
+    """
+    reach = amplitudes.shape[1] // 2
+    moving = np.flatnonzero((amplitudes != 0).any(axis=0))
+    columns = moving if moving.size else [reach]
+    return {int(j) - reach: tuple(map(complex, amplitudes[:, j])) for j in columns}
+
+
+def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
+    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
+    return json.dumps({str(site): [_as_written(z) for z in pair] for site, pair in initial.items()})
+
+
+def read_initial(text: str) -> dict[int, tuple[complex, complex]]:
+    """Return the initial data that `write_initial` has written."""
+    return {int(site): tuple(complex(z) for z in pair) for site, pair in json.loads(text).items()}
+
+
+def _as_written(z: complex) -> float | str:
+    return z.real if z.imag == 0 else str(complex(z)).strip("()")
 
 
 def name_window(window: tuple[float, float]) -> str:
-    """Return a window as the datasets name it: "[10, 50]"."""
+    """Return a time window as the datasets name it: "[10, 50]"."""
     return f"[{window[0]:g}, {window[1]:g}]"
-
-
-def write_initial(initial: dict[int, tuple[complex, complex]]) -> str:
-    """Return initial data as the configuration writes them: {"0": [1.0, 0.1]}."""
-    return json.dumps({str(site): [_plain(z) for z in pair] for site, pair in initial.items()})
-
-
-def _plain(z: complex) -> float | str:
-    return z.real if z.imag == 0 else str(z).strip("()")

@@ -1,6 +1,7 @@
 """Integrate one case twice in multiprecision, and keep what both runs agree on."""
 
 from pendula.datasets.netcdf import write
+from pendula.problem import Problem
 from pendula.studies.reference.dataset import as_case, as_variables
 from pendula.studies.reference.run import integrate
 from pendula.studies.reference.verify import compare, require_agreement
@@ -19,7 +20,8 @@ def integrate_reference(
     States are kept at those of the times `snapshots` that are output times.
     Where `decimal` is false, the parameters and data are the doubles nearest to the decimals.
     """
-    run, check = (integrate(problem, snapshots, some, decimal) for some in bits)
+    case = Problem.of(problem)
+    run, check = (integrate(case, snapshots, some, decimal) for some in bits)
     apart = compare(run, check)
     for one in (run, check):
         print(f"{name}: {one.bits} bits, order {one.order}, {one.steps} steps")
@@ -28,7 +30,7 @@ def integrate_reference(
     write(
         dataset,
         as_variables(run, apart),
-        as_case(name, problem, run, check, apart, decimal),
+        as_case(name, case, run, check, apart, decimal),
     )
 
 

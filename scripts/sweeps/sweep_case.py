@@ -2,6 +2,7 @@
 
 from pendula.datasets.netcdf import write
 from pendula.datasets.sweeps import contents
+from pendula.problem import Problem
 from pendula.simulation.sweep import sweep
 
 
@@ -14,8 +15,8 @@ def sweep_case(
     kernels: list[str] | tuple = (),
 ) -> None:
     """Sweep each of `problems` over `half_widths`; write maxima and means over `windows`."""
-    for path, problem in zip(datasets, problems, strict=True):
-        label = f"{name} ({problem['solver']['name']})"
+    for path, problem in zip(datasets, map(Problem.of, problems), strict=True):
+        label = f"{name} ({problem.solver['name']})"
         result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
         write(path, *contents(name, problem, half_widths, windows, result))
 

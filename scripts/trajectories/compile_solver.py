@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation import solvers
 from pendula.simulation.simulate import simulate
 from pendula.sources import digest_of_modules
@@ -9,17 +10,16 @@ from pendula.sources import digest_of_modules
 
 def compile_solver(kernels: str, solver: dict) -> None:
     """Run the solver over a short time, then record what it was compiled from."""
-    simulate(
-        epsilon=1.0,
-        gamma=1.0,
-        omega=0.0,
+    problem = Problem(
+        constants=Constants(epsilon=1.0, gamma=1.0, omega=0.0),
         half_width=1,
         boundary="dirichlet",
-        initial={0: (1.0, 0.1)},
+        initial=on_sites({0: (1.0, 0.1)}),
         end_time=0.1,
         output_step=0.05,
         solver=solver,
     )
+    simulate(problem)
     digest = digest_of_modules(Path(solvers.__file__).resolve())
     Path(kernels).write_text(f"{digest}\n", encoding="utf-8")
 

@@ -2,16 +2,17 @@
 
 from pendula.datasets.netcdf import write
 from pendula.datasets.trajectories import contents
+from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 
 
 def simulate_case(
     datasets: list[str], name: str, problems: list[dict], kernels: list[str] | tuple = ()
 ) -> None:
-    """Simulate each of `problems` (the arguments of `simulate`) and write its observables."""
-    for path, problem in zip(datasets, problems, strict=True):
-        result = simulate(**problem)
-        if problem["solver"]["name"] == "crank_nicolson" and result.outcome.rejected:
+    """Simulate each of `problems` (plain values of a Problem) and write its observables."""
+    for path, problem in zip(datasets, map(Problem.of, problems), strict=True):
+        result = simulate(problem)
+        if problem.solver["name"] == "crank_nicolson" and result.outcome.rejected:
             cut = result.outcome.rejected
             print(f"{name}: the iteration did not contract; {cut} steps were cut")
         write(path, *contents(name, problem, result))

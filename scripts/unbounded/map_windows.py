@@ -1,11 +1,13 @@
 """Maxima of the norms over [10, T] on chains of half-width M: the map over (M, T)."""
 
+from functools import partial
+
 import numpy as np
 from pendula.datasets.netcdf import write
+from pendula.problem import Problem
 from pendula.studies.unbounded.dataset import attributes, map_variables
 from pendula.studies.unbounded.linear_front import linear_front
 from pendula.studies.unbounded.members import member
-from pendula.studies.unbounded.spread import constants_of
 from pendula.studies.unbounded.window_map import START, window_map
 
 
@@ -13,21 +15,22 @@ def map_windows(
     data: str,
     name: str,
     problem: dict,
+    rest: float,
     half_widths: list[int],
     members: int,
     kernels: list[str] | tuple = (),
 ) -> None:
     """Write the maxima of an ensemble for every T between 10 and the end of the runs."""
-    ends = np.arange(START + 2.0, problem["end_time"] + 1.0, 2.0)
+    whole = Problem.of(problem)
+    ends = np.arange(START + 2.0, whole.end_time + 1.0, 2.0)
     maps = []
     for number in range(members):
-        started = {**problem, "initial": member(problem["initial"], number)}
+        started = whole.changed(initial=member(whole.initial, number))
         label = f"{name}, member {number + 1} of {members}"
-        maps.append(
-            window_map(started, half_widths, ends, lambda done, at=label: print(f"{at}: {done}"))
-        )
-    speed = linear_front(*constants_of(problem)).speed
-    write(data, map_variables(maps, half_widths, ends, speed), attributes(name, problem))
+        tell = partial(print, f"{label}:")
+        maps.append(window_map(started, rest, half_widths, ends, tell))
+    speed = linear_front(whole.constants).speed
+    write(data, map_variables(maps, half_widths, ends, speed), attributes(name, whole, rest))
 
 
 if __name__ == "__main__":

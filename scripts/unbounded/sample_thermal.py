@@ -2,13 +2,14 @@
 
 from pendula import __version__
 from pendula.datasets.netcdf import write
+from pendula.problem import Constants
 from pendula.studies.unbounded.thermal import zero_energy
 from pendula.studies.unbounded.thermal_dataset import thermal_variables
 
 
 def sample_thermal(data: str, epsilon: float, gamma: float, omegas: list[float]) -> None:
     """Write power, temperature, spectrum and distribution of one state for each Omega."""
-    found = [zero_energy((epsilon, gamma, omega)) for omega in omegas]
+    found = [zero_energy(Constants(epsilon=epsilon, gamma=gamma, omega=omega)) for omega in omegas]
     attributes = {"epsilon": epsilon, "gamma": gamma, "version": __version__}
     write(data, thermal_variables(omegas, found), attributes)
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from pendula.datasets.netcdf import write
+from pendula.problem import Problem
 from pendula.studies.unbounded.dataset import attributes, spread_variables
 from pendula.studies.unbounded.members import member
 from pendula.studies.unbounded.spread import spread
@@ -12,6 +13,7 @@ def spread_case(
     data: str,
     name: str,
     problems: list[dict],
+    rest: float,
     members: int,
     checkpoints: str = "",
     kernels: list[str] | tuple = (),
@@ -20,15 +22,15 @@ def spread_case(
 
     An interrupted job continues from there, and gives the same numbers to the last bit.
     """
-    runs, kept = [], []
-    for variant, problem in enumerate(problems):
+    runs, kept, varied = [], [], [Problem.of(problem) for problem in problems]
+    for variant, problem in enumerate(varied):
         runs.append([])
         for number in range(members):
             kept.append(Path(checkpoints, f"{name}-{variant}-{number}.npz"))
-            started = {**problem, "initial": member(problem["initial"], number)}
-            runs[-1].append(spread(started, kept[-1] if checkpoints else None))
+            started = problem.changed(initial=member(problem.initial, number))
+            runs[-1].append(spread(started, rest, kept[-1] if checkpoints else None))
             print(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
-    write(data, spread_variables(problems, runs), attributes(name, problems[0]))
+    write(data, spread_variables(varied, runs), attributes(name, varied[0], rest))
     for path in kept:
         path.unlink(missing_ok=True)
 

@@ -29,6 +29,7 @@ rule spread:
     params:
         name="{study}",
         problems=lambda wildcards: unbounded_problems(wildcards.study, SETTINGS.unbounded),
+        rest=REST[SETTINGS.unbounded],
         members=lambda wildcards: SPREADS[SETTINGS.unbounded][wildcards.study][1],
     message:
         "Spreading on the chain without ends: {wildcards.study}"
@@ -44,6 +45,7 @@ use rule spread as long_spread with:
     params:
         name="{study}",
         problems=lambda wildcards: unbounded_problems(wildcards.study, "long"),
+        rest=REST["long"],
         members=lambda wildcards: SPREADS["long"][wildcards.study][1],
         checkpoints=f"{LONG}/checkpoints",
     message:

@@ -1,5 +1,5 @@
 # What the rules of the chain without ends take in, for the study of the full run and for the long.
-from pendula.studies.unbounded.studies import MAPS, SPREADS, STUDIES, THERMAL, VARIED
+from pendula.studies.unbounded.studies import MAPS, REST, SPREADS, STUDIES, THERMAL, VARIED
 from pendula.studies.unbounded.studies import spread_problems, unbounded_problem
 
 UNBOUNDED_FIGURES = ["growth_law", "front", "window_map"]
@@ -23,6 +23,7 @@ def map_params(size):
     return {
         "name": "{sweep}",
         "problem": problem,
+        "rest": REST["short"],
         "half_widths": MAPS[size]["half_widths"],
         "members": lambda wildcards: MAPS[size]["members"][wildcards.sweep],
     }

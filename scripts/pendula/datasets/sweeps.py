@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from pendula.problem import name_window
+from pendula.problem import Problem, name_window
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, Sweep
 
 from .netcdf import Variable
 from .trajectories import as_attributes, count_work
 
 
-def contents(name: str, problem: dict, half_widths, windows, sweep: Sweep) -> tuple[dict, dict]:
+def contents(name: str, problem: Problem, half_widths, windows, sweep: Sweep) -> tuple[dict, dict]:
     """Return (variables, attributes) of the dataset that a sweep of `problem` makes."""
-    attributes = as_attributes(name, problem, problem["solver"])
+    attributes = as_attributes(name, problem, problem.solver)
     del attributes["half_width"]
     variables = as_variables(sweep, half_widths, windows)
     return variables, {**attributes, **count_work(sweep.outcomes)}

@@ -1,9 +1,11 @@
 """A trajectory as a dataset."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from pendula import __version__
-from pendula.problem import write_initial
+from pendula.problem import Problem, write_initial
 from pendula.simulation.simulate import Trajectory
 
 from .netcdf import Variable
@@ -11,11 +13,11 @@ from .netcdf import Variable
 COMPONENTS = Variable(("component",), ["A", "B"], "pendulum of each pair")
 
 
-def contents(name: str, problem: dict, trajectory: Trajectory) -> tuple[dict, dict]:
+def contents(name: str, problem: Problem, trajectory: Trajectory) -> tuple[dict, dict]:
     """Return (variables, attributes) of the dataset that a run of `problem` makes."""
     attributes = as_attributes(name, problem, trajectory.solver)
     work = count_work([trajectory.outcome])
-    return as_variables(trajectory, problem["snapshot_every"]), {**attributes, **work}
+    return as_variables(trajectory, problem.snapshot_every), {**attributes, **work}
 
 
 def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
@@ -44,13 +46,14 @@ def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Varia
     return variables
 
 
-def as_attributes(name: str, problem: dict, solver: dict) -> dict:
+def as_attributes(name: str, problem: Problem, solver: Mapping) -> dict:
     """Return the attributes that say what was solved, and by which controls: no dates, no hosts."""
-    plain = {key: problem[key] for key in sorted(problem) if key not in ("solver", "initial")}
+    values = problem.plain()
+    plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
     return {
         "case": name,
         **plain,
-        "initial": write_initial(problem["initial"]),
+        "initial": write_initial(values["initial"]),
         "solver": solver["name"],
         **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
         "version": __version__,

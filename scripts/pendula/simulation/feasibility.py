@@ -4,10 +4,14 @@ Every answer is a reason in words, or nothing. What only shows on the way (a sta
 a step that shrinks to nothing) the solvers report themselves.
 """
 
+from collections.abc import Mapping
+from dataclasses import asdict
+
 import numpy as np
 
 from pendula.integrators.outcome import MOST_STEPS
 from pendula.integrators.taylor import ORDER
+from pendula.problem import Constants, Problem
 
 LONGEST_SERIES = 20.0
 """Terms of a longer exponential series cancel to noise; beyond 700 they overflow without end."""
@@ -19,15 +23,11 @@ SMALLEST_DATA = 1e-153
 """The squares of smaller amplitudes, and with them norms and energy, lose digits or vanish."""
 
 
-def find_obstacle(
-    constants: tuple[float, float, float], amplitudes: np.ndarray, span: float, solver: dict
-) -> str | None:
-    """Return why amplitudes (2, N) cannot be integrated over the time `span`, None if they can.
-
-    `constants` are (epsilon, gamma, omega), `solver` is {"name": ..., **controls}.
-    """
-    parts = np.abs(np.stack([amplitudes.real, amplitudes.imag]))
+def find_obstacle(problem: Problem) -> str | None:
+    """Return why a problem cannot be integrated as it asks for, None if it can."""
+    parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
     peak = float(parts.max(initial=0.0))  # NaN where there is one
+    constants, span, solver = problem.constants, float(problem.end_time), problem.solver
     return (
         _find_in_data(constants, peak, span)
         or _find_in_steps(constants, solver, span)
@@ -36,15 +36,15 @@ def find_obstacle(
     )
 
 
-def _rate(constants, peak: float) -> float:
+def _rate(constants: Constants, peak: float) -> float:
     """Return a bound of the rate at which data of that size turn or grow, relative to them."""
-    epsilon, gamma, omega = np.abs(np.array(constants, float))
+    epsilon, gamma, omega = np.abs([constants.epsilon, constants.gamma, constants.omega])
     with np.errstate(over="ignore"):
         return float(4 * epsilon + omega + 2 * gamma + 0.5 * np.square(peak))
 
 
-def _find_in_data(constants, peak: float, span: float) -> str | None:
-    if not np.isfinite([*constants, peak, span]).all():
+def _find_in_data(constants: Constants, peak: float, span: float) -> str | None:
+    if not np.isfinite([*asdict(constants).values(), peak, span]).all():
         return "the data or the constants are not finite"
     if 0.0 < peak < SMALLEST_DATA:
         return f"the data are so small ({peak:.0e}) that their squares vanish"
@@ -56,7 +56,7 @@ def _find_in_data(constants, peak: float, span: float) -> str | None:
     return None
 
 
-def _find_in_steps(constants, solver: dict, span: float) -> str | None:
+def _find_in_steps(constants: Constants, solver: Mapping, span: float) -> str | None:
     if "step" not in solver:
         return None
     if not solver["step"] > 0.0:
@@ -70,7 +70,7 @@ def _find_in_steps(constants, solver: dict, span: float) -> str | None:
     return None
 
 
-def _find_in_tolerances(solver: dict, peak: float) -> str | None:
+def _find_in_tolerances(solver: Mapping, peak: float) -> str | None:
     if "rtol" not in solver:
         return None
     rtol, atol = float(solver["rtol"]), float(solver["atol"])
@@ -87,7 +87,7 @@ def _find_in_tolerances(solver: dict, peak: float) -> str | None:
     return None
 
 
-def _find_in_series(constants, peak: float, span: float, solver: dict) -> str | None:
+def _find_in_series(constants: Constants, peak: float, span: float, solver: Mapping) -> str | None:
     """Refuse chains so slow or fast that the last coefficients of a power series leave the doubles.
 
     Where nothing moves they may vanish.

@@ -22,22 +22,6 @@ WHOLE = Reduction(even=False, synchronised=False)
 """Both components on the whole chain, whatever the symmetries."""
 
 
-def place(initial: dict[int, tuple[complex, complex]], half_width: int) -> np.ndarray:
-    """Return amplitudes of shape (2, 2M + 1), at rest but for `initial`: {site: (A, B)}."""
-    amplitudes = np.zeros((2, 2 * half_width + 1), complex)
-    for site, pair in initial.items():
-        if abs(site) > half_width:
-            raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
-        amplitudes[:, half_width + site] = pair
-    return amplitudes
-
-
-def require_centre(sites: int) -> None:
-    """Raise ValueError where there is no site in the middle: the kernels sum from it in pairs."""
-    if sites % 2 == 0:
-        raise ValueError(f"a chain has an odd number of sites, not {sites}")
-
-
 def find_reduction(amplitudes: np.ndarray) -> Reduction:
     """Return the symmetries of the data: exact ones only, so that nothing is approximated."""
     return Reduction(

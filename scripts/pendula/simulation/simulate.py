@@ -1,27 +1,20 @@
-"""From the parameters of a case to its trajectory."""
+"""From a problem to its trajectory: by one run, or by runs at ever finer tolerance."""
 
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pendula.integrators.outcome import DONE, FAULTS, Outcome
 from pendula.models.amplitudes import Chain
+from pendula.problem import Constants, Problem
 
-from .automatic import refine
 from .feasibility import find_obstacle
-from .lattice import (
-    Reduction,
-    choose_ends,
-    find_reduction,
-    pack,
-    place,
-    require_centre,
-    spread,
-    unpack,
-)
+from .lattice import Reduction, choose_ends, find_reduction, pack, spread, unpack
 from .observables import Record, blank_record
 from .solvers import SOLVERS
+
+FINEST, REFINEMENT = 1e-15, 1e-2
+"""The tightest tolerance that `auto` tries, and by what it multiplies one to get the next."""
 
 
 class IntegrationError(RuntimeError):
@@ -29,7 +22,7 @@ class IntegrationError(RuntimeError):
 
 
 class Trajectory(NamedTuple):
-    """What a solver made of a case; components are A, B and sites -M..M throughout."""
+    """What a solver made of a problem; components are A, B and sites -M..M throughout."""
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
@@ -38,90 +31,42 @@ class Trajectory(NamedTuple):
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
     final: np.ndarray  # (component, site), complex amplitudes at the end time
     outcome: Outcome
-    solver: dict  # {"name": ..., **controls} of the run
+    solver: dict[str, Any]  # {"name": ..., **controls} of the run
 
 
-def output_times(end_time: float, output_step: float) -> np.ndarray:
-    """Return 0, ..., end_time in equal steps; integers among them are exact."""
-    count = round(end_time / output_step)
-    return end_time * np.arange(count + 1) / count
+def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory:
+    """Integrate a problem and reduce it to observables at its output times.
 
-
-def simulate(
-    *,
-    epsilon: float,
-    gamma: float,
-    omega: float,
-    half_width: int,
-    boundary: str,
-    initial: dict[int, tuple[complex, complex]],
-    end_time: float,
-    output_step: float,
-    solver: dict,
-    snapshot_every: int = 0,
-) -> Trajectory:
-    """Integrate the case and reduce it to observables at the output times.
-
-    `solver` is {"name": ..., **controls}, or {"name": "auto", "error": ...}; `snapshot_every`
-    keeps |A_n|, |B_n| at each so many outputs. Raises IntegrationError where the solver gives up.
+    `reduction` says what of the chain is integrated; left out, it is the least that the exact
+    symmetries of the data allow. The solver is one of pendula.simulation.solvers, or
+    {"name": "auto", "error": ...}. Raises IntegrationError where the run would not end, the solver
+    gives up, or the result is not finite.
     """
-    amplitudes = place(initial, half_width)
-    times = output_times(end_time, output_step)
-    reduction, constants = find_reduction(amplitudes), (epsilon, gamma, omega)
-
-    def run(controls: dict) -> Trajectory:
-        return integrate(
-            constants, boundary, amplitudes, reduction, times, controls, snapshot_every
-        )
-
-    return _run_to_error(run, solver["error"]) if solver["name"] == "auto" else run(solver)
-
-
-def _run_to_error(run: Callable[[dict], Trajectory], error: float) -> Trajectory:
-    """Return the run that keeps `error`; its controls say what was asked for and estimated."""
-    try:
-        trajectory, controls, estimate = refine(run, error)
-    except ArithmeticError as fault:
-        raise IntegrationError(f"auto: {fault}") from None
-    asked = {"requested_error": error, "estimated_error": estimate}
-    return trajectory._replace(solver={**controls, **asked})
-
-
-def integrate(
-    constants: tuple[float, float, float],
-    boundary: str,
-    amplitudes: np.ndarray,
-    reduction: Reduction,
-    times: np.ndarray,
-    solver: dict,
-    snapshot_every: int = 0,
-) -> Trajectory:
-    """Integrate amplitudes (2, N) under (epsilon, gamma, omega), reduced as `reduction` says.
-
-    Raises ValueError where N is even (the kernels count sites in pairs around a centre), and
-    IntegrationError where the run would not end, gives up, or its result is not finite.
-    """
-    require_centre(amplitudes.shape[1])
-    obstacle = find_obstacle(constants, amplitudes, float(times[-1] - times[0]), solver)
+    if problem.solver["name"] == "auto":
+        return _simulate_to_error(problem, reduction)
+    obstacle = find_obstacle(problem)
     if obstacle:
-        raise _stopped(solver, times[0], obstacle)
-    method = SOLVERS[solver["name"]]
-    chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
-    y = pack(amplitudes, reduction)
-    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), snapshot_every)
-    controls = tuple(float(solver[name]) for name in method.controls)
-    work = aligned((method.work, *y.shape))
-    outcome = method.run(chain, y, times, controls, work, record)
+        raise _stopped(problem, 0.0, obstacle)
+    amplitudes = problem.amplitudes
+    reduction = find_reduction(amplitudes) if reduction is None else reduction
+    method = SOLVERS[problem.solver["name"]]
+    times, y = problem.times, pack(amplitudes, reduction)
+    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
+    controls = tuple(float(problem.solver[name]) for name in method.controls)
+    chain = make_chain(problem.constants, problem.boundary, reduction)
+    outcome = method.run(chain, y, times, controls, aligned((method.work, *y.shape)), record)
     if outcome.status != DONE:
-        raise _stopped(solver, outcome.time, FAULTS[outcome.status])
+        raise _stopped(problem, outcome.time, FAULTS[outcome.status])
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
-            raise _stopped(solver, outcome.time, "the state, its norms or its energy overflow")
-    return _collect(times, record, y, reduction, outcome)._replace(solver=solver)
+            raise _stopped(problem, outcome.time, "the state, its norms or its energy overflow")
+    return _collect(problem, times, record, y, reduction, outcome)
 
 
-def _stopped(solver: dict, time: float, reason: str) -> IntegrationError:
-    return IntegrationError(f"{solver['name']} stopped at tau = {time:.6g}: {reason}")
+def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:
+    """Return what the kernels take: the constants, and the ends of what is integrated."""
+    ends = choose_ends(boundary, reduction)
+    return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
 
 
 def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:
@@ -133,8 +78,17 @@ def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:
     return memory[first : first + count].reshape(shape)
 
 
+def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
+    return IntegrationError(f"{problem.solver['name']} stopped at tau = {time:.6g}: {reason}")
+
+
 def _collect(
-    times: np.ndarray, record: Record, y: np.ndarray, reduction: Reduction, outcome: Outcome
+    problem: Problem,
+    times: np.ndarray,
+    record: Record,
+    y: np.ndarray,
+    reduction: Reduction,
+    outcome: Outcome,
 ) -> Trajectory:
     both = Reduction(even=False, synchronised=reduction.synchronised)
     return Trajectory(
@@ -145,5 +99,42 @@ def _collect(
         spread(record.modulus, reduction),
         unpack(y, reduction),
         outcome,
-        {},
+        dict(problem.solver),
     )
+
+
+def _simulate_to_error(problem: Problem, reduction: Reduction | None) -> Trajectory:
+    """Return the first run that agrees with the one before it as closely as was asked for.
+
+    No tolerance promises an error, least of all where the motion is chaotic. So the run is
+    repeated at a hundredth of the tolerance until two in a row agree; the finer of them is
+    returned, and its controls say which error was asked for and which was estimated. The solver is
+    `taylor`, the fastest on the paper's chains at small errors (see docs/accuracy_and_speed.md).
+    """
+    error = problem.solver["error"]
+    tolerance = min(error, 1e-4)
+    coarse = simulate(problem.changed(solver=_taylor(tolerance)), reduction)
+    while tolerance > FINEST:
+        tolerance = max(REFINEMENT * tolerance, FINEST)
+        fine = simulate(problem.changed(solver=_taylor(tolerance)), reduction)
+        differences = difference(coarse, fine)
+        if differences.max() <= error:
+            estimate = float(differences.max())
+            asked = {"requested_error": error, "estimated_error": estimate}
+            return fine._replace(solver={**fine.solver, **asked})
+        coarse = fine
+    lost = fine.tau[np.argmax(differences > error)]
+    raise IntegrationError(
+        f"auto: runs in double precision agree to {error:g} only before tau = {lost:g}: "
+        "end the run earlier, or ask for a larger error"
+    )
+
+
+def _taylor(tolerance: float) -> dict[str, Any]:
+    return {"name": "taylor", "rtol": tolerance, "atol": tolerance}
+
+
+def difference(one: Trajectory, other: Trajectory) -> np.ndarray:
+    """Return by how much two trajectories differ in any norm at each time, of its largest value."""
+    pairs = ((one.linf, other.linf), (one.l2, other.l2))
+    return np.max([np.max(np.abs(a - b), axis=0) / np.max(b) for a, b in pairs], axis=0)

@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.problem import Problem
+
 from .simulate import Trajectory, simulate
 
 QUANTITIES = ("A", "B", "pair")
@@ -20,16 +22,16 @@ class Sweep(NamedTuple):
 
 
 def sweep(
-    problem: dict,
+    problem: Problem,
     half_widths: Iterable[int],
     windows: list[tuple[float, float]],
     progress: Callable[[str], None] = lambda message: None,
 ) -> Sweep:
-    """Integrate `problem` (the arguments of `simulate`) on chains of each half-width."""
+    """Integrate `problem` on chains of each half-width."""
     l2, linf, outcomes = [], [], []
     half_widths = list(half_widths)
     for done, half_width in enumerate(half_widths, 1):
-        trajectory = simulate(**{**problem, "half_width": half_width, "snapshot_every": 0})
+        trajectory = simulate(problem.changed(half_width=half_width, snapshot_every=0))
         l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
         linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
         outcomes.append(trajectory.outcome)

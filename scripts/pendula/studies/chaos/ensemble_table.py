@@ -3,8 +3,7 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.problem import name_window
-from pendula.simulation.simulate import output_times
+from pendula.problem import Problem, name_window
 from pendula.simulation.sweep import QUANTITIES, STATISTICS
 
 from .cases import describe_cases
@@ -18,11 +17,11 @@ MOMENTS = {
 }
 
 
-def case_bands(problems: dict[str, dict], size: float, members: int, seed: int):
-    """Return quantile bands of the norms of each case (the arguments of `simulate`) by name."""
+def case_bands(problems: dict[str, Problem], size: float, members: int, seed: int):
+    """Return quantile bands of the norms of each case by name."""
     results = [run_members(problem, size, members, seed) for problem in problems.values()]
     first = next(iter(problems.values()))
-    tau = output_times(first["end_time"], first["output_step"])
+    tau = first.times
     grid = ("case", "quantile", "quantity", "tau")
     variables = {
         **describe_cases(problems),
@@ -37,7 +36,7 @@ def case_bands(problems: dict[str, dict], size: float, members: int, seed: int):
 
 
 def sweep_moments(
-    problems: dict[str, dict], half_widths, windows, size: float, members: int, seed: int
+    problems: dict[str, Problem], half_widths, windows, size: float, members: int, seed: int
 ) -> dict[str, Variable]:
     """Return mean, deviation and standard error of every swept norm of each sweep by name."""
     results = [

@@ -4,47 +4,42 @@ Where the motion is chaotic one run is one draw; what a second solver, or anothe
 draw as well is the distribution.
 """
 
-from collections.abc import Iterable
-
 import numpy as np
 
+from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import pair_l2, pair_linf, sweep
 
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
-def perturb(
-    initial: dict[int, tuple[complex, complex]], size: float, rng: np.random.Generator
-) -> dict[int, tuple[complex, complex]]:
-    """Return initial data with every amplitude multiplied by 1 + size (x + iy) of Gaussian x, y.
+def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
+    """Return data (2, 2r + 1), each amplitude times 1 + size (x + iy) of Gaussian x and y.
 
     Sites n and -n take the same factors, so that even data stay even.
     """
-    reach = 1 + max(map(abs, initial))
-    factors = 1.0 + size * (rng.normal(size=(reach, 2)) + 1j * rng.normal(size=(reach, 2)))
-    return {
-        site: tuple(complex(z * f) for z, f in zip(pair, factors[abs(site)], strict=True))
-        for site, pair in initial.items()
-    }
+    reach = initial.shape[1] // 2
+    drawn = (reach + 1, 2)
+    factors = 1.0 + size * (rng.normal(size=drawn) + 1j * rng.normal(size=drawn))
+    return initial * factors[np.abs(np.arange(-reach, reach + 1))].T
 
 
-def draw_members(problem: dict, size: float, members: int, seed: int) -> Iterable[dict]:
-    """Return as many copies of `problem` (the arguments of `simulate`) with perturbed data."""
+def draw_members(problem: Problem, size: float, members: int, seed: int) -> list[Problem]:
+    """Return as many copies of `problem` with perturbed data."""
     rng = np.random.default_rng(seed)
-    return [{**problem, "initial": perturb(problem["initial"], size, rng)} for _ in range(members)]
+    return [problem.changed(initial=perturb(problem.initial, size, rng)) for _ in range(members)]
 
 
 def run_members(
-    problem: dict, size: float, members: int, seed: int = 0
+    problem: Problem, size: float, members: int, seed: int = 0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the norms l2 and l-infinity of each member, both (member, quantity, time)."""
-    runs = [simulate(**member) for member in draw_members(problem, size, members, seed)]
+    runs = [simulate(member) for member in draw_members(problem, size, members, seed)]
     return np.array([pair_l2(run) for run in runs]), np.array([pair_linf(run) for run in runs])
 
 
 def sweep_members(
-    problem: dict, half_widths, windows, size: float, members: int, seed: int = 0
+    problem: Problem, half_widths, windows, size: float, members: int, seed: int = 0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the swept l2 and l-infinity of each member, both (member, *shape of a Sweep)."""
     drawn = draw_members(problem, size, members, seed)

@@ -6,7 +6,8 @@ vanish: those along the flow and across the energy.
 
 import numpy as np
 
-from pendula.simulation.lattice import find_reduction, place
+from pendula.problem import Problem
+from pendula.simulation.lattice import find_reduction
 
 from .changes import PARITIES, random_change
 from .tangents import Growth, grow
@@ -14,31 +15,24 @@ from .tangents import Growth, grow
 SEED = 20170817
 
 
-def follow_parity(problem: dict, parity: str, end_time: float, **controls) -> Growth:
+def follow_parity(problem: Problem, parity: str, end_time: float, **controls) -> Growth:
     """Carry one random change of this parity along a case whose data are even.
 
-    `problem` is the arguments of `simulate`. The kernels keep the parity to the last bit, so the
+    The kernels keep the parity to the last bit, so the
     change finds the fastest direction among those of its parity.
     """
-    amplitudes = place(problem["initial"], problem["half_width"])
-    if not find_reduction(amplitudes).even:
+    if not find_reduction(problem.amplitudes).even:
         raise ValueError("changes keep their parity only along data that are even in n")
     rng = np.random.default_rng([SEED, PARITIES.index(parity)])
-    changes = random_change(amplitudes.shape[1], parity, rng)[None]
-    return grow(*_fixed(problem), amplitudes, changes, end_time, parity == "even", **controls)
+    changes = random_change(problem.sites, parity, rng)[None]
+    return grow(problem, changes, end_time, parity == "even", **controls)
 
 
-def follow_all(problem: dict, end_time: float, **controls) -> Growth:
+def follow_all(problem: Problem, end_time: float, **controls) -> Growth:
     """Carry a full basis of 4 N changes along a case, for the whole spectrum."""
-    amplitudes = place(problem["initial"], problem["half_width"])
-    sites = amplitudes.shape[1]
     rng = np.random.default_rng(SEED)
-    changes = np.array([random_change(sites, None, rng) for _ in range(4 * sites)])
-    return grow(*_fixed(problem), amplitudes, changes, end_time, **controls)
-
-
-def _fixed(problem: dict) -> tuple:
-    return tuple(problem[key] for key in ("epsilon", "gamma", "omega")), problem["boundary"]
+    changes = np.array([random_change(problem.sites, None, rng) for _ in range(4 * problem.sites)])
+    return grow(problem, changes, end_time, **controls)
 
 
 def exponents(growth: Growth, start: float) -> np.ndarray:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.problem import Problem
 from pendula.simulation.simulate import Trajectory, simulate
 
 PARTED = 0.01
@@ -45,8 +46,8 @@ class Parting(NamedTuple):
     early: np.ndarray  # relative difference at tau = EARLY
 
 
-def measure(problem: dict, tolerances: list[float]) -> Parting:
-    """Follow a case (the arguments of `simulate`) by dop853 at each tolerance and at FINEST.
+def measure(problem: Problem, tolerances: list[float]) -> Parting:
+    """Follow a case by dop853 at each tolerance and at FINEST.
 
     Compared are the moduli on all sites, in l2.
     """
@@ -66,9 +67,9 @@ def early_index(tau: np.ndarray) -> int:
     return int(np.argmin(np.abs(tau - EARLY)))
 
 
-def _run(problem: dict, tolerance: float) -> Trajectory:
+def _run(problem: Problem, tolerance: float) -> Trajectory:
     solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
-    return simulate(**{**problem, "solver": solver, "snapshot_every": 1})
+    return simulate(problem.changed(solver=solver, snapshot_every=1))
 
 
 def _l2(modulus: np.ndarray) -> np.ndarray:

@@ -12,10 +12,11 @@ import numpy as np
 from pendula.compiled import kernel, merged
 from pendula.integrators import dop853
 from pendula.integrators.outcome import DONE, FAULTS
-from pendula.models.amplitudes import Chain, close, field, modulus2
+from pendula.models.amplitudes import close, field, modulus2
 from pendula.models.amplitudes_rates import everywhere
-from pendula.simulation.lattice import WHOLE, choose_ends, pack, place
-from pendula.simulation.simulate import IntegrationError, aligned, output_times
+from pendula.problem import Problem
+from pendula.simulation.lattice import WHOLE, pack
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
 from .changes import random_change
 
@@ -78,12 +79,11 @@ def run_lopsided(chain, y, times, controls, work, odd):
     return solve(chain, y, times, controls, work, odd)
 
 
-def follow_odd_part(problem: dict, amplitudes: np.ndarray) -> np.ndarray:
+def follow_odd_part(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
     """Return the relative size of the odd part at each output time, (time,), from (2, N) data."""
-    constants = (float(problem[key]) for key in ("epsilon", "gamma", "omega"))
-    chain = Chain(*constants, *choose_ends(problem["boundary"], WHOLE))
-    times = output_times(problem["end_time"], problem["output_step"])
-    controls = tuple(float(problem["solver"][key]) for key in ("rtol", "atol"))
+    chain = make_chain(problem.constants, problem.boundary, WHOLE)
+    times = problem.times
+    controls = tuple(float(problem.solver[key]) for key in ("rtol", "atol"))
     y, odd = pack(amplitudes, WHOLE), np.empty(len(times))
     work = aligned((dop853.WORK, *y.shape))
     outcome = run_lopsided(chain, y, times, controls, work, odd)
@@ -99,12 +99,12 @@ class OddPart(NamedTuple):
     perturbed: np.ndarray  # (member, time)
 
 
-def break_symmetry(problem: dict, size: float, members: int, seed: int = 0) -> OddPart:
+def break_symmetry(problem: Problem, size: float, members: int, seed: int = 0) -> OddPart:
     """Follow even data as they are, and with odd perturbations of l2 norm `size` relative to them.
 
-    `problem` is the arguments of `simulate`, solved by dop853.
+    The problem is solved by dop853.
     """
-    amplitudes = place(problem["initial"], problem["half_width"])
+    amplitudes = problem.amplitudes
     rng = np.random.default_rng(seed)
     perturbed = []
     for _ in range(members):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.simulation.simulate import output_times
+from pendula.problem import Problem
 
 from .cases import describe_cases
 from .parting import first_above
@@ -11,15 +11,15 @@ from .symmetry import BROKEN, GROWING, break_symmetry, growth_between
 
 
 def odd_parts(
-    problems: dict[str, dict], size: float, members: int, seed: int
+    problems: dict[str, Problem], size: float, members: int, seed: int
 ) -> dict[str, Variable]:
     """Return the odd part of each case against time, when it passes BROKEN, how fast it grows.
 
-    `problems` holds the arguments of `simulate` by case, all of one end time.
+    `problems` are given by case, all of one end time.
     """
     runs = [break_symmetry(problem, size, members, seed) for problem in problems.values()]
     first = next(iter(problems.values()))
-    tau = output_times(first["end_time"], first["output_step"])
+    tau = first.times
     variables = {
         **describe_cases(problems),
         "tau": Variable(("tau",), tau, "slow time"),

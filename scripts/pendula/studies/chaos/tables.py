@@ -3,6 +3,7 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.problem import Problem
 
 from . import parting
 from .cases import describe_cases
@@ -17,10 +18,10 @@ def _coordinates(**names: tuple) -> dict[str, Variable]:
     return {name: Variable((name,), values, title) for name, (values, title) in names.items()}
 
 
-def largest_exponents(problems: dict[str, dict], end_time: float) -> dict[str, Variable]:
+def largest_exponents(problems: dict[str, Problem], end_time: float) -> dict[str, Variable]:
     """Return the growth of an even and of an odd change of each case, and its mean rate.
 
-    `problems` holds the arguments of `simulate` by case; rates are over the second half of time.
+    `problems` are given by case; rates are over the second half of time.
     """
     runs = [[follow_parity(p, parity, end_time) for parity in PARITIES] for p in problems.values()]
     amplified = [parting.amplification(even.tau, even.stretch[0], even.size) for even, _ in runs]
@@ -46,7 +47,7 @@ def largest_exponents(problems: dict[str, dict], end_time: float) -> dict[str, V
     }
 
 
-def parting_times(problems: dict[str, dict], tolerances, growth: dict) -> dict[str, Variable]:
+def parting_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
     """Return when dop853 at each tolerance parts from the truth, predicted and measured.
 
     `growth` is what `largest_exponents` returned; predictions use its amplification of errors,
@@ -78,7 +79,7 @@ def parting_times(problems: dict[str, dict], tolerances, growth: dict) -> dict[s
     }
 
 
-def spectra(problems: dict[str, dict], end_time: float) -> dict[str, Variable]:
+def spectra(problems: dict[str, Problem], end_time: float) -> dict[str, Variable]:
     """Return all exponents of the cases, on their way and over the last three quarters of time."""
     runs = [follow_all(problem, end_time) for problem in problems.values()]
     tau = runs[0].tau[SAMPLED::SAMPLED]

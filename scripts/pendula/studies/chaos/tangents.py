@@ -12,10 +12,10 @@ import numpy as np
 from pendula.compiled import kernel
 from pendula.integrators import dop853
 from pendula.integrators.outcome import DONE, FAULTS
-from pendula.models.amplitudes import Chain
 from pendula.models.tangent import ROWS, bundle_rates
-from pendula.simulation.lattice import Reduction, choose_ends, pack
-from pendula.simulation.simulate import IntegrationError, aligned, output_times
+from pendula.problem import Problem, output_times
+from pendula.simulation.lattice import Reduction, pack
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
 from .orthonormal import inner, orthonormalise
 
@@ -56,22 +56,20 @@ def carry(chain, bundle, span, controls, work, record, stretches, sizes):
 
 
 def grow(
-    constants: tuple[float, float, float],
-    boundary: str,
-    amplitudes: np.ndarray,
+    problem: Problem,
     changes: np.ndarray,
     end_time: float,
     even: bool = False,
     step: float = STEP,
     tolerance: float = TOLERANCE,
 ) -> Growth:
-    """Carry `changes` (change, 2, N) of the amplitudes (2, N) under (epsilon, gamma, omega).
+    """Carry `changes` (change, 2, N) of a problem's data along with its solution.
 
     They must be linearly independent; `even` integrates half of a chain on which all are even.
     """
     reduction = Reduction(even, synchronised=False)
-    chain = Chain(*map(float, constants), *choose_ends(boundary, reduction))
-    bundle = np.concatenate([pack(state, reduction) for state in (amplitudes, *changes)])
+    chain = make_chain(problem.constants, problem.boundary, reduction)
+    bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *changes)])
     tau = output_times(end_time, step)
     stretches, sizes = np.empty((tau.size, len(changes))), np.empty(tau.size)
     orthonormalise(chain, bundle, stretches[0])

@@ -6,8 +6,8 @@ Errors of amplitudes are those of the largest component, relative to the largest
 import numpy as np
 
 from pendula.models.linear_flow import flow
-from pendula.simulation.lattice import find_reduction, place
-from pendula.simulation.simulate import Trajectory, integrate, output_times
+from pendula.problem import Constants, Problem, on_sites, place
+from pendula.simulation.simulate import Trajectory, simulate
 from pendula.studies.theory.linear import gamma_0
 
 OUTPUTS = 5
@@ -21,8 +21,16 @@ def random_data(sites: int, size: float) -> np.ndarray:
 
 def run(constants, data: np.ndarray, tau: float, solver: dict, outputs=OUTPUTS) -> Trajectory:
     """Integrate `data` (2, N) under (epsilon, gamma, omega) up to `tau`, between ends at rest."""
-    times = output_times(tau, tau / outputs)
-    return integrate(constants, "dirichlet", data, find_reduction(data), times, solver)
+    problem = Problem(
+        constants=Constants(**dict(zip(("epsilon", "gamma", "omega"), constants, strict=True))),
+        half_width=data.shape[1] // 2,
+        boundary="dirichlet",
+        initial=data,
+        end_time=tau,
+        output_step=tau / outputs,
+        solver=solver,
+    )
+    return simulate(problem)
 
 
 def relative_error(found: np.ndarray, exact: np.ndarray) -> float:
@@ -62,7 +70,7 @@ def drift_of_norms(solver, size, omega=-4.0, sites=21, tau=5.0) -> float:
 
 def drift_of_energy(solver, tau, omega=-4.0, half_width=1, outputs=1000) -> float:
     """Return the largest change of the energy of the paper's small data, relative to it."""
-    data = place({0: (1.0, 0.1)}, half_width)
+    data = place(on_sites({0: (1.0, 0.1)}), half_width)
     energy = run((1.0, 1.0, omega), data, tau, solver, outputs).energy
     return float(np.abs(energy / energy[0] - 1.0).max())
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from pendula.simulation.lattice import Reduction, place
-from pendula.simulation.simulate import integrate, output_times
+from pendula.problem import on_sites, place
 
 from .against_exact import random_data, relative_error, run
 
@@ -42,13 +41,9 @@ def miss_of_single_pairs(solver, sites=5, tau=5.0) -> float:
 
 def miss_of_short_chain(solver, half_width, tau=1.0, short=30) -> float:
     """Compare the middle of a long chain with a chain whose ends the front has not reached."""
-    even = Reduction(even=True, synchronised=False)
-    start, times = {0: (1.0, 0.1)}, output_times(tau, tau)
-    constants = (1.0, 1.0, 0.0)
-    exact = integrate(
-        constants, "dirichlet", place(start, short), even, times, other_of(solver)
-    ).final
-    found = integrate(constants, "dirichlet", place(start, half_width), even, times, solver).final
+    start, constants = on_sites({0: (1.0, 0.1)}), (1.0, 1.0, 0.0)
+    exact = run(constants, place(start, short), tau, other_of(solver), outputs=1).final
+    found = run(constants, place(start, half_width), tau, solver, outputs=1).final
     return relative_error(found[:, half_width - short : half_width + short + 1], exact)
 
 

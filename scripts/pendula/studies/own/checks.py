@@ -2,13 +2,15 @@
 
 import xarray as xr
 
+from pendula.problem import Problem
+
 from . import second_run, sensitivity, statements
 
 
-def check_run(problem: dict, run: xr.Dataset) -> xr.Dataset:
+def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return every number that is known of a case besides its run, with the case's attributes.
 
-    `problem` holds the arguments of `simulate`, `run` is the trajectory that they gave.
+    `run` is the trajectory that `simulate` made of `problem`.
     """
     again = second_run.run_again(problem, run)
     solver = {

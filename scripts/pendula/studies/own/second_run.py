@@ -10,6 +10,7 @@ import xarray as xr
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import contents
 from pendula.measures.divergence import LEVELS, at_times, difference, first_above
+from pendula.problem import Problem
 from pendula.simulation.simulate import IntegrationError, simulate
 
 TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
@@ -25,17 +26,17 @@ def choose_solver(name: str, peak: float) -> dict:
     return {"name": other, "rtol": rtol, "atol": rtol * (peak if 0 < peak < 1 else 1.0)}
 
 
-def run_again(problem: dict, run: xr.Dataset) -> xr.Dataset:
+def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return the second run's norms and its difference from `run`, NaN where it was refused.
 
-    `problem` holds the arguments of `simulate`, `run` what they gave.
+    `run` is the trajectory that `simulate` made of `problem`.
     """
-    peak = max(abs(z) for pair in problem["initial"].values() for z in pair)
+    peak = float(np.abs(problem.initial).max())
     solver = choose_solver(str(run.attrs["solver"]), peak)
-    again = {**problem, "solver": solver, "snapshot_every": 0}
+    again = problem.changed(solver=solver, snapshot_every=0)
     said = {f"second_{key}": value for key, value in solver.items()}
     try:
-        second = as_xarray(*contents("second run", again, simulate(**again)))
+        second = as_xarray(*contents("second run", again, simulate(again)))
         apart = difference(run, second).reindex(tau=run["tau"])
     except IntegrationError as error:
         second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)

@@ -7,7 +7,8 @@ One random change, even where the data are even, is carried along by the tangent
 import numpy as np
 import xarray as xr
 
-from pendula.simulation.lattice import find_reduction, place
+from pendula.problem import Problem
+from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 from pendula.studies.chaos.changes import random_change
 from pendula.studies.chaos.lyapunov import SEED, exponents, spread_of
@@ -19,19 +20,16 @@ MANY = np.log(100.0)
 FEWEST_STEPS = 64
 
 
-def follow(problem: dict) -> Growth:
-    """Return the growth of a random change along a case (the arguments of `simulate`)."""
-    amplitudes = place(problem["initial"], problem["half_width"])
-    even = bool(find_reduction(amplitudes).even)
+def follow(problem: Problem) -> Growth:
+    """Return the growth of a random change along a case."""
+    even = bool(find_reduction(problem.amplitudes).even)
     rng = np.random.default_rng(SEED)
-    change = random_change(amplitudes.shape[1], "even" if even else None, rng)
-    constants = tuple(problem[key] for key in ("epsilon", "gamma", "omega"))
-    end = problem["end_time"]
-    step = min(STEP, end / FEWEST_STEPS)
-    return grow(constants, problem["boundary"], amplitudes, change[None], end, even, step)
+    change = random_change(problem.sites, "even" if even else None, rng)
+    step = min(STEP, problem.end_time / FEWEST_STEPS)
+    return grow(problem, change[None], problem.end_time, even, step)
 
 
-def measure(problem: dict) -> xr.Dataset:
+def measure(problem: Problem) -> xr.Dataset:
     """Return the rate at which small changes grow, whether that is chaos, and when digits end."""
     try:
         growth = follow(problem)

@@ -1,10 +1,12 @@
 """What the paper states of any case: Lemma 1 at rest, Lemma 2 and Theorems 1 to 3 on the way."""
 
+from dataclasses import astuple
+
 import numpy as np
 import xarray as xr
 
 from pendula.datasets.checks import table, variable
-from pendula.simulation.lattice import place
+from pendula.problem import Problem
 from pendula.studies.theory.cases import NUMBERS, case_numbers
 from pendula.studies.theory.growth import integrated_balance
 from pendula.studies.theory.linear import finite_rate, finite_threshold, gamma_0, infinite_rate
@@ -25,10 +27,10 @@ def beside_bounds(run: xr.Dataset) -> dict:
     return described | {"energy_drift": variable(drift, (), "largest |H - H(0)|")}
 
 
-def at_rest(problem: dict) -> dict:
+def at_rest(problem: Problem) -> dict:
     """Return thresholds and growth rates of the chain at rest: infinite, and as long as it is."""
-    epsilon, gamma, omega = (problem[key] for key in ("epsilon", "gamma", "omega"))
-    chain = (epsilon, 2 * problem["half_width"] + 1, problem["boundary"])
+    epsilon, gamma, omega = astuple(problem.constants)
+    chain = (epsilon, problem.sites, problem.boundary)
     return {
         "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),
         "finite_threshold": variable(finite_threshold(omega, *chain), (), "threshold on N sites"),
@@ -41,18 +43,17 @@ def at_rest(problem: dict) -> dict:
     }
 
 
-def balance(problem: dict, run: xr.Dataset, solver: dict) -> dict:
+def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
     """Return how well the balance of P in Lemma 2 holds from the initial data on.
 
     The state is carried by `solver` from node to node, and the balance integrated over them.
     """
-    constants = tuple(float(problem[key]) for key in ("epsilon", "gamma", "omega"))
-    amplitudes = place(problem["initial"], problem["half_width"])
+    constants, amplitudes = astuple(problem.constants), problem.amplitudes
     start, largest = float(np.sum(np.abs(amplitudes) ** 2)), float(run["linf"].max()) ** 2
     rate = 4 * abs(constants[0]) + 2 * abs(constants[1]) + abs(constants[2]) + largest
-    span = min(problem["end_time"], RADIANS / rate) if rate else problem["end_time"]
+    span = min(problem.end_time, RADIANS / rate) if rate else problem.end_time
     change, integral = integrated_balance(
-        constants, problem["boundary"], amplitudes, span, PANELS, solver
+        constants, problem.boundary, amplitudes, span, PANELS, solver
     )
     error = abs(change - integral) / max(start, start + change) if start else np.nan
     return {
@@ -61,7 +62,7 @@ def balance(problem: dict, run: xr.Dataset, solver: dict) -> dict:
     }
 
 
-def gather(problem: dict, run: xr.Dataset, solver: dict) -> xr.Dataset:
-    """Return all of it for a case (the arguments of `simulate`) and its trajectory."""
+def gather(problem: Problem, run: xr.Dataset, solver: dict) -> xr.Dataset:
+    """Return all of it for a case and its trajectory."""
     numbers = beside_bounds(run) | at_rest(problem) | balance(problem, run, solver)
     return xr.Dataset.from_dict(table("A case beside the paper's statements", {}, **numbers))

@@ -4,6 +4,7 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, as_attributes
+from pendula.problem import Problem
 from pendula.simulation.lattice import Reduction, spread
 
 from .run import Run
@@ -43,9 +44,8 @@ def _amplitude(run: Run) -> np.ndarray:
     return np.stack([spread(rows[part::2], MIRRORED) for part in (0, 1)])
 
 
-def as_case(name: str, problem: dict, run: Run, check: Run, apart: Discrepancy, decimal: bool):
+def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
     """Return the attributes: the case, the controls of both runs, what they agree on."""
-    problem = {key: value for key, value in problem.items() if key != "snapshot_every"}
     return {
         **as_attributes(name, problem, {"name": "heyoka", **_controls(run)}),
         **{f"second_run_{key}": value for key, value in _controls(check).items()},

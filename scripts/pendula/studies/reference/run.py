@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.simulation.simulate import IntegrationError, output_times
+from pendula.problem import Problem, by_site
+from pendula.simulation.simulate import IntegrationError
 
 from .half_chain import Constants, energy, norms, right_hand_side
 from .numbers import Numbers
@@ -25,35 +26,34 @@ class Run(NamedTuple):
     steps: int
 
 
-def start(problem: dict, numbers: Numbers) -> np.ndarray:
+def start(problem: Problem, numbers: Numbers) -> np.ndarray:
     """Return the initial state (row, site) of the half chain 0..M, in multiprecision.
 
     Raises ValueError where the data are not even, or the ends are not at rest.
     """
-    initial = problem["initial"]
-    if problem["boundary"] != "dirichlet":
-        raise ValueError(f"the reference has Dirichlet ends only, not {problem['boundary']}")
-    if any(initial.get(-site) != pair for site, pair in initial.items()):
+    if problem.boundary != "dirichlet":
+        raise ValueError(f"the reference has Dirichlet ends only, not {problem.boundary}")
+    if not np.array_equal(problem.initial, problem.initial[:, ::-1]):
         raise ValueError("the reference integrates half a chain: its data must be even")
-    state = numbers.exactly(np.zeros((4, problem["half_width"] + 1)))
-    for site, (a, b) in initial.items():
+    state = numbers.exactly(np.zeros((4, problem.half_width + 1)))
+    for site, (a, b) in by_site(problem.initial).items():
         parts = [part for z in (complex(a), complex(b)) for part in (z.real, z.imag)]
         for row, part in enumerate(parts):
             state[row, abs(site)] = numbers.given(part)
     return state
 
 
-def integrate(problem: dict, snapshots: list[float], bits: int, decimal: bool = True) -> Run:
+def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool = True) -> Run:
     """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
 
-    `problem` holds the arguments of pendula.simulation.simulate, of which the solver is not used.
-    Outputs are at the doubles that `output_times` returns; those among `snapshots` keep the state.
-    `decimal` is explained by Numbers. Raises IntegrationError where heyoka does not reach the end,
-    ValueError as `start` does.
+    The problem's own solver is not used. Outputs are at the doubles `problem.times`; those
+    among `snapshots` keep the state. `decimal` is explained by Numbers. Raises IntegrationError
+    where heyoka does not reach the end, ValueError as `start` does.
     """
     numbers = Numbers(bits, decimal)
-    constants = Constants(*(numbers.given(problem[key]) for key in Constants._fields))
-    times = output_times(problem["end_time"], problem["output_step"])
+    given = problem.constants
+    constants = Constants(*(numbers.given(getattr(given, key)) for key in Constants._fields))
+    times = problem.times
     kept = np.isin(times, snapshots)
     stepper = _stepper(numbers, constants, start(problem, numbers))
     outcome, _, _, steps, _, states = stepper.propagate_grid(numbers.exactly(times))

@@ -1,12 +1,10 @@
 """The paper's own cases and sweeps beside the bounds of Lemma 2 and Theorems 1 to 3."""
 
-import json
-
 import numpy as np
 
 from pendula.datasets.checks import table, variable
 from pendula.measures.readings import constants, growth_margin, powers
-from pendula.simulation.lattice import place
+from pendula.problem import Constants, Problem, on_sites, place, read_initial
 from pendula.simulation.simulate import simulate
 
 from .bounds import (
@@ -91,12 +89,6 @@ def check_cases(trajectories: dict) -> dict:
     )
 
 
-def initial_data(sweep) -> dict:
-    """Return the initial data {site: (A, B)} that a dataset carries as text."""
-    written = json.loads(sweep.attrs["initial"])
-    return {int(site): tuple(complex(z) for z in pair) for site, pair in written.items()}
-
-
 def check_sweeps(sweeps: dict) -> dict:
     """Set the largest P of each swept chain beside its bounds, that of Theorem 3 growing with N."""
     half_widths = np.unique(np.concatenate([s["half_width"].values for s in sweeps.values()]))
@@ -107,7 +99,7 @@ def check_sweeps(sweeps: dict) -> dict:
         peaks = sweep["l2"].sel(quantity="pair", statistic="max").max("window").values ** 2
         for half_width, peak in zip(sweep["half_width"].values, peaks, strict=True):
             j, sites = np.searchsorted(half_widths, half_width), 2 * int(half_width) + 1
-            amplitudes = place(initial_data(sweep), int(half_width))
+            amplitudes = place(on_sites(read_initial(sweep.attrs["initial"])), int(half_width))
             energy = total_energy(parameters, boundary, amplitudes)
             start = float(np.sum(np.abs(amplitudes) ** 2))
             observed[i, j] = peak
@@ -133,15 +125,15 @@ def check_not_shown(
     peaks = []
     for half_width in half_widths:
         trajectory = simulate(
-            epsilon=1.0,
-            gamma=1.0,
-            omega=omega,
-            half_width=int(half_width),
-            boundary="dirichlet",
-            initial={0: (1.0, 0.1)},
-            end_time=window[1],
-            output_step=0.025,
-            solver=solver or TIGHT | {"rtol": 1e-9},
+            Problem(
+                constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
+                half_width=int(half_width),
+                boundary="dirichlet",
+                initial=on_sites({0: (1.0, 0.1)}),
+                end_time=window[1],
+                output_step=0.025,
+                solver=solver or TIGHT | {"rtol": 1e-9},
+            )
         )
         inside = trajectory.tau >= window[0]
         peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pendula.datasets.checks import table, variable
+from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation.simulate import simulate
 
 from .bounds import (
@@ -111,15 +112,15 @@ def check_energy_drift(solver: dict, end_time: float = 10.0, omegas=(8.0, -4.0, 
     drift = []
     for omega in omegas:
         trajectory = simulate(
-            epsilon=1.0,
-            gamma=1.0,
-            omega=omega,
-            half_width=30,
-            boundary="dirichlet",
-            initial={0: (1.0, 0.1)},
-            end_time=end_time,
-            output_step=0.025,
-            solver=solver,
+            Problem(
+                constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
+                half_width=30,
+                boundary="dirichlet",
+                initial=on_sites({0: (1.0, 0.1)}),
+                end_time=end_time,
+                output_step=0.025,
+                solver=solver,
+            )
         )
         drift.append(np.abs(trajectory.energy - trajectory.energy[0]).max())
     return table(

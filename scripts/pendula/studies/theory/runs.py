@@ -8,8 +8,9 @@ import numpy as np
 from pendula.models.amplitudes import ENDS, Chain
 from pendula.models.amplitudes_rates import rates
 from pendula.models.energy import energy
+from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
-from pendula.simulation.simulate import IntegrationError, Trajectory, integrate
+from pendula.simulation.simulate import IntegrationError, Trajectory, simulate
 
 BOUNDARIES = tuple(ENDS)
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
@@ -23,7 +24,17 @@ def make_chain(constants: tuple[float, float, float], boundary: str) -> Chain:
 
 def run(constants, boundary: str, amplitudes: np.ndarray, times, solver=TIGHT) -> Trajectory:
     """Integrate amplitudes (2, N) over `times` on the full chain, without any short cut."""
-    return integrate(constants, boundary, amplitudes, WHOLE, np.asarray(times, float), solver)
+    end_time = float(times[-1])
+    problem = Problem(
+        constants=Constants(**dict(zip(("epsilon", "gamma", "omega"), constants, strict=True))),
+        half_width=amplitudes.shape[1] // 2,
+        boundary=boundary,
+        initial=amplitudes,
+        end_time=end_time,
+        output_step=end_time / (len(times) - 1),
+        solver=solver,
+    )
+    return simulate(problem, WHOLE)
 
 
 def right_hand_side(constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:

@@ -4,19 +4,19 @@ import numpy as np
 
 from pendula import __version__
 from pendula.datasets.netcdf import Variable
-from pendula.problem import write_initial
+from pendula.problem import Problem, write_initial
 
 from .linear_front import linear_front
-from .spread import LEVELS, Spread, constants_of
+from .spread import LEVELS, Spread
 from .window_map import START, WindowMap
 
 RUN = ("variant", "member")
 
 
-def spread_variables(problems: list[dict], runs: list[list[Spread]]) -> dict[str, Variable]:
+def spread_variables(problems: list[Problem], runs: list[list[Spread]]) -> dict[str, Variable]:
     """Return the variables of `runs` [variant][member] of as many problems."""
     first = runs[0][0]
-    predicted = [linear_front(*constants_of(problem)) for problem in problems]
+    predicted = [linear_front(problem.constants) for problem in problems]
 
     def series(name: str, axis: str, title: str, more: tuple = ()) -> Variable:
         values = [[getattr(run, name) for run in members] for members in runs]
@@ -67,27 +67,33 @@ def map_variables(
     }
 
 
-def attributes(name: str, problem: dict) -> dict:
+def attributes(name: str, problem: Problem, rest: float) -> dict:
     """Return what was solved: no dates, no hosts."""
-    keys = ("epsilon", "gamma", "omega", "end_time", "output_step", "rest")
-    plain = {key: problem[key] for key in keys}
+    values = problem.plain()
+    plain = {key: values[key] for key in ("epsilon", "gamma", "omega", "end_time", "output_step")}
     return {
         "case": name,
         **plain,
-        "initial": write_initial(problem["initial"]),
+        "rest": rest,
+        "initial": write_initial(values["initial"]),
         "boundary": "none: the window opens as the front moves",
-        "solver": problem["solver"]["name"],
-        "solver_rtol": problem["solver"]["rtol"],
+        "solver": problem.solver["name"],
+        "solver_rtol": problem.solver["rtol"],
         "version": __version__,
     }
 
 
-def _parameters(problems: list[dict]) -> dict[str, Variable]:
+def _parameters(problems: list[Problem]) -> dict[str, Variable]:
     return {
-        "omega": _of_variants([p["omega"] for p in problems], "detuning Omega"),
-        "amplitude": _of_variants([abs(p["initial"][0][0]) for p in problems], "initial |A_0|"),
-        "tolerance": _of_variants([p["solver"]["rtol"] for p in problems], "solver's tolerance"),
+        "omega": _of_variants([p.constants.omega for p in problems], "detuning Omega"),
+        "amplitude": _of_variants([_central(p) for p in problems], "initial |A_0|"),
+        "tolerance": _of_variants([p.solver["rtol"] for p in problems], "solver's tolerance"),
     }
+
+
+def _central(problem: Problem) -> float:
+    """Return |A_0| at the start."""
+    return abs(problem.initial[0, problem.initial.shape[1] // 2])
 
 
 def _of_variants(values: list[float], title: str) -> Variable:

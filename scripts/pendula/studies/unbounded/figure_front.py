@@ -1,11 +1,14 @@
 """The front on the chain without ends: its speed, and the state that it leaves behind."""
 
+from dataclasses import asdict, replace
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
+from pendula.problem import Constants
 
 from . import figure_sea as sea_panels
 from .figure_sea import GREEN, named
@@ -24,11 +27,10 @@ def gather(
     `large` is the run whose sea spreads where the chain at rest is stable; `thermal` are the
     states without energy that the sea is compared with.
     """
-    constants = tuple(float(sea.attrs[name]) for name in ("epsilon", "gamma", "omega"))
+    constants = Constants.of(sea.attrs)
     measured, errors = speeds(omegas)
     grid = np.linspace(-4.0, 8.0, 97)
-    epsilon, gamma, _ = constants
-    lines = [linear_front(epsilon, gamma, omega).speed for omega in grid]
+    lines = [linear_front(replace(constants, omega=omega)).speed for omega in grid]
     title = "front speed (sites per unit of tau)"
     data = xr.Dataset(
         {
@@ -44,9 +46,7 @@ def gather(
             "line_omega": named("line_omega", grid, "detuning Omega"),
         },
     )
-    return data.assign_attrs(
-        omega=constants[2], gamma=gamma, epsilon=epsilon, large_omega=large.attrs["omega"]
-    )
+    return data.assign_attrs(**asdict(constants), large_omega=large.attrs["omega"])
 
 
 def _positions(omegas: xr.Dataset, large: xr.Dataset) -> dict:

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from pendula.drawing import style
+from pendula.problem import Constants
 
 from .fronts import FRONT
 from .sea import (
@@ -39,9 +40,9 @@ def named(dims, values, title: str, units: str = "1"):
     return dims, np.asarray(values), {"long_name": title, "units": units}
 
 
-def gather(omegas: xr.Dataset, sea: xr.Dataset, thermal: xr.Dataset, constants: tuple) -> dict:
-    """Return the variables of the panels; `constants` are (epsilon, gamma, omega) of `sea`."""
-    return {**_behind(sea, constants), **_powers(omegas), **_thermal(thermal, constants[2])}
+def gather(omegas: xr.Dataset, sea: xr.Dataset, thermal: xr.Dataset, constants: Constants) -> dict:
+    """Return the variables of the panels; `constants` are those of `sea`."""
+    return {**_behind(sea, constants), **_powers(omegas), **_thermal(thermal, constants.omega)}
 
 
 def _powers(omegas: xr.Dataset) -> dict:
@@ -64,7 +65,7 @@ def _thermal(thermal: xr.Dataset, omega: float) -> dict:
     }
 
 
-def _behind(sea: xr.Dataset, constants: tuple) -> dict:
+def _behind(sea: xr.Dataset, constants: Constants) -> dict:
     """Return profiles, spectrum and distribution of the final states of all members."""
     states = [with_ghosts(state) for state in sea["state"].isel(variant=0).values]
     fronts = sea["front"].isel(variant=0, piece_tau=-1).sel(level=FRONT).values.astype(int)

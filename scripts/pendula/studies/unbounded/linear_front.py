@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.problem import Constants
+
 
 class LinearFront(NamedTuple):
     """Speed v in sites per unit of tau, and the wave exp(-decay n + i q n) at the leading edge."""
@@ -26,17 +28,17 @@ class LinearFront(NamedTuple):
         return 1.5 / self.decay if self.decay else 0.0
 
 
-def is_unstable(epsilon: float, gamma: float, omega: float) -> bool:
+def is_unstable(constants: Constants) -> bool:
     """Return whether the infinite chain at rest is unstable (Lemma 1, gamma > 0)."""
-    return -2.0 * gamma < omega < 2.0 * gamma + 4.0 * epsilon
+    gamma = constants.gamma
+    return -2.0 * gamma < constants.omega < 2.0 * gamma + 4.0 * constants.epsilon
 
 
-def linear_front(epsilon: float, gamma: float, omega: float) -> LinearFront:
+def linear_front(constants: Constants) -> LinearFront:
     """Return the front of data of finite extent in the linearised infinite chain."""
-    constants = (epsilon, gamma, omega)
     waves, decays = np.linspace(0.0, np.pi, 801), np.geomspace(1e-3, 6.0, 400)
-    if not is_unstable(*constants):
-        speeds = group_velocity(waves[1:-1], *constants)
+    if not is_unstable(constants):
+        speeds = group_velocity(waves[1:-1], constants)
         best = int(np.argmax(speeds))
         return LinearFront(float(speeds[best]), 0.0, float(waves[1 + best]))
     speed, wave, decay = _least(waves, decays, constants)
@@ -48,21 +50,24 @@ def linear_front(epsilon: float, gamma: float, omega: float) -> LinearFront:
     return LinearFront(speed, decay, wave)
 
 
-def growth_rate(k, epsilon: float, gamma: float, omega: float):
+def growth_rate(k, constants: Constants):
     """Return Re s of the growing branch at complex wave numbers k."""
-    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - omega
-    return np.abs(np.sqrt(4.0 * gamma**2 - kappa**2 + 0j).real)
+    kappa = 2.0 * constants.epsilon * (1.0 - np.cos(k)) - constants.omega
+    return np.abs(np.sqrt(4.0 * constants.gamma**2 - kappa**2 + 0j).real)
 
 
-def group_velocity(k, epsilon: float, gamma: float, omega: float):
+def group_velocity(k, constants: Constants):
     """Return |d omega_2 / dk| of real wave numbers where omega_2 is real and not zero."""
-    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - omega
+    epsilon, gamma = constants.epsilon, constants.gamma
+    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - constants.omega
     return np.abs(2.0 * epsilon * np.sin(k) * kappa) / np.sqrt(kappa**2 - 4.0 * gamma**2)
 
 
-def _least(waves: np.ndarray, decays: np.ndarray, constants: tuple) -> tuple[float, float, float]:
+def _least(
+    waves: np.ndarray, decays: np.ndarray, constants: Constants
+) -> tuple[float, float, float]:
     """Return (speed, wave number, decay) of the least over decays of the largest over waves."""
-    speeds = growth_rate(waves[:, None] + 1j * decays, *constants) / decays
+    speeds = growth_rate(waves[:, None] + 1j * decays, constants) / decays
     j = int(np.argmin(speeds.max(axis=0)))
     i = int(np.argmax(speeds[:, j]))
     return float(speeds[i, j]), float(waves[i]), float(decays[j])

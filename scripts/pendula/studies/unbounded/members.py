@@ -6,7 +6,7 @@ SIZE = 1e-6
 """Relative size of the differences: grown to order one within some ten units of tau by chaos."""
 
 
-def member(initial: dict[int, tuple[complex, complex]], number: int, seed: int = 2017) -> dict:
+def member(initial: np.ndarray, number: int, seed: int = 2017) -> np.ndarray:
     """Return the initial data of an ensemble's member; number 0 has the data as they are.
 
     All sites of a component share a factor, so that even data stay even.
@@ -14,4 +14,4 @@ def member(initial: dict[int, tuple[complex, complex]], number: int, seed: int =
     if number == 0:
         return initial
     factors = 1.0 + SIZE * np.random.default_rng([seed, number]).normal(size=2)
-    return {site: (a * factors[0], b * factors[1]) for site, (a, b) in initial.items()}
+    return initial * factors[:, None]

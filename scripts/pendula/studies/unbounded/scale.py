@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.problem import Constants
 
 from .studies import TOLERANCE
 from .window import Piece, advance
@@ -15,7 +16,7 @@ WIDTHS = (1_000, 3_000, 10_000, 100_000, 500_000)
 """Half-widths W of windows of 2 W + 1 sites."""
 
 DURATION, RUNS = 0.5, 3
-CONSTANTS = (1.0, 1.0, 0.0)
+CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
 
 def sea(width: int, seed: int = 2017) -> np.ndarray:

@@ -5,7 +5,11 @@ site, however much power it has: the drive and the bonds pay for the cubic term.
 front's edge carry none either, since they grow.
 """
 
+from dataclasses import astuple
+
 import numpy as np
+
+from pendula.problem import Constants
 
 TERMS = ("cubic", "detuning", "drive", "bonds")
 SHARE = 0.9
@@ -15,9 +19,9 @@ LENGTH = 64
 """Sites of the pieces that a spectrum is averaged over."""
 
 
-def energy_terms(state: np.ndarray, constants: tuple[float, float, float]) -> np.ndarray:
+def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = astuple(constants)
     a, b = complex_pair(state)
     density = np.abs([a, b]) ** 2
     difference = a - b

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.problem import Problem
+
 from . import checkpoint
 from .window import Piece, advance, open_window, powers, widen
 
@@ -36,30 +38,28 @@ class Spread(NamedTuple):
 SERIES = Spread._fields[:-1]
 
 
-def spread(problem: dict, keep_at: str | Path | None = None, keep_every: int = 50) -> Spread:
+def spread(
+    problem: Problem, rest: float, keep_at: str | Path | None = None, keep_every: int = 50
+) -> Spread:
     """Return the run of `problem`, continued from the checkpoint `keep_at` if there is one.
 
-    `problem`: epsilon, gamma, omega, initial (even), half_width (None: no ends), end_time,
-    output_step, solver, rest (see `window`). A checkpoint is written after each `keep_every`
-    pieces, and left.
+    Its data are even in n, its half-width is None where the chain has no ends; `rest` is what
+    counts as at rest ahead of the front (see `window`). A checkpoint is written after each
+    `keep_every` pieces, and left.
     """
-    outputs = round(PIECE / problem["output_step"])
-    count = round(problem["end_time"] / PIECE)
-    kept = checkpoint.recall(keep_at, problem) if keep_at else None
+    description = checkpoint.describe(problem, rest)
+    outputs = round(PIECE / problem.output_step)
+    count = round(problem.end_time / PIECE)
+    kept = checkpoint.recall(keep_at, description) if keep_at else None
     series, state = _start(problem) if kept is None else _continue(kept)
     for piece in range(len(series["piece_tau"]), count):
-        state = widen(state, problem["half_width"], problem["rest"])
-        times = problem["output_step"] * np.arange(piece * outputs, (piece + 1) * outputs + 1)
-        done = advance(constants_of(problem), state, times, problem["solver"])
+        state = widen(state, problem.half_width, rest)
+        times = problem.output_step * np.arange(piece * outputs, (piece + 1) * outputs + 1)
+        done = advance(problem.constants, state, times, problem.solver)
         _add(series, times, done, first=piece == 0)
         if keep_at and (piece + 1) % keep_every == 0:
-            checkpoint.keep(keep_at, problem, {**_joined(series), "state": state})
+            checkpoint.keep(keep_at, description, {**_joined(series), "state": state})
     return Spread(**_joined(series), state=state)
-
-
-def constants_of(problem: dict) -> tuple[float, float, float]:
-    """Return (epsilon, gamma, omega)."""
-    return problem["epsilon"], problem["gamma"], problem["omega"]
 
 
 def find_front(state: np.ndarray) -> np.ndarray:
@@ -68,8 +68,8 @@ def find_front(state: np.ndarray) -> np.ndarray:
     return np.array([np.flatnonzero(power > level).max(initial=-1) for level in LEVELS])
 
 
-def _start(problem: dict) -> tuple[dict, np.ndarray]:
-    return {name: [] for name in SERIES}, open_window(problem["initial"], problem["half_width"])
+def _start(problem: Problem) -> tuple[dict, np.ndarray]:
+    return {name: [] for name in SERIES}, open_window(problem.initial, problem.half_width)
 
 
 def _continue(kept: dict) -> tuple[dict, np.ndarray]:

@@ -79,10 +79,10 @@ MAPS = {
 def spread_problems(case: dict, study: str, size: str, output_step: float = 0.25) -> list[dict]:
     """Return the problems of a study, one for each value of what it varies.
 
-    `case` is the paper's case as the arguments of pendula.simulation.simulate.
+    `case` is the paper's case, all of them as plain values (see pendula.problem).
     """
     end_time = float(SPREADS[size][study][0])
-    base = {**unbounded_problem(case, end_time, output_step), "rest": REST[size]}
+    base = unbounded_problem(case, end_time, output_step)
     if study not in VARIED:
         return [base]
     varied = VARIED[study][1]
@@ -96,10 +96,10 @@ def unbounded_problem(case: dict, end_time: float, output_step: float) -> dict:
     return {
         **kept,
         "half_width": None,
+        "boundary": "dirichlet",
         "end_time": float(end_time),
         "output_step": output_step,
         "solver": solver,
-        "rest": REST["short"],
     }
 
 

@@ -5,12 +5,14 @@ integral, and the front leaves none behind, which fixes beta. Nothing is fitted.
 Metropolis' algorithm on a ring, site by site.
 """
 
+from dataclasses import astuple
 from math import exp
 from typing import NamedTuple
 
 import numpy as np
 
 from pendula.compiled import kernel
+from pendula.problem import Constants
 
 SITES, SETTLING, KEPT = 128, 400, 1200
 """Sites of the ring, sweeps that are thrown away, and sweeps that are averaged over."""
@@ -34,7 +36,10 @@ class Thermal(NamedTuple):
 
 @kernel
 def site_energy(constants, a, b, c, d, left, right):
-    """Return the terms of (8) that the values a + ib, c + id of one site take part in."""
+    """Return the terms of (8) that the values a + ib, c + id of one site take part in.
+
+    `constants` are (epsilon, gamma, Omega), as plain numbers for the compiler.
+    """
     epsilon, gamma, omega = constants
     first, second = a * a + b * b, c * c + d * d
     real, imaginary = a - c, b - d
@@ -65,14 +70,14 @@ def sweep_ring(constants, beta, y, moves, chances):
     return taken
 
 
-def sample(constants: tuple[float, float, float], beta: float, seed: int = 2017) -> Thermal:
+def sample(constants: Constants, beta: float, seed: int = 2017) -> Thermal:
     """Return samples of exp(-beta H) on a ring, one after each kept sweep."""
     rng = np.random.default_rng(seed)
     y = rng.normal(size=(SITES, 4))
     step, states = 1.0, np.empty((KEPT, 4, SITES))
     for count in range(SETTLING + KEPT):
         moves = step * rng.normal(size=(SITES, 4))
-        taken = sweep_ring(constants, beta, y, moves, rng.random(SITES))
+        taken = sweep_ring(astuple(constants), beta, y, moves, rng.random(SITES))
         if count < SETTLING:  # half of the moves should be taken
             step *= 1.05 if taken > SITES / 2 else 0.95
         else:
@@ -80,9 +85,9 @@ def sample(constants: tuple[float, float, float], beta: float, seed: int = 2017)
     return Thermal(beta, states, ring_energies(states, constants))
 
 
-def ring_energies(states: np.ndarray, constants: tuple[float, float, float]) -> np.ndarray:
+def ring_energies(states: np.ndarray, constants: Constants) -> np.ndarray:
     """Return H per site of each of the states (sample, row, site) on a ring."""
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = astuple(constants)
     a, b = states[:, 0] + 1j * states[:, 1], states[:, 2] + 1j * states[:, 3]
     density = np.abs([a, b]) ** 2
     bonds = np.abs(np.array([a - np.roll(a, 1, axis=1), b - np.roll(b, 1, axis=1)])) ** 2
@@ -90,7 +95,7 @@ def ring_energies(states: np.ndarray, constants: tuple[float, float, float]) -> 
     return (on_sites - gamma * ((a - b) ** 2).real).mean(axis=1)
 
 
-def zero_energy(constants: tuple[float, float, float], halvings: int = 9) -> Thermal:
+def zero_energy(constants: Constants, halvings: int = 9) -> Thermal:
     """Return the thermal state without energy; raises ValueError where there is none.
 
     The same random numbers at every beta make the energy a smooth, falling function of it.

@@ -7,15 +7,16 @@ pulled by the growth of its leading edge is slowed by a cut (Brunet and Derrida,
 1e-150, about the least whose square is a normal double, and keeps the speed of linear spreading.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from pendula.integrators.outcome import DONE, FAULTS, Outcome
-from pendula.models.amplitudes import Chain
-from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, place
+from pendula.problem import Constants, place
+from pendula.simulation.lattice import Reduction, find_reduction, pack
 from pendula.simulation.observables import Record, blank_record
-from pendula.simulation.simulate import IntegrationError, aligned
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 from pendula.simulation.solvers import SOLVERS
 
 BLOCK, GUARD = 64, 32
@@ -31,12 +32,12 @@ class Piece(NamedTuple):
     outcome: Outcome
 
 
-def open_window(initial: dict[int, tuple[complex, complex]], half_width: int | None) -> np.ndarray:
+def open_window(initial: np.ndarray, half_width: int | None) -> np.ndarray:
     """Return the state of even data on the sites 0..W; `half_width` None is a chain without ends.
 
     Raises ValueError where the data are not even in n.
     """
-    reach = max(map(abs, initial))
+    reach = initial.shape[1] // 2
     width = reach + BLOCK if half_width is None else min(reach + BLOCK, half_width)
     amplitudes = place(initial, width)
     reduction = find_reduction(amplitudes)
@@ -62,19 +63,16 @@ def widen(state: np.ndarray, half_width: int | None, rest: float) -> np.ndarray:
     return opened
 
 
-def advance(
-    constants: tuple[float, float, float], state: np.ndarray, times: np.ndarray, solver: dict
-) -> Piece:
+def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: Mapping) -> Piece:
     """Integrate `state` in place over `times` (outputs, both ends included) on its window.
 
-    `constants` are (epsilon, gamma, omega). Raises IntegrationError where the solver gives up.
+    Raises IntegrationError where the solver gives up.
     """
     method = SOLVERS[solver["name"]]
-    ends = choose_ends("dirichlet", Reduction(even=True, synchronised=False))
     record = blank_record(state.shape[0] // 2, state.shape[1] - 2, len(times), 0)
     controls = tuple(float(solver[name]) for name in method.controls)
     work = aligned((method.work, *state.shape))
-    chain = Chain(*map(float, constants), *ends)
+    chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
     outcome = method.run(chain, state, times, controls, work, record)
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]

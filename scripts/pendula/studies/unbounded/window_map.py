@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.problem import Problem
+
 from .spread import Spread, spread
 
 START = 10.0
@@ -24,17 +26,18 @@ class WindowMap(NamedTuple):
 
 
 def window_map(
-    problem: dict,
+    problem: Problem,
+    rest: float,
     half_widths: list[int],
     ends: np.ndarray,
     progress: Callable[[str], None] = lambda message: None,
 ) -> WindowMap:
-    """Return the maxima for each of the rising `half_widths` (see `spread` for `problem`)."""
+    """Return the maxima for each of the rising `half_widths` (see `spread` for `rest`)."""
     l2, linf, arrival = [], [], []
     free = False
     for half_width in half_widths:
         if not free:
-            run = spread({**problem, "half_width": half_width})
+            run = spread(problem.changed(half_width=half_width), rest)
             free = run.width[-1] < half_width
             progress(f"half-width {half_width}: {'no end reached' if free else 'done'}")
         l2.append(maxima(run.tau, run.l2, ends))
