@@ -59,9 +59,9 @@ def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):
 
 def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    record = Path(code_records.code("figures/draw_chain.py"))
+    record = Path(code_records.code("paper/draw_chain.py"))
     before = record.stat().st_mtime_ns
-    assert code_records.code("figures/draw_chain.py") == record.as_posix()
+    assert code_records.code("paper/draw_chain.py") == record.as_posix()
     assert record.stat().st_mtime_ns == before
 
 

@@ -2,8 +2,7 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.own import figure_norms as own_norms
-from pendula.studies.own import figure_spacetime as own_spacetime
+from pendula.studies.own import figures
 
 
 def draw_case(
@@ -18,10 +17,10 @@ def draw_case(
 ) -> None:
     """Draw a trajectory with the second run of its checks, and write what was drawn."""
     trajectory = read(run)
-    drawn = own_norms.gather(trajectory, read(checks))
-    save(own_norms.draw(drawn), drawn, png, pdf, data)
-    drawn = own_spacetime.gather(trajectory)
-    save(own_spacetime.draw(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
+    drawn = figures.gather_norms(trajectory, read(checks))
+    save(figures.draw_norms(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_spacetime(trajectory)
+    save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import xarray
 from pendula.datasets.netcdf import read, save
 from pendula.drawing.style import save as save_figure
-from pendula.studies.own import figure_sweep as own_sweep
+from pendula.studies.own import figures
 from pendula.studies.theory.cases import check_sweeps
 
 
@@ -19,8 +19,8 @@ def draw_sweep(
 ) -> None:
     """Draw the maximum over one window and the mean over another; check the norms by `name`."""
     swept = read(sweep)
-    drawn = own_sweep.gather(swept, text_window, caption_window)
-    save_figure(own_sweep.draw(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_sweep(swept, text_window, caption_window)
+    save_figure(figures.draw_sweep(drawn), drawn, png, pdf, data)
     save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
 
 

@@ -3,15 +3,7 @@
 A notebook shows the figure that a cell ends with; `figure.savefig("mine.pdf")` saves it.
 """
 
-from pendula.studies.own import (
-    figure_norms as own_norms,
-)
-from pendula.studies.own import (
-    figure_spacetime as own_spacetime,
-)
-from pendula.studies.own import (
-    figure_sweep as own_sweep,
-)
+from pendula.studies.own import figures
 
 __all__ = ["draw_norms", "draw_spacetime", "draw_sweep"]
 
@@ -27,7 +19,7 @@ def draw_norms(run, checks=None):
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
     2
     """
-    return own_norms.draw(own_norms.gather(run, checks))
+    return figures.draw_norms(figures.gather_norms(run, checks))
 
 
 def draw_spacetime(run):
@@ -37,7 +29,7 @@ def draw_spacetime(run):
     >>> len(draw_spacetime(simulate(Case(omega=8, end_time=10))).axes)
     3
     """
-    return own_spacetime.draw(own_spacetime.gather(run))
+    return figures.draw_spacetime(figures.gather_spacetime(run))
 
 
 def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
@@ -50,4 +42,4 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)
     2
     """
-    return own_sweep.draw(own_sweep.gather(sweep, max_window, mean_window))
+    return figures.draw_sweep(figures.gather_sweep(sweep, max_window, mean_window))

@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.unbounded import figure_front as front
+from pendula.studies.unbounded import front_figure
 
 
 def draw_front(
@@ -12,8 +12,8 @@ def draw_front(
 
     `thermal` are the states that the sea is compared with.
     """
-    drawn = front.gather(read(omegas), read(sea), read(large), read(thermal))
-    save(front.draw(drawn), drawn, png, pdf, data)
+    drawn = front_figure.gather_front(read(omegas), read(sea), read(large), read(thermal))
+    save(front_figure.draw_front(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

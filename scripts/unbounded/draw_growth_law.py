@@ -2,15 +2,15 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.unbounded import figure_growth_law as growth_law
+from pendula.studies.unbounded import figures
 
 
 def draw_growth_law(
     runs: list[str], cases: list[str], thermal: str, png: str, pdf: str, data: str
 ) -> None:
     """Draw the runs, one of each of `cases`, and write what was drawn."""
-    drawn = growth_law.gather(dict(zip(cases, map(read, runs), strict=True)), read(thermal))
-    save(growth_law.draw(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_growth_law(dict(zip(cases, map(read, runs), strict=True)), read(thermal))
+    save(figures.draw_growth_law(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

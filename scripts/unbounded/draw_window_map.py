@@ -2,13 +2,13 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.unbounded import figure_window_map as window_map
+from pendula.studies.unbounded import figures
 
 
 def draw_window_map(maps: list[str], sweeps: list[str], png: str, pdf: str, data: str) -> None:
     """Draw the maps, one of each of `sweeps`, and write what was drawn."""
-    drawn = window_map.gather(dict(zip(sweeps, map(read, maps), strict=True)))
-    save(window_map.draw(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_window_map(dict(zip(sweeps, map(read, maps), strict=True)))
+    save(figures.draw_window_map(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ rule measure_ensembles:
 rule chaos_figures:
     "How fast small errors grow, and how evenness is lost"
     input:
-        code=code("figures/draw_chaos.py"),
+        code=code("chaos/draw_chaos.py"),
         lyapunov="results/checks/lyapunov.nc",
         symmetry="results/checks/symmetry.nc",
     output:
@@ -91,13 +91,13 @@ rule chaos_figures:
     message:
         "Drawing Lyapunov exponents, and how evenness is lost"
     script:
-        "../../scripts/figures/draw_chaos.py"
+        "../../scripts/chaos/draw_chaos.py"
 
 
 rule ensembles_figure:
     "What runs from almost equal data share, beside the paper's own"
     input:
-        code=code("figures/draw_ensembles.py"),
+        code=code("chaos/draw_ensembles.py"),
         ensembles="results/checks/ensembles.nc",
         runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
         references=references(*CHAOTIC_CASES),
@@ -114,4 +114,4 @@ rule ensembles_figure:
     message:
         "Drawing ensembles of the chaotic cases and sweeps beside the paper's runs"
     script:
-        "../../scripts/figures/draw_ensembles.py"
+        "../../scripts/chaos/draw_ensembles.py"

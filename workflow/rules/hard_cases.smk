@@ -4,7 +4,7 @@
 rule hard_cases:
     "Hard cases: digits with their error, or a refusal in words, of every solver"
     input:
-        code=code("torture/run_hard_cases.py"),
+        code=code("hard_cases/run_hard_cases.py"),
         kernels=kernels(*ALL_SOLVERS, "taylor"),
     output:
         data="results/checks/hard_cases.nc",
@@ -16,4 +16,4 @@ rule hard_cases:
     message:
         "Running the solvers on hard cases"
     script:
-        "../../scripts/torture/run_hard_cases.py"
+        "../../scripts/hard_cases/run_hard_cases.py"

@@ -4,7 +4,7 @@ import json
 # The code that makes the numbers; the report shows the hashes of their records.
 NUMBERS_BY = [
     *("trajectories/simulate_case.py", "sweeps/sweep_case.py", "theory/run_checks.py"),
-    *("theory/check_observed.py", "theory/decide_claims.py", "torture/run_hard_cases.py"),
+    *("theory/check_observed.py", "theory/decide_claims.py", "hard_cases/run_hard_cases.py"),
     *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
     *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/sample_thermal.py"),
 ]

@@ -90,7 +90,7 @@ rule claims:
 rule stability_figures:
     "Lemma 1: where the chain at rest is unstable, and how fast it leaves"
     input:
-        code=code("figures/draw_stability.py"),
+        code=code("theory/draw_stability.py"),
         chart="results/checks/chart.nc",
         short_chart="results/checks/short_chart.nc",
         windows="results/checks/windows.nc",
@@ -107,13 +107,13 @@ rule stability_figures:
     message:
         "Drawing the stability chart and the growth rates"
     script:
-        "../../scripts/figures/draw_stability.py"
+        "../../scripts/theory/draw_stability.py"
 
 
 rule bounds:
     "Theorems 1 to 3: observed norms against their bounds"
     input:
-        code=code("figures/draw_bounds.py"),
+        code=code("theory/draw_bounds.py"),
         cases="results/checks/cases.nc",
         sweeps="results/checks/sweeps.nc",
         samples="results/checks/samples.nc",
@@ -127,4 +127,4 @@ rule bounds:
     message:
         "Drawing observed norms against the bounds of the theorems"
     script:
-        "../../scripts/figures/draw_bounds.py"
+        "../../scripts/theory/draw_bounds.py"

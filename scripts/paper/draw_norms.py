@@ -1,0 +1,30 @@
+"""Figs 2 to 4: norms of A and B against time beside the true ones, and where the chain moves."""
+
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.paper import figures
+
+
+def draw_norms(
+    small: str,
+    large: str,
+    references: list[str],
+    png: str,
+    pdf: str,
+    data: str,
+    spacetime_png: str,
+    spacetime_pdf: str,
+    spacetime_data: str,
+) -> None:
+    """Draw small and large data with the true norms of `references`, and write what was drawn."""
+    trajectories = [read(small), read(large)]
+    drawn = figures.gather_norms(trajectories, [read(path) for path in references])
+    save(figures.draw_norms(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_spacetime(*trajectories)
+    save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_norms, snakemake)  # noqa: F821

@@ -1,0 +1,26 @@
+"""Figs 5 and 6: norms over a window of time against the half-width of the chain."""
+
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.paper import figures
+
+
+def draw_sweeps(
+    left: str,
+    right: str,
+    text_window: str,
+    caption_window: str,
+    norms: list[str],
+    png: str,
+    pdf: str,
+    data: str,
+) -> None:
+    """Draw two sweeps, read as the text and as the caption say, and write what was drawn."""
+    drawn = figures.gather_sweeps(read(left), read(right), text_window, caption_window, norms)
+    save(figures.draw_sweeps(drawn), drawn, png, pdf, data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_sweeps, snakemake)  # noqa: F821

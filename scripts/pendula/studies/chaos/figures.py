@@ -1,0 +1,279 @@
+"""Chaos in pictures: exponents, how evenness is lost, and ensembles beside the paper's runs."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pendula.drawing import panels, style
+from pendula.measures.divergence import is_of_same_case
+
+COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
+"""By detuning, of different lightness."""
+WIDTHS = {"small": 0.7, "large": 1.5}
+DASHES = {"even": (None, None), "odd": (3, 1.5)}
+MARKERS = ["o", "s", "^", "D"]
+DRAWN = ["running", "exponent", "running_spectrum", "spectrum", "spectrum_error"]
+DRAWN += ["parting_predicted", "parting_measured", "omega", "initial"]
+LIGHT = "#f2a15f"
+BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
+MEDIAN = {"color": style.RED, "lw": 1.3}
+MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
+OWN = {"color": style.BLUE, "lw": 0.6}
+TRUE = {"color": "black", "lw": 0.6}
+OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
+NORM = r"$\ell^2$ norm"
+
+
+def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
+    """Return what is drawn: rates on their way, the spectra, and parting times."""
+    later = lyapunov.isel(tau=slice(1, None))
+    running = later["stretch"] / later["tau"]
+    running.attrs = {"long_name": "mean rate of growth since the start", "units": "tau-1"}
+    data = later.assign(running=running)[DRAWN]
+    return data.assign_attrs(spectrum_half_width=lyapunov.attrs["spectrum_half_width"])
+
+
+@style.styled
+def draw_lyapunov(data: xr.Dataset) -> Figure:
+    """Draw the rates of growth against time, all exponents of short chains, and parting times."""
+    figure = style.new_figure(style.DOUBLE, 3.1)
+    running, spectrum, parting = figure.subplots(1, 3, width_ratios=(1.25, 1, 1))
+    _draw_running(running, data)
+    _draw_spectrum(spectrum, data)
+    _draw_parting(parting, data)
+    figure.legend(handles=_lyapunov_legend(data), loc="outside upper center", ncols=4)
+    return figure
+
+
+def _look(data: xr.Dataset, case: str) -> dict:
+    colour = COLOURS.get(float(data["omega"].sel(case=case)), "0.5")
+    return {"color": colour, "lw": WIDTHS.get(str(case).rpartition("_")[2], 1.0)}
+
+
+def _marked(data: xr.Dataset, case: str) -> dict:
+    """Return the same with a dot, hollow for small data."""
+    look = _look(data, case)
+    face = look["color"] if look["lw"] > 1 else "white"
+    return {**look, "marker": "o", "markersize": 4, "markerfacecolor": face}
+
+
+def _draw_running(axes: Axes, data: xr.Dataset) -> None:
+    for case in data["case"].values:
+        for parity in data["parity"].values:
+            curve = data["running"].sel(case=case, parity=parity)
+            shown = abs(curve.isel(tau=_evenly_on_log(curve["tau"])))
+            axes.plot(shown["tau"], shown, dashes=DASHES[parity], **_look(data, case))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(1, float(data["tau"].max()))
+    axes.set_ylim(3e-4, 5)
+    axes.set_xlabel(r"$\tau$")
+    axes.set_ylabel("mean rate of growth (per unit of $\\tau$)")
+    axes.set_title("one small change", loc="left")
+
+
+def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
+    """Return where to sample equal steps of time so that a logarithmic axis is not crowded."""
+    return np.unique(np.geomspace(1, tau.size, count).round().astype(int)) - 1
+
+
+def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
+    for marker, case in zip(MARKERS, data["spectrum_case"].values, strict=False):
+        rates = data["spectrum"].sel(spectrum_case=case)
+        colour = _look(data, case)["color"]
+        look = {"color": colour, "marker": marker, "markersize": 2.8, "linestyle": "none"}
+        omega = float(data["omega"].sel(case=case))
+        axes.plot(rates["index"], rates, label=rf"$\Omega = {omega:g}$", **look)
+    axes.axhline(0.0, color="0.5", lw=0.6)
+    half_width = data.attrs["spectrum_half_width"]
+    axes.set_title(f"all changes, $M = {half_width}$", loc="left")
+    axes.set_xlabel("number of the exponent")
+    axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
+    axes.legend(loc="upper right", handletextpad=0.1)
+
+
+def _draw_parting(axes: Axes, data: xr.Dataset) -> None:
+    tops = [1.0]
+    for case in data["case"].values:
+        predicted = data["parting_predicted"].sel(case=case)
+        measured = data["parting_measured"].sel(case=case)
+        look = _marked(data, case) | {"linestyle": "none"}
+        for marker, rtol in zip(MARKERS, data["rtol"].values, strict=False):
+            point = predicted.sel(rtol=rtol), measured.sel(rtol=rtol)
+            axes.plot(*point, **look | {"marker": marker})
+            tops.append(np.nanmax([1.0, *map(float, point)]))
+    top = 1.1 * max(tops)
+    axes.plot([0, top], [0, top], color="black", lw=0.8)
+    axes.set_xlim(0, top)
+    axes.set_ylim(0, top)
+    axes.set_xlabel(r"parting predicted ($\tau$)")
+    axes.set_ylabel(r"parting measured ($\tau$)")
+    axes.set_title("runs parted by 1 %", loc="left")
+    handles = [
+        Line2D([], [], marker=marker, color="0.3", linestyle="none", markersize=4, label=_power(t))
+        for marker, t in zip(MARKERS, data["rtol"].values, strict=False)
+    ]
+    axes.legend(handles=handles, title="tolerance", loc="lower right", handletextpad=0.1)
+
+
+def _power(tolerance: float) -> str:
+    return rf"$10^{{{round(np.log10(tolerance))}}}$"
+
+
+def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
+    cases = [
+        Line2D([], [], label=style.name_case(data.sel(case=case)), **_marked(data, case))
+        for case in data["case"].values
+    ]
+    parities = [
+        Line2D([], [], color="0.3", lw=1, dashes=dashes, label=f"{parity} in $n$")
+        for parity, dashes in DASHES.items()
+    ]
+    return cases + parities
+
+
+def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
+    """Return the odd parts, and what the odd tangent dynamics makes of the same perturbation."""
+    stretch = lyapunov["stretch"].sel(parity="odd", drop=True)
+    size = lyapunov["size"]
+    log = stretch + np.log(symmetry.attrs["perturbation"] * size.isel(tau=0, drop=True) / size)
+    predicted = np.exp(log.clip(max=0.0)).sel(tau=log["tau"] <= float(symmetry["tau"].max()))
+    predicted.attrs = {"long_name": "odd part predicted by tangent dynamics", "units": "1"}
+    names = ["rounded", "perturbed", "omega", "initial"]
+    # on a time of its own, coarser than that of the runs
+    return symmetry[names].assign(predicted=predicted.rename(tau="predicted_tau"))
+
+
+@style.styled
+def draw_symmetry(data: xr.Dataset) -> Figure:
+    """Draw one panel a case: rounding alone, odd perturbations, and their predicted growth."""
+    return panels.draw_cases(data, _draw_odd_part, r"odd part / whole, $\ell^2$ norms")
+
+
+def _draw_odd_part(axes: Axes, case: xr.Dataset) -> None:
+    for member in range(case.sizes["member"]):
+        curve = panels.positive(case["perturbed"].isel(member=member))
+        label = "from odd perturbations" if member == 0 else None
+        axes.plot(curve["tau"], curve, color=LIGHT, lw=0.6, label=label)
+    curve = panels.positive(case["rounded"])
+    axes.plot(curve["tau"], curve, color=style.BLUE, lw=1, label="by rounding alone")
+    look = {"color": "black", "lw": 0.9, "dashes": (3, 1.5)}
+    axes.plot(case["predicted_tau"], case["predicted"], label="tangent dynamics", **look)
+    axes.set_xlim(0, float(case["tau"].max()))
+    axes.set_ylim(1e-17, 10)
+
+
+def gather_ensembles(
+    ensembles: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
+    sweeps: Mapping[str, xr.Dataset],
+    windows: Mapping[str, str],
+) -> xr.Dataset:
+    """Return the pair's bands and swept maxima, and the same of the paper's runs, by name.
+
+    The true runs of the same cases stand beside them, and how long each run is within its band.
+    `windows` names the window of each sweep, such as "[10, 50]".
+    """
+    pair = ensembles.sel(quantity="pair", drop=True)
+    names = xr.Variable("case", list(runs), ensembles["case"].attrs)
+    known = [
+        references[case].where(is_of_same_case(run, references[case])) for case, run in runs.items()
+    ]
+    run, true = (_norms_of(pair, names, data) for data in (runs.values(), known))
+    run.attrs = {"long_name": "l2 norm of the paper's run", "units": "1"}
+    true.attrs = {"long_name": "l2 norm of the true run", "units": "1"}
+    swept = [_read_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
+    swept = style.join(swept, list(windows), "sweep", "sweep")
+    swept = swept.rename(omega="swept_omega", initial="swept_initial")
+    cases = pair[["l2", "omega", "initial"]].assign(run=run, true=true)
+    cases["run_inside"], cases["true_inside"] = (_inside(pair, norm) for norm in (run, true))
+    return xr.merge([cases, swept])
+
+
+def _norms_of(pair: xr.Dataset, names: xr.Variable, runs) -> xr.DataArray:
+    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
+    return xr.concat(norms, names, join="outer").reindex(tau=pair["tau"], method="nearest")
+
+
+def _inside(pair: xr.Dataset, norm: xr.DataArray) -> xr.DataArray:
+    """Return the part of the later half of the time in which a norm is within the wider band."""
+    low, high = (pair["l2"].sel(quantile=quantile) for quantile in BANDS[0][0])
+    inside = ((norm >= low) & (norm <= high)).where(norm.notnull())
+    late = inside.sel(tau=slice(float(pair["tau"].max()) / 2, None)).mean("tau")
+    name = f"part of the later half that {norm.attrs['long_name']} is within 5 to 95 %"
+    return late.drop_vars("quantile", errors="ignore").assign_attrs(long_name=name, units="1")
+
+
+def _read_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:
+    at = {"statistic": "max", "window": window, "drop": True}
+    data = pair[["l2_mean", "l2_deviation"]].sel(sweep=name, **at)
+    run = own["l2"].sel(quantity="pair", **at).reindex(half_width=data["half_width"])
+    data["swept_run"] = run.assign_attrs(long_name="maximum of the paper's run", units="1")
+    data["swept_window"] = xr.Variable(
+        (), window, {"long_name": "window of the maximum", "units": "1"}
+    )
+    return data.assign_attrs({key: own.attrs[key] for key in ("omega", "initial")})
+
+
+@style.styled
+def draw_ensembles(data: xr.Dataset) -> Figure:
+    """Draw bands of the norms of each case above, and the swept maxima below."""
+    figure = style.new_figure(style.DOUBLE, 4.4)
+    rows = figure.add_gridspec(2, 1)
+    above = rows[0].subgridspec(1, data.sizes["case"]).subplots(sharey=True, squeeze=False)[0]
+    below = rows[1].subgridspec(1, data.sizes["sweep"]).subplots(squeeze=False)[0]
+    for axes, case in zip(above, data["case"].values, strict=True):
+        _draw_bands(axes, data.sel(case=case))
+    for axes, name in zip(below, data["sweep"].values, strict=True):
+        _draw_sweep(axes, data.sel(sweep=name))
+    above[0].set_ylabel(NORM)
+    above[0].set_ylim(bottom=0)
+    figure.legend(handles=_ensembles_legend(), loc="outside upper center", ncols=3)
+    return figure
+
+
+def _draw_bands(axes: Axes, case: xr.Dataset) -> None:
+    for (low, high), colour in BANDS:
+        edges = (case["l2"].sel(quantile=quantile) for quantile in (low, high))
+        axes.fill_between(case["tau"], *edges, color=colour, lw=0)
+    axes.plot(case["tau"], case["l2"].sel(quantile=0.5), **MEDIAN)
+    axes.plot(case["tau"], case["true"], **TRUE)
+    axes.plot(case["tau"], case["run"], **OWN)
+    axes.set_xlim(0, float(case["tau"].max()))
+    axes.set_xlabel(r"$\tau$")
+    axes.set_title(style.name_case(case), loc="left")
+
+
+def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
+    axes.errorbar(
+        sweep["half_width"], sweep["l2_mean"], sweep["l2_deviation"],
+        elinewidth=0.8, capsize=2, **MEAN,
+    )  # fmt: skip
+    axes.plot(sweep["half_width"], sweep["swept_run"], **OWN_DOT)
+    panels.half_width_axis(axes)
+    tops = sweep["l2_mean"] + sweep["l2_deviation"], sweep["swept_run"]
+    axes.set_ylim(0, 1.08 * max(float(top.max()) for top in tops))
+    axes.set_xlabel("half-width $M$")
+    axes.set_ylabel(f"largest {NORM} on {sweep['swept_window'].item()}")
+    labels = {"swept_omega": "omega", "swept_initial": "initial"}
+    axes.set_title(style.name_case(sweep[list(labels)].rename(labels)), loc="left")
+
+
+def _ensembles_legend() -> list:
+    bands = [
+        Patch(color=colour, label=f"{100 * low:g} to {100 * high:g} % of the ensemble")
+        for (low, high), colour in BANDS
+    ]
+    return [
+        *bands,
+        Line2D([], [], label="median", **MEDIAN),
+        Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2}),
+        Line2D([], [], label="mean and standard deviation", **MEAN),
+        Line2D([], [], label="one run by the paper's solver", **{**OWN_DOT, "linestyle": "-"}),
+    ]

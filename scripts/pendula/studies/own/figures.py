@@ -1,0 +1,121 @@
+"""Cases and sweeps of one's own in pictures: as the paper's, with every parameter in the titles."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pendula.drawing import panels, style
+from pendula.drawing.panels import NORMS, Below
+from pendula.measures.divergence import LEVELS
+
+FEW = 8
+"""So many half-widths all find room below a panel."""
+
+SECOND = Below("second", "second run,", f"the runs part by {100 * LEVELS['visible']:g} %")
+ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
+LONGEST = 46
+"""A formula of at most so many characters leaves room for the rest of a title."""
+
+
+def name_parameters(attributes: Mapping) -> str:
+    """Return the constants of the equations, and the half-width where there is only one."""
+    symbols = {"omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M"}
+    known = {symbol: attributes[key] for key, symbol in symbols.items() if key in attributes}
+    return ",  ".join(f"${symbol} = {float(value):.4g}$" for symbol, value in known.items())
+
+
+def name_data(attributes: Mapping) -> str:
+    """Return the initial data, where they fit into the title of a panel."""
+    named = style.name_initial(attributes["initial"])
+    return named if len(named) <= LONGEST else "data on 1 site"
+
+
+def name_data_and_ends(attributes: Mapping) -> str:
+    """Return the initial data and the kind of ends."""
+    return f"{name_data(attributes)},  {ENDS[attributes['boundary']]}"
+
+
+def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
+    """Return the norms of a trajectory, beside the second run that its checks hold."""
+    drawn = run[["linf", "l2"]]
+    if checks is None:
+        return drawn
+    second = {f"second_{name}": checks[f"second_{name}"] for name in NORMS}
+    return drawn.assign(second | {"divergence_time": checks["parting"]})
+
+
+@style.styled
+def draw_norms(data: xr.Dataset) -> Figure:
+    """Draw l-infinity left and l2 right, A red and B blue.
+
+    The second run is drawn only where the two runs diverge: elsewhere it would lie hidden.
+    """
+    figure = style.new_figure(style.DOUBLE, 2.5)
+    if "divergence_time" not in data or not np.isfinite(data["divergence_time"]):
+        data = data[list(NORMS)]
+    row = figure.subplots(1, 2, sharex=True)
+    for axes, name in zip(row, NORMS, strict=True):
+        panels.draw_norm(axes, data, name, SECOND)
+        axes.set_xlabel(r"$\tau$")
+    row[0].set_title(name_parameters(data.attrs), loc="left")
+    row[1].set_title(name_data_and_ends(data.attrs), loc="left")
+    style.name_legend(figure, row[0])
+    return figure
+
+
+def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
+    """Return the moduli of a trajectory over the times of its snapshots."""
+    if "modulus" not in run:
+        raise ValueError("the run keeps no moduli: give its case a snapshot_step")
+    return panels.over_time(run)
+
+
+@style.styled
+def draw_spacetime(data: xr.Dataset) -> Figure:
+    """Draw |A_n| left and |B_n| right, on one scale of colours."""
+    figure = style.new_figure(style.DOUBLE, 2.5)
+    row = figure.subplots(1, 2, sharex=True, sharey=True)
+    panels.draw_moduli(figure, row, data, [name_parameters(data.attrs), name_data(data.attrs)])
+    for axes in row:
+        axes.set_xlabel(r"$\tau$")
+    row[0].set_ylabel("site $n$")
+    return figure
+
+
+def gather_sweep(
+    sweep: xr.Dataset, max_window: str | None = None, mean_window: str | None = None
+) -> xr.Dataset:
+    """Return the pair's maximum over one window of time and its mean over another.
+
+    Both are taken over the sweep's first window where none is given.
+    """
+    first = str(sweep["window"].values[0])
+    windows = max_window or first, mean_window or first
+    return panels.join_sweeps({"sweep": sweep}, *windows, list(NORMS)).assign_attrs(sweep.attrs)
+
+
+@style.styled
+def draw_sweep(data: xr.Dataset) -> Figure:
+    """Draw l-infinity left, blue squares, and l2 right, red dots; means are hollow."""
+    figure = style.new_figure(style.DOUBLE, 2.7)
+    row = figure.subplots(1, 2, sharex=True)
+    for axes, name in zip(row, NORMS, strict=True):
+        panels.draw_sweep(axes, data.isel(panel=0).drop_vars([n for n in NORMS if n != name]))
+    _mark_widths(row[0], data["half_width"].values)
+    row[0].set_title(name_parameters(data.attrs), loc="left")
+    row[1].set_title(name_data_and_ends(data.attrs), loc="left")
+    entries = panels.sweep_legend(data)
+    by_panel = sorted(entries, key=lambda entry: entry.get_color() == style.COLOURS["l2"])
+    figure.legend(handles=by_panel, loc="outside upper center", ncols=4, columnspacing=1.2)
+    return figure
+
+
+def _mark_widths(axes: Axes, widths: np.ndarray) -> None:
+    """Mark the half-widths themselves where they are few; a logarithm has no place for zero."""
+    if widths.min() == 0:
+        axes.set_xscale("linear")
+    if len(widths) <= FEW or widths.min() == 0:
+        axes.set_xticks(widths[:: -(-len(widths) // FEW)])

@@ -1,0 +1,32 @@
+"""Lemma 1: the stability chart, and measured growth rates against predicted ones."""
+
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.theory import figures
+
+
+def draw_stability(
+    chart: str,
+    short_chart: str,
+    windows: str,
+    threshold: str,
+    points: list[tuple[float, float]],
+    png: str,
+    pdf: str,
+    data: str,
+    growth_png: str,
+    growth_pdf: str,
+    growth_data: str,
+) -> None:
+    """Draw the chart with the paper's `points` (Omega, gamma), and the growth rates."""
+    charts = read(chart), read(short_chart)
+    drawn = figures.gather_chart(*charts, read(windows), points)
+    save(figures.draw_chart(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_rates(*charts, read(threshold))
+    save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw_stability, snakemake)  # noqa: F821

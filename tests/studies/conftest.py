@@ -1,0 +1,144 @@
+"""Small made-up datasets of the form that the simulations write: the plots need no simulation."""
+
+import made_up_chaos
+import numpy as np
+import pytest
+import xarray as xr
+from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
+from made_up_unbounded import spread, thermal, window_map
+
+HALF_WIDTHS = [5, 10, 20]
+PARAMETERS = {
+    "epsilon": 1.0,
+    "gamma": 1.0,
+    "half_width": 2,
+    "boundary": "dirichlet",
+    "output_step": 0.5,
+    "initial": '{"0": [1.0, 0.1]}',
+}
+WINDOWS = ["[10, 50]", "[10, 70]", "[10, 40]"]
+
+
+def variable(dims, values, name):
+    return dims, values, {"long_name": name, "units": "1"}
+
+
+@pytest.fixture(scope="session")
+def make_trajectory():
+    """Return a function: a trajectory of 11 times, 5 sites, whose curves grow like `scale`."""
+
+    def make(case="fig2_small", omega=8.0, scale=1.0, solver="ode45", end_time=5.0):
+        tau = np.linspace(0, end_time, 11)
+        norms = scale * np.array([2 + np.cos(tau), 1 + np.sin(tau) ** 2])
+        modulus = norms[:, None, ::2] * np.exp(-np.abs(np.arange(-2, 3)))[None, :, None]
+        return xr.Dataset(
+            {
+                "linf": variable(("component", "tau"), norms, "l-infinity norm"),
+                "l2": variable(("component", "tau"), 3 * norms, "l2 norm"),
+                "energy": variable("tau", 7 - 1e-7 * scale * tau, "energy"),
+                "modulus": variable(("component", "site", "snapshot"), modulus, "modulus"),
+                "snapshot_tau": variable("snapshot", tau[::2], "slow time of the snapshots"),
+            },
+            {
+                "tau": variable("tau", tau, "slow time"),
+                "component": variable("component", ["A", "B"], "component"),
+                "site": variable("site", np.arange(-2, 3), "site"),
+            },
+            PARAMETERS | {"case": case, "omega": omega, "solver": solver},
+        )
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def trajectories(make_trajectory):
+    """Return two cases by three solvers, of which Crank-Nicolson is 2 % off from the start."""
+    scales = {"ode45": 1.001, "crank_nicolson": 1.02, "dop853": 1.0}
+    return {
+        (case, solver): make_trajectory(case, scale=scale, solver=solver)
+        for case in ("fig2_small", "fig2_large")
+        for solver, scale in scales.items()
+    }
+
+
+@pytest.fixture(scope="session")
+def make_sweep():
+    """Return a function: a sweep whose every number tells where in the dataset it stands."""
+
+    def make(omega=-4.0):
+        dims = ("half_width", "quantity", "statistic", "window")
+        coordinates = (HALF_WIDTHS, ["A", "B", "pair"], ["max", "mean"], WINDOWS)
+        shape = tuple(len(values) for values in coordinates)
+        l2 = 1.0 + np.arange(np.prod(shape)).reshape(shape)
+        return xr.Dataset(
+            {"l2": variable(dims, l2, "l2 norm"), "linf": variable(dims, l2 / 100, "linf norm")},
+            {
+                dim: variable(dim, values, dim)
+                for dim, values in zip(dims, coordinates, strict=True)
+            },
+            {key: PARAMETERS[key] for key in ("epsilon", "gamma", "boundary", "initial")}
+            | {"omega": omega},
+        )
+
+    return make
+
+
+def own_checks(second):
+    """Return of a case's checks what its figure shows: a second run, and when they part."""
+    norms = second[["linf", "l2"]].rename(linf="second_linf", l2="second_l2")
+    return norms.assign(parting=variable((), 2.0, "first tau at which the runs differ"))
+
+
+@pytest.fixture(scope="session")
+def gathered(make_trajectory, trajectories, make_sweep):
+    """Return what every figure draws, by the name of the figure."""
+    from pendula.studies.chaos import figures as chaos
+    from pendula.studies.own import figures as own
+    from pendula.studies.paper import chain_figure, figures, solver_figures
+    from pendula.studies.theory import bounds_figure
+    from pendula.studies.theory import figures as theory
+    from pendula.studies.unbounded import figures as unbounded
+    from pendula.studies.unbounded import front_figure
+
+    pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
+    true = make_trajectory(end_time=5.0, scale=1.02)
+    panels = (make_sweep(-4.0), make_sweep(0.0))
+    long, short = chart(), short_chart()
+    references = {"fig2_small": true, "fig2_large": true}
+    maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
+    points = [(8, 1), (-4, 1), (0, 1)]
+    return {
+        "agreement": solver_figures.gather_agreement(trajectories),
+        "chain": chain_figure.gather(),
+        "drift": solver_figures.gather_drift(trajectories),
+        "norms": figures.gather_norms(pair, [true, true]),
+        "spacetime": figures.gather_spacetime(*pair),
+        "own_norms": own.gather_norms(pair[0], own_checks(true)),
+        "own_spacetime": own.gather_spacetime(pair[0]),
+        "own_sweep": own.gather_sweep(panels[0], mean_window="[10, 40]"),
+        "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]"),
+        "stability_chart": theory.gather_chart(long, short, windows(), points),
+        "growth_rates": theory.gather_rates(long, short, threshold()),
+        "trust": solver_figures.gather_trust(trajectories, references),
+        "bounds": bounds_figure.gather_bounds(cases(), sweeps(), samples(), worst()),
+        "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
+        "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
+        "ensembles": chaos.gather_ensembles(
+            made_up_chaos.ensembles(),
+            dict(zip(made_up_chaos.CASES, pair, strict=True)),
+            dict(zip(made_up_chaos.CASES, pair, strict=True)),
+            dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
+            dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
+        ),
+        "growth_law": unbounded.gather_growth_law(
+            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))},
+            thermal(),
+        ),
+        "front": front_figure.gather_front(
+            spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
+            spread(0.5),
+            spread(0.5, omegas=(-4.0,)),
+            thermal(),
+        ),
+        "window_map": unbounded.gather_window_map(maps),
+    }

@@ -1,0 +1,72 @@
+"""The figures of one's own cases and sweeps."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.drawing import style
+from pendula.studies.own import figures
+
+
+def test_norms_stand_in_one_row_above_the_second_run(gathered, make_trajectory):
+    figure = figures.draw_norms(gathered["own_norms"])
+    run = make_trajectory()
+    for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
+        lines = axes.get_lines()
+        assert [line.get_color() for line in lines[2:4]] == [style.RED, style.BLUE]
+        for line, component in zip(lines[2:4], ["A", "B"], strict=True):
+            assert np.array_equal(line.get_ydata(), run[name].sel(component=component))
+        assert lines[4].get_xdata() == [2.0]
+        assert axes.get_xlabel() == r"$\tau$"
+
+
+def test_titles_say_every_parameter(gathered):
+    left, right = figures.draw_norms(gathered["own_norms"]).axes
+    for sign, value in {r"\Omega": 8, r"\gamma": 1, r"\epsilon": 1, "M": 2}.items():
+        assert f"${sign} = {value}$" in left.get_title("left")
+    assert right.get_title("left") == "$(A_{0}, B_{0}) = (1, 0.1)$,  ends at rest"
+
+
+def test_one_site_fills_its_picture(make_trajectory):
+    run = make_trajectory().isel(site=[2])
+    figure = figures.draw_spacetime(figures.gather_spacetime(run))
+    assert figure.axes[0].images[0].get_extent() == [-0.5, 5.5, -0.5, 0.5]
+
+
+def test_a_sweep_has_a_panel_for_each_norm(gathered, make_sweep):
+    figure = figures.draw_sweep(gathered["own_sweep"])
+    sweep = make_sweep().sel(quantity="pair")
+    for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
+        full, hollow = (line.get_ydata() for line in axes.get_lines())
+        assert np.array_equal(full, sweep[name].sel(statistic="max", window="[10, 50]"))
+        assert np.array_equal(hollow, sweep[name].sel(statistic="mean", window="[10, 40]"))
+        assert list(axes.get_xticks()) == [5, 10, 20]
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert ["infty" in label for label in labels] == [True, True, False, False]
+
+
+@pytest.mark.parametrize("initial", ['{"-12": [1.234567, "-0.3456789+0.456789j"]}', "{}"])
+def test_titles_stay_within_their_panels(make_trajectory, initial):
+    run = make_trajectory(omega=-12.34567).assign_attrs(initial=initial, gamma=0.12345)
+    drawn = [
+        figures.draw_norms(figures.gather_norms(run)),
+        figures.draw_spacetime(figures.gather_spacetime(run)),
+    ]
+    for figure in drawn:
+        assert figure.get_tightbbox().x1 <= figure.bbox_inches.x1
+
+
+@pytest.mark.parametrize("widths", [[0, 1, 2], list(range(0, 60, 3)), [7, 9, 11]])
+def test_every_half_width_is_on_the_axis(make_sweep, widths):
+    sweep = make_sweep().isel(half_width=[0] * len(widths))
+    sweep = sweep.assign_coords(half_width=("half_width", widths, {"long_name": "M", "units": "1"}))
+    axes = figures.draw_sweep(figures.gather_sweep(sweep)).axes[0]
+    low, high = axes.get_xlim()
+    assert low <= min(widths) and max(widths) <= high
+    shown = [tick for tick in axes.get_xticks() if low <= tick <= high]
+    assert 2 <= len(shown) <= 10
+    assert axes.get_xscale() == ("linear" if 0 in widths else "log")
+
+
+def test_checks_of_another_run_are_no_part_of_the_data(make_trajectory):
+    drawn = figures.gather_norms(make_trajectory())
+    assert isinstance(drawn, xr.Dataset) and set(drawn.data_vars) == {"linf", "l2"}

@@ -1,0 +1,174 @@
+# The paper's Figs 1 to 6, the chain in motion beside them, and its solvers side by side.
+# Every figure is written as PNG and PDF, with the data that it shows as netCDF.
+
+
+rule fig1:
+    "Fig 1: the chain of coupled pendula pairs"
+    input:
+        code=code("paper/draw_chain.py"),
+    output:
+        **figure("fig1"),
+    log:
+        "results/logs/figures/fig1.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Drawing Fig 1, the chain of pendula pairs"
+    script:
+        "../../scripts/paper/draw_chain.py"
+
+
+rule fig2:
+    "Figs 2, 3 and 4: norms against time at Omega = 8, -4 and 0"
+    input:
+        code=code("paper/draw_norms.py"),
+        small="results/trajectories/fig2_small.nc",
+        large="results/trajectories/fig2_large.nc",
+        references=references("fig2_small", "fig2_large"),
+    output:
+        **figure("fig2"),
+        **figure("fig2_spacetime", "spacetime_"),
+    log:
+        "results/logs/figures/fig2.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Drawing Fig 2, norms against time at Omega = 8"
+    script:
+        "../../scripts/paper/draw_norms.py"
+
+
+use rule fig2 as fig3 with:
+    input:
+        code=code("paper/draw_norms.py"),
+        small="results/trajectories/fig3_small.nc",
+        large="results/trajectories/fig3_large.nc",
+        references=references("fig3_small", "fig3_large"),
+    output:
+        **figure("fig3"),
+        **figure("fig3_spacetime", "spacetime_"),
+    log:
+        "results/logs/figures/fig3.log",
+    message:
+        "Drawing Fig 3, norms against time at Omega = -4"
+
+
+use rule fig2 as fig4 with:
+    input:
+        code=code("paper/draw_norms.py"),
+        small="results/trajectories/fig4_small.nc",
+        large="results/trajectories/fig4_large.nc",
+        references=references("fig4_small", "fig4_large"),
+    output:
+        **figure("fig4"),
+        **figure("fig4_spacetime", "spacetime_"),
+    log:
+        "results/logs/figures/fig4.log",
+    message:
+        "Drawing Fig 4, norms against time at Omega = 0"
+
+
+rule fig5:
+    "Figs 5 and 6: norms against half-width, for small and for large data"
+    input:
+        code=code("paper/draw_sweeps.py"),
+        left="results/sweeps/fig5_left.nc",
+        right="results/sweeps/fig5_right.nc",
+    output:
+        **figure("fig5"),
+    log:
+        "results/logs/figures/fig5.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **drawn_windows("fig5_left"),
+        norms=["l2", "linf"],
+    message:
+        "Drawing Fig 5, norms against half-width for small data"
+    script:
+        "../../scripts/paper/draw_sweeps.py"
+
+
+use rule fig5 as fig6 with:
+    input:
+        code=code("paper/draw_sweeps.py"),
+        left="results/sweeps/fig6_left.nc",
+        right="results/sweeps/fig6_right.nc",
+    output:
+        **figure("fig6"),
+    log:
+        "results/logs/figures/fig6.log",
+    params:
+        **drawn_windows("fig6_left"),
+        norms=["l2"],
+    message:
+        "Drawing Fig 6, norms against half-width for large data"
+
+
+rule solver_figures:
+    "How well each solver conserves the energy, and until when they draw the same curves"
+    input:
+        code=code("paper/draw_solvers.py"),
+        trajectories=expand(
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=COMPARED
+        ),
+    output:
+        **figure("energy_drift", "energy_"),
+        **figure("solver_agreement"),
+    log:
+        "results/logs/figures/solvers.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=COMPARED,
+    message:
+        "Drawing how the solvers conserve the energy, and until when they agree"
+    script:
+        "../../scripts/paper/draw_solvers.py"
+
+
+rule solver_table:
+    "The same in numbers, with the sweeps: results/tables/solvers.md"
+    input:
+        code=code("paper/tabulate_solvers.py"),
+        energy="results/figures/energy_drift.nc",
+        agreement="results/figures/solver_agreement.nc",
+        first=expand("results/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS),
+        second=expand("results/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
+    output:
+        table="results/tables/solvers.md",
+    log:
+        "results/logs/tables/solvers.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        sweeps=PAPER_SWEEPS,
+    message:
+        "Tabling energy drift and agreement of the solvers"
+    script:
+        "../../scripts/paper/tabulate_solvers.py"
+
+
+rule trust_horizons:
+    "When each solver's norms leave the multiprecision reference"
+    input:
+        code=code("paper/draw_trust.py"),
+        trajectories=expand(
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
+        ),
+        references=references(*PAPER_CASES),
+    output:
+        **figure("trust_horizons"),
+        table="results/tables/trust.md",
+    log:
+        "results/logs/trust/horizons.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=ALL_SOLVERS,
+    message:
+        "Judging until when each solver's trajectories can be trusted"
+    script:
+        "../../scripts/paper/draw_trust.py"
