@@ -11,7 +11,7 @@ from pendula.problem import Constants, Problem
 from .feasibility import find_obstacle
 from .lattice import Reduction, choose_ends, find_reduction, pack, spread, unpack
 from .observables import Record, blank_record
-from .schema import SOLVERS
+from .solvers import SOLVERS
 
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and by what it multiplies one to get the next."""

@@ -6,8 +6,8 @@ from pendula.datasets.netcdf import Variable
 from pendula.problem import Problem, name_window
 from pendula.simulation.sweep import QUANTITIES, STATISTICS
 
+from .cases import describe_cases
 from .ensembles import QUANTILES, bands, moments, run_members, sweep_members
-from .schema import describe_cases
 
 NORMS = {"l2": "l2", "linf": "l-infinity"}
 MOMENTS = {

@@ -5,8 +5,8 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.problem import Problem
 
+from .cases import describe_cases
 from .parting import first_above
-from .schema import describe_cases
 from .symmetry import BROKEN, GROWING, break_symmetry, growth_between
 
 

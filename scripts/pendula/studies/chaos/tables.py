@@ -6,9 +6,9 @@ from pendula.datasets.netcdf import Variable
 from pendula.problem import Problem
 
 from . import parting
+from .cases import describe_cases
 from .changes import PARITIES
 from .lyapunov import exponents, follow_all, follow_parity, spread_of
-from .schema import describe_cases
 
 RATE = "tau-1"
 SAMPLED = 4  # every so many orthonormalisations the spectrum on its way is kept

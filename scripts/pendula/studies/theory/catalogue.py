@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .cases import check_not_shown
 from .conservation import check_conservation
 from .errata import (
     check_energy_drift,
@@ -18,7 +19,6 @@ from .linear import check_windows
 from .newton import check_expansion
 from .pt_symmetry import check_pt_form
 from .sampling import check_samples
-from .schema import check_not_shown
 from .spectrum import check_dispersion
 from .stability import check_chart, check_measured_windows
 from .threshold import check_threshold
