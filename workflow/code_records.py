@@ -1,11 +1,11 @@
 """Which code and which committed data a job depends on, by content.
 
 Snakemake does not see a change in a module that a script imports. So each rule takes as input a
-record of its script, of all modules that it imports, of what else lies in their packages (such as
-templates) and of the pinned packages, with their hashes, in results/code/. A record is written only
-when its content changes: editing a module reruns what imports it, while touching files, or cloning
-the project anew beside finished results, reruns nothing. Committed data are copied in the same way:
-their paths do not change with the clone.
+record of its script, of all modules that it imports, of the templates and styles beside them, and
+of the pinned packages, with their hashes, in results/code/. A record is written only when its
+content changes: editing a module reruns what imports it, while touching files, or cloning the
+project anew beside finished results, reruns nothing. Committed data are copied in the same way,
+since their paths would change with the clone.
 """
 
 import os
@@ -15,9 +15,8 @@ from pendula.archive.contents import code_files
 from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
 
 ROOT = SCRIPTS.parent
-RECORDS, COPIES = Path("results/code"), Path("results/truth")
-handed_out: set[str] = set()
-"""Every record and copy that a rule has asked for: an archive needs them all."""
+RECORDS, COPIES, KEPT = (Path("results") / name for name in ("code", "truth", "kept"))
+_handed_out: set[str] = set()
 
 
 def code(script: str) -> str:
@@ -29,7 +28,10 @@ def code(script: str) -> str:
 
 
 def whole_project() -> str:
-    """Return the path of the record for all files of the project, brought up to date."""
+    """Return the path of the record for all files of the project, brought up to date.
+
+    Raises ArchiveError, which says the way out, where it is not known which files these are.
+    """
     files = [ROOT / name for name in code_files(ROOT)]
     return _keep(RECORDS / "whole_project.txt", _lines(files))
 
@@ -41,21 +43,27 @@ def committed(file: str) -> str:
 
 
 def kept(file: str) -> str:
-    """Return the path of a copy of a result, brought up to date: a job is not made to renew it.
+    """Return the path of a copy of a result, brought up to date: no job is run to renew it.
 
     Where an archive was unpacked, the copy is there without the result.
     """
-    source, copy = Path(file), _copy_of(file)
+    source, copy = Path(file), KEPT / Path(file).name
     return _hand_out(copy, (source if source.exists() else copy).read_bytes())
 
 
 def was_made(file: str) -> bool:
     """Return whether a result, or a copy of it, is there to be kept."""
-    return Path(file).exists() or _copy_of(file).exists()
+    return Path(file).exists() or (KEPT / Path(file).name).exists()
 
 
-def _copy_of(file: str) -> Path:
-    return COPIES.with_name("kept") / Path(file).name
+def records() -> list[str]:
+    """Return every record that a rule has asked for so far: an archive needs them all."""
+    return sorted(path for path in _handed_out if path.endswith(".txt"))
+
+
+def copies() -> list[str]:
+    """Return every copy that a rule has asked for so far: an archive needs them all."""
+    return sorted(_handed_out.difference(records()))
 
 
 def _lines(files: list[Path]) -> bytes:
@@ -64,12 +72,12 @@ def _lines(files: list[Path]) -> bytes:
 
 
 def _hand_out(path: Path, content: bytes) -> str:
-    handed_out.add(path.as_posix())
+    _handed_out.add(path.as_posix())
     return _keep(path, content)
 
 
 def _keep(path: Path, content: bytes) -> str:
-    """Write the file if its content is another."""
+    """Write the file if its content is another; no reader ever sees half of it."""
     if not path.exists() or path.read_bytes() != content:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial = path.with_name(f".{os.getpid()}.{path.name}")

@@ -6,10 +6,16 @@ import subprocess
 import tarfile
 
 import pytest
-from pendula.archive.checksums import MANIFEST, listed, manifest
-from pendula.archive.configuration import dump
-from pendula.archive.contents import ArchiveError, check_records, code_files
-from pendula.archive.tarball import pack
+from pendula.archive.contents import (
+    MANIFEST,
+    ArchiveError,
+    check_records,
+    code_files,
+    dump_configuration,
+    manifest,
+    names_in,
+    pack,
+)
 
 
 def git(folder, *words):
@@ -61,7 +67,7 @@ def test_the_manifest_is_accepted_by_sha256sum(project):
     assert subprocess.run(check, cwd=project, capture_output=True).returncode == 0
     (project / "note").write_text("something else")
     assert subprocess.run(check, cwd=project, capture_output=True).returncode == 1
-    assert listed((project / MANIFEST).read_text()) == ["note", "run"]
+    assert names_in((project / MANIFEST).read_text()) == ["note", "run"]
 
 
 def test_the_same_files_give_the_same_bytes(project, tmp_path):
@@ -92,5 +98,7 @@ def test_packed_files_belong_to_nobody_and_have_one_time(project, tmp_path):
 
 def test_a_configuration_is_written_whole():
     brief = {"end_time": 4}
-    text = dump({"cases": {"one": brief, "two": brief}, "sites": ({0: [1, "2j"]},)}).decode()
+    text = dump_configuration(
+        {"cases": {"one": brief, "two": brief}, "sites": ({0: [1, "2j"]},)}
+    ).decode()
     assert text.count("end_time: 4") == 2 and "&" not in text and "0:" in text

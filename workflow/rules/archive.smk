@@ -2,14 +2,20 @@
 # finished results: `snakemake -n` has nothing to do there, `snakemake figures` draws them anew.
 
 ARCHIVE = f"results/archive/pendula-{__version__}.tar.gz"
+DRAWN_FROM = [
+    *(f"results/{name}.nc" for name in makers()),
+    *rules.hard_cases.output,
+    *kernels(*ALL_SOLVERS),
+]
 
 
 rule archive:
     "Code, environment, datasets, figures and metadata in one file to deposit"
     input:
-        code=record_of_project,
-        results=deposited,
-        records=records,
+        # Functions, since the records and copies are complete only when every rule has been read.
+        code=lambda wildcards: whole_project(),
+        results=lambda wildcards: sorted({*rules.all.input, *DRAWN_FROM, *copies()}),
+        records=lambda wildcards: records(),
     output:
         archive=ARCHIVE,
         checksum=f"{ARCHIVE}.sha256",

@@ -6,9 +6,8 @@ from snakemake.exceptions import WorkflowError
 
 sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
 
-from code_records import code, committed, handed_out, kept, was_made, whole_project
+from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
-from pendula.archive.contents import ArchiveError
 from pendula.configuration.messages import ConfigurationError, load
 from pendula.problem import name_window
 from pendula.speed.regimes import REGIMES

@@ -2,17 +2,12 @@
 # The comparison is a job that always succeeds, since Snakemake deletes what a failed job wrote;
 # the rule `figure_diff` then tells the faults and fails.
 
-import glob
-
 BASELINE = f"{workflow.basedir}/tests/baseline"
 ACCEPTABLE = [path for path in rules.all.input if path.endswith((".nc", ".png"))]
-
-
-def accepted_files(wildcards):
-    """Return the files of the baseline beside these results, its record and its tolerances."""
-    folders = sorted({path.split("/")[1] for path in ACCEPTABLE})
-    patterns = ["accepted.json", "tolerances.yaml", *(f"{folder}/*" for folder in folders)]
-    return sorted(path for name in patterns for path in glob.glob(f"{BASELINE}/{name}"))
+ACCEPTED = {
+    *(f"{BASELINE}/{name}" for name in ("accepted.json", "tolerances.yaml")),
+    *(f"{BASELINE}/{path.removeprefix('results/')}" for path in ACCEPTABLE),
+}
 
 
 rule figure_diff:
@@ -35,7 +30,7 @@ rule compare_results:
     input:
         code=code("figure_diff/compare_results.py"),
         results=ACCEPTABLE,
-        accepted=accepted_files,
+        accepted=sorted(filter(os.path.exists, ACCEPTED)),
     output:
         html="results/figure_diff/index.html",
         verdict="results/figure_diff/verdict.json",

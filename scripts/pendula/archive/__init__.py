@@ -1,1 +1,1 @@
-"""One file to deposit: code, environment, datasets and figures, with checksums and metadata."""
+"""Packs code, environment, datasets and figures into one file to deposit, with its metadata."""

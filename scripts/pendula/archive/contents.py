@@ -1,17 +1,35 @@
-"""Which files of a project are its own, in a clone of git and in an unpacked archive."""
+"""What an archive holds: the files of the project, the run's configuration, and their checksums.
 
+The archive is a tar.gz whose bytes depend on its members only, so that two people who pack the same
+files can compare one checksum.
+"""
+
+import gzip
+import hashlib
+import io
 import subprocess
-from collections.abc import Iterable
+import tarfile
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from .checksums import MANIFEST, listed
+import yaml
+
+from pendula.sources import digest_of
+
+MANIFEST = "manifest-sha256.txt"
 
 METADATA = ("ro-crate-metadata.json", "codemeta.json", "configuration.yaml", MANIFEST)
-"""What an archive holds beside the project and its results, made anew whenever one is packed."""
+"""What an archive holds beside the project and its results; packing always makes it anew."""
+
+MADE = 315532800
+"""All files get this time, 1980-01-01: with several, Snakemake would make some of them again."""
+
+Content = Path | bytes
+"""A member of an archive: a file on disk, or the bytes of one."""
 
 
 class ArchiveError(Exception):
-    """What keeps the project from being packed; the message says the way out."""
+    """A reason why the project cannot be packed; the message says the way out."""
 
 
 def code_files(project: Path) -> list[str]:
@@ -23,14 +41,6 @@ def code_files(project: Path) -> list[str]:
     return sorted(names)
 
 
-def check_records(records: Iterable[Path], code: Iterable[str]) -> None:
-    """Refuse results that were made by code which would be left behind."""
-    for record in records:
-        lines = record.read_text("utf-8").splitlines()
-        if left := sorted({line.split(maxsplit=1)[1] for line in lines} - set(code)):
-            raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
-
-
 def _tracked(project: Path) -> list[str]:
     command = ["git", "-C", str(project), "ls-files", "-z"]
     try:
@@ -38,7 +48,10 @@ def _tracked(project: Path) -> list[str]:
     except FileNotFoundError:
         raise ArchiveError(f"{project} is a clone of git; install git to pack it") from None
     if run.returncode:
-        raise ArchiveError(f"git does not list the files of {project}: {run.stderr.strip()}")
+        raise ArchiveError(
+            f"git does not list the files of {project}: {run.stderr.strip()}; mend the clone, or "
+            "pack from a fresh one"
+        )
     return [name for name in run.stdout.split("\0") if name]
 
 
@@ -49,5 +62,74 @@ def _unpacked(project: Path) -> list[str]:
             f"{manifest} is missing, and {project} is no clone of git: what belongs to the project "
             "is not known; pack it from a clone or from an unpacked archive"
         )
-    names = listed(manifest.read_text("utf-8"))
+    names = names_in(manifest.read_text("utf-8"))
     return [name for name in names if name not in METADATA and not name.startswith("results/")]
+
+
+def check_records(records: Iterable[Path], code: Iterable[str]) -> None:
+    """Refuse results that code made which the archive would leave behind.
+
+    `records` are files of results/code, which list the code of a job; `code` is what git tracks.
+    """
+    for record in records:
+        made_by = names_in(record.read_text("utf-8"))
+        if left := sorted(set(made_by) - set(code)):
+            raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
+
+
+def manifest(members: Mapping[str, Content]) -> bytes:
+    """Return a line of checksum and name for each member, as `sha256sum --check` reads them."""
+    return "".join(checksum_line(name, members[name]) for name in sorted(members)).encode()
+
+
+def checksum_line(name: str, content: Content) -> str:
+    """Return the SHA-256 of the content, and the name."""
+    is_file = isinstance(content, Path)
+    digest = digest_of(content) if is_file else hashlib.sha256(content).hexdigest()
+    return f"{digest}  {name}\n"
+
+
+def names_in(text: str) -> list[str]:
+    """Return the names in a manifest or in a record of code."""
+    return [row.split("  ", 1)[1] for row in text.splitlines()]
+
+
+def dump_configuration(configuration: dict) -> bytes:
+    """Return the configuration of a run as YAML, sorted by key, so that it can be run again."""
+    return yaml.dump(_plain(configuration), Dumper=_Plain, allow_unicode=True).encode()
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes a value that stands in two places twice, not as an alias."""
+
+    def ignore_aliases(self, data) -> bool:
+        """Return True for every value."""
+        return True
+
+
+def _plain(value):
+    """Return mappings and sequences of any kind as dictionaries and lists."""
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    return [_plain(entry) for entry in value] if isinstance(value, list | tuple) else value
+
+
+def pack(archive: Path, folder: str, members: Mapping[str, Content]) -> None:
+    """Write the members by name below `folder`; a member that runs on disk runs when unpacked."""
+    with (
+        open(archive, "wb") as raw,
+        # The compressed bytes also depend on the version of zlib, the files in them do not.
+        gzip.GzipFile("", "wb", 9, raw, mtime=MADE) as zipped,
+        tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
+    ):
+        for name in sorted(members):
+            _add(tar, f"{folder}/{name}", members[name])
+
+
+def _add(tar: tarfile.TarFile, name: str, content: Content) -> None:
+    """Add one file that belongs to nobody."""
+    runs = isinstance(content, Path) and content.stat().st_mode & 0o100
+    data = content if isinstance(content, bytes) else content.read_bytes()
+    entry = tarfile.TarInfo(name)
+    entry.size, entry.mtime, entry.mode = len(data), MADE, 0o755 if runs else 0o644
+    tar.addfile(entry, io.BytesIO(data))

@@ -1,1 +1,0 @@
-"""The validated configuration: what may stand in it, and its faults in words."""

@@ -4,18 +4,8 @@ import difflib
 
 from pydantic import BaseModel, ValidationError
 
-from .schema import (
-    Auto,
-    Case,
-    Configuration,
-    CrankNicolson,
-    Dop853,
-    Drawn,
-    Ode45,
-    Solvers,
-    Sweep,
-    Taylor,
-)
+from .cases import Case, Configuration, Drawn, Sweep
+from .solvers import Auto, CrankNicolson, Dop853, Ode45, Solvers, Taylor
 
 SOLVERS = {
     model.model_fields["name"].default: model
