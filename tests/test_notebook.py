@@ -54,10 +54,10 @@ def test_the_examples_in_the_docstrings_run(module):
     assert found.attempted and not found.failed
 
 
-def test_the_example_of_the_readme_runs_and_says_what_it_says():
-    text = (ROOT / "README.md").read_text()
+def test_the_example_of_the_documents_runs_and_says_what_it_says():
+    text = (ROOT / "docs/own_cases.md").read_text()
     (block,) = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)
-    example = doctest.DocTestParser().get_doctest(block, {}, "README", "README.md", 0)
+    example = doctest.DocTestParser().get_doctest(block, {}, "own_cases", "docs/own_cases.md", 0)
     said = []
     runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
     runner.run(example, out=said.append)

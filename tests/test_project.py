@@ -65,9 +65,11 @@ def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     assert record.stat().st_mtime_ns == before
 
 
-@pytest.mark.parametrize("script", sorted(p.name for p in (ROOT / "scripts").glob("*/*.py")))
-def test_scripts_touch_snakemake_only_under_the_main_guard(script):
-    (path,) = [p for p in (ROOT / "scripts").glob(f"*/{script}") if p.name == script][:1]
+SCRIPTS = sorted((ROOT / "scripts").glob("*/*.py"))
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_scripts_touch_snakemake_only_under_the_main_guard(path):
     if path.parent.name == "pendula":
         assert "snakemake." not in path.read_text()
         return
@@ -78,19 +80,14 @@ def test_scripts_touch_snakemake_only_under_the_main_guard(script):
     assert names and all(id(name) in inside for name in names)
 
 
-def test_the_case_shown_in_the_readme_is_valid():
-    blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+def test_the_case_shown_in_the_documents_is_valid():
+    blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs/own_cases.md").read_text(), re.DOTALL)
     settings = {}
     for block in blocks:
         settings |= yaml.safe_load(block)
     loaded = load(settings)
     assert loaded.problem("mine")["initial"] == {0: (2, -0.3 + 0.4j), 3: (0.5, 0)}
     assert loaded.sweeps["mine_wider"].case == "mine"
-
-
-def test_the_files_that_the_readme_shows_exist():
-    links = re.findall(r"\]\(([^)#:]+)\)", (ROOT / "README.md").read_text())
-    assert links and all((ROOT / link).exists() for link in links)
 
 
 def test_ci_finds_the_test_command_of_the_readme():

@@ -18,7 +18,7 @@ def some_own_files(wildcards):
     if not own_files():
         raise WorkflowError(
             "the configuration has no case and no sweep of your own: give some by "
-            "--configfile, as the README shows"
+            "--configfile, as docs/own_cases.md shows"
         )
     return own_files()
 

@@ -80,7 +80,7 @@ def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
     extra -= set((ROOT / "environment.txt").read_text().split())
     assert {pin.split("==")[0] for pin in extra} == {"heyoka", "cloudpickle"}
     assert HEYOKA in extra
-    for text in ("README.md", "workflow/rules/reference.smk"):
+    for text in ("docs/datasets.md", "workflow/rules/reference.smk"):
         assert set(re.findall(r"heyoka==[\d.]+", (ROOT / text).read_text())) == {HEYOKA}
 
 

@@ -1,0 +1,412 @@
+"""Every number that the README and docs/ quote, as text, read from the datasets in tests/baseline.
+
+A function stands for a topic, and its facts are named after what they are: a template says
+`{{ chaos.rates }}`. No number is typed here. Arguments such as a time or a site say where in a
+dataset a number stands; the text around the fact names them as well.
+"""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from pendula.configuration.messages import load
+from pendula.datasets.netcdf import read
+from pendula.measures import divergence
+from pendula.report.numbers import number, percent, span, with_error
+from pendula.report.words import SOLVERS, case_of, symbols
+
+CHAOTIC, GROWING = 0.1, 0.3
+"""Rates and exponents above which a case counts as chaotic, and a norm as growing."""
+
+REGULAR_ERROR, DECIMALS = 1e-10, 1e-12
+"""The error at which solvers are compared, and the difference at which decimals begin to show."""
+
+LATE, SITE = 60, 0.05
+"""Half-widths that count as long in Fig 6, and a part of a site that no front can show."""
+
+
+class Baseline:
+    """The datasets below tests/baseline by their names, each read once."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self._read = {}
+
+    def __getitem__(self, name: str) -> xr.Dataset:
+        if name not in self._read:
+            self._read[name] = read(self.folder / f"{name}.nc")
+        return self._read[name]
+
+    def claims(self) -> list[dict]:
+        """Return the rows of the ledger of the last full run that was accepted."""
+        return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
+
+    def tables(self, name: str) -> dict[str, list[dict]]:
+        """Return the tables of a measurement of speed by the headings above them."""
+        found, title, head = {}, "", None
+        for line in (self.folder / "speed" / f"{name}.md").read_text("utf-8").splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if line.startswith("#"):
+                title, head = line.lstrip("# "), None
+            elif line.startswith("|") and head is None:
+                head = cells
+            elif line.startswith("|") and not line.startswith("| ---"):
+                found.setdefault(title, []).append(dict(zip(head, cells, strict=True)))
+        return found
+
+
+def gather(baseline: Baseline, configuration: dict) -> dict[str, dict]:
+    """Return the facts of every topic."""
+    topics = (ledger, solvers, chaos, ensembles, unbounded, theory, references, speed, hard_cases)
+    return {topic.__name__: topic(baseline) for topic in topics} | {
+        "configured": configured(configuration)
+    }
+
+
+def configured(configuration: dict) -> dict:
+    """Return parameters of the configuration and constants of the measures."""
+    settings = load(configuration)
+    case = settings.cases["fig3_small"]
+    own = settings.solvers.taylor
+    return {
+        "pairs": str(2 * case.half_width + 1),
+        "half_width": str(case.half_width),
+        "end_time": number(case.end_time),
+        "own_rtol": number(own.rtol),
+        "visible": percent(divergence.LEVELS["visible"]),
+        "step": number(settings.solvers.crank_nicolson.step),
+    }
+
+
+def ledger(baseline: Baseline) -> dict:
+    """Return how many claims there are of each verdict, and those that do not hold."""
+    rows = baseline.claims()
+    verdicts = [row["verdict"] for row in rows]
+    told = [
+        {
+            "place": row["place"],
+            "says": symbols(row["says"]).replace("|", r"\|"),
+            "verdict": row["verdict"],
+            "because": symbols(row["because"]).replace("|", r"\|"),
+        }
+        for row in rows
+        if row["verdict"] in ("not reproduced", "cannot be decided")
+    ]
+    return {
+        "claims": str(len(rows)),
+        "confirmed": str(verdicts.count("confirmed")),
+        "caveat": str(verdicts.count("confirmed with a caveat")),
+        "missed": str(verdicts.count("not reproduced")),
+        "open": str(verdicts.count("cannot be decided")),
+        "told": told,
+        "ensemble": str(sum(row["name"].startswith("ensemble") for row in rows)),
+    }
+
+
+def solvers(baseline: Baseline) -> dict:
+    """Return how far the energy drifts by ode45, and when two solvers diverge."""
+    apart = baseline["figures/solver_agreement"]
+    cases = [str(case) for case in apart["case"].values]
+    times = apart["parting"].sel(pair="ode45 - crank_nicolson")
+    return {
+        **_drift(baseline),
+        "cases": str(len(cases)),
+        "diverged": str(int(np.isfinite(times).sum())),
+        "divergence": [
+            {
+                "case": case_of(apart.sel(case=case)),
+                "paper": _time(times.sel(case=case)),
+                "ode45": _time(apart["parting"].sel(case=case, pair="ode45 - dop853")),
+            }
+            for case in cases
+        ],
+        "horizons": _horizons(baseline["figures/trust_horizons"]),
+    }
+
+
+def _drift(baseline: Baseline) -> dict:
+    """Return the drift of H by ode45: to the end in every case, early for the small data."""
+    rows = {row["name"]: row["measured"] for row in baseline.claims()}
+    largest = rows["energy_small"] | rows["energy_large"]
+    cases, early = baseline["figures/energy_drift"], baseline["checks/energy_drift"]
+    return {
+        "drift": [
+            {
+                "case": case_of(cases.sel(case=name)),
+                "stated": number(cases["claim"].sel(case=name)),
+                "largest": number(value, 2),
+            }
+            for name, value in largest.items()
+        ],
+        "kept": str(sum(value < float(cases["claim"].sel(case=n)) for n, value in largest.items())),
+        "early": ", ".join(
+            f"{number(early['drift'].sel(omega=omega), 2)} at Ω = {number(omega)}"
+            for omega in early["omega"].values
+        ),
+    }
+
+
+def _horizons(trust: xr.Dataset) -> list[dict]:
+    """Return when each solver leaves the reference visibly, a row a case in which one does."""
+    times = trust["horizon"].sel(level="visible")
+    left = [case for case in trust["case"].values if np.isfinite(times.sel(case=case)).any()]
+    return [
+        {
+            "case": case_of(trust.sel(case=case)),
+            **{name: _time(times.sel(case=case, solver=name)) for name in trust["solver"].values},
+        }
+        for case in left
+    ]
+
+
+def _time(tau) -> str:
+    return number(tau) if np.isfinite(tau) else "never"
+
+
+def _with_error(data: xr.Dataset, name: str) -> str:
+    return with_error(float(data[name]), float(data[f"{name}_error"]))
+
+
+def chaos(baseline: Baseline) -> dict:
+    """Return the rates of growth of small perturbations, and when evenness is lost."""
+    growth, even = baseline["checks/lyapunov"], baseline["checks/symmetry"]
+    rates = growth["exponent"].max("parity")
+    chaotic = [str(case) for case in growth["case"].values[rates.values > CHAOTIC]]
+    return {
+        "count": str(len(chaotic)),
+        "cases": str(growth.sizes["case"]),
+        "limit": number(CHAOTIC),
+        "rows": [
+            {
+                "case": case_of(growth.sel(case=case)),
+                **{
+                    parity: _with_error(growth.sel(case=case, parity=parity), "exponent")
+                    for parity in ("even", "odd")
+                },
+                "uneven": _time(even["rounded_time"].sel(case=case)),
+            }
+            for case in chaotic
+        ],
+        "regular_rate": number(rates.where(rates < CHAOTIC).max(), 1),
+    }
+
+
+def ensembles(baseline: Baseline) -> dict:
+    """Return the widths of the bands of the ensembles, and the sweep of Fig 6, right."""
+    bands, moments = baseline["figures/ensembles"], baseline["checks/ensembles"]
+    swept = moments.sel(sweep="fig6_right", quantity="pair", statistic="max", window="[10, 70]")
+    late = swept.where(swept["half_width"] >= LATE, drop=True)
+    peak = swept.isel(half_width=int(swept["l2_mean"].values.argmax()))
+    wide = swept.where(swept["half_width"] >= peak["half_width"], drop=True)
+    scatter = wide["l2_deviation"] / wide["l2_mean"]
+    return {
+        "bands": [_band(bands.sel(case=case)) for case in bands["case"].values],
+        "share": percent(float(bands["quantile"].max() - bands["quantile"].min())),
+        "peak_at": number(peak["half_width"]),
+        "peak": with_error(float(peak["l2_mean"]), float(peak["l2_error"])),
+        "late_from": number(late["half_width"].min()),
+        "late": span(late["l2_mean"].values, 2),
+        "late_error": span(late["l2_error"].values, 1),
+        "scatter": f"{percent(scatter.min())} to {percent(scatter.max())}",
+    }
+
+
+def _band(case: xr.Dataset) -> dict[str, str]:
+    late = case["l2"].sel(tau=slice(float(case["tau"].max()) / 2, None))
+    low, middle, high = late.isel(quantile=0), late.median("quantile"), late.isel(quantile=-1)
+    return {
+        "case": case_of(case),
+        "middle": number(middle.mean()),
+        "width": percent(float(((high - low) / middle).mean())),
+        "from": number(late["tau"].min(), 2),
+    }
+
+
+def unbounded(baseline: Baseline) -> dict:
+    """Return exponents, fronts and powers of the long study of the chain without ends."""
+    long = baseline["quoted/unbounded"]
+    bulk, large = (long.sel(case=case) for case in ("fig4_small", "fig3_large"))
+    centre = long.sel(varied_omega=0.0)
+    ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
+    speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
+    grown = long["amplitude"].where(long["amplitude_exponent"] > GROWING, drop=True)
+    cut = baseline["quoted/cut_front"]
+    return {
+        "end": number(bulk["end"], 4),
+        "from": number(bulk["end"] / 2, 4),
+        "sites": f"{int(bulk['sites']):,}",
+        "exponent": _with_error(bulk, "exponent"),
+        "linf": number(bulk["linf"], 2),
+        "speed": _with_error(bulk, "speed"),
+        "predicted": number(bulk["predicted_speed"], 5),
+        "bulk_power": number(bulk["bulk_power"]),
+        "thermal_power": number(centre["omega_thermal_power"]),
+        "omegas": str(long.sizes["varied_omega"]),
+        "least_omega": number(long["varied_omega"].min()),
+        "largest_omega": number(long["varied_omega"].max()),
+        "omega_end": number(long["omega_end"]),
+        "omega_from": number(long["omega_end"] / 2),
+        "omega_exponents": span(long["omega_exponent"].values, 2),
+        "omega_speeds": number(speeds.max(), 1),
+        "furthest": percent(abs(ratio - 1.0).max(), 1),
+        "furthest_omega": number(long["varied_omega"][int(abs(ratio - 1.0).values.argmax())]),
+        "amplitudes": str(long.sizes["amplitude"]),
+        "spreading": " and ".join(number(size) for size in grown.values),
+        "amplitude_end": number(long["amplitude_end"]),
+        "large_speed": number(large["speed"], 2),
+        "large_exponent": _with_error(large, "exponent"),
+        "large_from": number(large["end"] / 2, 4),
+        "large_end": number(large["end"], 4),
+        "small_exponent": _with_error(long.sel(case="fig3_small"), "exponent"),
+        "stable_exponent": _with_error(long.sel(case="fig2_large"), "exponent"),
+        "tolerances": ", ".join(
+            _with_error(long.isel({"tolerance": i}), "tolerance_bulk_power")
+            + f" at {number(tolerance)}"
+            for i, tolerance in enumerate(long["tolerance"].values)
+        ),
+        "rest": number(long.attrs["rest"]),
+        "cut": number(cut.attrs["cut"]),
+        "cut_lag": number(cut["lag"][-1], 2),
+        "cut_end": number(cut["end"][-1], 4),
+        "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
+        "site_memory": number(long["site_memory"][-1]),
+        "site_times": [
+            {"sites": f"{int(width):,}", "time": number(1e6 * seconds)}
+            for width, seconds in zip(long["width"].values, long["site_time"].values, strict=True)
+        ],
+    }
+
+
+def theory(baseline: Baseline) -> dict:
+    """Return what the checks of Lemma 1 and of Theorems 1 to 3 found."""
+    chart, worst = baseline["figures/stability_chart"], baseline["checks/worst"]
+    printed, gap = baseline["checks/theorem_3_constant"], baseline["checks/theorem_2_case"]
+    measured = {row["name"]: row["measured"] for row in baseline.claims()}
+    cases = baseline["checks/cases"]
+    return {
+        "cells": str(chart["measured"].size + chart["short_measured"].size),
+        "misclassified": str(int(measured["stable_below"]["misclassified"]) or "none"),
+        "stable_rate": number(measured["stable_below"]["fastest"], 1),
+        "reached": number(worst["worst"].max()),
+        "observed": span(cases["ratio"].values, 2),
+        "broken_sites": number(printed["smallest"]),
+        "printed_order": number(measured["printed_time"]["order"], 2),
+        "right_order": number(measured["slow_time"]["order"], 2),
+        "start": number(gap["start"]),
+        "radius": number(gap["delta_0"]),
+        "widened_radius": number(gap["widened_delta_0"]),
+        "widened_bound": number(gap["widened_bound"]),
+        "first_negative": number(baseline["checks/negative_depth"]["first_negative"]),
+    }
+
+
+def references(baseline: Baseline) -> dict:
+    """Return how well the references are known, and when the double next to a tenth shows."""
+    tenth, double = (baseline[f"reference/fig4_small{kind}"] for kind in ("", ".double"))
+    apart = divergence.difference(tenth, double)
+    cases = ("fig2_small", "fig2_large", "fig3_small", "fig3_large", "fig4_small", "fig4_large")
+    known = [float(baseline[f"reference/{case}"].attrs["largest_discrepancy"]) for case in cases]
+    return {
+        "discrepancy": number(max(known), 1),
+        "decimals": number(DECIMALS),
+        "first": _time(divergence.first_above(apart, DECIMALS)),
+        "seen": _time(divergence.first_above(apart, divergence.LEVELS["visible"])),
+    }
+
+
+def speed(baseline: Baseline) -> dict:
+    """Return times at equal error, the growth of the cost, and the times of the jobs of a run."""
+    tables, growth = baseline.tables("table"), baseline.tables("growth")
+    peers = next(rows for title, rows in tables.items() if "peers" in title)
+    ratio = {row["peer"]: row["geometric mean"] for row in peers}
+    sites = next(rows for title, rows in growth.items() if "number of sites" in title)
+    regular = {case: tables[case] for case in ("fig2_small", "fig3_small")}
+    errors = [
+        float(row["error"])
+        for rows in regular.values()
+        for row in rows
+        if row["solver"] == "taylor" and float(row["accuracy"]) < 1.5e-14
+    ]
+    return {
+        "peers": [
+            {
+                "peer": name,
+                "ratio": f"{_value(text):.2g}" if _value(text) < 100 else f"{_value(text):.0f}",
+                "cases": _cases(text),
+            }
+            for name, text in ratio.items()
+            if text != "-"
+        ],
+        "best": [
+            {"solver": SOLVERS[name], "time": number(time, 2)}
+            for name, time in _best(regular["fig3_small"], REGULAR_ERROR).items()
+        ],
+        "best_error": number(REGULAR_ERROR),
+        "fastest_below": number(_fastest_below(tables, "taylor")),
+        "faster": " and ".join(n for n, text in ratio.items() if text != "-" and _value(text) < 1),
+        "taylor_error": number(max(errors), 1),
+        "sites": [{"sites": row["number of sites N"], **_growth(row)} for row in sites[:-1]],
+        "jobs": _jobs(baseline["quoted/job_times"]),
+        "jobs_total": number(baseline["quoted/job_times"]["seconds"].sum()),
+    }
+
+
+def _growth(row: dict) -> dict[str, str]:
+    return {name: number(float(row[name])) for name in ("dop853", "taylor")}
+
+
+def _value(text: str) -> float:
+    return float(text.split()[0])
+
+
+def _ratio(value: float) -> str:
+    return f"{value:.0f}" if value >= 10 else number(value, 2)
+
+
+def _cases(text: str) -> str:
+    return text.partition("(")[2].rstrip(")").split()[0]
+
+
+def _best(rows: list[dict], error: float) -> dict[str, float]:
+    """Return the least time, in ms, in which each solver comes within an error, the least first."""
+    best = {}
+    for row in rows:
+        if float(row["error"]) <= error:
+            time = float(row["time, ms"])
+            best[row["solver"]] = min(time, best.get(row["solver"], math.inf))
+    return dict(sorted(best.items(), key=lambda item: item[1]))
+
+
+def _fastest_below(tables: dict[str, list[dict]], solver: str) -> float:
+    """Return the largest power of ten below which the solver is the fastest in every case."""
+    cases = [rows for rows in tables.values() if "accuracy" in rows[0]]
+    below = None
+    for error in 10.0 ** np.arange(-13, 0):
+        found = [_best(rows, error) for rows in cases]
+        if any(best and next(iter(best)) != solver for best in found):
+            break
+        below = error
+    return below
+
+
+def _jobs(times: xr.Dataset) -> list[dict]:
+    """Return the part that each topic has of the wall times of all jobs, the largest first."""
+    part = (times["seconds"] / times["seconds"].sum()).to_series().sort_values(ascending=False)
+    return [{"topic": topic, "part": percent(value)} for topic, value in part.items()]
+
+
+def hard_cases(baseline: Baseline) -> dict:
+    """Return how many hard cases there are, and the energy over a long time on a short chain."""
+    cases = baseline["quoted/hard_cases"]
+    long = cases.where(cases["case"].str.startswith("tau = 1e4, N = 3"), drop=True)
+    return {
+        "runs": str(cases.sizes["row"]),
+        "refused": str(int((cases["refusal"] != "").sum())),
+        "unexpected": str(int((cases["sound"] == 0).sum()) or "none"),
+        "energy": [
+            {"solver": solver, "drift": number(drift, 2)}
+            for solver, drift in zip(long["solver"].values, long["error"].values, strict=True)
+        ],
+    }

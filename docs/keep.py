@@ -1,0 +1,194 @@
+"""Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
+
+Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` if the
+long study was made anew. It reduces both to the few numbers that are quoted and writes these to
+tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, and the long study of
+the chain without ends.
+"""
+
+import shutil
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "scripts")]
+
+import job  # noqa: E402
+from pendula import __version__  # noqa: E402
+from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
+from pendula.measures.growth import local_powers  # noqa: E402
+from pendula.studies.unbounded.fronts import FRONT, SEA, speeds  # noqa: E402
+from pendula.studies.unbounded.sea import mean_powers  # noqa: E402
+from pendula.studies.unbounded.studies import CASES, REST, TOLERANCE  # noqa: E402
+
+QUOTED = ROOT / "tests/baseline/quoted"
+
+
+def keep_full_run(results: Path, folder: Path) -> None:
+    """Keep the ledger, the outcome of every hard case, and the wall times of the jobs."""
+    shutil.copyfile(results / "claims.json", folder / "claims.json")
+    cases = read(results / "checks/hard_cases.nc").drop_vars("seconds")
+    kept = {
+        str(name): Variable(values.dims, values.values, values.attrs["long_name"])
+        for name, values in cases.variables.items()
+    }
+    _write(folder / "hard_cases.nc", "Hard cases for the solvers, without their times", kept)
+    times = job_times(results / "logs")
+    kept = {
+        "topic": Variable(("topic",), list(times), "topic of the jobs, the folder of their logs"),
+        "seconds": Variable(("topic",), list(times.values()), "wall times, added up", "s"),
+    }
+    title = "Wall times of the jobs of a full run, two at a time on two shared cores"
+    _write(folder / "job_times.nc", title, kept)
+
+
+def job_times(logs: Path) -> dict[str, float]:
+    """Return the wall times of the jobs, added up by topic: the folder of their logs."""
+    times = defaultdict(float)
+    for log in sorted(logs.rglob("*.log")):
+        place = log.relative_to(logs).with_suffix("")
+        last = log.read_text(encoding="utf-8").rstrip().rpartition("\n")[2]
+        if "long" not in place.parts and last.startswith(job.TOOK):
+            times[place.parts[0]] += float(last.removeprefix(job.TOOK).split()[0])
+    return times
+
+
+def keep_long_study(results: Path, folder: Path) -> None:
+    """Keep exponents, fronts and powers of the long study of the chain without ends."""
+    long = results / "unbounded/long"
+    kept = {
+        **_cases({name: read(long / f"{name}.nc") for name in CASES}),
+        **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
+        **_amplitudes(read(long / "amplitudes.nc")),
+        **_tolerances(read(long / "tolerances.nc")),
+        **_scale(read(long / "scale.nc")),
+    }
+    solver = {"solver": "dop853", "solver_rtol": TOLERANCE, "solver_atol": TOLERANCE}
+    problem = {"epsilon": 1.0, "gamma": 1.0, "rest": REST["long"], **solver}
+    title = "The long study of the chain without ends, reduced to what the documents quote"
+    _write(folder / "unbounded.nc", title, kept, **problem)
+
+
+def _write(path: Path, title: str, variables: dict[str, Variable], **attributes) -> None:
+    write(path, variables, {"title": title, **attributes, "version": __version__})
+
+
+def _exponent(run: xr.Dataset, variant: int = 0):
+    """Return the exponent of tau that l2 follows in the last octave of time, with its error."""
+    values = run["l2"].isel(variant=variant).transpose("member", "tau").values
+    return local_powers(run["tau"].values, values, 1)[1][0]
+
+
+def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
+    rows = [_case(run) for run in runs.values()]
+    named = {"case": Variable(("case",), list(runs), "case of the paper, on a chain without ends")}
+    return named | {
+        name: Variable(("case",), [row[name] for row in rows], title)
+        for name, title in {
+            "end": "slow time at the end",
+            "members": "members of the ensemble",
+            "sites": "sites that the front has passed at the end",
+            "exponent": "exponent of tau in the l2 norm over the last octave",
+            "exponent_error": "its standard error",
+            "linf": "l-infinity norm at the end, mean over the members",
+            "speed": "speed of the front, sites per unit of tau",
+            "speed_error": "its standard error",
+            "predicted_speed": "speed of linear spreading, sites per unit of tau",
+            "bulk_power": "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
+        }.items()
+    }
+
+
+def _case(run: xr.Dataset) -> dict[str, float]:
+    exponent = _exponent(run)
+    # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
+    pulled = bool(run["predicted_delay"][0] > 0)
+    speed, error = speeds(run, FRONT if pulled else SEA, corrected=pulled)
+    return {
+        "end": float(run["tau"][-1]),
+        "members": run.sizes["member"],
+        "sites": 2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
+        "exponent": exponent.exponent,
+        "exponent_error": exponent.error,
+        "linf": float(run["linf"].isel(variant=0, tau=-1).mean()),
+        "speed": speed[0],
+        "speed_error": error[0],
+        "predicted_speed": float(run["predicted_speed"][0]),
+        "bulk_power": mean_powers(run)[0].mean(),
+    }
+
+
+def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
+    omegas = run["omega"].values
+    speed, error = speeds(run, corrected=True)
+    values = {
+        "varied_omega": (omegas, "detuning Omega"),
+        "omega_exponent": (
+            [_exponent(run, variant).exponent for variant in range(len(omegas))],
+            "exponent of tau in the l2 norm over the last octave",
+        ),
+        "omega_speed": (speed, "speed of the front, its known delay added back"),
+        "omega_speed_error": (error, "its standard error"),
+        "omega_predicted_speed": (run["predicted_speed"].values, "speed of linear spreading"),
+        "omega_bulk_power": (
+            mean_powers(run).mean(axis=1),
+            "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
+        ),
+        "omega_thermal_power": (
+            thermal["power"].sel(omega=omegas, method="nearest").values,
+            "the same mean in the thermal state of zero energy",
+        ),
+    }
+    end = Variable((), float(run["tau"][-1]), "slow time at the end of the runs over Omega")
+    return {"omega_end": end} | {
+        name: Variable(("varied_omega",), *value) for name, value in values.items()
+    }
+
+
+def _amplitudes(run: xr.Dataset) -> dict[str, Variable]:
+    sizes = run["amplitude"].values
+    exponents = [_exponent(run, variant).exponent for variant in range(len(sizes))]
+    title = "exponent of tau in the l2 norm over the last octave"
+    return {
+        "amplitude": Variable(("amplitude",), sizes, "initial |A_0| = 5 |B_0| at Omega = -4"),
+        "amplitude_exponent": Variable(("amplitude",), exponents, title),
+        "amplitude_end": Variable((), float(run["tau"][-1]), "slow time at the end of these runs"),
+    }
+
+
+def _tolerances(run: xr.Dataset) -> dict[str, Variable]:
+    along, powers = ("tolerance",), mean_powers(run)
+    error = powers.std(axis=1, ddof=1) / np.sqrt(powers.shape[1])
+    title = "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"
+    return {
+        "tolerance": Variable(along, run["tolerance"].values, "tolerance of dop853"),
+        "tolerance_bulk_power": Variable(along, powers.mean(axis=1), title),
+        "tolerance_bulk_power_error": Variable(along, error, "its standard error"),
+    }
+
+
+def _scale(measured: xr.Dataset) -> dict[str, Variable]:
+    along, width = ("width",), measured["width"].values
+    seconds, memory = measured["seconds"].values, measured["memory"].values / width
+    return {
+        "width": Variable(along, 2 * width + 1, "sites of the chain, half of them integrated"),
+        "site_time": Variable(along, seconds, "time per integrated site and unit of tau", "s"),
+        "site_memory": Variable(along, memory, "memory per integrated site", "byte"),
+    }
+
+
+def main(results: Path, folder: Path = QUOTED) -> None:
+    """Keep whatever of the two the folder of results holds."""
+    folder.mkdir(exist_ok=True)
+    if (results / "claims.json").exists():
+        keep_full_run(results, folder)
+    if (results / "unbounded/long/scale.nc").exists():
+        keep_long_study(results, folder)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,79 @@
+"""Write the README and the pages of docs/ from their templates and the committed datasets.
+
+Run as `python docs/render.py` from anywhere. The templates are docs/source/*.md.j2, the numbers in
+them come from facts.py, and tests/docs fails where a page is not what its template gives.
+"""
+
+import re
+import sys
+import textwrap
+from pathlib import Path
+
+import yaml
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs")]
+
+import facts  # noqa: E402
+
+SOURCE, BASELINE = ROOT / "docs/source", ROOT / "tests/baseline"
+
+
+def pages() -> dict[Path, Path]:
+    """Return the template of each page."""
+    names = sorted(path.name.removesuffix(".j2") for path in SOURCE.glob("*.md.j2"))
+    folder = {"README.md": ROOT}
+    return {folder.get(name, ROOT / "docs") / name: SOURCE / f"{name}.j2" for name in names}
+
+
+def known(baseline: facts.Baseline) -> dict[str, dict]:
+    """Return all facts, from the datasets of a baseline and from the project's configuration."""
+    text = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
+    return facts.gather(baseline, yaml.safe_load(text))
+
+
+def render() -> dict[Path, str]:
+    """Return the text of each page."""
+    values = known(facts.Baseline(BASELINE))
+    environment = Environment(
+        loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
+        trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    return {
+        page: filled(environment.get_template(template.name).render(**values))
+        for page, template in pages().items()
+    }
+
+
+def filled(text: str) -> str:
+    """Return Markdown with the lines of each paragraph filled, since facts differ in length.
+
+    Code, tables, headings, pictures and comments keep their lines.
+    """
+    kept = re.compile(r"    |\||#|!|<!--")
+    lines, paragraph, code = [], [], False
+    for line in [*text.splitlines(), ""]:
+        fence = line.startswith("```")
+        starts_item = line.startswith("- ")
+        ends = fence or code or starts_item or not line or (kept.match(line) and not paragraph)
+        if ends and paragraph:
+            indent = "  " if paragraph[0].startswith("- ") else ""
+            lines += textwrap.wrap(
+                " ".join(part.strip() for part in paragraph), 100, subsequent_indent=indent,
+                break_long_words=False, break_on_hyphens=False,
+            )  # fmt: skip
+            paragraph = []
+        if ends and not starts_item:
+            lines.append(line)
+        else:
+            paragraph.append(line)
+        code ^= fence
+    return "\n".join(lines[:-1]) + "\n"
+
+
+if __name__ == "__main__":
+    for page, text in render().items():
+        if not page.exists() or page.read_text(encoding="utf-8") != text:
+            page.write_text(text, encoding="utf-8")
+            print(f"{page.relative_to(ROOT)} is new")

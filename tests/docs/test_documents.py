@@ -1,0 +1,228 @@
+"""The README and docs/ say what the committed datasets say, and no number in them is typed.
+
+Three tests hold this together. Each page is what its template gives. A template holds no digit and
+no number word outside of an expression, save where a rule below allows it: a name that contains a
+digit, or a value that defines what the sentence is about. An expression only names a fact, and a
+fact changes with the data.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pendula.ledger.claims import CLAIMS
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "docs"))
+
+import facts  # noqa: E402
+import render  # noqa: E402
+
+PAGES = render.pages()
+
+LEFT_OUT = [
+    r"```.*?```",  # code: tests run the commands, the YAML and the notebook
+    r"^    .*$",  # the equations
+    r"`[^`\n]*`",  # names of files, cases and commands
+    r"\]\([^)]*\)",  # where a link leads
+    r"\{\{.*?\}\}",  # facts
+    r"\{%.*?%\}",
+    r"<!--.*?-->",
+]
+NAMES = [
+    r"Figs? \d( to \d| and \d)*",
+    r"^\| \d(, with \S+)? \|",  # the number of a figure in the table of figures
+    r"Lemma \d",
+    r"Theorems? \d( to \d)?",
+    r"\bl2²?\b",  # a norm
+    r"ode45|DOP853|BM6",
+    r"x86-64|AVX2|AVX-512|netCDF-4",
+    r"Python 3\.11",  # the least version, which pyproject.toml says as well
+    r"381 \(2017\) 3884|arXiv 1708\.06134",  # where the paper stands
+    r"BSD 3-Clause",
+]
+DEFINITIONS = [
+    r"\|A_0\| = 5 \|B_0\|",  # the data of the paper's large cases
+    r"l2² = 2 v\* P τ|3/\(2λτ\)|exp\(-\|A\|⁴/c\)|μ²t/2|μ²t|-H > 0|\(x, 0\)",  # formulas
+    r"Ω = -?\d( and -?\d)?",  # the detuning of a case
+    r"ε = γ = 1",
+    r"A_0|B_0",
+    r"2γ|4ε",  # the bounds of the unstable band
+    r"A = B = 0",
+    r"τ = 10\b",  # where the check of the energy ends
+    r"printed 0\.1",  # what the paper prints
+    r"from 0 to the end",
+]
+WORDS = (
+    r"\b(three|four|five|six|seven|eight|nine|ten|eleven|twelve|twenty|hundred|thousand|million|"
+    r"twice|double|quarter|per cent)\b"
+)
+ALLOWED_WORDS = [
+    r"double precision|double nearest",  # the type of a number
+    r"twice the frequency",  # how the chain is driven
+]
+COUNTED = {
+    # counts of rows and words, thresholds, and places in a dataset: no change of a value moves them
+    *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
+    *("speed.faster", "speed.fastest_below", "theory.cells", "theory.broken_sites"),
+    *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
+    *("chaos.count", "chaos.cases", "chaos.limit", "solvers.cases", "solvers.diverged"),
+    *("solvers.kept", "ensembles.share", "ensembles.peak_at", "ensembles.late_from"),
+}
+
+
+def strip(text: str, patterns: list[str]) -> str:
+    """Return the text without what the patterns match."""
+    for pattern in patterns:
+        text = re.sub(pattern, " ", text, flags=re.DOTALL | re.MULTILINE)
+    return text
+
+
+def typed_numbers(text: str) -> list[str]:
+    """Return the lines of a template on which a number stands that no rule allows."""
+    left = strip(text, [*LEFT_OUT, *DEFINITIONS, *NAMES])
+    words = strip(text, [*LEFT_OUT, *ALLOWED_WORDS])
+    return [
+        *(line.strip() for line in left.splitlines() if re.search(r"[\d½²³⁰¹⁴-⁹₀-₉]", line)),
+        *(line.strip() for line in words.splitlines() if re.search(WORDS, line, re.IGNORECASE)),
+    ]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_the_page_is_what_its_template_gives(page, rendered):
+    told = f"run `python docs/render.py`: {page.name} and tests/baseline differ"
+    assert page.read_text(encoding="utf-8") == rendered[page], told
+
+
+@pytest.fixture(scope="module")
+def rendered():
+    return render.render()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_no_number_is_typed(page):
+    assert typed_numbers(PAGES[page].read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "it grows at 1.7 per unit of τ",
+        "Fig 3 shows 35 % of them",
+        "the power is 10⁻⁶",
+        "nine in\nten runs",
+        "at Ω = -4 to τ = 400",
+        "{{ chaos.count }} of 6 cases",
+    ],
+)
+def test_a_typed_number_is_found(text):
+    assert typed_numbers(text)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_an_expression_only_names_a_fact(page):
+    expressions = re.findall(r"\{\{(.*?)\}\}", PAGES[page].read_text(encoding="utf-8"))
+    allowed = re.compile(r" [a-z_]\w*(\.[a-z_]\w*)+ ")
+    assert [e for e in expressions if not allowed.fullmatch(e)] == []
+
+
+class Changed(facts.Baseline):
+    """The same datasets with every real number changed by a factor of its own."""
+
+    def __init__(self, folder, rng):
+        super().__init__(folder)
+        self.rng = rng
+
+    def __getitem__(self, name):
+        fresh = name not in self._read
+        data = super().__getitem__(name)
+        if fresh:
+            for variable in data.data_vars.values():
+                if variable.dtype.kind == "f":
+                    variable.values = variable.values * self._factors(variable.shape)
+            for attribute, value in data.attrs.items():
+                if isinstance(value, float):
+                    data.attrs[attribute] = value * self._factors(())
+        return data
+
+    def claims(self):
+        return [
+            {**row, "measured": {name: self._number(v) for name, v in row["measured"].items()}}
+            for row in super().claims()
+        ]
+
+    def tables(self, name):
+        return {
+            title: [{key: self._cell(key, text) for key, text in row.items()} for row in rows]
+            for title, rows in super().tables(name).items()
+        }
+
+    def _factors(self, shape):
+        """Return a factor for each index of each dimension, so that no mean hides them."""
+        factors = self.rng.uniform(1.3, 1.6)
+        for axis, size in enumerate(shape):
+            along = self.rng.uniform(1.0, 1.6, size)
+            factors = factors * along.reshape([-1 if i == axis else 1 for i in range(len(shape))])
+        return factors
+
+    def _number(self, value):
+        return (value + 1) * self._factors(()) if isinstance(value, float) else value
+
+    def _cell(self, key, text):
+        first, _, rest = text.partition(" ")
+        if key in ("peer", "solver", "accuracy", "number of sites N") or first == "-":
+            return text
+        try:
+            return f"{float(first) * self._factors(()):.3g} {rest}"
+        except ValueError:
+            return text
+
+
+def flat(known, prefix=""):
+    """Return {dotted name: text} of facts; rows of a table are numbered."""
+    if isinstance(known, str):
+        return {prefix: known}
+    items = known.items() if isinstance(known, dict) else enumerate(known)
+    found = {}
+    for key, value in items:
+        found |= flat(value, f"{prefix}.{key}" if prefix else str(key))
+    return found
+
+
+def test_every_fact_follows_its_dataset():
+    """A number typed into facts.py would stay when the datasets change."""
+    before = flat(render.known(facts.Baseline(render.BASELINE)))
+    after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(2017))))
+    same = {name for name in before if after.get(name) == before[name]}
+    named = re.compile(
+        r"configured\.|.*\.(case|stated|omega|solver|peer|cases|sites|topic)$|"
+        r".*(end|from|least_omega|largest_omega|error)$"
+    )
+    left = {name for name in same if not named.match(name) and before[name] != "never"}
+    left = {name for name in left if not any(name.startswith(counted) for counted in COUNTED)}
+    assert {name: before[name] for name in sorted(left)} == {}
+
+
+def test_the_ledger_that_is_quoted_has_the_rows_of_the_code():
+    kept = [row["name"] for row in facts.Baseline(render.BASELINE).claims()]
+    assert kept == [claim.name for claim in CLAIMS], "run `python docs/keep.py results`"
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "ARCHITECTURE.md"], ids=lambda page: page.name)
+def test_every_link_leads_to_a_file(page):
+    text = strip(page.read_text(encoding="utf-8"), [r"```.*?```", r"`[^`\n]*`"])
+    links = [link for link in re.findall(r"\]\(([^)#]+)", text) if "://" not in link]
+    assert [link for link in links if not (page.parent / link).exists()] == []
+
+
+def test_the_readme_is_one_page_and_leads_to_every_document():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 100 and text.count("![") == 3
+    for page in PAGES:
+        assert page.name == "README.md" or f"(docs/{page.name})" in text
+
+
+def test_every_document_has_a_template():
+    assert sorted((ROOT / "docs").glob("*.md")) == sorted(set(PAGES) - {ROOT / "README.md"})
