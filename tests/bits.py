@@ -11,8 +11,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-from pendula.simulation.lattice import Reduction, place
-from pendula.simulation.simulate import Trajectory, integrate, output_times
+from pendula.problem import Problem
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.solvers import SOLVERS
 
 TOLERANCES = {"taylor": 1e-14, "dop853": 1e-12}
@@ -28,10 +29,12 @@ def digest(trajectory: Trajectory) -> str:
 
 def run(name: str, even: bool) -> str:
     """Return the hash of Fig 4, large data, to tau = 3, by half of the chain or the whole."""
-    data, times = place({0: (5.0, 1.0)}, 30), output_times(3.0, 0.1)
-    solver = {"name": name, "rtol": TOLERANCES[name], "atol": TOLERANCES[name]}
-    reduction = Reduction(even=even, synchronised=False)
-    return digest(integrate((1.0, 1.0, 0.0), "dirichlet", data, reduction, times, solver))
+    plain = {
+        "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
+        "initial": {0: (5.0, 1.0)}, "end_time": 3.0, "output_step": 0.1,
+        "solver": {"name": name, "rtol": TOLERANCES[name], "atol": TOLERANCES[name]},
+    }  # fmt: skip
+    return digest(simulate(Problem.of(plain), Reduction(even=even, synchronised=False)))
 
 
 def main(threads: int) -> dict:

@@ -2,34 +2,34 @@
 
 import numpy as np
 import pytest
+from pendula.problem import on_sites
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import pair_l2
 from pendula.studies.chaos import ensembles
+from problems import problem_of
 
-PROBLEM = {
-    "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 6, "boundary": "dirichlet",
-    "initial": {0: (1.0, 0.1)}, "end_time": 3.0, "output_step": 0.5,
-    "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
-}  # fmt: skip
+SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
+PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, solver=SOLVER)
 
 
 def test_even_data_stay_even():
-    initial = {0: (1, 2), 2: (3, 4j), -2: (3, 4j)}
+    initial = on_sites({0: (1, 2), 2: (3, 4j), -2: (3, 4j)})
     drawn = ensembles.perturb(initial, 1e-3, np.random.default_rng(0))
-    assert drawn[2] == drawn[-2] and drawn[0] != initial[0]
+    np.testing.assert_array_equal(drawn, drawn[:, ::-1])
+    assert (drawn[:, [0, 2]] != initial[:, [0, 2]]).all() and (drawn[:, 1] == 0).all()
 
 
 def test_the_perturbation_has_the_relative_size_asked_for():
-    initial = dict.fromkeys(range(500), (5.0, 0.2j))
+    initial = np.repeat([[5.0], [0.2j]], 999, axis=1)
     drawn = ensembles.perturb(initial, 1e-4, np.random.default_rng(0))
-    relative = [(np.array(drawn[n]) / initial[n] - 1) / 1e-4 for n in initial]
+    relative = (drawn / initial - 1)[:, 499:] / 1e-4
     assert np.std(np.real(relative)) == pytest.approx(1, abs=0.1)
     assert np.std(np.imag(relative)) == pytest.approx(1, abs=0.1)
 
 
 def test_without_perturbation_every_member_is_the_run_itself():
     l2, _ = ensembles.run_members(PROBLEM, 0.0, 2)
-    np.testing.assert_array_equal(l2, [pair_l2(simulate(**PROBLEM))] * 2)
+    np.testing.assert_array_equal(l2, [pair_l2(simulate(PROBLEM))] * 2)
 
 
 def test_members_differ_and_a_seed_gives_the_same_again():

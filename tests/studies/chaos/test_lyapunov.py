@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from oracle import CASES, random_chain
+from oracle import random_chain
 from pendula.models.amplitudes import Chain
 from pendula.models.tangent import ROWS
 from pendula.simulation.lattice import Reduction, choose_ends, pack
@@ -10,20 +10,15 @@ from pendula.studies.chaos import lyapunov
 from pendula.studies.chaos.changes import PARITIES
 from pendula.studies.chaos.orthonormal import inner, orthonormalise
 from pendula.studies.chaos.tangents import Growth
+from problems import problem_of
 
 WHOLE = Reduction(even=False, synchronised=False)
 HALF = Reduction(even=True, synchronised=False)
-CONSTANTS = {"epsilon": 1.0, "gamma": 1.0, "boundary": "dirichlet"}
-
-
-def problem(case, half_width):
-    omega, pair = CASES[case]
-    return {**CONSTANTS, "omega": omega, "half_width": half_width, "initial": {0: pair}}
 
 
 @pytest.fixture(scope="module")
 def all_changes():
-    return lyapunov.follow_all(problem("fig3_large", 1), 200.0)
+    return lyapunov.follow_all(problem_of("fig3_large", half_width=1), 200.0)
 
 
 def test_the_sum_of_all_exponents_is_zero_at_every_time(all_changes):
@@ -65,13 +60,13 @@ def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
 
 @pytest.mark.parametrize("parity", PARITIES)
 def test_the_chain_is_chaotic_at_omega_zero(parity):
-    growth = lyapunov.follow_parity(problem("fig4_small", 15), parity, 60.0)
+    growth = lyapunov.follow_parity(problem_of("fig4_small", half_width=15), parity, 60.0)
     assert lyapunov.exponents(growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
 
 
 @pytest.mark.parametrize("parity", PARITIES)
 def test_small_data_at_omega_minus_4_are_regular(parity):
-    growth = lyapunov.follow_parity(problem("fig3_small", 15), parity, 60.0)
+    growth = lyapunov.follow_parity(problem_of("fig3_small", half_width=15), parity, 60.0)
     assert abs(lyapunov.exponents(growth, 20.0)[0]) < 0.02
 
 
@@ -85,6 +80,6 @@ def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts()
 
 
 def test_data_that_are_not_even_have_no_parities():
-    lopsided = {**problem("fig3_small", 2), "initial": {1: (1.0, 0.1)}}
+    lopsided = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
     with pytest.raises(ValueError, match="even in n"):
         lyapunov.follow_parity(lopsided, "odd", 1.0)

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from oracle import CASES
 from pendula.studies.chaos import parting
 from pendula.studies.chaos.lyapunov import follow_parity
+from problems import problem_of
 
 TAU = np.linspace(0.0, 20.0, 2001)
 
@@ -32,11 +32,7 @@ def test_what_never_grows_never_parts():
 
 
 def test_a_chaotic_run_parts_when_predicted():
-    omega, pair = CASES["fig4_small"]
-    problem = {
-        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 15, "boundary": "dirichlet",
-        "initial": {0: pair}, "end_time": 16.0, "output_step": 0.125,
-    }  # fmt: skip
+    problem = problem_of("fig4_small", half_width=15, end_time=16.0, output_step=0.125)
     growth = follow_parity(problem, "even", 16.0)
     log = parting.amplification(growth.tau, growth.stretch[0], growth.size)
     found = parting.measure(problem, [1e-6])

@@ -2,24 +2,20 @@
 
 import numpy as np
 import pytest
-from oracle import BOUNDARIES, CASES, random_chain, slope
+from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
-from pendula.simulation.lattice import Reduction, choose_ends, pack, place, unpack
+from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.studies.chaos import symmetry
 from pendula.studies.chaos.changes import random_change
 from pendula.studies.chaos.tangents import grow
+from problems import problem_of
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)
 
 
 def problem(case, **changes):
-    omega, pair = CASES[case]
-    return {
-        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 10, "boundary": "dirichlet",
-        "initial": {0: pair}, "end_time": 6.0, "output_step": 0.25,
-        "solver": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12}, **changes,
-    }  # fmt: skip
+    return problem_of(case, **{"half_width": 10, "end_time": 6.0, "output_step": 0.25} | changes)
 
 
 def lopsided(z, boundary):
@@ -53,22 +49,17 @@ def test_the_odd_part_is_measured_relative_to_the_whole():
 
 def test_an_odd_perturbation_grows_as_the_tangent_dynamics_says():
     case, size = problem("fig4_small"), 1e-7
-    amplitudes = place(case["initial"], 10)
     change = random_change(21, "odd", np.random.default_rng(0))
     change *= size / np.linalg.norm(change)
-    odd = symmetry.follow_odd_part(case, amplitudes + change)
-    growth = grow((1.0, 1.0, 0.0), "dirichlet", amplitudes, change[None], 6.0)
+    odd = symmetry.follow_odd_part(case, case.amplitudes + change)
+    growth = grow(case, change[None], 6.0)
     expected = size * np.exp(growth.stretch[0]) / growth.size
     np.testing.assert_allclose(odd, expected, rtol=2e-3)
 
 
 def test_evenness_is_lost_by_rounding_where_the_chain_is_chaotic_only():
-    chaotic = symmetry.follow_odd_part(
-        problem("fig4_small", end_time=12.0), place({0: (1, 0.1)}, 10)
-    )
-    regular = symmetry.follow_odd_part(
-        problem("fig3_small", end_time=12.0), place({0: (1, 0.1)}, 10)
-    )
+    cases = (problem(name, end_time=12.0) for name in ("fig4_small", "fig3_small"))
+    chaotic, regular = (symmetry.follow_odd_part(case, case.amplitudes) for case in cases)
     assert chaotic[0] == regular[0] == 0.0
     assert regular[-1] < 1e-13 < 1e-11 < chaotic[-1]
 

@@ -6,9 +6,10 @@ from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
 from pendula.models.tangent import bundle_rates, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
-from pendula.simulation.simulate import integrate
+from pendula.simulation.simulate import simulate
 from pendula.studies.chaos.tangents import grow
 from pendula.studies.theory.linear import finite_rate
+from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)
@@ -63,7 +64,7 @@ def test_a_bundle_carries_the_state_and_each_change():
 @pytest.mark.parametrize("omega", [-1.0, 0.0, 2.5])
 def test_at_rest_a_change_grows_as_lemma_1_says(omega):
     rest, change = np.zeros((2, 7), complex), random_chain(3)[None]
-    growth = grow((1.0, 1.0, omega), "dirichlet", rest, change, 60.0)
+    growth = grow(problem_from(rest, (1.0, 1.0, omega)), change, 60.0)
     rate = (growth.stretch[0, -1] - growth.stretch[0, 160]) / 20.0
     assert rate == pytest.approx(finite_rate(omega, 1.0, 1.0, 7, "dirichlet"), rel=2e-3)
 
@@ -71,13 +72,10 @@ def test_at_rest_a_change_grows_as_lemma_1_says(omega):
 def test_a_change_grows_like_the_distance_of_two_solutions():
     z, change, h = random_chain(3), random_chain(3, seed=4), 1e-6
     change /= np.linalg.norm(change)
-    times = np.array([0.0, 2.0])
-    ends = [
-        integrate(CONSTANTS, "dirichlet", z + s * change, WHOLE, times, DOP853).final
-        for s in (h, -h)
-    ]
+    problem = problem_from(z, CONSTANTS, end_time=2.0, output_step=2.0, solver=DOP853)
+    ends = [simulate(problem.changed(initial=z + s * change)).final for s in (h, -h)]
     distance = np.linalg.norm(ends[0] - ends[1]) / (2 * h)
-    growth = grow(CONSTANTS, "dirichlet", z, change[None], 2.0, tolerance=1e-11)
+    growth = grow(problem, change[None], 2.0, tolerance=1e-11)
     assert growth.stretch[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
     both = np.linalg.norm((ends[0] + ends[1]) / 2)
     assert growth.size[-1] == pytest.approx(both, rel=1e-9)

@@ -10,9 +10,10 @@ from pendula.integrators import dop853, dop853_stages
 from pendula.models.amplitudes_rates import rates
 from pendula.simulation import simulate as simulation
 from pendula.simulation import solvers
-from pendula.simulation.lattice import Reduction, place
+from pendula.simulation.lattice import Reduction
 from pendula.simulation.observables import observe
-from pendula.simulation.simulate import integrate, output_times
+from pendula.simulation.simulate import simulate
+from problems import problem_of
 
 ROOT = Path(__file__).resolve().parents[3]
 CASE, TAU = "fig2_large", 5.0
@@ -30,9 +31,8 @@ def exact():
 
 def error(exact) -> float:
     """Return the largest error of a component at the end."""
-    data, even = place({0: (5.0, 1.0)}, 30), Reduction(even=True, synchronised=False)
-    times = output_times(TAU, TAU)
-    final = integrate((1.0, 1.0, 8.0), "dirichlet", data, even, times, TIGHT).final
+    problem = problem_of(CASE, end_time=TAU, output_step=TAU, solver=TIGHT)
+    final = simulate(problem, Reduction(even=True, synchronised=False)).final
     return float(np.abs(final - exact).max())
 
 

@@ -12,6 +12,7 @@ from pendula.datasets.netcdf import read
 from pendula.simulation.simulate import simulate
 from pendula.studies.reference.precision import BITS
 from pendula.studies.reference.verify import LIMIT
+from problems import problem_of
 
 FOLDER = Path(__file__).resolve().parents[2] / "baseline/reference"
 NAMES = [*CASES, "fig4_small.double"]
@@ -84,12 +85,8 @@ def test_snapshots_have_the_norms_of_their_time(name):
 @pytest.mark.parametrize("solver", ["taylor", "dop853"])
 @pytest.mark.parametrize("case", CASES)
 def test_our_solvers_agree_while_doubles_suffice(case, solver):
-    omega, pair = CASES[case]
-    run = simulate(
-        epsilon=1.0, gamma=1.0, omega=omega, half_width=30, boundary="dirichlet",
-        initial={0: pair}, end_time=5.0, output_step=0.025,
-        solver={"name": solver, "rtol": 1e-14, "atol": 1e-14},
-    )  # fmt: skip
+    tight = {"name": solver, "rtol": 1e-14, "atol": 1e-14}
+    run = simulate(problem_of(case, end_time=5.0, solver=tight))
     data = reference(case).sel(tau=slice(0, 5))
     np.testing.assert_allclose(data["linf"], run.linf, rtol=0, atol=1e-9)
     np.testing.assert_allclose(data["l2"], run.l2, rtol=0, atol=1e-9)

@@ -7,27 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from oracle import CASES, hamiltonian, random_chain, slope
+from oracle import hamiltonian, random_chain, slope
 from pendula.datasets.netcdf import read
-from pendula.simulation.lattice import Reduction, pack, place
+from pendula.simulation.lattice import Reduction, pack
 from pendula.studies.reference import half_chain
 from pendula.studies.reference.numbers import HEYOKA, HeyokaMissingError, Numbers
 from pendula.studies.reference.precision import BITS
 from pendula.studies.reference.run import Run, integrate, start
 from pendula.studies.reference.verify import LIMIT, UnverifiedError, compare, require_agreement
+from problems import problem_of
 from reference.integrate_reference import integrate_reference
 
 ROOT = Path(__file__).resolve().parents[3]
 HALF = Reduction(even=True, synchronised=False)
 NUMBERS = (0.7, 1.3, -4.0)
-
-
-def problem(case="fig4_large", **changes):
-    omega, pair = CASES[case]
-    return {
-        "epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 30, "boundary": "dirichlet",
-        "initial": {0: pair}, "end_time": 1.0, "output_step": 0.025, **changes,
-    }  # fmt: skip
 
 
 def rows_of(z):
@@ -71,7 +64,7 @@ def test_a_run_that_is_not_a_number_is_refused():
 def test_without_heyoka_the_message_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "heyoka", None)
     with pytest.raises(HeyokaMissingError, match=HEYOKA):
-        integrate_reference(str(tmp_path / "x.nc"), "x", problem(), [1], (64, 80), True)
+        integrate_reference(str(tmp_path / "x.nc"), "x", problem_of().plain(), [1], (64, 80), True)
 
 
 def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
@@ -108,21 +101,23 @@ def test_the_equations_are_those_of_the_oracle(half_width):
 def test_what_half_a_dirichlet_chain_cannot_hold_is_refused(changes):
     pytest.importorskip("heyoka")
     with pytest.raises(ValueError, match="the reference"):
-        start(problem(**changes), Numbers(100))
+        start(problem_of(**changes), Numbers(100))
 
 
 def test_the_start_is_the_lattice_of_the_other_solvers():
     pytest.importorskip("heyoka")
     initial = {-2: (0.5j, 1), 0: (1, 0.25), 2: (0.5j, 1)}
-    state = start(problem(initial=initial), Numbers(100))
-    np.testing.assert_array_equal(state.astype(float), rows_of(place(initial, 30)))
+    problem = problem_of(initial=initial)
+    state = start(problem, Numbers(100))
+    np.testing.assert_array_equal(state.astype(float), rows_of(problem.amplitudes))
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
 def test_a_short_stretch_made_again_gives_the_same_doubles(case, tmp_path):
     pytest.importorskip("heyoka")
     path = tmp_path / "again.nc"
-    integrate_reference(str(path), case, problem(case), [0.31, 1, 2], BITS[case], True)
+    plain = problem_of(case).plain()
+    integrate_reference(str(path), case, plain, [0.31, 1, 2], BITS[case], True)
     again, kept = read(path), read(ROOT / f"tests/baseline/reference/{case}.nc")
     np.testing.assert_array_equal(again["snapshot_tau"], [1])
     np.testing.assert_array_equal(again["amplitude"], kept["amplitude"][..., :1])
@@ -133,7 +128,7 @@ def test_a_short_stretch_made_again_gives_the_same_doubles(case, tmp_path):
 
 def test_fewer_bits_and_another_order_give_an_error_of_their_size():
     pytest.importorskip("heyoka")
-    short = problem("fig3_large", half_width=6, end_time=0.5)
+    short = problem_of("fig3_large", half_width=6, end_time=0.5)
     coarse, fine = (integrate(short, [], bits) for bits in (100, 150))
     assert coarse.order < fine.order
     assert 2.0**-105 < compare(coarse, fine).norms.max() < 2.0**-88

@@ -15,34 +15,39 @@ from pendula.studies.unbounded.sea import (
     spectrum,
     with_ghosts,
 )
+from problems import constants_of
+
+
+def constants(omega):
+    return constants_of((1.0, 1.0, omega))
 
 
 def test_the_speed_at_omega_zero_is_that_of_the_saddle_point():
-    front = linear_front(1.0, 1.0, 0.0)
+    front = linear_front(constants(0.0))
     assert front.speed == pytest.approx(2.912, abs=5e-4)
     k, step = front.wave_number + 1j * front.decay, 1e-5
-    rate = growth_rate(k, 1.0, 1.0, 0.0)
+    rate = growth_rate(k, constants(0.0))
     assert rate == pytest.approx(front.speed * front.decay, rel=1e-9)
-    along = (growth_rate(k + step, 1.0, 1.0, 0.0) - growth_rate(k - step, 1.0, 1.0, 0.0)) / step
-    assert along == pytest.approx(0.0, abs=1e-5)
+    ahead, behind = (growth_rate(k + h, constants(0.0)) for h in (step, -step))
+    assert (ahead - behind) / step == pytest.approx(0.0, abs=1e-5)
 
 
 def test_in_the_middle_of_the_band_the_saddle_is_known():
     """There s = 2 epsilon sin k, so that decay tanh decay = 1 and v = 2 sinh decay."""
-    front = linear_front(1.0, 1.0, 2.0)
+    front = linear_front(constants(2.0))
     assert front.decay * np.tanh(front.decay) == pytest.approx(1.0, abs=1e-6)
     assert front.speed == pytest.approx(2.0 * np.sinh(front.decay), rel=1e-6)
     assert front.wave_number == pytest.approx(np.pi / 2, abs=1e-6)
 
 
 def test_speeds_are_symmetric_about_the_middle_and_scale_with_the_equations():
-    assert linear_front(1.0, 1.0, 0.5).speed == pytest.approx(linear_front(1.0, 1.0, 3.5).speed)
-    one, twice = linear_front(1.0, 1.0, 0.5), linear_front(2.0, 2.0, 1.0)
+    assert linear_front(constants(0.5)).speed == pytest.approx(linear_front(constants(3.5)).speed)
+    one, twice = linear_front(constants(0.5)), linear_front(constants(0.5).scaled(2.0))
     assert twice.speed == pytest.approx(2.0 * one.speed)
 
 
 def test_at_the_edge_of_the_band_the_front_becomes_the_fastest_wave():
-    inside, outside = linear_front(1.0, 1.0, -1.999), linear_front(1.0, 1.0, -2.001)
+    inside, outside = linear_front(constants(-1.999)), linear_front(constants(-2.001))
     assert inside.speed == pytest.approx(outside.speed, abs=5e-3)
     assert outside.decay == outside.delay == 0.0 < inside.decay
 
@@ -50,7 +55,7 @@ def test_at_the_edge_of_the_band_the_front_becomes_the_fastest_wave():
 def test_a_linear_front_bounds_the_linear_chain():
     """Beyond v tau, the solution of the linearised equation is as small as the bound says."""
     sites, tau = 401, 10.0
-    front = linear_front(1.0, 1.0, 0.0)
+    front = linear_front(constants(0.0))
     kappa = 2.0 * (1.0 - np.cos(2.0 * np.pi * np.arange(sites) / sites))
     s = np.sqrt(4.0 - kappa**2 + 0j)
     # D = x + i y: x' = -(kappa + 2) y and y' = (kappa - 2) x, from x = y = 1 on one site
@@ -109,7 +114,7 @@ def test_terms_of_the_energy_add_up_to_it():
     state = np.zeros((4, 12))
     half = z[:, 9:]
     state[:, 1:-1] = half[0].real, half[0].imag, half[1].real, half[1].imag
-    terms = energy_terms(state, (1.2, 0.7, -3.0))
+    terms = energy_terms(state, constants_of((1.2, 0.7, -3.0)))
     bonds = terms[3]
     both = 2.0 * terms.sum() - terms[:3, 0].sum()  # the centre has no twin, each bond has one
     assert both == pytest.approx(hamiltonian(z, (1.2, 0.7, -3.0), "dirichlet"), rel=1e-12)

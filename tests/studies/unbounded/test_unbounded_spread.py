@@ -6,18 +6,11 @@ from pendula.studies.unbounded import spread as spread_module
 from pendula.studies.unbounded.members import member
 from pendula.studies.unbounded.spread import SERIES, spread
 from pendula.studies.unbounded.window_map import maxima, window_map
+from problems import problem_of
 
-PROBLEM = {
-    "epsilon": 1.0,
-    "gamma": 1.0,
-    "omega": 0.0,
-    "initial": {0: (1.0, 0.1)},
-    "half_width": None,
-    "end_time": 40.0,
-    "output_step": 0.25,
-    "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8},
-    "rest": 1e-20,
-}
+LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
+PROBLEM = problem_of("fig4_small", half_width=None, end_time=40.0, output_step=0.25, solver=LOOSE)
+REST = 1e-20
 
 
 class StoppedError(Exception):
@@ -38,7 +31,7 @@ def interrupted(monkeypatch, tmp_path):
     with monkeypatch.context() as patch:
         patch.setattr(spread_module, "advance", stop)
         with pytest.raises(StoppedError):
-            spread(PROBLEM, tmp_path / "kept.npz", keep_every=5)
+            spread(PROBLEM, REST, tmp_path / "kept.npz", keep_every=5)
     return tmp_path / "kept.npz"
 
 
@@ -51,23 +44,24 @@ def count_pieces(monkeypatch):
 def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted(
     interrupted, monkeypatch
 ):
-    whole = spread(PROBLEM)
+    whole = spread(PROBLEM, REST)
     done = count_pieces(monkeypatch)
-    continued = spread(PROBLEM, interrupted)
+    continued = spread(PROBLEM, REST, interrupted)
     assert len(done) == 10
     for name in (*SERIES, "state"):
         assert np.array_equal(getattr(whole, name), getattr(continued, name)), name
 
 
 def test_a_checkpoint_of_another_problem_is_not_taken(interrupted, monkeypatch):
-    other = {**PROBLEM, "omega": 0.5}
     done = count_pieces(monkeypatch)
-    spread({**other, "end_time": 24.0}, interrupted)
+    spread(PROBLEM.changed(end_time=24.0), REST, interrupted)
     assert len(done) == 12
+    spread(PROBLEM, 0.1 * REST, interrupted)
+    assert len(done) == 12 + 20
 
 
 def test_series_are_at_every_output_once():
-    run = spread({**PROBLEM, "end_time": 6.0})
+    run = spread(PROBLEM.changed(end_time=6.0), REST)
     np.testing.assert_array_equal(run.tau, 0.25 * np.arange(25))
     assert run.l2.shape == run.linf.shape == run.energy.shape == (25,)
     assert run.front.shape == (3, 4) and (np.diff(run.front[-1]) <= 0).all()
@@ -75,14 +69,15 @@ def test_series_are_at_every_output_once():
 
 
 def test_members_differ_by_little_and_are_the_same_every_time():
-    first, again, second = (member(PROBLEM["initial"], n) for n in (1, 1, 2))
-    assert member(PROBLEM["initial"], 0) == PROBLEM["initial"]
-    assert first == again != second
-    assert first[0][0] == pytest.approx(1.0, rel=1e-5)
+    first, again, second = (member(PROBLEM.initial, n) for n in (1, 1, 2))
+    np.testing.assert_array_equal(member(PROBLEM.initial, 0), PROBLEM.initial)
+    np.testing.assert_array_equal(first, again)
+    assert (first != second).all()
+    assert first[0, 0] == pytest.approx(1.0, rel=1e-5)
 
 
 def test_chaos_makes_of_members_different_runs():
-    runs = [spread({**PROBLEM, "initial": member(PROBLEM["initial"], n)}) for n in (0, 1)]
+    runs = [spread(PROBLEM.changed(initial=member(PROBLEM.initial, n)), REST) for n in (0, 1)]
     apart = np.abs(runs[0].l2 / runs[1].l2 - 1.0)
     assert apart[:8].max() < 1e-3 < apart.max()
     assert runs[0].front[-1, 0] == runs[1].front[-1, 0]
@@ -90,7 +85,8 @@ def test_chaos_makes_of_members_different_runs():
 
 def test_a_map_has_the_maxima_of_each_chain_and_stops_at_the_first_free_one(monkeypatch):
     done = count_pieces(monkeypatch)
-    found = window_map({**PROBLEM, "end_time": 20.0}, [4, 300, 2000], np.array([12.0, 20.0]))
+    short, ends = PROBLEM.changed(end_time=20.0), np.array([12.0, 20.0])
+    found = window_map(short, REST, [4, 300, 2000], ends)
     assert len(done) == 20
     assert found.arrival[0] == 2.0 and np.isnan(found.arrival[1:]).all()
     assert np.array_equal(found.l2[1], found.l2[2])
@@ -109,7 +105,7 @@ def test_a_tolerance_of_1e_8_is_enough_for_the_sea():
     for tolerance in (1e-8, 1e-11):
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
         runs = [
-            spread({**PROBLEM, "solver": solver, "initial": member(PROBLEM["initial"], number)})
+            spread(PROBLEM.changed(solver=solver, initial=member(PROBLEM.initial, number)), REST)
             for number in range(4)
         ]
         powers[tolerance] = np.array([(run.l2**2)[run.tau > 20.0].mean() for run in runs])

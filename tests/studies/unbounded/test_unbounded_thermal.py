@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from oracle import hamiltonian
 from pendula.studies.unbounded.thermal import ring_energies, sample, site_energy, zero_energy
+from problems import constants_of
 
-CONSTANTS = (0.8, 0.6, -1.5)  # epsilon, gamma, Omega
+NUMBERS = (0.8, 0.6, -1.5)  # epsilon, gamma, Omega
+CONSTANTS = constants_of(NUMBERS)
 
 
 def random_ring(sites=7):
@@ -18,7 +20,7 @@ def as_amplitudes(state):
 
 def test_the_energy_of_a_ring_is_that_of_the_paper():
     state = random_ring()
-    expected = hamiltonian(as_amplitudes(state), CONSTANTS, "periodic")
+    expected = hamiltonian(as_amplitudes(state), NUMBERS, "periodic")
     assert 7 * ring_energies(state[None], CONSTANTS)[0] == pytest.approx(expected, rel=1e-12)
 
 
@@ -27,9 +29,9 @@ def test_a_change_of_one_site_changes_the_energy_by_its_terms():
     new = old.copy()
     new[:, 2] += [0.3, -0.2, 0.5, 0.1]
     left, right = old[:, 1], old[:, 3]
-    change = site_energy(CONSTANTS, *new[:, 2], left, right)
-    change -= site_energy(CONSTANTS, *old[:, 2], left, right)
-    energies = [hamiltonian(as_amplitudes(state), CONSTANTS, "periodic") for state in (old, new)]
+    change = site_energy(NUMBERS, *new[:, 2], left, right)
+    change -= site_energy(NUMBERS, *old[:, 2], left, right)
+    energies = [hamiltonian(as_amplitudes(state), NUMBERS, "periodic") for state in (old, new)]
     assert change == pytest.approx(energies[1] - energies[0], rel=1e-9)
 
 
@@ -42,7 +44,7 @@ def test_the_sampled_temperature_obeys_equipartition():
 
 
 def test_no_energy_and_the_same_numbers_every_time():
-    found, again = (zero_energy((1.0, 1.0, 2.0), halvings=7) for _ in range(2))
+    found, again = (zero_energy(constants_of((1.0, 1.0, 2.0)), halvings=7) for _ in range(2))
     assert np.array_equal(found.states, again.states)
     assert abs(found.energies.mean()) < 1.5  # of cubic energies of twenty
     power = found.at_zero_energy((found.states**2).sum(axis=1).mean(axis=1))
@@ -51,4 +53,4 @@ def test_no_energy_and_the_same_numbers_every_time():
 
 def test_where_every_state_has_energy_there_is_none():
     with pytest.raises(ValueError, match="without energy"):
-        zero_energy((1.0, 1.0, 8.0))
+        zero_energy(constants_of((1.0, 1.0, 8.0)))

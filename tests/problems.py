@@ -1,0 +1,33 @@
+"""The paper's cases as problems, and any of their values changed."""
+
+from oracle import CASES
+from pendula.problem import Constants, Problem
+
+UNIT = {"epsilon": 1.0, "gamma": 1.0}
+
+
+def problem_of(case: str = "fig4_small", **changes) -> Problem:
+    """Return a case of the paper; `changes` are plain values, such as half_width or initial."""
+    omega, pair = CASES[case]
+    plain = UNIT | {
+        "omega": omega,
+        "half_width": 30,
+        "boundary": "dirichlet",
+        "initial": {0: pair},
+        "end_time": 1.0,
+        "output_step": 0.025,
+        "solver": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
+    }
+    return Problem.of(plain | changes)
+
+
+def constants_of(values) -> Constants:
+    """Return named constants of the numbers (epsilon, gamma, Omega) that the oracle takes."""
+    epsilon, gamma, omega = map(float, values)
+    return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+
+
+def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> Problem:
+    """Return the problem of data (2, 2M + 1) on the whole chain under (epsilon, gamma, Omega)."""
+    base = problem_of(half_width=amplitudes.shape[1] // 2, boundary=boundary, **changes)
+    return base.changed(constants=constants_of(values), initial=amplitudes)
