@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pendula import simd
-from pendula.compiled import generic
+from pendula.compiled import uncached
 from pendula.simd import (
     fill,
     keep_lanes,
@@ -43,7 +43,7 @@ def lanes_of(function, *arguments):
 # --- Registers and arrays ---
 
 
-@generic
+@uncached
 def copy_vector(out, array, place):
     store(out, 0, load(array, place))
 
@@ -53,7 +53,7 @@ def test_load_takes_four_numbers_from_any_place(place):
     np.testing.assert_array_equal(lanes_of(copy_vector, EIGHT, place), EIGHT[place : place + 4])
 
 
-@generic
+@uncached
 def store_repeated(out, place, number):
     store(out, place, fill(number))
 
@@ -66,7 +66,7 @@ def test_store_writes_four_numbers_and_no_more_and_fill_repeats_one(place):
     np.testing.assert_array_equal(out, expected)
 
 
-@generic
+@uncached
 def copy_by_flat_index(out, array):
     store(out, 0, load(array, 6))
 
@@ -76,7 +76,7 @@ def test_load_counts_a_flat_index_through_the_rows_of_an_array():
     np.testing.assert_array_equal(lanes_of(copy_by_flat_index, array), [6, 7, 8, 9])
 
 
-@generic
+@uncached
 def add_vectors(out, a, b):
     store(out, 0, load(a, 0) + load(b, 0))
 
@@ -91,17 +91,17 @@ def test_four_numbers_are_one_register_to_llvm():
 # --- Arithmetic ---
 
 
-@generic
+@uncached
 def subtract_vectors(out, a, b):
     store(out, 0, load(a, 0) - load(b, 0))
 
 
-@generic
+@uncached
 def multiply_vectors(out, a, b):
     store(out, 0, load(a, 0) * load(b, 0))
 
 
-@generic
+@uncached
 def negate_vector(out, a):
     store(out, 0, -load(a, 0))
 
@@ -121,7 +121,7 @@ def test_operators_of_two_vectors_have_the_bits_of_numpy(symbol, one, other):
         np.testing.assert_array_equal(lanes_of(compiled, one, other), plain(one, other))
 
 
-@generic
+@uncached
 def operate_with_number(out, number, a):
     store(out, 0, number + load(a, 0))
     store(out, 4, number - load(a, 0))
@@ -140,7 +140,7 @@ def test_minus_changes_the_sign_of_zero_too():
     np.testing.assert_array_equal(out, [0.0, 0.0, -1.5, -np.inf])
 
 
-@generic
+@uncached
 def multiply_and_add(out, a, b, c):
     store(out, 0, load(a, 0) * load(b, 0) + load(c, 0))
 
@@ -155,7 +155,7 @@ def test_a_product_and_a_sum_are_never_fused():
 # --- Lanes ---
 
 
-@generic
+@uncached
 def shift_both_ways(out, array):
     store(out, 0, left_neighbours(load(array, 0), load(array, 4)))
     store(out, 4, right_neighbours(load(array, 0), load(array, 4)))
@@ -168,7 +168,7 @@ def test_shifts_show_each_site_its_neighbour():
     np.testing.assert_array_equal(out[4:], EIGHT[1:5], "right neighbours of the first block")
 
 
-@generic
+@uncached
 def keep_some(out, a, count):
     store(out, 0, keep_lanes(load(a, 0), count, 9.0))
 
@@ -182,12 +182,12 @@ def test_keep_lanes_replaces_what_follows_the_count(count):
 # --- Magnitudes ---
 
 
-@generic
+@uncached
 def larger_of_vectors(out, a, b):
     store(out, 0, larger_magnitude(load(a, 0), load(b, 0)))
 
 
-@generic
+@uncached
 def largest_of_vector(a):
     return largest_lane(load(a, 0))
 
@@ -237,7 +237,7 @@ def test_ghosts_and_later_rows_do_not_count_as_largest():
 # --- Views ---
 
 
-@generic
+@uncached
 def shape_of_view(state):
     return vec4_views((state,))[0].shape
 
@@ -246,7 +246,7 @@ def test_a_view_has_the_shape_of_its_state():
     assert shape_of_view(np.zeros((3, 11))) == (3, 11)
 
 
-@generic
+@uncached
 def read_view(out, state, row, j):
     store(out, 0, vec4_views((state,))[0][row, j])
 
@@ -257,7 +257,7 @@ def test_reading_a_view_gives_four_columns_of_a_row(row, j):
     np.testing.assert_array_equal(lanes_of(read_view, state, row, j), state[row, j : j + 4])
 
 
-@generic
+@uncached
 def write_view(state, row, j):
     vec4_views((state,))[0][row, j] = fill(1.0)
 
@@ -270,7 +270,7 @@ def test_writing_a_view_changes_four_columns_of_a_row_and_nothing_else(row, j):
     np.testing.assert_array_equal(state, expected)
 
 
-@generic
+@uncached
 def add_views(target, one, other):
     views = vec4_views((target, one, other))
     views[0][0, 0] = views[1][0, 0] + views[2][0, 0]
@@ -287,10 +287,10 @@ def write_sum(y, j):
     y[2, j] = y[0, j] + 0.5 * y[1, j]
 
 
-write_sum_compiled = generic(write_sum)
+write_sum_compiled = uncached(write_sum)
 
 
-@generic
+@uncached
 def write_sum_by_view(state, j):
     write_sum_compiled(vec4_views((state,))[0], j)
 

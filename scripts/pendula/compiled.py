@@ -29,14 +29,19 @@ def kernel(function: Callable) -> Callable:
         numba.config.CACHE_DIR = usual
 
 
-generic = numba.njit(error_model="numpy", nogil=True)
-"""Compile a function built around given functions: it is kept with the kernel that calls it."""
+uncached = numba.njit(error_model="numpy", nogil=True)
+"""Compile a function that is built around given functions, such as a solver around its rates.
 
-inlined = numba.njit(error_model="numpy", nogil=True, inline="always")
-"""The same, merged into the kernel that calls it, so that it is not compiled twice."""
+Its machine code is kept with the kernel that calls it: numba cannot cache a closure by itself.
+"""
 
-merged = numba.njit(error_model="numpy", nogil=True, forceinline=True)
-"""The same by LLVM: values in vector registers would not survive a call."""
+inlined_by_numba = numba.njit(error_model="numpy", nogil=True, inline="always")
+"""Put a function's statements in place of its call before compilation, so that a closure that one
+kernel calls is not compiled a second time by itself."""
+
+inlined_by_llvm = numba.njit(error_model="numpy", nogil=True, forceinline=True)
+"""Put a function's instructions in place of its call after compilation: a call would spill vectors
+from their registers into memory."""
 
 
 @kernel

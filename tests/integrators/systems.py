@@ -6,25 +6,25 @@ solutions in closed form, and so has Crank-Nicolson for q = 0.
 """
 
 import numpy as np
-from pendula.compiled import generic
+from pendula.compiled import uncached
 from pendula.integrators import crank_nicolson, dop853, ode45, taylor
-from pendula.models.blocks import BLOCK, ORDER
+from pendula.integrators.taylor import BLOCK_SIZE, ORDER
 from pendula.simd import LANES
 from scipy.integrate import solve_ivp
 
 START = 2.0 + 0.5j
 
 
-@generic
+@uncached
 def oscillate(mu, y, dy):
     dy[0, 1] = y[1, 1]
     dy[1, 1] = mu * (1.0 - y[0, 1] * y[0, 1]) * y[1, 1] - y[0, 1]
 
 
-@generic
+@uncached
 def continue_oscillation(mu, series):
     """Write the coefficients of x and y of all orders; the third part of each is that of x^2."""
-    c = series.memory[:BLOCK].reshape(ORDER + 1, 3, LANES)
+    c = series.memory[:BLOCK_SIZE].reshape(ORDER + 1, 3, LANES)
     for k in range(ORDER):
         square = cubic = 0.0
         for j in range(k + 1):
@@ -36,14 +36,14 @@ def continue_oscillation(mu, series):
         c[k + 1, 1, 0] = (mu * (c[k, 1, 0] - cubic) - c[k, 0, 0]) / (k + 1)
 
 
-@generic
+@uncached
 def riccati(factors, old, new, middle, dy):
     for row in range(2):
         mean = 0.5 * (old[row, 1] + new[row, 1])
         dy[row, 1] = factors[0] * mean + factors[1] * mean * mean
 
 
-@generic
+@uncached
 def keep(system, y, i, record):
     record[0, i] = y[0, 1]
     record[1, i] = y[1, 1]
@@ -55,22 +55,22 @@ solve_taylor = taylor.build(continue_oscillation, keep)
 solve_crank_nicolson = crank_nicolson.build(riccati, keep)
 
 
-@generic
+@uncached
 def run_ode45(system, y, times, controls, work, record):
     return solve_ode45(system, y, times, controls, work, record)
 
 
-@generic
+@uncached
 def run_dop853(system, y, times, controls, work, record):
     return solve_dop853(system, y, times, controls, work, record)
 
 
-@generic
+@uncached
 def run_taylor(system, y, times, controls, work, record):
     return solve_taylor(system, y, times, controls, work, record)
 
 
-@generic
+@uncached
 def run_crank_nicolson(system, y, times, controls, work, record):
     return solve_crank_nicolson(system, y, times, controls, work, record)
 

@@ -5,8 +5,7 @@ import pytest
 from oracle import CASES, laplacian, random_chain, slope
 from pendula.integrators import splitting
 from pendula.integrators.outcome import DONE
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_rates import linear_radius, linear_rates, turn
+from pendula.models.amplitudes import Chain, linear_radius, linear_rates, nonlinear_flow
 from pendula.simulation.lattice import Reduction, choose_ends, pack, place, unpack
 from pendula.simulation.simulate import IntegrationError, integrate, output_times
 from scipy.linalg import expm
@@ -66,7 +65,7 @@ def test_the_linear_flow_is_exact(boundary, step):
 def test_the_turn_is_the_exact_flow_of_the_cubic_terms():
     z = random_chain(2)
     y = pack(z, WHOLE)
-    turn(y, 0.3)
+    nonlinear_flow(y, 0.3)
     np.testing.assert_allclose(unpack(y, WHOLE), z * np.exp(-0.15j * np.abs(z) ** 2), rtol=1e-14)
 
 

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pendula.compiled import generic
+from pendula.compiled import uncached
 from pendula.integrators import dop853, stretches
 from pendula.integrators.outcome import DONE
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_rates import rates
+from pendula.models.amplitudes import Chain, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.simulation.observables import blank_record, observe
 from pendula.simulation.solvers import run_dop853
@@ -17,7 +16,7 @@ solve_in_one = dop853.build(rates, observe)
 TIMES = np.linspace(0.0, 20.0, 801)  # enough steps that some pass narrowly
 
 
-@generic
+@uncached
 def run_in_one(chain, y, times, controls, work, record):
     return solve_in_one(chain, y, times, controls, work, record)
 

@@ -7,10 +7,10 @@ import systems
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
-from pendula.compiled import generic
-from pendula.integrators import taylor, taylor_step
+from pendula.compiled import uncached
+from pendula.integrators import taylor
 from pendula.integrators.outcome import DONE
-from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, place
 from pendula.simulation.simulate import integrate, output_times
@@ -19,20 +19,20 @@ WHOLE = Reduction(even=False, synchronised=False)
 TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 
 
-@generic
+@uncached
 def describe(y, work):
     return lay_out(work, y)
 
 
 @given(st.floats(1e-300, 1e300))
 def test_the_roots_have_four_digits(x):
-    assert taylor_step.root(x) == pytest.approx(x ** (1 / 16), rel=1e-14)
-    assert taylor_step.root_before(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
+    assert taylor.sixteenth_root(x) == pytest.approx(x ** (1 / 16), rel=1e-14)
+    assert taylor.fifteenth_root(x) == pytest.approx(x ** (1 / 15), rel=1e-4)
 
 
 @pytest.mark.parametrize("x", [0.0, np.inf])
 def test_the_roots_of_nothing_and_of_infinity(x):
-    assert taylor_step.root(x) == taylor_step.root_before(x) == x
+    assert taylor.sixteenth_root(x) == taylor.fifteenth_root(x) == x
 
 
 @pytest.mark.parametrize("sites", [1, 3, 4, 5, 8])
@@ -40,7 +40,9 @@ def test_the_sum_of_a_series_is_numpys(sites):
     y = np.zeros((4, sites + 2))
     memory = np.random.default_rng(sites).normal(size=(WORK, *y.shape))
     series = describe(y, memory)
-    c = series.memory[: 2 * series.blocks * BLOCK].reshape(2, series.blocks, ORDER + 1, 3, LANES)
+    c = series.memory[: 2 * series.blocks * BLOCK_SIZE].reshape(
+        2, series.blocks, ORDER + 1, 3, LANES
+    )
     expected = np.polynomial.polynomial.polyval(-0.7, np.moveaxis(c, 2, 0)[:, :, :, :2])
     expected = expected.transpose(0, 2, 1, 3).reshape(4, -1)[:, :sites]
     taylor.evaluate(series, -0.7, y)
@@ -60,7 +62,9 @@ def test_the_largest_modulus_counts_nan_as_larger_than_infinity(largest, place):
     y[:, 1 + (place + 1) % 12] = 0.1 if np.isnan(largest) else 0.0
     series = describe(y, np.zeros((WORK, *y.shape)))
     write_state(y, series)
-    assert taylor_step.size(series, 0) == pytest.approx(largest, rel=1e-15, abs=0.0, nan_ok=True)
+    assert taylor.largest_modulus(series, 0) == pytest.approx(
+        largest, rel=1e-15, abs=0.0, nan_ok=True
+    )
 
 
 def test_a_single_step_errs_by_one_power_more_than_its_order():

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import boundaries, chains, random_chain
-from pendula.models.amplitudes import Chain
-from pendula.models.energy import energy
+from pendula.models.amplitudes import Chain, energy
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.simulation.observables import blank_record, norms, observe
 

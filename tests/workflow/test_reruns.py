@@ -89,5 +89,6 @@ def test_an_edit_of_the_equations_reaches_the_numbers(clone, tmp_path):
             return float(abs(data["energy"] - data["energy"][0]).max())
 
     before = drift()
-    edit(clone / "scripts/pendula/models/amplitudes.py", "+ 0.5 * density", "+ 0.25 * density")
+    equations = clone / "scripts/pendula/models/amplitudes.py"
+    edit(equations, "+ 0.5 * squared_modulus", "+ 0.25 * squared_modulus")
     assert before < 1e-6 < 1e-3 < drift()

@@ -11,7 +11,7 @@ and the run ends with a fault where cutting does not help.
 
 import numpy as np
 
-from pendula.compiled import copy, generic, inlined, kernel
+from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_in_rows
 
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
@@ -82,7 +82,7 @@ def build(mean_rates, observe):
     The distance between two outputs is covered in equal steps, none longer than `step`.
     """
 
-    @generic
+    @uncached
     def iterate(system, old, new, h, scratch, enough, most):
         """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
         last = np.inf
@@ -96,7 +96,7 @@ def build(mean_rates, observe):
             last = change
         return False, most
 
-    @generic
+    @uncached
     def cut(system, old, new, h, scratch, enough, most):
         """Cover `h` in equal parts, halved until the iteration contracts; return the counts."""
         fraction, covered = 0.5, 0.0
@@ -115,7 +115,7 @@ def build(mean_rates, observe):
                     return False, cuts, evaluations
         return True, cuts, evaluations
 
-    @inlined
+    @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         step, tolerance, most = controls
         new, scratch, past = work[0], work[1:3], work[3:]

@@ -13,7 +13,7 @@ from math import sqrt
 
 import numpy as np
 
-from pendula.compiled import copy, generic, inlined, kernel
+from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 
 from .dop853_errors import estimates, step_error, weighted_norm, worse
 from .dop853_interpolant import interpolate, prepare_interpolant
@@ -55,7 +55,7 @@ def build(rates, observe, may_cut=in_one, cut=whole):
     does, or is cut off there.
     """
 
-    @generic
+    @uncached
     def initial_step(system, y, slope, spare, tolerances, longest):
         """Return the starting step of Hairer, Norsett and Wanner (section II.4)."""
         w, turned, scratch, sites = spare[0], spare[1], spare[2], (1, y.shape[1] - 1)
@@ -74,7 +74,7 @@ def build(rates, observe, may_cut=in_one, cut=whole):
             return min(longest, max(1e-6, 1e-3 * h))
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
 
-    @generic
+    @uncached
     def take_stages(system, first, last, y, h, k, w):
         """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`."""
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
@@ -82,7 +82,7 @@ def build(rates, observe, may_cut=in_one, cut=whole):
             combine(stage, y_flat, h, k_flat, w_flat)
             rates(system, w, k[stage - 1])
 
-    @generic
+    @uncached
     def step(system, count, part, y, slope, h, tolerances, due, w, final_slope, c):
         """Write the state and its slope after a step in `count` stretches; return its error.
 
@@ -114,7 +114,7 @@ def build(rates, observe, may_cut=in_one, cut=whole):
                     give(curve[m], left, first, stop, c[m])
         return error
 
-    @inlined
+    @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         t, end = times[0], times[-1]
         state, w, slope, final_slope, out, c = y, work[0], work[1], work[2], work[3], work[4:]

@@ -14,7 +14,7 @@ from math import sqrt
 
 import numpy as np
 
-from pendula.compiled import copy, inlined, kernel
+from pendula.compiled import copy, inlined_by_numba, kernel
 from pendula.simd import largest_in_rows
 
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
@@ -125,7 +125,7 @@ def spacing(t):
 def build(rates, observe):
     """Return the solver of y' = rates; see the package for its arguments."""
 
-    @inlined
+    @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         rtol, atol = controls
         threshold = atol / rtol

@@ -8,7 +8,7 @@ C library make the last bits depend on the machine.
 
 import numpy as np
 
-from pendula.compiled import copy, generic, inlined, kernel
+from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 
 from .outcome import DONE, STEP_TOO_LONG, Outcome
 
@@ -57,7 +57,7 @@ def build(linear_rates, radius, turn, observe):
     covered in equal steps, none longer than `step`.
     """
 
-    @generic
+    @uncached
     def flow(system, y, h, term, slope):
         """Carry `y` along the linear flow; return the evaluations of the linear rates."""
         terms = count_terms(abs(h) * radius(system))
@@ -67,7 +67,7 @@ def build(linear_rates, radius, turn, observe):
             add_scaled(slope, h / k, term, y)
         return terms
 
-    @inlined
+    @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         (step,) = controls
         term, slope = work[0], work[1]

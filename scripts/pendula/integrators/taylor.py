@@ -1,72 +1,200 @@
-"""The Taylor method: each step sums the power series of the solution, with its own radius.
+"""The Taylor method: each step sums the power series of the solution, as far as its terms allow.
 
-No step is ever rejected (`taylor_step` says how long it may be), and outputs are sums of the same
-series.
+The system gives a rule that continues a power series in time: from the coefficients of order 0,
+which are the state, it writes those of the orders 1 to ORDER. What stands here is where the
+coefficients lie in memory, their sums, the step that they allow, and the loop. No step is ever
+rejected, and outputs between steps are sums of the same series.
+
+Layout. Sites go four to a block, a `Vector` (see pendula.simd). A block holds, order after order,
+the real parts of its four sites, their imaginary parts, and four numbers for the rule, which keeps
+|A|^2 / 2 there. All coefficients of a block lie side by side: each is at a fixed distance from the
+start of the block, and a short chain fits into the fastest cache. Behind all blocks lie the ghosts,
+what each component sees beyond its two ends, for the order that is at work.
+
+Step control. Jorba and Zou, Experimental Mathematics 14 (2005) 99: the last two
+coefficients give the step at which their terms fall below the tolerance. They are measured by the
+largest modulus of a component, so that half of an even chain takes the same steps as the whole.
+Roots are taken by square roots alone, whose bits are the same on every processor.
 """
+
+from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
-from pendula.compiled import inlined, kernel, merged
-from pendula.models.blocks import (
-    BLOCK,
-    ORDER,
-    STEP,
-    WORK,
-    X,
-    Y,
-    ghosts_of,
-    lay_out,
-    start_of,
-    write_state,
-)
-from pendula.simd import LANES, load, store
+from pendula.compiled import inlined_by_llvm, inlined_by_numba, kernel
+from pendula.simd import LANES, fill, larger_magnitude, largest_lane, load, store
 
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .taylor_step import allowed_step, size, up_to
 
-__all__ = ["ORDER", "WORK", "build"]
+# --- A power series in memory -------------------------------------------------------------------
+
+ORDER = 16
+"""Order of the method: the highest power of time in the series."""
+X, Y, EXTRA = 0, LANES, 2 * LANES
+"""Where real parts, imaginary parts and the rule's own numbers lie in a coefficient of a block."""
+ORDER_STRIDE = 3 * LANES
+"""Numbers from one order of a block to the next."""
+BLOCK_SIZE = (ORDER + 1) * ORDER_STRIDE
+"""Numbers from one block to the next."""
+LEFT, RIGHT = 0, ORDER_STRIDE
+"""Where the ghosts to the left and to the right of a component lie, each laid out as one order."""
+GHOSTS_SIZE = 2 * ORDER_STRIDE
+_SMALLEST_COMPONENT = 2 * 3  # numbers of a component of one site: two rows of a site and two ghosts
+WORK = -(-(BLOCK_SIZE + GHOSTS_SIZE) // _SMALLEST_COMPONENT)
+"""Work arrays of the size of a state: enough for a single site, whose block is mostly padding."""
 
 
-@merged
+class Series(NamedTuple):
+    """Power series of a state of (row, column), whose rows are Re and Im of each component."""
+
+    memory: np.ndarray  # flat: component, block, order, part, lane; then the ghosts
+    components: int
+    blocks: int  # of one component
+    sites_in_last: int  # lanes of a component's last block that are sites, the rest is padding
+
+
+@inlined_by_llvm
+def lay_out(work, y):
+    """Return a series of states like `y` in the memory of `work`."""
+    sites = y.shape[1] - 2
+    blocks = (sites + LANES - 1) // LANES
+    return Series(work.reshape(-1), y.shape[0] // 2, blocks, sites - (blocks - 1) * LANES)
+
+
+@inlined_by_llvm
+def block_start(series, component, block):
+    """Return where in memory a block begins."""
+    return (component * series.blocks + block) * BLOCK_SIZE
+
+
+@inlined_by_llvm
+def ghosts_start(series, component):
+    """Return where in memory the ghosts of a component begin."""
+    return series.components * series.blocks * BLOCK_SIZE + component * GHOSTS_SIZE
+
+
+@kernel
+def write_state(y, series):
+    """Let the series begin with the state `y`; padding begins with zero."""
+    for row in range(y.shape[0]):
+        for b in range(series.blocks):
+            place = block_start(series, row // 2, b) + row % 2 * LANES
+            for j in range(LANES):
+                column = 1 + b * LANES + j
+                series.memory[place + j] = y[row, column] if column < y.shape[1] - 1 else 0.0
+
+
+# --- Sums of the series -------------------------------------------------------------------------
+
+
+@inlined_by_llvm
 def sum_at(m, i, h):
-    """Return the sum of the series at the distance h of the part of a block that begins at i."""
+    """Return the sum over all orders, at the time `h`, of the part of a block that begins at `i`.
+
+    Horner's rule in h^4: four orders at a time do not wait for one another, as those of Horner's
+    rule in h would.
+    """
     h2 = h * h
     h3, h4 = h2 * h, h2 * h2
-    total = load(m, i + ORDER * STEP)
+    total = load(m, i + ORDER * ORDER_STRIDE)
     for k in range(ORDER - 4, -1, -4):
-        u = i + k * STEP
-        high = h3 * load(m, u + 3 * STEP) + h2 * load(m, u + 2 * STEP)
-        total = h4 * total + (high + (h * load(m, u + STEP) + load(m, u)))
+        u = i + k * ORDER_STRIDE
+        high = h3 * load(m, u + 3 * ORDER_STRIDE) + h2 * load(m, u + 2 * ORDER_STRIDE)
+        total = h4 * total + (high + (h * load(m, u + ORDER_STRIDE) + load(m, u)))
     return total
 
 
-@merged
+@inlined_by_llvm
 def advance(series, h):
-    """Replace order 0 by the sum of the series at the distance h, one or one a lane."""
+    """Replace order 0 by the sum of the series at the time `h`: the state after the step."""
     m = series.memory
     for block in range(series.components * series.blocks):
         for part in range(X, Y + 1, Y - X):
-            i = block * BLOCK + part
+            i = block * BLOCK_SIZE + part
             store(m, i, sum_at(m, i, h))
 
 
 @kernel
 def evaluate(series, h, y):
-    """Write the sum of the series at the distance h into the state `y`."""
-    m, spare = series.memory, ghosts_of(series, 0)  # ghosts are written anew before they are read
+    """Write the sum of the series at the time `h` into the state `y`."""
+    # a vector cannot be written site by site: it goes by way of the ghosts, which are written anew
+    # before they are read
+    m, spare = series.memory, ghosts_start(series, 0)
     for row in range(y.shape[0]):
         for block in range(series.blocks):
-            i = start_of(series, row // 2, block) + row % 2 * LANES
+            i = block_start(series, row // 2, block) + row % 2 * LANES
             store(m, spare, sum_at(m, i, h))
             first = 1 + block * LANES
             for column in range(first, min(first + LANES, y.shape[1] - 1)):
                 y[row, column] = m[spare + column - first]
 
 
-def build(continue_series, observe):
-    """Return the solver of the system whose power series `continue_series` writes from order 0."""
+# --- Step control -------------------------------------------------------------------------------
 
-    @inlined
+SQUARES = 1e-280
+"""Below this size squares lose digits or vanish."""
+
+
+@kernel
+def largest_modulus(series, k):
+    """Return the largest modulus of a component in order `k`, NaN where there is one.
+
+    Where the squares vanish, it returns the largest real or imaginary part instead, which is as
+    good for a step and never zero by underflow. Padding does not matter: it repeats what sites hold
+    (see `close` of the system's rule).
+    """
+    m, square, part = series.memory, fill(0.0), fill(0.0)
+    for block in range(series.components * series.blocks):
+        u = block * BLOCK_SIZE + k * ORDER_STRIDE
+        x, y = load(m, u + X), load(m, u + Y)
+        square = larger_magnitude(square, x * x + y * y)
+        part = larger_magnitude(part, larger_magnitude(x, y))
+    largest_square, largest_part = largest_lane(square), largest_lane(part)
+    return largest_part if largest_square < SQUARES else sqrt(largest_square)
+
+
+@kernel
+def sixteenth_root(x):
+    """Return x^(1/16) by square roots, whose bits are the same everywhere, unlike a power's."""
+    return sqrt(sqrt(sqrt(sqrt(x))))
+
+
+@kernel
+def fifteenth_root(x):
+    """Return x^(1/15) to four digits, from 1/15 = 1/16 + 1/16^2 + 1/16^3 + ...
+
+    Every root is the sixteenth of the one before; of x^(1/4096), which is close to 1, the rest of
+    the series is taken as a rational function that agrees with the fifteenth root to second order.
+    """
+    if not x < np.inf:
+        return x
+    first = sixteenth_root(x)
+    second = sixteenth_root(first)
+    third = sixteenth_root(second)
+    rest = (16.0 * third + 14.0) / (14.0 * third + 16.0)
+    return (first * second) * (third * rest)
+
+
+@kernel
+def allowed_step(series, rtol, atol):
+    """Return the step at which the last two terms equal the tolerance; NaN where they overflow."""
+    size = largest_modulus(series, 0)
+    last_but_one, last = largest_modulus(series, ORDER - 1), largest_modulus(series, ORDER)
+    if not last + last_but_one < np.inf:
+        return np.nan
+    tolerance = atol + rtol * size
+    return min(sixteenth_root(tolerance / last), fifteenth_root(tolerance / last_but_one))
+
+
+def build(continue_series, observe):
+    """Return the solver of the system whose rule `continue_series(system, series)` is given.
+
+    The rule writes the coefficients of the orders 1 to ORDER from those of order 0. The solver is
+    called as the package says.
+    """
+
+    @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         rtol, atol = controls
         t, end = times[0], times[-1]
@@ -79,13 +207,13 @@ def build(continue_series, observe):
         write_state(y, series)
         while i < times.size:
             continue_series(system, series)
-            sizes = size(series, 0), size(series, ORDER - 1), size(series, ORDER)
-            h = allowed_step(sizes, rtol, atol)
+            h = allowed_step(series, rtol, atol)
             steps += 1
-            if not h > shortest:
+            if not h > shortest:  # also where h is NaN
                 status = STEP_TOO_SMALL if h <= shortest else NOT_FINITE
                 return Outcome(status, t, steps, 0, ORDER * steps)
-            h = up_to(h, end - t)
+            if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
+                h = end - t
             t_new = end if h == end - t else t + h
             while i < times.size and times[i] <= t_new:
                 evaluate(series, times[i] - t, y)

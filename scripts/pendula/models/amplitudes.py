@@ -1,18 +1,37 @@
-"""The coupled dNLS equations (4) of the paper, their energy (8), and the ends of the chain.
+"""The coupled dNLS equations (4) of the paper on a finite chain, and their energy (8).
 
-A state is a real array `y[row, 1 + site]` with the rows Re A, Im A, Re B, Im B, or only the first
-two when A = B; its sites are -M..M, or 0..M where the data are even in n. The first and the last
-column are ghosts: what the ends of the chain see beyond themselves. Neighbours are summed as
-(right + left) - 2 centre, which rounds alike under reflection, so that an even solution stays
-even to the last bit.
+    i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
+                  + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
+
+and the same with A and B exchanged. What stands here: the state and the ends of the chain, the
+right-hand side, the parts into which splitting and Crank-Nicolson take it, and the energy.
+
+State. A real array `y[row, 1 + site]` with the rows Re A, Im A, Re B, Im B, or the first two alone
+where A = B. The sites are -M..M, or 0..M where the data are even in n. The first and the last
+column are ghosts, which hold what the ends of the chain see beyond themselves, so that no formula
+needs to know where it is.
+
+Bits. Both symmetries are invariants of the equations, and the kernels keep them to the last bit:
+neighbours are summed as (right + left) - 2 centre, which rounds alike under reflection, and A and B
+go through the same operations in the same order. Half of an even chain and one component of a chain
+with A = B therefore have the bits of the whole. Whoever changes an order of operations here
+changes every result (tests/test_same_bits.py).
 """
 
+from math import cos, sin
 from typing import NamedTuple
 
-from pendula.compiled import kernel, merged
+import numpy as np
+
+from pendula.compiled import inlined_by_llvm, kernel
+from pendula.simd import LANES, vec4_views
+
+# --- The chain and its ends ---------------------------------------------------------------------
 
 DIRICHLET, FREE, PERIODIC, MIRROR = range(4)
+"""Kinds of ends: a site at rest beyond the end, none, the other end, or the other half (n = 0)."""
 ENDS = {"dirichlet": DIRICHLET, "free": FREE, "periodic": PERIODIC}
+"""The kinds of ends that a person can choose, by name."""
 
 
 class Chain(NamedTuple):
@@ -27,7 +46,11 @@ class Chain(NamedTuple):
 
 @kernel
 def close(chain, y):
-    """Fill the ghost columns of `y` with what the ends of the chain see."""
+    """Fill the ghost columns of `y` with what the ends of the chain see.
+
+    A site next to a free end sees its own value, so that its bond vanishes. A mirror stands at
+    site 0 of an even chain, whose left neighbour has the value of the right one.
+    """
     n = y.shape[1] - 2
     for row in range(y.shape[0]):
         y[row, 0] = 0.0
@@ -45,48 +68,243 @@ def close(chain, y):
 
 
 @kernel
-def may_cut(chain):
-    """Return whether stretches of the chain can be integrated apart: those of a ring cannot."""
+def can_be_tiled(chain):
+    """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
     return chain.left != PERIODIC
 
 
 @kernel
-def cut(chain, starts, ends):
-    """Return the chain of a stretch that starts, or ends, where the whole does, or is cut off."""
-    left = chain.left if starts else DIRICHLET
-    right = chain.right if ends else DIRICHLET
+def chain_of_tile(chain, at_left_end, at_right_end):
+    """Return the chain of a tile, which ends as the whole chain does where it reaches an end.
+
+    Elsewhere the kind of end does not matter: what is wrong there stays in the margin of the tile.
+    """
+    left = chain.left if at_left_end else DIRICHLET
+    right = chain.right if at_right_end else DIRICHLET
     return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
-@merged
+# --- The right-hand side at one site, or at four ------------------------------------------------
+# Every function of this part takes numbers, or `Vector`s of four sites (see pendula.simd).
+
+
+@inlined_by_llvm
+def modulus2(y, re, j):
+    """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
+    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+
+
+@inlined_by_llvm
 def linear_field(chain, drive, left, u, right, partner):
-    """Return the linear terms of one part of (4); `drive` is gamma for Re, -gamma for Im."""
+    """Return the linear terms of the real or the imaginary part F of the right-hand side of (4).
+
+    `left`, `u`, `right` are that part of A at a site and its neighbours, `partner` is that part of
+    B. Since the drive acts on conjugates, `drive` is gamma for real parts, -gamma for imaginary.
+    """
     coupling = chain.epsilon * ((right + left) - 2.0 * u)
     return coupling + chain.omega * u + drive * (partner - u)
 
 
-@merged
-def field(chain, drive, left, u, right, partner, density):
-    """Return one part of the right-hand side of (4)."""
-    return linear_field(chain, drive, left, u, right, partner) + 0.5 * density * u
+@inlined_by_llvm
+def field(chain, drive, left, u, right, partner, squared_modulus):
+    """Return one part of the right-hand side of (4), given |A_n|^2; see `linear_field`."""
+    return linear_field(chain, drive, left, u, right, partner) + 0.5 * squared_modulus * u
 
 
-@merged
-def site_rates(chain, y, re, j, density, dy):
-    """Write i dA/dtau = F at column `j` of row pair `re`: Re A' = Im F and Im A' = -Re F.
+@inlined_by_llvm
+def site_rates(chain, y, re, j, squared_modulus, dy):
+    """Write i A' = F at column `j` of the rows `re` and `re` + 1: Re A' = Im F, Im A' = -Re F.
 
-    The states may be seen as `fours`: then it is four sites from `j` on.
+    `squared_modulus` stands for |A_n|^2 in the cubic term: that of `y` itself, a mean, or zero.
     """
     im = re + 1
-    partner = y.shape[0] - 2 - re  # the row itself when A = B: the drive then vanishes exactly
+    # the rows of the other component; the rows themselves when A = B, where the drive vanishes
+    # exactly since partner - u is then zero
+    other = y.shape[0] - 2 - re
     gamma = chain.gamma
     dy[re, j] = field(
-        chain, -gamma, y[im, j - 1], y[im, j], y[im, j + 1], y[partner + 1, j], density
+        chain, -gamma, y[im, j - 1], y[im, j], y[im, j + 1], y[other + 1, j], squared_modulus
     )
-    dy[im, j] = -field(chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[partner, j], density)
+    dy[im, j] = -field(
+        chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[other, j], squared_modulus
+    )
 
 
-@merged
-def modulus2(y, re, j):
-    """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
-    return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
+# --- The same on a whole chain ------------------------------------------------------------------
+
+
+def at_every_site(rule):
+    """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
+
+    It goes through both components, four sites at a time where a row has at least eight. The last
+    block of a row then overlaps the one before and writes the same bits again, which costs less
+    than a remainder that goes site by site.
+    """
+
+    @inlined_by_llvm
+    def walk(chain, states, dy, width):
+        last = dy.shape[1] - 1 - width  # the column at which the last block starts
+        for re in range(0, dy.shape[0], 2):
+            for j in range(1, dy.shape[1] - 1, width):
+                rule(chain, states, re, min(j, last), dy)
+
+    @inlined_by_llvm
+    def write(chain, states, dy):
+        """`states` is a tuple of states of the shape of `dy`, whose ghosts are filled."""
+        if dy.shape[1] - 2 < 2 * LANES:
+            walk(chain, states, dy, 1)
+        else:
+            walk(chain, vec4_views(states), vec4_views((dy,))[0], LANES)
+
+    return write
+
+
+@inlined_by_llvm
+def rates_at_site(chain, states, re, j, dy):
+    y = states[0]
+    site_rates(chain, y, re, j, modulus2(y, re, j), dy)
+
+
+write_rates = at_every_site(rates_at_site)
+
+
+@kernel
+def rates(chain, y, dy):
+    """Write the right-hand side of equations (4) at `y` into `dy` (same shape)."""
+    close(chain, y)
+    write_rates(chain, (y,), dy)
+
+
+# --- Its parts: for splitting methods and for Crank-Nicolson ------------------------------------
+
+
+@inlined_by_llvm
+def linear_rates_at_site(chain, states, re, j, dy):
+    site_rates(chain, states[0], re, j, 0.0, dy)
+
+
+write_linear_rates = at_every_site(linear_rates_at_site)
+
+
+@kernel
+def linear_rates(chain, y, dy):
+    """Write the linear terms of the right-hand side at `y` into `dy`."""
+    close(chain, y)
+    write_linear_rates(chain, (y,), dy)
+
+
+@kernel
+def linear_radius(chain):
+    """Return a bound of the linear terms at a state whose largest modulus is one."""
+    return 4.0 * abs(chain.epsilon) + abs(chain.omega) + 2.0 * abs(chain.gamma)
+
+
+@kernel
+def nonlinear_flow(y, h):
+    """Carry `y` along the cubic terms alone over the time `h`; return whether the step is resolved.
+
+    They keep |A_n| and turn A_n by the angle -h |A_n|^2 / 2. No splitting could follow an angle of
+    a radian or more. Sine and cosine are the C library's: their last bits may differ from machine
+    to machine.
+    """
+    resolved = True
+    for re in range(0, y.shape[0], 2):
+        for j in range(1, y.shape[1] - 1):
+            angle = 0.5 * h * modulus2(y, re, j)
+            resolved &= abs(angle) < 1.0
+            c, s = cos(angle), sin(angle)
+            u, v = y[re, j], y[re + 1, j]
+            y[re, j] = c * u + s * v
+            y[re + 1, j] = c * v - s * u
+    return resolved
+
+
+@inlined_by_llvm
+def midpoint_rates_at_site(chain, states, re, j, dy):
+    old, new, middle = states
+    mean_square = 0.5 * (modulus2(old, re, j) + modulus2(new, re, j))
+    site_rates(chain, middle, re, j, mean_square, dy)
+
+
+write_midpoint_rates = at_every_site(midpoint_rates_at_site)
+
+
+@kernel
+def midpoint_rates(chain, old, new, middle, dy):
+    """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
+
+    The linear terms act on the mean state (left in `middle`), the cubic one is the mean of |A|^2
+    times the mean of A: then H(new) = H(old) exactly (Delfour, Fortin and Payre, J. Comput. Phys.
+    44 (1981) 277).
+    """
+    for row in range(old.shape[0]):
+        for j in range(old.shape[1]):
+            middle[row, j] = 0.5 * (old[row, j] + new[row, j])
+    close(chain, middle)
+    write_midpoint_rates(chain, (old, new, middle), dy)
+
+
+# --- The conserved energy -----------------------------------------------------------------------
+
+
+@kernel
+def fill_site_terms(chain, y, out):
+    """Write into out[j] the terms of (8) that live on the site in column j.
+
+    They are |A|^4 / 4 + Omega |A|^2, the same of B, and the drive -gamma Re (A - B)^2.
+    """
+    for j in range(1, y.shape[1] - 1):
+        square = modulus2(y, 0, j)
+        out[j] = square * (0.25 * square + chain.omega)
+    if y.shape[0] == 4:
+        for j in range(1, y.shape[1] - 1):
+            square = modulus2(y, 2, j)
+            real, imaginary = y[0, j] - y[2, j], y[1, j] - y[3, j]
+            drive = chain.gamma * (real * real - imaginary * imaginary)
+            out[j] += square * (0.25 * square + chain.omega) - drive
+
+
+@kernel
+def fill_bond_terms(y, out):
+    """Write |A_i - A_j|^2 + |B_i - B_j|^2 of columns j and j + 1, ghosts included, into out[j]."""
+    for row in range(y.shape[0]):
+        for j in range(y.shape[1] - 1):
+            difference = y[row, j + 1] - y[row, j]
+            square = difference * difference
+            out[j] = square if row == 0 else out[j] + square
+
+
+@kernel
+def energy_with_scratch(chain, y, scratch):
+    """Return H of equation (8) for the whole chain; `y` may hold half of it, or one component.
+
+    Beyond a Dirichlet end hangs a site at rest: its bond is |A_M|^2 (and |A_{-M}|^2 on the other
+    side). A free end has no bond, a ring has one bond that joins its ends. The sums run from the
+    centre outwards in pairs of sites, so that half a chain gives the same bits as the whole.
+    `scratch` holds two rows of as many columns as `y`.
+    """
+    close(chain, y)
+    sites, bonds = scratch[0], scratch[1]
+    fill_site_terms(chain, y, sites)
+    fill_bond_terms(y, bonds)
+    mirrored = chain.left == MIRROR
+    reach = y.shape[1] - 3 if mirrored else (y.shape[1] - 3) // 2  # sites beside the centre
+    centre = 1 if mirrored else 1 + reach
+    on_sites, on_bonds = sites[centre], 0.0
+    for n in range(reach + 1):
+        right, left = centre + n, centre + n if mirrored else centre - n
+        if n > 0:
+            on_sites += sites[right] + sites[left]
+        # bonds[j] joins columns j and j + 1; that to the left of a column is bonds[j - 1], and on
+        # the other half of a mirrored chain it is the reflection of the bond to the right
+        on_bonds += bonds[right]
+        if n < reach or chain.left != PERIODIC:
+            on_bonds += bonds[left] if mirrored else bonds[left - 1]
+    copies = 4 // y.shape[0]  # A = B: the one component that is stored counts twice
+    return copies * (on_sites - chain.epsilon * on_bonds)
+
+
+@kernel
+def energy(chain, y):
+    """Return H of equation (8) for the state `y`; see `energy_with_scratch`."""
+    return energy_with_scratch(chain, y, np.empty((2, y.shape[1])))

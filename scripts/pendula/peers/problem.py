@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_rates import rates
+from pendula.models.amplitudes import Chain, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 HALF = Reduction(even=True, synchronised=False)

@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.models.amplitudes import MIRROR, modulus2
-from pendula.models.energy import energy_in
+from pendula.models.amplitudes import MIRROR, energy_with_scratch, modulus2
 
 
 class Record(NamedTuple):
@@ -59,4 +58,4 @@ def observe(chain, y, i, record):
         if record.every > 0 and i % record.every == 0:
             for j in range(1, y.shape[1] - 1):
                 record.modulus[k, j - 1, i // record.every] = sqrt(modulus2(y, 2 * k, j))
-    record.energy[i] = energy_in(chain, y, record.scratch)
+    record.energy[i] = energy_with_scratch(chain, y, record.scratch)

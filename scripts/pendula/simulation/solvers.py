@@ -5,17 +5,24 @@ from typing import NamedTuple
 
 from pendula.compiled import kernel
 from pendula.integrators import crank_nicolson, dop853, ode45, splitting, taylor
-from pendula.models.amplitudes import cut, may_cut
-from pendula.models.amplitudes_rates import linear_radius, linear_rates, midpoint_rates, rates, turn
+from pendula.models.amplitudes import (
+    can_be_tiled,
+    chain_of_tile,
+    linear_radius,
+    linear_rates,
+    midpoint_rates,
+    nonlinear_flow,
+    rates,
+)
 from pendula.models.amplitudes_series import continue_series
 
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
-solve_dop853 = dop853.build(rates, observe, may_cut, cut)
+solve_dop853 = dop853.build(rates, observe, can_be_tiled, chain_of_tile)
 solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
-solve_splitting = splitting.build(linear_rates, linear_radius, turn, observe)
+solve_splitting = splitting.build(linear_rates, linear_radius, nonlinear_flow, observe)
 
 
 @kernel

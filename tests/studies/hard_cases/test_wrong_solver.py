@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pendula.datasets.netcdf import read
 from pendula.integrators import dop853, dop853_stages
-from pendula.models.amplitudes_rates import rates
+from pendula.models.amplitudes import rates
 from pendula.simulation import simulate as simulation
 from pendula.simulation import solvers
 from pendula.simulation.lattice import Reduction

@@ -9,11 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.compiled import kernel, merged
+from pendula.compiled import inlined_by_llvm, kernel
 from pendula.integrators import dop853
 from pendula.integrators.outcome import DONE, FAULTS
-from pendula.models.amplitudes import close, field, modulus2
-from pendula.models.amplitudes_rates import everywhere
+from pendula.models.amplitudes import at_every_site, close, field, modulus2
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
@@ -26,21 +25,21 @@ GROWING = (1e-9, 1e-4)
 """Sizes of the odd part between which its growth is neither start-up nor saturation."""
 
 
-@merged
+@inlined_by_llvm
 def lopsided_field(chain, drive, left, u, right, partner, density):
     """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
     coupling = chain.epsilon * ((right - 2.0 * u) + left)
     return coupling + field(chain, drive, u, u, u, partner, density)  # which has no coupling left
 
 
-@merged
+@inlined_by_llvm
 def lopsided_part(chain, drive, y, row, other, j, density):
     """Return the right-hand side from one row at column `j`; `other` is that of the partner."""
     before, here, after = y[row, j - 1], y[row, j], y[row, j + 1]
     return lopsided_field(chain, drive, before, here, after, y[other, j], density)
 
 
-@merged
+@inlined_by_llvm
 def lopsided_at(chain, states, re, j, dy):
     y, im, other = states[0], re + 1, dy.shape[0] - 2 - re
     density = modulus2(y, re, j)
@@ -48,7 +47,7 @@ def lopsided_at(chain, states, re, j, dy):
     dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
 
 
-write_lopsided = everywhere(lopsided_at)
+write_lopsided = at_every_site(lopsided_at)
 
 
 @kernel

@@ -5,9 +5,7 @@ The solver is dop853 at tolerances so tight that no check measures it instead of
 
 import numpy as np
 
-from pendula.models.amplitudes import ENDS, Chain
-from pendula.models.amplitudes_rates import rates
-from pendula.models.energy import energy
+from pendula.models.amplitudes import ENDS, Chain, energy, rates
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
 from pendula.simulation.simulate import IntegrationError, Trajectory, simulate

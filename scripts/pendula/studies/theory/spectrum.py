@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.models.amplitudes_rates import rates
+from pendula.models.amplitudes import rates
 from pendula.models.linear_flow import curvatures
 from pendula.simulation.lattice import WHOLE, pack
 

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from oracle import BOUNDARIES, boundaries, chains, constants, power_series
-from pendula.compiled import generic
+from pendula.compiled import uncached
+from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_series import LONG, continue_series
-from pendula.models.blocks import BLOCK, ORDER, WORK, lay_out, write_state
+from pendula.models.amplitudes_series import CACHED_BLOCKS, continue_series
 from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack
 
 WHOLE = Reduction(even=False, synchronised=False)
 
 
-@generic
+@uncached
 def fill(chain, y, work):
     series = lay_out(work, y)
     write_state(y, series)
@@ -27,7 +27,7 @@ def coefficients(z, numbers, boundary, reduction):
     work = np.full((WORK, *y.shape), np.nan)
     fill(Chain(*numbers, *choose_ends(boundary, reduction)), y, work)
     components, blocks = y.shape[0] // 2, -(-(y.shape[1] - 2) // LANES)
-    c = work.reshape(-1)[: components * blocks * BLOCK]
+    c = work.reshape(-1)[: components * blocks * BLOCK_SIZE]
     c = c.reshape(components, blocks, ORDER + 1, 3, LANES)[:, :, :, :2]
     c = c.transpose(2, 0, 3, 1, 4).reshape(ORDER + 1, y.shape[0], blocks * LANES)
     c = np.pad(c, ((0, 0), (0, 0), (1, 1)))[:, :, : y.shape[1]]
@@ -50,9 +50,9 @@ def test_each_kind_of_half_continues_the_series(even, synchronised):
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free"])
 def test_waves_along_a_long_chain_give_the_bits_of_its_half_order_by_order(boundary):
-    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * LONG // 3, 2)) @ (1.0, 1j)
+    half = np.random.default_rng(1).normal(size=(2, 2 * LANES * CACHED_BLOCKS // 3, 2)) @ (1.0, 1j)
     z = np.concatenate([half[:, :0:-1], half], axis=1)
-    assert half.shape[1] <= LANES * LONG < z.shape[1]
+    assert half.shape[1] <= LANES * CACHED_BLOCKS < z.shape[1]
     runs = [
         coefficients(z, (1.0, 0.7, -4.0), boundary, kept) for kept in (WHOLE, find_reduction(z))
     ]

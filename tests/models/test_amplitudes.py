@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_rates import LANES, midpoint_rates, rates, rates_at
+from pendula.models.amplitudes import LANES, Chain, midpoint_rates, rates, rates_at_site
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -84,7 +83,7 @@ def test_four_sites_at_a_time_get_the_bits_of_one_by_one(sites):
     at_once, one_by_one = np.zeros_like(y), np.zeros_like(y)
     rates(chain, y, at_once)
     for re, j in itertools.product((0, 2), range(1, sites + 1)):
-        rates_at(chain, (y,), re, j, one_by_one)
+        rates_at_site(chain, (y,), re, j, one_by_one)
     np.testing.assert_array_equal(at_once, one_by_one)
 
 

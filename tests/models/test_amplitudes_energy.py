@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, hamiltonian, random_chain
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_rates import rates
-from pendula.models.energy import energy
+from pendula.models.amplitudes import Chain, energy, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 
 CONSTANTS = (0.7, 1.3, -2.1)
