@@ -14,7 +14,7 @@ from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.problem import Problem
 from pendula.studies.own.checks import check_run
 
-from .configuration import cases as parameters
+from .configuration import schema
 from .datasets import sweeps as sweep_dataset
 from .datasets import trajectories as trajectory_dataset
 from .simulation import simulate as simulation
@@ -23,7 +23,7 @@ from .simulation import sweep as sweeps
 __all__ = ["Case", "check", "simulate", "sweep"]
 
 
-class Case(parameters.Case):
+class Case(schema.Case):
     """One initial-value problem of the equations (4) of the paper, checked when it is made.
 
     Keys and defaults are those of a case in YAML:
@@ -52,7 +52,7 @@ class Case(parameters.Case):
 
     def __init__(self, /, **keys):
         try:
-            super().__init__(**parameters.with_controls({"solver": "taylor", **keys}, {}))
+            super().__init__(**schema.with_controls({"solver": "taylor", **keys}, {}))
         except ValidationError as error:
             raise in_words(error, "the case", ("cases", "case")) from None
 

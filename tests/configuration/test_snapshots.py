@@ -2,7 +2,7 @@
 
 import pytest
 from pendula.configuration.messages import ConfigurationError, load
-from pendula.configuration.snapshots import MOST_NUMBERS, choose_every
+from pendula.configuration.schema import MOST_NUMBERS, choose_every
 
 
 @pytest.mark.parametrize("outputs", [200, 399, 400, 2000, 1601, 100_000])

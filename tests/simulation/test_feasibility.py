@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
 from pendula.simulation.feasibility import find_obstacle
-from pendula.simulation.lattice import Reduction
-from pendula.simulation.simulate import IntegrationError, integrate, output_times
-
-NUMBERS = (1.0, 1.0, -4.0)
-WHOLE = Reduction(even=False, synchronised=False)
+from pendula.simulation.lattice import WHOLE
+from pendula.simulation.simulate import IntegrationError, simulate
+from problems import PAPER, make_problem
 
 
-def obstacle(name="dop853", size=1.0, span=50.0, numbers=NUMBERS, **controls):
-    return find_obstacle(numbers, size * random_chain(2), span, SOLVERS[name] | controls)
+def obstacle(name="dop853", size=1.0, span=50.0, numbers=PAPER, **controls):
+    solver = SOLVERS[name] | controls
+    times = {"end_time": span, "output_step": span}
+    return find_obstacle(make_problem(size * random_chain(2), numbers, solver=solver, **times))
 
 
 @pytest.mark.parametrize("name", SOLVERS)
@@ -67,15 +67,14 @@ def test_a_result_that_overflows_is_no_result(name):
     controls = SOLVERS[name] | ({"step": 1e-162} if "step" in SOLVERS[name] else {})
     controls |= {"atol": 1e70} if "atol" in controls else {}
     with pytest.raises(IntegrationError, match=r"overflow|finite|unit of time|step fell"):
-        integrate(
-            NUMBERS, "dirichlet", 1e80 * random_chain(1), WHOLE, np.array([0.0, 1e-160]), controls
-        )
+        times = {"end_time": 1e-160, "output_step": 1e-160}
+        simulate(make_problem(1e80 * random_chain(1), solver=controls, **times), WHOLE)
 
 
 @pytest.mark.parametrize("name", ["taylor", "dop853", "ode45"])
 def test_data_at_rest_stay_at_rest_for_any_time(name):
-    times, rest = output_times(1e7, 1e7), np.zeros((2, 3), complex)
-    final = integrate(NUMBERS, "dirichlet", rest, WHOLE, times, SOLVERS[name]).final
+    rest, times = np.zeros((2, 3), complex), {"end_time": 1e7, "output_step": 1e7}
+    final = simulate(make_problem(rest, solver=name, **times), WHOLE).final
     np.testing.assert_array_equal(final, 0.0)
 
 

@@ -11,24 +11,11 @@ from pendula.simulation.lattice import (
     choose_ends,
     find_reduction,
     pack,
-    place,
     spread,
     unpack,
 )
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
-
-
-def test_place_puts_each_pair_on_its_site():
-    amplitudes = place({-2: (1j, 2), 1: (3, -4j)}, 2)
-    expected = [[1j, 0, 0, 3, 0], [2, 0, 0, -4j, 0]]
-    np.testing.assert_array_equal(amplitudes, np.array(expected, complex))
-
-
-@pytest.mark.parametrize("site", [-3, 3, 100])
-def test_place_refuses_a_site_outside_the_chain(site):
-    with pytest.raises(ValueError, match=rf"site {site} .* -2\.\.2"):
-        place({site: (1, 1)}, 2)
 
 
 @pytest.mark.parametrize("reduction", REDUCTIONS)

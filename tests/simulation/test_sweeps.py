@@ -2,21 +2,18 @@
 
 import numpy as np
 import pytest
+from pendula.problem import on_sites
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import sweep
+from problems import make_problem
 
-PROBLEM = {
-    "epsilon": 1.0,
-    "gamma": 1.0,
-    "omega": -4.0,
-    "half_width": 30,
-    "boundary": "dirichlet",
-    "initial": {0: (1.0, 0.1)},
-    "end_time": 3.0,
-    "output_step": 0.025,
-    "solver": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
-    "snapshot_every": 0,
-}
+PROBLEM = make_problem(
+    on_sites({0: (1.0, 0.1)}),
+    solver={"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
+    half_width=30,
+    end_time=3.0,
+    output_step=0.025,
+)
 WINDOWS = [(1.0, 2.0), (0.0, 3.0)]
 
 
@@ -27,7 +24,7 @@ def swept():
 
 @pytest.fixture(scope="module")
 def run():
-    return simulate(**{**PROBLEM, "half_width": 7})
+    return simulate(PROBLEM.changed(half_width=7))
 
 
 def test_the_shape_is_half_width_quantity_statistic_window(swept):

@@ -1,0 +1,1 @@
+"""The validated configuration: what may stand in it, and its faults in words."""

@@ -4,8 +4,18 @@ import difflib
 
 from pydantic import BaseModel, ValidationError
 
-from .cases import Case, Configuration, Drawn, Sweep
-from .solvers import Auto, CrankNicolson, Dop853, Ode45, Solvers, Taylor
+from .schema import (
+    Auto,
+    Case,
+    Configuration,
+    CrankNicolson,
+    Dop853,
+    Drawn,
+    Ode45,
+    Solvers,
+    Sweep,
+    Taylor,
+)
 
 SOLVERS = {
     model.model_fields["name"].default: model

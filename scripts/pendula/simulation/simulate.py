@@ -135,6 +135,11 @@ def _taylor(tolerance: float) -> dict[str, Any]:
 
 
 def difference(one: Trajectory, other: Trajectory) -> np.ndarray:
-    """Return by how much two trajectories differ in any norm at each time, of its largest value."""
+    """Return by how much two trajectories differ in any norm at each time, of its largest value.
+
+    Where both are at rest all the time they differ by nothing.
+    """
     pairs = ((one.linf, other.linf), (one.l2, other.l2))
-    return np.max([np.max(np.abs(a - b), axis=0) / np.max(b) for a, b in pairs], axis=0)
+    scales = [np.max(b) or 1.0 for _, b in pairs]
+    parts = [np.max(np.abs(a - b), axis=0) for a, b in pairs]
+    return np.max([part / scale for part, scale in zip(parts, scales, strict=True)], axis=0)

@@ -1,15 +1,116 @@
-"""The configuration: every key, its default (the paper's value) and what it may be."""
+"""The configuration: every key, its default (the paper's value) and what it may be.
+
+First come the kinds of values, then the solvers' controls, cases, sweeps, and the whole. Problems
+are returned as plain values, which `pendula.problem.Problem.of` reads, since Snakemake compares the
+parameters of its jobs from run to run.
+"""
 
 import difflib
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from .snapshots import choose_every
-from .solvers import Complex, Model, Name, Number, Positive, Solver, Solvers, Taylor, Whole
+Complex = Annotated[complex, BeforeValidator(lambda value: _as_complex(value))]
+Number = Annotated[
+    float, BeforeValidator(lambda value: _no_bool(value)), Field(allow_inf_nan=False)
+]
+Positive = Annotated[Number, Field(gt=0)]
+Whole = Annotated[int, BeforeValidator(lambda value: _no_bool(value))]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+
+
+def _no_bool(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise PydanticCustomError("number", "is {value}, not a number", {"value": str(value)})
+    return value
+
+
+def _as_complex(value: Any) -> complex:
+    """Read 2, 2.0 or "-0.3+0.4j" as Python writes complex numbers; refuse what is not finite."""
+    try:
+        number = complex(value.replace(" ", "") if isinstance(value, str) else _no_bool(value))
+    except (TypeError, ValueError):
+        raise PydanticCustomError(
+            "complex",
+            'is {value}, not a complex number such as "-0.3+0.4j"',
+            {"value": repr(value)},
+        ) from None
+    if not abs(number) < float("inf"):
+        raise PydanticCustomError("finite", "is {value}, which is not finite", {"value": value})
+    return number
+
+
+class Model(BaseModel):
+    """A mapping of the configuration: unknown keys are faults."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+class Ode45(Model):
+    """MATLAB's ode45, at the paper's tolerances."""
+
+    name: Literal["ode45"] = "ode45"
+    rtol: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-7
+    atol: Positive = 1e-9
+
+
+class Dop853(Model):
+    """The explicit Runge-Kutta method of order eight, for accuracy."""
+
+    name: Literal["dop853"] = "dop853"
+    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-13
+    atol: Positive = 1e-13
+
+
+class Taylor(Model):
+    """The Taylor method, the default: at small errors the fastest on the paper's chains."""
+
+    name: Literal["taylor"] = "taylor"
+    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-14
+    atol: Positive = 1e-14
+
+
+class Auto(Model):
+    """The default solver, held to an error of the norms relative to their largest values."""
+
+    name: Literal["auto"] = "auto"
+    error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
+
+
+class CrankNicolson(Model):
+    """The energy-conserving Crank-Nicolson scheme with fixed-point iteration."""
+
+    name: Literal["crank_nicolson"] = "crank_nicolson"
+    step: Positive = 0.0025
+    tolerance: Annotated[Positive, Field(ge=1e-14, lt=1)] = 1e-13
+    iterations: Annotated[Whole, Field(ge=2, le=1000)] = 50
+
+
+class Solvers(Model):
+    """The controls of each solver where a case names it without giving its own."""
+
+    ode45: Ode45 = Ode45()
+    crank_nicolson: CrankNicolson = CrankNicolson()
+    dop853: Dop853 = Dop853()
+    taylor: Taylor = Taylor()
+    auto: Auto = Auto()
+
+
+Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Auto, Field(discriminator="name")]
 
 Window = tuple[Number, Number]
+
+FEWEST = 200
+"""Snapshots that make a smooth picture; fewer than twice as many are kept."""
+MOST_NUMBERS = 20_000_000
+"""Moduli in memory at once: very long chains have fewer snapshots."""
+
+
+def choose_every(outputs: int, sites: int) -> int:
+    """Return how many output steps lie between snapshots, for a run of `outputs` steps."""
+    wanted = max(1, min(FEWEST, MOST_NUMBERS // (2 * sites)))
+    return max(1, outputs // wanted)
 
 
 def _on_grid(time: float, step: float) -> bool:
@@ -53,7 +154,7 @@ class Case(Model):
         return self
 
     def problem(self, **changes) -> dict:
-        """Return the arguments of pendula.simulation.simulate as plain values, some changed."""
+        """Return the case as plain values of a Problem, some of them changed."""
         values = {**self.model_dump(), **changes}
         snapshots = values.pop("snapshot_step")
         every = round(snapshots / values["output_step"]) if snapshots else 0
@@ -169,7 +270,7 @@ class Configuration(Model):
         return faults
 
     def problem(self, case: str, solver: str | None = None, **changes) -> dict:
-        """Return the arguments of pendula.simulation.simulate as plain values.
+        """Return a case as plain values of a Problem.
 
         `solver` takes the place of the case's own, `changes` that of other keys.
         """

@@ -1,0 +1,95 @@
+"""One initial-value problem: its data, its chain, its times, and its form of plain values."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from oracle import chains
+from pendula.problem import (
+    Constants,
+    Problem,
+    by_site,
+    on_sites,
+    output_times,
+    place,
+    read_initial,
+    write_initial,
+)
+from problems import make_problem
+
+PAIR = on_sites({0: (1.0, 0.1)})
+
+
+def test_data_are_placed_on_their_sites():
+    amplitudes = place(on_sites({-2: (1j, 2), 1: (3, -4j)}), 3)
+    expected = [[0, 1j, 0, 0, 3, 0, 0], [0, 2, 0, 0, -4j, 0, 0]]
+    np.testing.assert_array_equal(amplitudes, np.array(expected, complex))
+
+
+@pytest.mark.parametrize("site", [-3, 3, 100])
+def test_a_site_outside_the_chain_is_refused(site):
+    with pytest.raises(ValueError, match=rf"site {abs(site)} .* -2\.\.2"):
+        make_problem(on_sites({site: (1, 1)}), half_width=2)
+
+
+@pytest.mark.parametrize("shape", [(2, 4), (1, 3), (3,)])
+def test_data_without_a_central_site_are_refused(shape):
+    with pytest.raises(ValueError, match="odd number of sites"):
+        make_problem(PAIR, half_width=3).changed(initial=np.zeros(shape))
+
+
+def test_constants_are_given_by_name_only():
+    with pytest.raises(TypeError):
+        Constants(1.0, 1.0, -4.0)
+
+
+def test_a_problem_cannot_be_changed_in_place():
+    problem = make_problem(PAIR)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        problem.end_time = 2.0
+    with pytest.raises(ValueError, match="read-only"):
+        problem.initial[0, 0] = 2.0
+    with pytest.raises(TypeError):
+        problem.solver["rtol"] = 1.0
+
+
+def test_a_change_leaves_the_rest_as_it_was():
+    problem = make_problem(PAIR, numbers=(0.5, 0.7, 3.0))
+    other = problem.changed(omega=1.0, half_width=4, end_time=2.0)
+    assert other.plain() == problem.plain() | {"omega": 1.0, "half_width": 4, "end_time": 2.0}
+    assert other.amplitudes.shape == (2, 9)
+
+
+@given(chains(widths=(0, 3)), st.sampled_from(["dirichlet", "free", "periodic"]))
+def test_plain_values_make_the_same_problem(data, boundary):
+    problem = make_problem(data, (0.3, -0.7, 2.0), boundary)
+    again = Problem.of(problem.plain())
+    assert again.plain() == problem.plain()
+    np.testing.assert_array_equal(again.amplitudes, problem.amplitudes)
+    np.testing.assert_array_equal(again.times, problem.times)
+
+
+@given(chains(widths=(0, 3)))
+def test_initial_data_can_be_read_as_they_were_written(data):
+    by_sites = by_site(data)
+    assert read_initial(write_initial(by_sites)) == by_sites
+
+
+def test_initial_data_are_written_as_the_configuration_has_them():
+    assert write_initial({0: (1 + 0j, 0.1 + 0j), -3: (0j, 2 - 1j)}) == (
+        '{"0": [1.0, 0.1], "-3": [0.0, "2-1j"]}'
+    )
+
+
+def test_data_at_rest_are_written_as_those_of_the_central_site():
+    assert by_site(np.zeros((2, 5))) == {0: (0j, 0j)}
+
+
+def test_outputs_include_both_ends_and_exact_integers():
+    times = output_times(70.0, 0.025)
+    assert len(times) == 2801
+    np.testing.assert_array_equal(times[::40], np.arange(71))
+    np.testing.assert_allclose(np.diff(times), 0.025, rtol=1e-11)
+    assert output_times(3.0, 1 / 49)[49] == 1.0  # although 49 * (1 / 49) is not 1
