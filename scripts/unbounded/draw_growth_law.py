@@ -1,15 +1,13 @@
-"""Norms on chains without ends against time, and the powers of time that they follow."""
+"""Norms on chains without ends against time, and the exponents of time that they follow."""
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
 from pendula.studies.unbounded import figures
 
 
-def draw_growth_law(
-    runs: list[str], cases: list[str], thermal: str, png: str, pdf: str, data: str
-) -> None:
-    """Draw the runs, one of each of `cases`, and write what was drawn."""
-    drawn = figures.gather_growth_law(dict(zip(cases, map(read, runs), strict=True)), read(thermal))
+def draw_growth_law(growth: str, png: str, pdf: str, data: str) -> None:
+    """Draw the measured growth, and write what was drawn."""
+    drawn = figures.gather_growth_law(read(growth))
     save(figures.draw_growth_law(drawn), drawn, png, pdf, data)
 
 

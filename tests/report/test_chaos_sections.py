@@ -77,26 +77,16 @@ def test_a_band_is_as_wide_as_its_quantiles(tmp_path):
 
 def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
     cases = {"fig4_small": (0.0, made_up.SMALL)}
-    octaves = np.array([[[0.6, 0.01], [last, 0.01]]])
     law = made_up.by_case(
         cases,
-        l2_power=(("case", "octave", "part"), octaves),
+        l2_exponent=(("case", "octave"), [[0.6, last]]),
+        l2_exponent_error=(("case", "octave"), [[0.01, 0.01]]),
         l2=(("case", "statistic", "point"), np.full((1, 1, 2), 206.0)),
-    ).assign_coords(part=["power", "error"], statistic=["mean"])
-    pieces = np.arange(2.0, 202.0, 2.0)
-    omegas = xr.Dataset(
-        {
-            "front": (
-                ("variant", "member", "piece_tau", "level"),
-                3.0 * pieces[None, None, :, None],
-            ),
-            "predicted_speed": ("variant", [3.0]),
-            "predicted_delay": ("variant", [0.0]),
-            "omega": ("variant", [0.0]),
-        },
-        coords={"piece_tau": pieces, "level": [1e-2]},
-    )
-    window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0], "sweep": ["a"]})
+    ).assign_coords(statistic=["mean"])
+    speeds = {"corrected_speed": 3.0, "corrected_speed_error": 0.01, "predicted_speed": 3.0}
+    powers = {"power": 18.0, "expected_power": 20.0}
+    front = {name: ("omega", [value]) for name, value in (speeds | powers).items()}
+    window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0]})
     run = xr.Dataset({"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])})
     names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
              "fig6_diverges", "unbounded_window")  # fmt: skip
@@ -104,12 +94,10 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
     return made_up.MadeUp(
         folder,
         {
-            "figures/growth_law": law,
-            "figures/front": xr.Dataset({"power": ("omega", [18.0])}, coords={"omega": [0.0]}),
-            "unbounded/omegas": omegas,
-            "unbounded/thermal": xr.Dataset({"power": ("omega", [20.0])}, coords={"omega": [0.0]}),
+            "unbounded/growth": law,
+            "unbounded/front": xr.Dataset(front, coords={"omega": [0.0]}),
             "unbounded/fig4_small": run,
-            "figures/window_map": window,
+            **dict.fromkeys(growth.MAPS, window),
         },
         **{"claims.json": made_up.ledger(*rows)},
     )
@@ -125,7 +113,7 @@ def test_growth_is_told_from_the_last_octave(tmp_path, power, grows):
         *("400", "1280", "206", f"0.600, {power:.3f}", f"{power:.3f} ± 0.010")
     ]  # fmt: skip
     assert str(found["speed_ratio"]) == "1.000" and str(found["power_ratio"]) == "0.90"
-    assert found["fronts"][0][4] == ("20", "unbounded/thermal.nc")
+    assert found["fronts"][0][4] == ("20", "unbounded/front.nc")
 
 
 def test_runs_that_are_too_short_tell_no_power(tmp_path):

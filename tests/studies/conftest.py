@@ -99,6 +99,8 @@ def gathered(make_trajectory, trajectories, make_sweep):
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
     from pendula.studies.unbounded import front_figure
+    from pendula.studies.unbounded.fronts import measure_front
+    from pendula.studies.unbounded.growth import measure_growth
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     true = make_trajectory(end_time=5.0, scale=1.02)
@@ -106,6 +108,9 @@ def gathered(make_trajectory, trajectories, make_sweep):
     long, short = chart(), short_chart()
     references = {"fig2_small": true, "fig2_large": true}
     maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
+    runs = {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))}
+    omegas = spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0))
+    large = spread(0.5, omegas=(-4.0,))
     points = [(8, 1), (-4, 1), (0, 1)]
     return {
         "agreement": solver_figures.gather_agreement(trajectories),
@@ -130,15 +135,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
             dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
             dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
         ),
-        "growth_law": unbounded.gather_growth_law(
-            {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))},
-            thermal(),
-        ),
-        "front": front_figure.gather_front(
-            spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
-            spread(0.5),
-            spread(0.5, omegas=(-4.0,)),
-            thermal(),
-        ),
-        "window_map": unbounded.gather_window_map(maps),
+        "growth_law": unbounded.gather_growth_law(measure_growth(runs, thermal())),
+        "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
+        "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),
     }

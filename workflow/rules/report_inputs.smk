@@ -7,6 +7,7 @@ NUMBERS_BY = [
     *("theory/check_observed.py", "theory/decide_claims.py", "hard_cases/run_hard_cases.py"),
     *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
     *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/sample_thermal.py"),
+    "unbounded/measure_growth.py",
 ]
 
 

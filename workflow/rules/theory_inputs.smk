@@ -23,6 +23,7 @@ def makers():
         "spread": [f"results/unbounded/{study}.nc" for study in STUDIES],
         "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
         "thermal": ["results/unbounded/thermal.nc"],
+        "measure_growth": ["results/unbounded/growth.nc", "results/unbounded/front.nc"],
     }
     return {
         path.removeprefix("results/").removesuffix(".nc"): rule

@@ -1,8 +1,50 @@
 # The chain without ends: does its l2 norm grow without bound in time? The short study is part of
 # the full run, the long one is `snakemake unbounded`.
+from pendula.studies.unbounded.studies import MAPS, REST, SPREADS, STUDIES, THERMAL, VARIED
+from pendula.studies.unbounded.studies import spread_problems, unbounded_problem
 
 LONG = "results/unbounded/long"
 GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
+UNBOUNDED_FIGURES = ["growth_law", "front", "window_map"]
+
+
+def map_names():
+    return [f"map_{sweep}" for sweep in PAPER_SWEEPS]
+
+
+def unbounded_problems(study, size):
+    """Return the problems of a study, from the paper's case that it starts from."""
+    case = VARIED[study][0] if study in VARIED else study
+    return spread_problems(SETTINGS.problem(case), study, size)
+
+
+def map_params(size):
+    def problem(wildcards):
+        case = SETTINGS.problem(SETTINGS.sweeps[wildcards.sweep].case)
+        return unbounded_problem(case, MAPS[size]["end_time"], MAPS[size]["output_step"])
+
+    return {
+        "name": "{sweep}",
+        "problem": problem,
+        "rest": REST["short"],
+        "half_widths": MAPS[size]["half_widths"],
+        "members": lambda wildcards: MAPS[size]["members"][wildcards.sweep],
+    }
+
+
+def long_figure(name):
+    kinds = {"png": "png", "pdf": "pdf", "data": "figure.nc"}
+    return {key: f"results/unbounded/long/{name}.{kind}" for key, kind in kinds.items()}
+
+
+def growth_inputs(folder):
+    """Return the runs that are measured, of the full run or of the long study in `folder`."""
+    runs = {"omegas": "omegas", "bulk": "fig4_small", "large": "fig3_large"}
+    return {
+        "runs": expand(f"{folder}/{{case}}.nc", case=GROWTH_CASES),
+        **{name: f"{folder}/{run}.nc" for name, run in runs.items()},
+        "thermal": "results/unbounded/thermal.nc",
+    }
 
 
 rule unbounded:
@@ -122,20 +164,48 @@ rule scale:
         "../../scripts/unbounded/measure_scale.py"
 
 
+rule measure_growth:
+    "The chain without ends: growth laws of the norms, speeds of the front, the bulk behind it"
+    input:
+        **growth_inputs("results/unbounded"),
+        code=code("unbounded/measure_growth.py"),
+    output:
+        growth="results/unbounded/growth.nc",
+        front="results/unbounded/front.nc",
+    log:
+        "results/logs/unbounded/growth.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=GROWTH_CASES,
+    message:
+        "Measuring the growth on the chain without ends"
+    script:
+        "../../scripts/unbounded/measure_growth.py"
+
+
+use rule measure_growth as long_measure_growth with:
+    input:
+        **growth_inputs(LONG),
+        code=code("unbounded/measure_growth.py"),
+    output:
+        growth=f"{LONG}/growth.nc",
+        front=f"{LONG}/front.nc",
+    log:
+        "results/logs/unbounded/long/growth.log",
+
+
 rule growth_law:
-    "The chain without ends: norms against time, and the powers of time that they follow"
+    "The chain without ends: norms against time, and the exponents of time that they follow"
     input:
         code=code("unbounded/draw_growth_law.py"),
-        runs=expand("results/unbounded/{case}.nc", case=GROWTH_CASES),
-        thermal="results/unbounded/thermal.nc",
+        growth="results/unbounded/growth.nc",
     output:
         **figure("growth_law"),
     log:
         "results/logs/figures/growth_law.log",
     conda:
         "../envs/pinned.yaml"
-    params:
-        cases=GROWTH_CASES,
     message:
         "Drawing the growth law of the chain without ends"
     script:
@@ -145,8 +215,7 @@ rule growth_law:
 use rule growth_law as long_growth_law with:
     input:
         code=code("unbounded/draw_growth_law.py"),
-        runs=expand(f"{LONG}/{{case}}.nc", case=GROWTH_CASES),
-        thermal="results/unbounded/thermal.nc",
+        growth=f"{LONG}/growth.nc",
     output:
         **long_figure("growth_law"),
     log:
@@ -154,13 +223,10 @@ use rule growth_law as long_growth_law with:
 
 
 rule front:
-    "The chain without ends: the speed of the front, and the state behind it"
+    "The chain without ends: the speed of the front, and the bulk behind it"
     input:
         code=code("unbounded/draw_front.py"),
-        omegas="results/unbounded/omegas.nc",
-        sea="results/unbounded/fig4_small.nc",
-        large="results/unbounded/fig3_large.nc",
-        thermal="results/unbounded/thermal.nc",
+        front="results/unbounded/front.nc",
     output:
         **figure("front"),
     log:
@@ -176,10 +242,7 @@ rule front:
 use rule front as long_front with:
     input:
         code=code("unbounded/draw_front.py"),
-        omegas=f"{LONG}/omegas.nc",
-        sea=f"{LONG}/fig4_small.nc",
-        large=f"{LONG}/fig3_large.nc",
-        thermal="results/unbounded/thermal.nc",
+        front=f"{LONG}/front.nc",
     output:
         **long_figure("front"),
     log:
@@ -199,6 +262,7 @@ rule window_map:
         "../envs/pinned.yaml"
     params:
         sweeps=PAPER_SWEEPS,
+        paper_ends=[SETTINGS.sweeps[sweep].drawn.max[1] for sweep in PAPER_SWEEPS],
     message:
         "Drawing the maxima over half-widths and windows"
     script:

@@ -10,7 +10,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from pendula.drawing import style
-from pendula.measures.growth import local_powers
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-"},
@@ -18,68 +17,26 @@ LOOKS = {
     "fig2_large": {"color": "#16876b", "ls": "--"},
     "fig3_small": {"color": "#b07800", "ls": ":"},
 }
-POINTS, OCTAVES = 120, 4
 NORMS = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}
-RANGE = ["lowest", "mean", "highest"]
-PAPER_ENDS = {"fig5_left": 50, "fig5_right": 50, "fig6_left": 70, "fig6_right": 70}
-TITLES = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}
+STATISTICS = ["lowest", "mean", "highest"]
 
 
-def gather_growth_law(runs: dict[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
-    """Return the ensembles' norms at times equally spaced in log tau, and their local powers.
-
-    Beside them, where the chain at rest is unstable, the law of a front at the speed v of linear
-    spreading with a thermal sea of the power P behind it: l2 = (2 v P tau)^(1/2).
-    """
-    cases = [_read(run) for run in runs.values()]
-    laws = [_law(run, thermal) for run in runs.values()]
-    data = style.join(cases, list(runs), "case", "case of the paper, on a chain without ends")
-    title = "coefficient of tau^(1/2) by linear spreading and the thermal sea"
-    data["law"] = ("case", laws, {"long_name": title, "units": "1"})
-    data["statistic"].attrs = {"long_name": "over the ensemble", "units": "1"}
-    return data
-
-
-def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
-    """Return (2 v P)^(1/2), NaN where the chain at rest is stable or no state was sampled."""
-    run = run.isel(variant=0)
-    near = thermal.sel(omega=run["omega"], method="nearest")
-    if not (run["predicted_delay"] > 0 and abs(near["omega"] - run["omega"]) < 1e-9):
-        return float("nan")
-    return float(np.sqrt(2.0 * run["predicted_speed"] * near["power"]))
-
-
-def _read(run: xr.Dataset) -> xr.Dataset:
-    run = run.isel(variant=0)
-    tau = run["tau"].values
-    grid = np.geomspace(1.0, tau[-1], POINTS)
-    read = xr.Dataset({"tau": ("point", grid, {"long_name": "slow time", "units": "1"})})
-    for name, title in NORMS.items():
-        values = run[name].transpose("member", "tau").values
-        drawn = np.array([np.interp(grid, tau, series) for series in values])
-        band = [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
-        attrs = {"long_name": f"{title} norm of (A, B)", "units": "1"}
-        read[name] = (("statistic", "point"), np.array(band), attrs)
-        middles, powers = local_powers(tau, values, OCTAVES)
-        attrs = {"long_name": f"power of tau in the {title} norm, and its error", "units": "1"}
-        read[f"{name}_power"] = (("octave", "part"), np.array(powers), attrs)
-    read["middle"] = ("octave", middles, {"long_name": "middle of an octave of tau", "units": "1"})
-    named = {"long_name": "power, or its standard error", "units": "1"}
-    read["part"] = ("part", ["power", "error"], named)
-    return read.assign_coords(statistic=RANGE).assign_attrs(run.attrs)
+def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
+    """Return what is drawn of the norms' growth, as `growth.measure_growth` found it."""
+    return growth.drop_attrs(deep=False)
 
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2 with its law, the local powers of l2, and l-infinity."""
+    """Draw l2 with its law, the exponents of l2 over octaves of time, and l-infinity."""
     figure = style.new_figure(style.DOUBLE, 2.9)
-    l2, powers, linf = figure.subplots(1, 3)
+    l2, exponents, linf = figure.subplots(1, 3)
     for axes, name in ((l2, "l2"), (linf, "linf")):
         _draw_norm(axes, data, name)
     _draw_law(l2, data)
-    _draw_powers(powers, data)
+    _draw_exponents(exponents, data)
     l2.set_yscale("log")
-    powers.set_xlim(8.0, l2.get_xlim()[1])
+    exponents.set_xlim(8.0, l2.get_xlim()[1])
     handles, labels = linf.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=2)
     return figure
@@ -115,27 +72,29 @@ def _draw_law(axes: Axes, data: xr.Dataset) -> None:
             )
 
 
-def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
+def _draw_exponents(axes: Axes, data: xr.Dataset) -> None:
     axes.axhline(0.5, color="black", lw=0.8)
     for i, case in enumerate(data["case"].values):
         one = data.sel(case=case)
-        power = one["l2_power"].sel(part="power").values
-        error = one["l2_power"].sel(part="error").values
+        exponent, error = one["l2_exponent"].values, one["l2_exponent_error"].values
         aside = 1.0 + 0.04 * (i - 1.5)  # so that error bars stand beside each other
         look = {"color": LOOKS[str(case)]["color"], "marker": "osD^"[i], "ms": 3.5, "lw": 0}
-        axes.errorbar(aside * one["middle"], power, error, elinewidth=0.9, capsize=2, **look)
+        axes.errorbar(aside * one["octave_tau"], exponent, error, elinewidth=0.9, capsize=2, **look)
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$ (octaves)")
     axes.set_ylabel(r"power of $\tau$ in $\ell^2$")
 
 
-def gather_window_map(maps: dict[str, xr.Dataset]) -> xr.Dataset:
-    """Return the maps of all sweeps: lowest, mean and highest value over each ensemble."""
+def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> xr.Dataset:
+    """Return the maps of all sweeps: lowest, mean and highest value over each ensemble.
+
+    `paper_ends` are the ends T of the paper's windows [10, T], one a sweep.
+    """
     panels = []
     for data in maps.values():
         both = data[["l2", "linf"]]
         parts = [both.min("member"), both.mean("member"), both.max("member")]
-        panel = xr.concat(parts, xr.Variable("statistic", ["lowest", "mean", "highest"]))
+        panel = xr.concat(parts, xr.Variable("statistic", STATISTICS))
         panel["arrival"] = data["arrival"].mean("member").assign_attrs(data["arrival"].attrs)
         panel["predicted_speed"] = data["predicted_speed"]
         panels.append(panel.assign_attrs(data.attrs))
@@ -144,14 +103,14 @@ def gather_window_map(maps: dict[str, xr.Dataset]) -> xr.Dataset:
         joined[name].attrs = dict(next(iter(maps.values()))[name].attrs)
     joined["statistic"].attrs = {"long_name": "over the ensemble", "units": "1"}
     last = float(joined["end"][-1])
-    ends = [min(PAPER_ENDS.get(name, last), last) for name in maps]
+    ends = [min(end, last) for end in paper_ends]
     joined["paper_end"] = ("sweep", ends, {"long_name": "end of the paper's window", "units": "1"})
     return joined
 
 
 @style.styled
 def draw_window_map(data: xr.Dataset) -> Figure:
-    """Draw a column for each sweep: the map of l2 above, cuts through it below."""
+    """Draw a column for each sweep: the map of l2 above, maxima at two ends T below."""
     figure = style.new_figure(style.DOUBLE, 4.2)
     panels = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row")
     shown = data["l2"].sel(statistic="mean")
@@ -159,7 +118,7 @@ def draw_window_map(data: xr.Dataset) -> Figure:
     for (above, below), sweep in zip(panels.T, data["sweep"].values, strict=True):
         one = data.sel(sweep=sweep)
         mesh = _draw_map(above, one, norm)
-        _draw_cuts(below, one)
+        _draw_at_ends(below, one)
     panels[0, 0].set_ylabel("end $T$ of the window $[10, T]$")
     panels[1, 0].set_ylabel("maximal norm of $(A, B)$")
     bar = figure.colorbar(mesh, ax=panels[0].tolist(), pad=0.01, aspect=14)
@@ -194,12 +153,12 @@ def _log_edges(widths: np.ndarray) -> np.ndarray:
     return np.array([widths[0] ** 2 / inner[0], *inner, widths[-1] ** 2 / inner[-1]])
 
 
-def _draw_cuts(axes: Axes, one: xr.Dataset) -> None:
+def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:
     for end, fill in ((float(one["paper_end"]), True), (float(one["end"][-1]), False)):
-        cut = one.sel(end=end, method="nearest")
+        maxima = one.sel(end=end, method="nearest")
         for name in ("l2", "linf"):
-            middle = cut[name].sel(statistic="mean").values
-            bounds = [cut[name].sel(statistic=b).values for b in ("lowest", "highest")]
+            middle = maxima[name].sel(statistic="mean").values
+            bounds = [maxima[name].sel(statistic=b).values for b in ("lowest", "highest")]
             errors = np.abs(np.array(bounds) - middle)
             axes.errorbar(one["half_width"], middle, errors, **_look(name, fill))
         axes.axvline(float(one["predicted_speed"]) * end, color="0.45", **_line(fill))
@@ -241,8 +200,8 @@ def _log_axis(axes: Axes, one: xr.Dataset) -> None:
 def _legend(data: xr.Dataset) -> list[Line2D]:
     last = float(data["end"][-1])
     handles = [
-        Line2D([], [], label=f"{TITLES[name]}, {text}", **_mark(name, fill))
-        for name in TITLES
+        Line2D([], [], label=f"{NORMS[name]}, {text}", **_mark(name, fill))
+        for name in NORMS
         for fill, text in ((True, "the paper's $T$"), (False, f"$T = {last:g}$"))
     ]
     handles += [

@@ -1,6 +1,4 @@
-"""The front on the chain without ends: its speed, and the state that it leaves behind."""
-
-from dataclasses import asdict, replace
+"""The front on the chain without ends in pictures: its speed, and the bulk behind it."""
 
 import numpy as np
 import xarray as xr
@@ -8,82 +6,43 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
-from pendula.problem import Constants
 
-from . import figure_sea as sea_panels
-from .figure_sea import GREEN, named
-from .fronts import FRONT, SEA, speeds
-from .linear_front import linear_front
+MEASURED = (
+    *("speed", "speed_error", "predicted", "tau", "front", "large_tau", "large_front"),
+    *("way_tau", "behind", "delay", "terms", "term", "scaled_site"),
+    *("spectrum", "wave_number", "density", "modulus", "power", "power_error"),
+    *("thermal_omega", "thermal_power", "thermal_modulus", "thermal_density", "thermal_spectrum"),
+)
+"""The variables of the measured front that are drawn."""
 
-SPANS, LATE = 36, 10
-"""Spans of log tau in which the front's way is averaged; the last to which its line is laid."""
+LATE = 10
+"""The line of the delay is laid through so many of the last points of the front's way."""
 
-
-def gather_front(
-    omegas: xr.Dataset, sea: xr.Dataset, large: xr.Dataset, thermal: xr.Dataset
-) -> xr.Dataset:
-    """Return fronts over Omega, the way of one of them, and the means behind it.
-
-    `large` is the run whose sea spreads where the chain at rest is stable; `thermal` are the
-    states without energy that the sea is compared with.
-    """
-    constants = Constants.of(sea.attrs)
-    measured, errors = speeds(omegas)
-    grid = np.linspace(-4.0, 8.0, 97)
-    lines = [linear_front(replace(constants, omega=omega)).speed for omega in grid]
-    title = "front speed (sites per unit of tau)"
-    data = xr.Dataset(
-        {
-            "speed": named("omega", measured, f"measured {title}"),
-            "speed_error": named("omega", errors, f"standard error of the {title}"),
-            "predicted": named("line_omega", lines, f"linear spreading, {title}"),
-            **_positions(omegas, large),
-            **_way(sea),
-            **sea_panels.gather(omegas, sea, thermal, constants),
-        },
-        {
-            "omega": named("omega", omegas["omega"].values, "detuning Omega"),
-            "line_omega": named("line_omega", grid, "detuning Omega"),
-        },
-    )
-    return data.assign_attrs(**asdict(constants), large_omega=large.attrs["omega"])
+GREEN = "#16876b"
+BULK_LOOK = {"color": style.RED, "lw": 1.1, "label": "behind the front"}
+THERMAL_LOOK = {"color": "black", "lw": 0.9, "ls": "--", "label": "thermal"}
+DOTS = {"color": style.RED, "marker": "o", "ms": 3.5, "lw": 0, "elinewidth": 0.9}
+TERM_LOOKS = {
+    "cubic": (style.RED, "-", "cubic"),
+    "detuning": ("#b07800", "-.", "detuning"),
+    "drive": (GREEN, "--", "drive"),
+    "bonds": (style.BLUE, ":", "bonds"),
+}
 
 
-def _positions(omegas: xr.Dataset, large: xr.Dataset) -> dict:
-    """Return the fronts of the ensembles' first members against time."""
-    first = omegas["front"].sel(level=FRONT).isel(member=0)
-    of_sea = large["front"].sel(level=SEA).isel(variant=0, member=0)
-    return {
-        "tau": named("piece", omegas["piece_tau"].values, "slow time"),
-        "front": named(("omega", "piece"), first.values, "site of the front"),
-        "large_tau": named("large_piece", large["piece_tau"].values, "slow time, stable chain"),
-        "large_front": named(
-            "large_piece", of_sea.values, "site where the sea ends, stable chain, large data"
-        ),
-    }
-
-
-def _way(sea: xr.Dataset) -> dict:
-    front = sea["front"].isel(variant=0).sel(level=FRONT)
-    tau = sea["piece_tau"].values
-    v, delay = (float(sea[name].isel(variant=0)) for name in ("predicted_speed", "predicted_delay"))
-    behind = (front.transpose("member", "piece_tau").values - v * tau).mean(axis=0)
-    # a front stands on whole sites: means over short spans of log time show where it is
-    spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
-    found = [spans == span for span in np.unique(spans)]
-    return {
-        "way_tau": named("time", [tau[span].mean() for span in found], "slow time"),
-        "behind": named("time", [behind[span].mean() for span in found], "front minus v tau"),
-        "delay": named((), delay, "sites lost per unit of log tau, predicted"),
-    }
+def gather_front(measured: xr.Dataset) -> xr.Dataset:
+    """Return what is drawn of the front and of the bulk, as `fronts.measure_front` found it."""
+    attributes = ("omega", "gamma", "epsilon", "large_omega")
+    data = measured[list(MEASURED)].drop_attrs(deep=False)
+    return data.assign_attrs({name: measured.attrs[name] for name in attributes})
 
 
 @style.styled
 def draw_front(data: xr.Dataset) -> Figure:
     """Draw the front (its way, speed and delay), then the state behind it."""
     figure = style.new_figure(style.DOUBLE, 4.6)
-    above = (_draw_positions, _draw_speeds, _draw_way, sea_panels.draw_powers)
-    below = (sea_panels.draw_terms, sea_panels.draw_spectrum, sea_panels.draw_moduli)
+    above = (_draw_positions, _draw_speeds, _draw_way, _draw_powers)
+    below = (_draw_terms, _draw_spectrum, _draw_distribution)
     rows = figure.subfigures(2, 1)
     for row, parts in zip(rows, (above, below), strict=True):
         for axes, part in zip(row.subplots(1, len(parts)), parts, strict=True):
@@ -102,8 +61,8 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     axes.lines[-1].set_label("linear")
     shown = data["large_tau"].values <= float(data["tau"][-1])
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
-    sea = data["large_front"].values
-    axes.plot(data["large_tau"].values[shown], sea[shown], color=style.BLUE, lw=1.1, label=label)
+    bulk = data["large_front"].values
+    axes.plot(data["large_tau"].values[shown], bulk[shown], color=style.BLUE, lw=1.1, label=label)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("site of the front")
     axes.set_ylim(top=1.9 * float(data["front"].max()))
@@ -112,8 +71,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
 
 def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(data["line_omega"], data["predicted"], color="black", lw=0.9, label="linear")
-    look = {"color": style.RED, "marker": "o", "ms": 3.5, "lw": 0, "elinewidth": 0.9}
-    axes.errorbar(data["omega"], data["speed"], data["speed_error"], label="measured", **look)
+    axes.errorbar(data["omega"], data["speed"], data["speed_error"], label="measured", **DOTS)
     low, high = -2 * data.attrs["gamma"], 2 * data.attrs["gamma"] + 4 * data.attrs["epsilon"]
     axes.axvspan(low, high, color="0.92", zorder=0)
     axes.set_xlabel(r"$\Omega$")
@@ -131,3 +89,53 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(rf"front $- v^*\tau$ (sites), $\Omega = {data.attrs['omega']:g}$")
+
+
+def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the mean power of the bulk over Omega beside that of the thermal state."""
+    axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
+    axes.errorbar(data["omega"], data["power"], data["power_error"], label="sea", **DOTS)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(r"$\Omega$")
+    axes.set_ylabel("mean power per site")
+    axes.legend(loc="upper right")
+
+
+def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the terms of the energy per site against the distance to the front."""
+    for term, (colour, dashes, label) in TERM_LOOKS.items():
+        values = data["terms"].values[list(data["term"].values).index(term)]
+        if np.any(values):
+            axes.plot(data["scaled_site"], values, color=colour, ls=dashes, lw=1.1, label=label)
+    axes.plot(data["scaled_site"], data["terms"].sum("term"), color="black", lw=1.1, label="sum")
+    axes.set_ylim(top=1.75 * float(data["terms"].max()))
+    axes.set_xlabel("site over that of the front")
+    axes.set_ylabel("energy per site")
+    axes.legend(loc="upper right", ncols=2, columnspacing=1.0, handlelength=1.6)
+
+
+def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the spectrum behind the front beside that of the thermal state."""
+    for name, look in (("spectrum", BULK_LOOK), ("thermal_spectrum", THERMAL_LOOK)):
+        values = data[name].values
+        both = 0.5 * (values + np.roll(values[::-1], 1))  # k and -k are alike
+        half = slice(0, len(values) // 2 + 1)
+        axes.plot(data["wave_number"][half] / np.pi, both[half], **look)
+    axes.set_ylim(0, 1.45 * float(data["spectrum"].max()))
+    axes.set_xlabel(r"wave number $k / \pi$")
+    axes.set_ylabel(rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$")
+    axes.legend(loc="upper left")
+
+
+def _draw_distribution(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the distribution of the moduli beside that of the thermal state."""
+    measured = data["density"].where(data["density"] > 0)
+    thermal = data["thermal_density"].where(data["thermal_density"] > 0)
+    axes.plot(data["modulus"], measured, **BULK_LOOK)
+    axes.plot(data["thermal_modulus"], thermal, **THERMAL_LOOK)
+    axes.set_yscale("log")
+    axes.set_xlim(0, 1.02 * float(data["modulus"].max()))
+    axes.set_ylim(0.5 * float(measured.min()), 20.0 * float(measured.max()))
+    axes.set_xlabel("modulus $|A_n|$, $|B_n|$")
+    axes.set_ylabel(rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$")
+    axes.legend(loc="upper right")

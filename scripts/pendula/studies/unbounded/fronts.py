@@ -1,12 +1,38 @@
-"""The speed of a front, measured from where it is at the ends of the pieces."""
+"""The front and the bulk behind it, measured: speeds, the way, power, energy, spectrum, moduli."""
+
+from dataclasses import asdict, replace
 
 import numpy as np
+import xarray as xr
 
-FRONT, SEA = 1e-2, 4.0
-"""Powers at which a front is found: of a pulled one, and of a sea within waves that it radiates."""
+from pendula.datasets.netcdf import CONVENTIONS
+from pendula.problem import Constants
+
+from .linear_front import linear_front
+from .sea import (
+    LENGTH,
+    TERMS,
+    complex_pair,
+    distribution,
+    energy_terms,
+    mean_powers,
+    profile,
+    sea_of,
+    spectrum,
+    with_ghosts,
+)
+
+FRONT, BULK = 1e-2, 4.0
+"""Powers at which a front is found: of a pulled one, and of a bulk amid waves that it radiates."""
 
 SETTLED = 1 / 3
 """The part of a run that is left out: at first the speed is below the one it tends to."""
+
+SPANS = 36
+"""Spans of log tau in which the front's way is averaged."""
+
+BINS, HIGHEST, MODULI = 24, 1.2, 40
+"""Cells of a profile, how far it reaches beyond the front, and cells of a distribution."""
 
 
 def speed_of(tau: np.ndarray, front: np.ndarray) -> float:
@@ -29,5 +55,146 @@ def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarr
     least = 1.0 / ((1.0 - SETTLED) * tau[-1])
     if found.shape[1] == 1:
         return found[:, 0], np.full(len(found), least)
-    spread = found.std(axis=1, ddof=1) / np.sqrt(found.shape[1])
-    return found.mean(axis=1), np.maximum(spread, least)
+    error = found.std(axis=1, ddof=1) / np.sqrt(found.shape[1])
+    return found.mean(axis=1), np.maximum(error, least)
+
+
+def measure_front(
+    omegas: xr.Dataset, bulk: xr.Dataset, large: xr.Dataset, thermal: xr.Dataset
+) -> xr.Dataset:
+    """Return fronts over Omega, the way of one of them, and the state behind it.
+
+    `omegas` are runs over Omega, `bulk` the run whose bulk is looked at, `large` one whose bulk
+    spreads where the chain at rest is stable. `thermal` are the states without energy that the
+    bulk is compared with. Speeds are in sites per unit of tau, everything else is dimensionless.
+    """
+    constants = Constants.of(bulk.attrs)
+    data = xr.Dataset(
+        {
+            **_speeds(omegas, thermal),
+            **_line(constants),
+            **_positions(omegas, large),
+            **_way(bulk),
+            **_behind(bulk, constants),
+            **_powers(omegas),
+            **_thermal(thermal, constants.omega),
+        },
+        {"omega": _named("omega", omegas["omega"].values, "detuning Omega")},
+    )
+    title = "The front on chains without ends, and the bulk behind it"
+    data.attrs = {"Conventions": CONVENTIONS, "title": title}
+    return data.assign_attrs(**asdict(constants), large_omega=large.attrs["omega"])
+
+
+def _named(dims, values, title: str, units: str = "1"):
+    return dims, np.asarray(values), {"long_name": title, "units": units}
+
+
+def _speeds(omegas: xr.Dataset, thermal: xr.Dataset) -> dict:
+    """Return measured and predicted speeds, and the thermal power at the same Omega."""
+    title = "front speed (sites per unit of tau)"
+    plain, plain_error = speeds(omegas)
+    corrected, corrected_error = speeds(omegas, corrected=True)
+    known = thermal["power"].reindex(omega=omegas["omega"].values, method="nearest", tolerance=1e-9)
+    return {
+        "speed": _named("omega", plain, f"measured {title}"),
+        "speed_error": _named("omega", plain_error, f"standard error of the {title}"),
+        "corrected_speed": _named("omega", corrected, f"{title}, its delay added back"),
+        "corrected_speed_error": _named("omega", corrected_error, "standard error of that speed"),
+        "predicted_speed": _named(
+            "omega", omegas["predicted_speed"].values, f"linear spreading, {title}"
+        ),
+        "expected_power": _named("omega", known.values, "mean power of the thermal state, P"),
+    }
+
+
+def _line(constants: Constants) -> dict:
+    """Return the speed of linear spreading over Omega, on a fine grid."""
+    grid = np.linspace(-4.0, 8.0, 97)
+    lines = [linear_front(replace(constants, omega=omega)).speed for omega in grid]
+    title = "linear spreading, front speed (sites per unit of tau)"
+    return {
+        "line_omega": _named("line_omega", grid, "detuning Omega"),
+        "predicted": _named("line_omega", lines, title),
+    }
+
+
+def _positions(omegas: xr.Dataset, large: xr.Dataset) -> dict:
+    """Return the fronts of the ensembles' first members against time."""
+    first = omegas["front"].sel(level=FRONT).isel(member=0)
+    of_bulk = large["front"].sel(level=BULK).isel(variant=0, member=0)
+    return {
+        "tau": _named("piece", omegas["piece_tau"].values, "slow time"),
+        "front": _named(("omega", "piece"), first.values, "site of the front"),
+        "large_tau": _named("large_piece", large["piece_tau"].values, "slow time, stable chain"),
+        "large_front": _named(
+            "large_piece", of_bulk.values, "site where the bulk ends, stable chain, large data"
+        ),
+    }
+
+
+def _way(bulk: xr.Dataset) -> dict:
+    front = bulk["front"].isel(variant=0).sel(level=FRONT)
+    tau = bulk["piece_tau"].values
+    v, delay = (
+        float(bulk[name].isel(variant=0)) for name in ("predicted_speed", "predicted_delay")
+    )
+    behind = (front.transpose("member", "piece_tau").values - v * tau).mean(axis=0)
+    # a front stands on whole sites: means over short spans of log time show where it is
+    spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
+    found = [spans == span for span in np.unique(spans)]
+    return {
+        "way_tau": _named("time", [tau[span].mean() for span in found], "slow time"),
+        "behind": _named("time", [behind[span].mean() for span in found], "front minus v tau"),
+        "delay": _named((), delay, "sites lost per unit of log tau, predicted"),
+    }
+
+
+def _behind(bulk: xr.Dataset, constants: Constants) -> dict:
+    """Return profiles, spectrum and distribution of the final states of all members."""
+    states = [with_ghosts(state) for state in bulk["state"].isel(variant=0).values]
+    fronts = bulk["front"].isel(variant=0, piece_tau=-1).sel(level=FRONT).values.astype(int)
+    edges = np.linspace(0.0, HIGHEST, BINS + 1)
+    terms, spectra, moduli = [], [], []
+    for state, front in zip(states, fronts, strict=True):
+        sites = (edges * front).astype(int)
+        terms.append(profile(energy_terms(state, constants), sites))
+        inside = sea_of(state, front)
+        for amplitude in complex_pair(state):
+            spectra.append(spectrum(amplitude[inside], LENGTH))
+            moduli.append(np.abs(amplitude[inside]))
+    moduli = np.concatenate(moduli)
+    cells = np.linspace(0.0, 1.05 * moduli.max(), MODULI + 1)
+    waves = 2.0 * np.pi * np.arange(LENGTH) / LENGTH
+    return {
+        "terms": _named(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
+        "term": _named("term", list(TERMS), "term of the energy (8)"),
+        "scaled_site": _named("bin", 0.5 * (edges[1:] + edges[:-1]), "site over that of the front"),
+        "spectrum": _named("wave", np.mean(spectra, axis=0), "mean |A(k)|^2 behind the front"),
+        "wave_number": _named("wave", waves, "wave number", "rad"),
+        "density": _named(
+            "modulus", distribution(moduli, cells), "probability density of |A_n| and |B_n|"
+        ),
+        "modulus": _named("modulus", 0.5 * (cells[1:] + cells[:-1]), "modulus |A_n| or |B_n|"),
+    }
+
+
+def _powers(omegas: xr.Dataset) -> dict:
+    found = mean_powers(omegas)
+    error = found.std(axis=1) / np.sqrt(max(1, found.shape[1] - 1))
+    return {
+        "power": _named("omega", found.mean(axis=1), "mean power |A_n|^2 + |B_n|^2 of the bulk"),
+        "power_error": _named("omega", error, "its standard error over the ensemble"),
+    }
+
+
+def _thermal(thermal: xr.Dataset, omega: float) -> dict:
+    one = thermal.sel(omega=omega, method="nearest")
+    density = "probability density of the modulus, thermal state"
+    return {
+        "thermal_omega": _named("state", thermal["omega"].values, "detuning of the thermal states"),
+        "thermal_power": _named("state", thermal["power"].values, "mean power, thermal state"),
+        "thermal_modulus": _named("cell", one["modulus"].values, "modulus |A_n| or |B_n|"),
+        "thermal_density": _named("cell", one["density"].values, density),
+        "thermal_spectrum": _named("wave", one["spectrum"].values, "|A(k)|^2, thermal state"),
+    }

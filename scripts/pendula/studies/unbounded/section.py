@@ -1,4 +1,4 @@
-"""The conjecture, on chains without ends: growth in time, the front, and the sea behind it."""
+"""The conjecture, on chains without ends: growth in time, the front, and the bulk behind it."""
 
 from typing import Any
 
@@ -9,24 +9,23 @@ from pendula.report.numbers import MINUS, number, span
 from pendula.report.results import Results
 from pendula.report.words import case_of
 
-from .fronts import speeds
-
-# ASSUME: "as the square root": the last octave's power is within this of one half
+# ASSUME: "as the square root": the last octave's exponent is within this of one half
 ROOT, NEAR = 0.5, 0.1
-LAW, FRONT = "figures/growth_law", "figures/front"
-OMEGAS, THERMAL = "unbounded/omegas", "unbounded/thermal"
+GROWTH, FRONT = "unbounded/growth", "unbounded/front"
+MAPS = ["unbounded/map_fig5_left", "unbounded/map_fig5_right"]
+MAPS += ["unbounded/map_fig6_left", "unbounded/map_fig6_right"]
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the powers of tau, the fronts over Omega, and the three pictures."""
-    cases = [_case(results, str(name)) for name in results[LAW]["case"].values]
+    """Return the exponents of tau, the fronts over Omega, and the three pictures."""
+    cases = [_case(results, str(name)) for name in results[GROWTH]["case"].values]
     fronts = _fronts(results)
     return {
         "cases": cases,
         "main": _main(results, ledger),
         "fronts": fronts["rows"],
-        "omegas": results.quote(OMEGAS, len(fronts["rows"])),
-        "speed_ratio": results.say(OMEGAS, span(fronts["speed_ratio"], 4)),
+        "omegas": results.quote(FRONT, len(fronts["rows"])),
+        "speed_ratio": results.say(FRONT, span(fronts["speed_ratio"], 4)),
         "power_ratio": results.say(FRONT, span(fronts["power_ratio"], 2)),
         "tries_known": bool(np.isfinite(ledger.value("unbounded_large", "tried"))),
         "tried": ledger.quote("unbounded_large", "tried"),
@@ -55,66 +54,63 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 
 def _case(results: Results, name: str) -> dict[str, Any]:
-    case = results[LAW].sel(case=name)
-    last = case["l2_power"].isel(octave=-1)
-    power, error = (float(last.sel(part=part)) for part in ("power", "error"))
-    octaves = [f"{float(p):.3f}".replace("-", MINUS) for p in case["l2_power"].sel(part="power")]
+    case = results[GROWTH].sel(case=name)
+    exponents = case["l2_exponent"].values
+    last, error = float(exponents[-1]), float(case["l2_exponent_error"][-1])
+    octaves = ", ".join(f"{exponent:.3f}".replace("-", MINUS) for exponent in exponents)
     run = f"unbounded/{name}"
     end = float(results[run]["tau"].max())
     return {
         "case": case_of(case),
-        "grows": power - 3.0 * error > 0 and power > NEAR,
+        "grows": last - 3.0 * error > 0 and last > NEAR,
         "row": [
             case_of(case),
             results.quote(run, end, 4),
             results.quote(run, int(results[run]["width"].max()), 6),
-            results.quote(LAW, float(case["l2"].sel(statistic="mean").isel(point=-1))),
-            results.say(LAW, ", ".join(octaves)),
-            results.quote_error(LAW, power, error),
+            results.quote(GROWTH, float(case["l2"].sel(statistic="mean").isel(point=-1))),
+            results.say(GROWTH, octaves),
+            results.quote_error(GROWTH, last, error),
         ],
-        "power": results.quote_error(LAW, power, error),
+        "power": results.quote_error(GROWTH, last, error),
     }
 
 
 def _fronts(results: Results) -> dict[str, Any]:
-    front, omegas = results[FRONT], results[OMEGAS]
-    measured, errors = speeds(omegas, corrected=True)
-    predicted = omegas["predicted_speed"].values
-    sea, thermal = front["power"].values, _thermal(results, omegas["omega"].values)
+    front = results[FRONT]
+    names = ("omega", "corrected_speed", "corrected_speed_error", "predicted_speed", "power")
+    columns = [front[name].values for name in (*names, "expected_power")]
     rows = [
         [
             f"Ω = {number(omega)}",
-            results.quote_error(OMEGAS, measured[i], errors[i]),
-            results.quote(OMEGAS, predicted[i], 4),
-            results.quote(FRONT, sea[i]),
-            results.quote(THERMAL, thermal[i]),
+            results.quote_error(FRONT, speed, error),
+            results.quote(FRONT, predicted, 4),
+            results.quote(FRONT, power),
+            results.quote(FRONT, thermal),
         ]
-        for i, omega in enumerate(omegas["omega"].values)
+        for omega, speed, error, predicted, power, thermal in zip(*columns, strict=True)
     ]
-    return {"rows": rows, "speed_ratio": measured / predicted, "power_ratio": sea / thermal}
-
-
-def _thermal(results: Results, omegas: np.ndarray) -> np.ndarray:
-    """Return the power of the thermal state at each Omega, NaN where none was sampled."""
-    known = results[THERMAL]["power"]
-    return known.reindex(omega=omegas, method="nearest", tolerance=1e-9).values
+    return {
+        "rows": rows,
+        "speed_ratio": (front["corrected_speed"] / front["predicted_speed"]).values,
+        "power_ratio": (front["power"] / front["expected_power"]).values,
+    }
 
 
 def _pictures(results: Results, cases: list[dict], fronts: dict) -> dict[str, Any]:
-    told = "; ".join(f"{case['case']}: last power {case['power']}" for case in cases)
-    window = results["figures/window_map"]
-    widths, ends = window["half_width"].values, window["end"].values
+    told = "; ".join(f"{case['case']}: last exponent {case['power']}" for case in cases)
+    maps = [results[name] for name in MAPS]
+    widths, ends = maps[0]["half_width"].values, maps[0]["end"].values
     return {
         "law": results.picture("growth_law", f"Norms without ends against τ. {told}."),
         "front": results.picture(
             "front",
             f"Speeds of the front at {len(fronts['rows'])} values of Ω, "
-            f"{span(fronts['speed_ratio'], 4)} of the predicted, and the sea behind it.",
+            f"{span(fronts['speed_ratio'], 4)} of the predicted, and the bulk behind it.",
         ),
         "windows": results.picture(
             "window_map",
             f"Largest l2 over windows that end at τ = {number(np.min(ends))} to "
             f"{number(np.max(ends))}, half-widths {widths.min()} to {widths.max()}, in "
-            f"{window.sizes['sweep']} sweeps.",
+            f"{len(maps)} sweeps.",
         ),
     }
