@@ -1,9 +1,11 @@
-"""The paper's cases as problems, and any of their values changed."""
+"""Problems for tests: the paper's cases, or any numbers and data, with defaults for the rest."""
 
-from oracle import CASES
+from oracle import CASES, SOLVERS
 from pendula.problem import Constants, Problem
 
 UNIT = {"epsilon": 1.0, "gamma": 1.0}
+PAPER = (1.0, 1.0, -4.0)
+"""epsilon, gamma and Omega of Fig 3."""
 
 
 def problem_of(case: str = "fig4_small", **changes) -> Problem:
@@ -21,7 +23,7 @@ def problem_of(case: str = "fig4_small", **changes) -> Problem:
     return Problem.of(plain | changes)
 
 
-def constants_of(values) -> Constants:
+def constants_of(values=PAPER) -> Constants:
     """Return named constants of the numbers (epsilon, gamma, Omega) that the oracle takes."""
     epsilon, gamma, omega = map(float, values)
     return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
@@ -31,3 +33,15 @@ def problem_from(amplitudes, values, boundary="dirichlet", **changes) -> Problem
     """Return the problem of data (2, 2M + 1) on the whole chain under (epsilon, gamma, Omega)."""
     base = problem_of(half_width=amplitudes.shape[1] // 2, boundary=boundary, **changes)
     return base.changed(constants=constants_of(values), initial=amplitudes)
+
+
+def make_problem(initial, numbers=PAPER, boundary="dirichlet", solver="dop853", **changes):
+    """Return the problem of data (2, 2r + 1) up to tau = 1, on the chain that they fill."""
+    values = {
+        "half_width": initial.shape[1] // 2,
+        "end_time": 1.0,
+        "output_step": 0.25,
+        "solver": SOLVERS[solver] if isinstance(solver, str) else solver,
+        **changes,
+    }
+    return Problem(constants=constants_of(numbers), boundary=boundary, initial=initial, **values)
