@@ -21,7 +21,7 @@ import job  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.growth import local_powers  # noqa: E402
-from pendula.studies.unbounded.fronts import FRONT, SEA, speeds  # noqa: E402
+from pendula.studies.unbounded.fronts import BULK, FRONT, speeds  # noqa: E402
 from pendula.studies.unbounded.sea import mean_powers  # noqa: E402
 from pendula.studies.unbounded.studies import CASES, REST, TOLERANCE  # noqa: E402
 
@@ -107,7 +107,7 @@ def _case(run: xr.Dataset) -> dict[str, float]:
     exponent = _exponent(run)
     # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
     pulled = bool(run["predicted_delay"][0] > 0)
-    speed, error = speeds(run, FRONT if pulled else SEA, corrected=pulled)
+    speed, error = speeds(run, FRONT if pulled else BULK, corrected=pulled)
     return {
         "end": float(run["tau"][-1]),
         "members": run.sizes["member"],
