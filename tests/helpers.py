@@ -57,3 +57,8 @@ def edit(path: Path, old: str, new: str) -> None:
     text = path.read_text()
     assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path}"
     path.write_text(text.replace(old, new))
+
+
+def change(path: Path) -> None:
+    """Add a comment to a module, which must be there: `open("a")` would create it."""
+    path.write_text(path.read_text() + "# changed\n")

@@ -20,30 +20,79 @@ def test_the_conda_environment_has_the_same_pins():
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
 
 
-def test_a_record_lists_the_modules_that_a_script_reaches(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    text = Path(code_records.code("trajectories/simulate_case.py")).read_text()
-    files = {line.split()[1] for line in text.splitlines()}
-    assert {
-        "environment.txt",
-        "scripts/job.py",
-        "scripts/trajectories/simulate_case.py",
-        "scripts/pendula/models/amplitudes.py",
-        "scripts/pendula/integrators/dop853_tableau.py",
-    } <= files
-    assert not any("plots" in file or "parameters" in file for file in files)
+SCRIPTS = sorted(
+    path.relative_to(sources.SCRIPTS).as_posix()
+    for path in sources.SCRIPTS.glob("*/*.py")
+    if path.parent.name != "pendula"
+)
+"""Every script of a rule, as `folder/name.py`: base names alone repeat."""
 
 
-def test_a_record_lists_the_templates_beside_the_modules(tmp_path, monkeypatch):
+@pytest.fixture
+def recorded(tmp_path, monkeypatch):
+    """Return a function: the files that the record of a script lists, below scripts/pendula."""
     monkeypatch.chdir(tmp_path)
-    text = Path(code_records.code("report/write_report.py")).read_text()
-    files = {line.split()[1] for line in text.splitlines()}
-    folder = "scripts/pendula/report"
+
+    def files(script: str) -> set[str]:
+        text = Path(code_records.code(script)).read_text()
+        return {line.split()[1].removeprefix("scripts/pendula/") for line in text.splitlines()}
+
+    return files
+
+
+def test_a_record_lists_the_modules_that_a_script_reaches(recorded):
     assert {
-        f"{folder}/style.css",
-        f"{folder}/script.js",
-        f"{folder}/templates/base.html.j2",
-    } <= files
+        *("environment.txt", "scripts/job.py", "scripts/trajectories/simulate_case.py"),
+        *("__init__.py", "models/__init__.py", "models/amplitudes.py"),
+        *("simulation/simulate.py", "integrators/dop853_tableau.py"),
+    } <= recorded("trajectories/simulate_case.py")
+
+
+PAGES = ("drawing/", "report/", "figure_diff/", "archive/", "ledger/")
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        *("trajectories/simulate_case.py", "trajectories/compile_solver.py"),
+        *("sweeps/sweep_case.py", "reference/integrate_reference.py"),
+        *("chaos/measure_lyapunov.py", "chaos/measure_ensembles.py"),
+        *("unbounded/spread_case.py", "unbounded/map_windows.py", "hard_cases/run_hard_cases.py"),
+    ],
+)
+def test_what_computes_does_not_depend_on_what_is_drawn_or_written(recorded, script):
+    """Nor on the configuration's room, whose every edit would rerun the simulations."""
+    files = recorded(script)
+    assert not [file for file in files if file.startswith((*PAGES, "configuration/"))]
+    assert not [file for file in files if file.endswith((".j2", ".css", ".js"))]
+
+
+@pytest.mark.parametrize("script", [s for s in SCRIPTS if re.match("(?!own/).*/draw_", s)])
+def test_what_draws_does_not_depend_on_how_it_was_integrated(recorded, script):
+    """A sweep of one's own is checked by the job that draws it, and so depends on more."""
+    rooms = {file.partition("/")[0] for file in recorded(script)}
+    assert rooms.isdisjoint({"integrators", "models", "report", "figure_diff", "archive"})
+
+
+@pytest.mark.parametrize(
+    "package",
+    sorted(
+        path.parent.relative_to(sources.SCRIPTS).as_posix()
+        for path in sources.SCRIPTS.glob("pendula/**/__init__.py")
+        if path.parent.name != "peers"
+    ),
+)
+def test_importing_a_package_drags_in_no_other_room(package):
+    """What an `__init__.py` imports is in the record of every job that imports from the package."""
+    reached = sources.modules_of(sources.SCRIPTS / package / "__init__.py")
+    inits = {folder / "__init__.py" for folder in (sources.SCRIPTS / package).parents}
+    assert not [path for path in reached if package not in path.as_posix() and path not in inits]
+
+
+def test_a_record_lists_the_templates_beside_the_modules(recorded):
+    files = recorded("report/write_report.py")
+    names = ("style.css", "script.js", "templates/base.html.j2")
+    assert {f"report/{name}" for name in names} <= files
     assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
 
 
@@ -57,6 +106,34 @@ def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):
     assert sources.attached_to(modules) == [tmp_path / "scripts/page/templates/page.j2"]
 
 
+def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
+    names = ("__init__.py", "section.py", "compute.py", "section.html.j2", "shared.css")
+    init, section, compute, template, style = paths = [tmp_path / name for name in names]
+    for path in paths:
+        path.touch()
+    assert sources.attached_to([init, section]) == [template, style]
+    assert sources.attached_to([init, compute]) == [style]
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        *("import pendula.drawing.style", "from pendula.drawing import style"),
+        *("from pendula.drawing.style import styled", "from ..drawing import style"),
+        *("from ..drawing.style import styled", "def later():\n    from ..drawing import style"),
+    ],
+)
+def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement):
+    monkeypatch.setattr(sources, "SCRIPTS", tmp_path)
+    here, room = tmp_path / "pendula/studies/draw.py", tmp_path / "pendula/drawing"
+    room.mkdir(parents=True)
+    here.parent.mkdir()
+    for path in (room / "__init__.py", room / "style.py", room / "other.py"):
+        path.touch()
+    here.write_text(statement)
+    assert sources.modules_of(here) == [room / "__init__.py", room / "style.py", here]
+
+
 def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     record = Path(code_records.code("paper/draw_chain.py"))
@@ -65,19 +142,18 @@ def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     assert record.stat().st_mtime_ns == before
 
 
-SCRIPTS = sorted((ROOT / "scripts").glob("*/*.py"))
-
-
-@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_scripts_touch_snakemake_only_under_the_main_guard(path):
-    if path.parent.name == "pendula":
-        assert "snakemake." not in path.read_text()
-        return
-    tree = ast.parse(path.read_text())
-    guard = tree.body[-1]
-    inside = {id(node) for node in ast.walk(guard)}
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_scripts_touch_snakemake_only_under_the_main_guard(script):
+    tree = ast.parse((sources.SCRIPTS / script).read_text())
+    inside = {id(node) for node in ast.walk(tree.body[-1])}
     names = [n for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == "snakemake"]
     assert names and all(id(name) in inside for name in names)
+
+
+def test_the_library_does_not_know_snakemake():
+    for path in (sources.SCRIPTS / "pendula").rglob("*.py"):
+        names = [n.id for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Name)]
+        assert "snakemake" not in names, path
 
 
 def test_the_case_shown_in_the_documents_is_valid():

@@ -25,21 +25,31 @@ def modules_of(file: Path) -> list[Path]:
 
 
 def attached_to(modules: list[Path]) -> list[Path]:
-    """Return the files that lie in the packages among `modules` but are no modules: templates.
+    """Return the files beside `modules` that are no modules but are read by them: templates.
 
-    A package inside a package counts only if it is among them itself.
+    A file that is named after a module beside it (section.html.j2, section.py) belongs to this
+    module alone, so that a job that computes does not depend on how a page looks. Any other file
+    belongs to its package. A package inside a package counts only if it is among `modules` itself.
     """
     packages = [module.parent for module in modules if module.name == "__init__.py"]
-    return sorted(path for package in packages for path in _attached(package))
+    files = (path for package in packages for path in _no_modules(package))
+    owners = {None, *modules}
+    return sorted(path for path in files if _owner(path) in owners)
 
 
-def _attached(folder: Path) -> Iterator[Path]:
+def _no_modules(folder: Path) -> Iterator[Path]:
     for path in folder.iterdir():
         if path.is_dir():
             if path.name != "__pycache__" and not (path / "__init__.py").exists():
-                yield from _attached(path)
+                yield from _no_modules(path)
         elif path.suffix != ".py" and not path.name.startswith("."):
             yield path
+
+
+def _owner(path: Path) -> Path | None:
+    """Return the module that a file is named after."""
+    module = path.with_name(path.name.split(".")[0] + ".py")
+    return module if module.exists() else None
 
 
 @cache

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 import xarray as xr
-from helpers import edit, planned, snakemake_with
+from helpers import change, edit, planned, snakemake_with
 
 SIMULATIONS = {"trajectory", "sweep"}
 PLOTS = {f"fig{n}" for n in range(1, 7)} | {"solver_figures"}
@@ -50,13 +50,13 @@ def test_the_plot_style_reruns_plots_only(finished, clone):
 
 
 def test_one_plot_reruns_alone(finished, clone):
-    (clone / "scripts/pendula/studies/paper/figure_chain.py").open("a").write("# changed\n")
+    change(clone / "scripts/pendula/studies/paper/chain_figure.py")
     assert set(planned(clone, finished)) == {"fig1", "report", "all"}
 
 
-@pytest.mark.parametrize("module", ["chain.py", "energy.py", "compiled.py"])
+@pytest.mark.parametrize("module", ["models/amplitudes.py", "models/energy.py", "compiled.py"])
 def test_the_equations_rerun_every_simulation(finished, clone, module):
-    (clone / "scripts/pendula" / module).open("a").write("# changed\n")
+    change(clone / "scripts/pendula" / module)
     jobs = planned(clone, finished)
     assert jobs["trajectory"] == 6 and jobs["sweep"] == 4
 

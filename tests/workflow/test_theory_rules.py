@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from helpers import ROOT, planned, snakemake
+from helpers import ROOT, change, planned, snakemake
 from pendula.datasets.checks import broken, table, variable
 from pendula.ledger.claims import CLAIMS
 from pendula.ledger.evaluate import needed
@@ -110,17 +110,17 @@ def test_the_ledger_is_the_same_every_time(finished):
 
 @pytest.mark.parametrize("module", ["bounds.py", "catalogue.py"])
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone, module):
-    (clone / "scripts/pendula/studies/theory" / module).open("a").write("# changed\n")
+    change(clone / "scripts/pendula/studies/theory" / module)
     jobs = set(planned(clone, finished))
     without = {"check_observed"} if module == "catalogue.py" else set()
     assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
-    (clone / "scripts/pendula/studies/paper/claims_figure_2.py").open("a").write("# changed\n")
+    change(clone / "scripts/pendula/studies/paper/claims_figure_2.py")
     assert set(planned(clone, finished)) == {"claims", "report", "all"}
 
 
 def test_an_edit_of_a_figure_of_the_theory_reruns_its_job_alone(finished, clone):
-    (clone / "scripts/pendula/studies/theory/figure_growth_rates.py").open("a").write("# changed\n")
+    change(clone / "scripts/pendula/studies/theory/figures.py")
     assert set(planned(clone, finished)) == {"stability_figures", "report", "all"}
