@@ -1,9 +1,7 @@
 """Run the hard cases: a dataset of what each solver made of them, and a table to read."""
 
-from pathlib import Path
-
-from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import write
+from pendula.report.tables import write_page
 from pendula.studies.hard_cases.table import outcomes, page, variables
 
 
@@ -11,8 +9,7 @@ def run_hard_cases(data: str, table: str, kernels: list[str] | tuple = ()) -> No
     """Write both; a row that does not end as expected is said here and marked in the table."""
     results = outcomes()
     write(data, variables(results), {"title": "Hard cases for the solvers"})
-    with complete_or_absent(table) as partial:
-        Path(partial).write_text(f"{page(results)}\n", encoding="utf-8")
+    write_page(table, page(results))
     for result in results:
         if not result.sound:
             print(f"NOT AS EXPECTED: {result.case}, {result.solver}: {result.error:.3g} ")

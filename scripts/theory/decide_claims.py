@@ -9,6 +9,7 @@ from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read
 from pendula.ledger.evaluate import evaluate, needed
 from pendula.ledger.verdicts import Verdict
+from pendula.report.tables import markdown, write_page
 
 
 def decide_claims(
@@ -25,7 +26,7 @@ def decide_claims(
     rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources)]
     checks = {name: ds.to_dict() for name, ds in sources.items() if name.startswith("checks/")}
     write(ledger, json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False))
-    write(table, "\n".join([*claims_section(rows), *checks_section(checks)]))
+    write_page(table, *claims_section(rows), *checks_section(checks))
     print(", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items()))
     for name, check in checks.items():
         if broken(check):
@@ -48,25 +49,20 @@ def tally(rows: list[dict]) -> dict[str, int]:
     return {str(verdict): counts[verdict] for verdict in Verdict}
 
 
-def line(*cells: str) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
-def head(*cells: str) -> list[str]:
-    return [line(*cells), line(*("---" for _ in cells))]
-
-
 def claims_section(rows: list[dict]) -> list[str]:
     """Return the claims with their verdicts and what these rest on."""
-    lines = ["# What the paper says, and what the numbers say", ""]
-    lines += [f"- {verdict}: {count}" for verdict, count in tally(rows).items()]
-    lines += ["", *head("where", "claim", "verdict", "measured", "criterion", "because", "data")]
-    for row in rows:
-        measured = ", ".join(f"{key} = {shown(value)}" for key, value in row["measured"].items())
-        data = ", ".join(row["decided_by"])
-        cells = (row["verdict"], measured, row["tolerance"], row["because"], data)
-        lines.append(line(row["place"], row["says"], *cells))
-    return lines
+    counts = "\n".join(f"- {verdict}: {count}" for verdict, count in tally(rows).items())
+    head = ("where", "claim", "verdict", "measured", "criterion", "because", "data")
+    cells = [
+        (
+            *(row[key] for key in ("place", "says", "verdict")),
+            ", ".join(f"{key} = {shown(value)}" for key, value in row["measured"].items()),
+            *(row[key] for key in ("tolerance", "because")),
+            ", ".join(row["decided_by"]),
+        )
+        for row in rows
+    ]
+    return ["# What the paper says, and what the numbers say", counts, markdown(head, cells)]
 
 
 def shown(value: float | str) -> str:
@@ -75,14 +71,17 @@ def shown(value: float | str) -> str:
 
 def checks_section(checks: dict[str, dict]) -> list[str]:
     """Return every number that a check is held to, beside its tolerance."""
-    lines = ["", "# The checks", "", *head("check", "quantity", "largest", "tolerance", "holds")]
+    rows = []
     for name, check in checks.items():
         faults = broken(check)
         for variable, (worst, limit) in deciding(check).items():
             title = f"{variable}: {check['data_vars'][variable]['attrs']['long_name']}"
-            cells = (title, f"{worst:.3g}", f"{limit:.10g}", "NO" if variable in faults else "yes")
-            lines.append(line(name.removeprefix("checks/"), *cells))
-    return lines
+            holds = "NO" if variable in faults else "yes"
+            rows.append(
+                (name.removeprefix("checks/"), title, f"{worst:.3g}", f"{limit:.10g}", holds)
+            )
+    head = ("check", "quantity", "largest", "tolerance", "holds")
+    return ["# The checks", markdown(head, rows)]
 
 
 if __name__ == "__main__":

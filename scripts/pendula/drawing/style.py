@@ -1,6 +1,5 @@
 """One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
-import ast
 from io import BytesIO
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
 from pendula.datasets.files import complete_or_absent
+from pendula.problem import read_initial
 
 SINGLE, DOUBLE = 3.4, 7.0
 """Widths of one and of two columns of a journal page, in inches."""
@@ -96,16 +96,15 @@ def name_case(case: xr.Dataset) -> str:
 
 
 def name_initial(initial: str) -> str:
-    """Return initial data such as "{0: [1, 0.1]}" (site: [A, B]) as written in a panel."""
-    sites = {int(site): pair for site, pair in ast.literal_eval(initial).items()}
+    """Return initial data, as datasets keep them ({site: [A, B]}), as written in a panel."""
+    sites = read_initial(initial)
     if len(sites) != 1:
         return f"data on {len(sites)} sites"
     ((site, (a, b)),) = sites.items()
     return rf"$(A_{{{site}}}, B_{{{site}}}) = ({_name_number(a)}, {_name_number(b)})$"
 
 
-def _name_number(value: float | str) -> str:
-    number = complex(value)
+def _name_number(number: complex) -> str:
     return f"{number:g}" if number.imag else f"{number.real:g}"
 
 

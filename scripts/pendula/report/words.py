@@ -1,7 +1,8 @@
 """How cases, solvers and symbols are written on a page."""
 
-import json
 import re
+
+from pendula.problem import read_initial
 
 from .numbers import FIRM, MINUS, number, raised
 
@@ -62,17 +63,16 @@ def case_of(dataset) -> str:
 
 def case_in_words(omega: float, initial: str) -> str:
     """Return the detuning and the data of a case."""
-    sites = json.loads(initial)
+    sites = read_initial(initial)
     if len(sites) != 1:
         return f"Ω = {number(omega)}, data on {len(sites)} sites"
     ((site, (a, b)),) = sites.items()
-    index = site.replace("-", "₋").translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+    index = str(site).replace("-", "₋").translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
     pair = f"(A{index}, B{index}) = ({_amplitude(a)}, {_amplitude(b)})"
     return f"Ω = {number(omega)}".replace(" ", FIRM) + ", " + pair.replace(" ", FIRM)
 
 
-def _amplitude(value: float | str) -> str:
-    z = complex(value)
+def _amplitude(z: complex) -> str:
     return f"{z:g}" if z.imag else number(z.real)
 
 

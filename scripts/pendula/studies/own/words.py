@@ -1,11 +1,11 @@
 """Cases of one's own in words: their parameters, and numbers that link to their dataset."""
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from pendula.problem import read_initial
 from pendula.report.numbers import MINUS, Quote, number
 from pendula.report.words import SOLVERS
 
@@ -20,6 +20,8 @@ FEW = 8
 
 def exact(value: Any) -> str:
     """Return a number as a configuration has it, to the digits that a reader needs."""
+    if isinstance(value, complex):
+        return str(value).strip("()") if value.imag else number(value.real, 8)
     return number(value, 8) if isinstance(value, int | float | np.number) else str(value)
 
 
@@ -39,11 +41,14 @@ _SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-wid
 
 def data(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the sites that are not at rest at the start, each with its amplitudes, if few."""
-    sites = json.loads(attributes["initial"])
+    sites = read_initial(attributes["initial"])
     if len(sites) > FEW:
         return [("A, B at the start", f"on {len(sites)} sites, as the dataset's attributes say")]
     return [
-        (f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
+        (
+            f"A, B at site {site}".replace("-", MINUS),
+            ", ".join(map(exact, pair)),
+        )
         for site, pair in sites.items()
     ]
 
