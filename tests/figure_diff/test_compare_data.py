@@ -7,15 +7,7 @@ import xarray as xr
 from made_up_results import CHAOTIC, REGULAR, change_a, chaotic, regular
 from pendula.datasets.netcdf import read, save
 from pendula.figure_diff.baseline import MOST_NUMBERS, thin
-from pendula.figure_diff.compare_data import curves
 from pendula.figure_diff.findings import IDENTICAL, NEARLY
-from pendula.figure_diff.tolerances import FILE, ToleranceError, read_rules, rule_for
-
-
-@pytest.fixture
-def rules(run):
-    """Return the tolerances of the project."""
-    return read_rules(run.accepted)
 
 
 def test_an_identical_run_is_clean(any_environment):
@@ -76,13 +68,6 @@ def test_gaps_are_found(run):
     assert "has gaps (NaN) elsewhere" in run.faults()[0]
 
 
-def test_errors_of_rounding_size_are_compared_by_size(rules):
-    residual = xr.Dataset({"error": ("sample", [3e-14, 1e-15])}, {"sample": [0, 1]})
-    (curve, _) = curves(residual, "checks/any")
-    assert rule_for(rules, curve.label, curve.largest).method == "magnitude"
-    assert rule_for(rules, curve.label, 1.0).method == "pointwise"
-
-
 def test_a_damaged_dataset(run):
     path = run.made / REGULAR
     path.write_bytes(path.read_bytes()[:500])
@@ -95,29 +80,3 @@ def test_the_baseline_keeps_few_numbers(run):
     assert sum(variable.size for variable in kept.variables.values()) <= MOST_NUMBERS
     large = xr.Dataset({"modulus": (("x", "y", "z"), np.ones((2, 61, 501)))})
     assert thin(large)["modulus"].shape == (2, 61, 63)
-
-
-def test_the_first_rule_that_fits_counts_and_the_last_one_takes_all(rules):
-    assert rule_for(rules, "trajectories/fig4_small:l2 component=A", 5.0).horizon > 5
-    assert rule_for(rules, "figures/fig3:l2 amplitude=small component=A", 5.0) is rules[-1]
-
-
-def test_without_a_table_every_curve_is_regular(tmp_path):
-    assert [rule.labels for rule in read_rules(tmp_path)] == [["*"]]
-
-
-@pytest.mark.parametrize(
-    ("table", "said"),
-    [
-        ("rules: [{labels: ['*'], method: pointwise, limit: 1e-3}]", "rules.0.reason"),
-        ("rules: [{labels: ['*'], method: about, limit: 1, reason: x}]", "rules.0.method"),
-        ("rules: [{labels: ['*'], method: chaotic, limit: 1, reason: x, band: 1}]", "rules.0.band"),
-        ("rules: [", "line 1"),
-    ],
-    ids=["without a reason", "unknown method", "unknown key", "no YAML"],
-)
-def test_a_faulty_table_is_refused_by_name_and_place(tmp_path, table, said):
-    (tmp_path / FILE).write_text(table)
-    with pytest.raises(ToleranceError, match=FILE) as refused:
-        read_rules(tmp_path)
-    assert said in str(refused.value)
