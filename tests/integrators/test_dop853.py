@@ -4,17 +4,15 @@ import numpy as np
 import plain
 import pytest
 import systems
-from oracle import CASES, SOLVERS, random_chain, slope
+from on_chains import data_of, integrate, numbers_of
+from oracle import CASES, random_chain, slope
 from pendula.integrators import dop853
 from pendula.integrators import dop853_tableau as tableau
 from pendula.integrators.dop853_errors import weigh
 from pendula.integrators.outcome import DONE
-from pendula.simulation.lattice import Reduction, place
-from pendula.simulation.simulate import integrate, output_times, simulate
+from pendula.simulation.lattice import find_reduction
 from scipy.integrate._ivp import dop853_coefficients as published
 from trees import defect
-
-WHOLE = Reduction(even=False, synchronised=False)
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +109,7 @@ def test_a_nan_is_never_a_small_error(stage):
 def test_step_control_is_the_published_one_on_the_chain(rtol):
     z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, 3), (1.0, 1.0, -4.0)
     solver = {"name": "dop853", "rtol": rtol, "atol": 1e-2 * rtol}
-    fast = integrate(numbers, "free", z, WHOLE, times, solver)
+    fast = integrate(z, solver, 4.0, 2, numbers=numbers, boundary="free")
     final, steps, rejected = plain.dop853(
         lambda u: slope(u, numbers, "free"), z, times, rtol, 1e-2 * rtol
     )
@@ -168,7 +166,7 @@ def test_sites_at_rest_do_not_change_the_steps():
     wide = np.zeros((2, 41), complex)
     wide[:, 20] = 2.0, 1.0
     runs = [
-        integrate((0.0, 1.0, -4.0), "free", z, WHOLE, output_times(3.0, 1.0), SOLVERS["dop853"])
+        integrate(z, "dop853", 3.0, 3, numbers=(0.0, 1.0, -4.0), boundary="free")
         for z in (wide[:, 20:21], wide)
     ]
     assert runs[0].outcome == runs[1].outcome
@@ -177,29 +175,17 @@ def test_sites_at_rest_do_not_change_the_steps():
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_papers_cases_agree_with_scipy(case, scipy_solution):
-    omega, pair = CASES[case]
-    run = simulate(
-        epsilon=1.0,
-        gamma=1.0,
-        omega=omega,
-        half_width=30,
-        boundary="dirichlet",
-        initial={0: pair},
-        end_time=5.0,
-        output_step=0.025,
-        solver={"name": "dop853", "rtol": 1e-13, "atol": 1e-13},
-    )
+    z, solver = data_of(case), {"name": "dop853", "rtol": 1e-13, "atol": 1e-13}
+    run = integrate(z, solver, 5.0, 200, find_reduction(z), numbers=numbers_of(case))
     assert np.linalg.norm(run.final - scipy_solution(case, 5.0)) < 1e-9
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
 def test_a_tenth_of_the_tolerance_makes_a_tenth_of_the_error(case, scipy_solution):
-    z = place({0: CASES[case][1]}, 30)
-    numbers, times = (1.0, 1.0, CASES[case][0]), output_times(5.0, 0.025)
     errors = []
     for tolerance in (1e-9, 1e-10):
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
-        final = integrate(numbers, "dirichlet", z, WHOLE, times, solver).final
+        final = integrate(data_of(case), solver, 5.0, 200, numbers=numbers_of(case)).final
         errors.append(np.abs(final - scipy_solution(case, 5.0)).max())
     assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.3)
 

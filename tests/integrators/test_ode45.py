@@ -4,15 +4,14 @@ import numpy as np
 import plain
 import pytest
 import systems
+from on_chains import data_of, integrate, numbers_of
 from oracle import CASES, SOLVERS, random_chain, slope
 from pendula.integrators import ode45
 from pendula.integrators.outcome import DONE
-from pendula.simulation.lattice import Reduction
-from pendula.simulation.simulate import integrate, output_times, simulate
+from pendula.simulation.lattice import find_reduction
 from trees import defect
 
 E = np.array([ode45.E1, 0.0, ode45.E3, ode45.E4, ode45.E5, ode45.E6, ode45.E7])
-WHOLE = Reduction(even=False, synchronised=False)
 
 
 @pytest.fixture(scope="module")
@@ -33,11 +32,11 @@ def interpolation_weights(fraction):
 
 
 def run_case(case, end_time, **tolerances):
-    omega, pair = CASES[case]
-    numbers = {"epsilon": 1.0, "gamma": 1.0, "omega": omega, "half_width": 30}
-    times = {"end_time": end_time, "output_step": 0.025}
-    solver = SOLVERS["ode45"] | tolerances
-    return simulate(**numbers, **times, boundary="dirichlet", initial={0: pair}, solver=solver)
+    """Return the run of a case with outputs at steps of 0.025, by half of the chain."""
+    z, solver = data_of(case), SOLVERS["ode45"] | tolerances
+    return integrate(
+        z, solver, end_time, round(40 * end_time), find_reduction(z), numbers=numbers_of(case)
+    )
 
 
 def test_the_solution_is_of_order_five(matrix):
@@ -98,7 +97,7 @@ def test_the_first_step_is_matlabs(longest):
 def test_step_control_is_the_published_one_on_the_chain(rtol, outputs):
     z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 4.0, outputs), (1.0, 1.0, -4.0)
     solver = {"name": "ode45", "rtol": rtol, "atol": 1e-2 * rtol}
-    fast = integrate(numbers, "free", z, WHOLE, times, solver)
+    fast = integrate(z, solver, 4.0, outputs - 1, numbers=numbers, boundary="free")
     final, steps, rejected = plain.ode45(
         lambda u: slope(u, numbers, "free"), z, times, rtol, 1e-2 * rtol
     )
@@ -152,7 +151,7 @@ def test_sites_at_rest_do_not_change_the_steps():
     wide = np.zeros((2, 41), complex)
     wide[:, 20] = 2.0, 1.0
     runs = [
-        integrate((0.0, 1.0, -4.0), "free", z, WHOLE, output_times(3.0, 1.0), SOLVERS["ode45"])
+        integrate(z, "ode45", 3.0, 3, numbers=(0.0, 1.0, -4.0), boundary="free")
         for z in (wide[:, 20:21], wide)
     ]
     assert runs[0].outcome == runs[1].outcome

@@ -2,21 +2,21 @@
 
 import numpy as np
 import pytest
-from oracle import CASES, laplacian, random_chain, slope
+from on_chains import WHOLE, data_of, integrate, numbers_of
+from oracle import laplacian, random_chain, slope
 from pendula.integrators import splitting
 from pendula.integrators.outcome import DONE
 from pendula.models.amplitudes import Chain, linear_radius, linear_rates, nonlinear_flow
-from pendula.simulation.lattice import Reduction, choose_ends, pack, place, unpack
-from pendula.simulation.simulate import IntegrationError, integrate, output_times
+from pendula.simulation.lattice import choose_ends, pack, unpack
+from pendula.simulation.simulate import IntegrationError
 from scipy.linalg import expm
 
-WHOLE = Reduction(even=False, synchronised=False)
 NUMBERS = (0.7, 1.3, -4.0)
 
 
 def run(z, step, end=1.0, outputs=1, numbers=NUMBERS):
     solver = {"name": "splitting", "step": step}
-    return integrate(numbers, "dirichlet", z, WHOLE, np.linspace(0.0, end, outputs + 1), solver)
+    return integrate(z, solver, end, outputs, numbers=numbers)
 
 
 def test_the_parts_of_a_step_add_up_and_read_the_same_backwards():
@@ -28,10 +28,8 @@ def test_the_parts_of_a_step_add_up_and_read_the_same_backwards():
 
 def test_the_error_falls_with_the_sixth_power_of_the_step():
     z = random_chain(3)
-    exact = integrate(
-        NUMBERS, "dirichlet", z, WHOLE, output_times(1.0, 1.0),
-        {"name": "dop853", "rtol": 1e-14, "atol": 1e-14},
-    ).final  # fmt: skip
+    tight = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
+    exact = integrate(z, tight, numbers=NUMBERS).final
     errors = [np.abs(run(z, 1 / n).final - exact).max() for n in (20, 40, 80)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert np.all((orders > 5.7) & (orders < 6.6))
@@ -56,9 +54,8 @@ def test_the_linear_flow_is_exact(boundary, step):
         [[np.zeros((10, 10)), lattice - drive], [-lattice - drive, np.zeros((10, 10))]]
     )
     parts = expm(matrix) @ np.concatenate([z.ravel().real, z.ravel().imag])
-    final = integrate(
-        NUMBERS, boundary, z, WHOLE, output_times(1.0, 1.0), {"name": "splitting", "step": step}
-    ).final
+    solver = {"name": "splitting", "step": step}
+    final = integrate(z, solver, numbers=NUMBERS, boundary=boundary).final
     np.testing.assert_allclose(final.ravel(), parts[:10] + 1j * parts[10:], atol=1e-22)
 
 
@@ -95,8 +92,8 @@ def test_outputs_inside_a_step_shorten_it():
 
 
 def test_the_energy_of_a_regular_case_errs_but_does_not_drift():
-    omega, pair = CASES["fig3_small"]
-    energy = run(place({0: pair}, 8), 0.05, 400.0, 4000, (1.0, 1.0, omega)).energy
+    z = data_of("fig3_small", half_width=8)
+    energy = run(z, 0.05, 400.0, 4000, numbers_of("fig3_small")).energy
     error = np.abs(energy - energy[0])
     assert error.max() < 1e-7
     assert error[2000:].max() < 1.5 * error[:2000].max()

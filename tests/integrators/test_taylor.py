@@ -6,16 +6,14 @@ import pytest
 import systems
 from hypothesis import given
 from hypothesis import strategies as st
-from oracle import BOUNDARIES, CASES, SOLVERS, power_series, random_chain
+from on_chains import data_of, integrate, numbers_of
+from oracle import BOUNDARIES, CASES, power_series, random_chain
 from pendula.compiled import uncached
 from pendula.integrators import taylor
 from pendula.integrators.outcome import DONE
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.simd import LANES
-from pendula.simulation.lattice import Reduction, place
-from pendula.simulation.simulate import integrate, output_times
 
-WHOLE = Reduction(even=False, synchronised=False)
 TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 
 
@@ -83,7 +81,7 @@ def test_a_single_step_errs_by_one_power_more_than_its_order():
 def test_step_control_is_that_of_jorba_and_zou(boundary, rtol):
     z, times, numbers = 2 * random_chain(3), np.linspace(0.0, 3.0, 3), (0.7, 1.3, -4.0)
     solver = {"name": "taylor", "rtol": rtol, "atol": 1e-2 * rtol}
-    fast = integrate(numbers, boundary, z, WHOLE, times, solver)
+    fast = integrate(z, solver, 3.0, 2, numbers=numbers, boundary=boundary)
     final, steps = plain.taylor(
         lambda u, order: power_series(u, numbers, boundary, order),
         z, times, rtol, 1e-2 * rtol, taylor.ORDER,
@@ -110,7 +108,7 @@ def test_sites_at_rest_do_not_change_the_steps():
     wide = np.zeros((2, 41), complex)
     wide[:, 20] = 2.0, 1.0
     runs = [
-        integrate((0.0, 1.0, -4.0), "free", z, WHOLE, output_times(3.0, 1.0), SOLVERS["taylor"])
+        integrate(z, "taylor", 3.0, 3, numbers=(0.0, 1.0, -4.0), boundary="free")
         for z in (wide[:, 20:21], wide)
     ]
     assert runs[0].outcome == runs[1].outcome
@@ -124,19 +122,16 @@ def test_a_system_at_rest_is_done_in_one_step():
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_papers_cases_agree_with_scipy(case, scipy_solution):
-    z = place({0: CASES[case][1]}, 30)
-    times = output_times(5.0, 0.025)
-    final = integrate((1.0, 1.0, CASES[case][0]), "dirichlet", z, WHOLE, times, TIGHT).final
+    final = integrate(data_of(case), TIGHT, 5.0, 200, numbers=numbers_of(case)).final
     assert np.linalg.norm(final - scipy_solution(case, 5.0)) < 1e-9
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
 def test_the_error_follows_the_tolerance(case, scipy_solution):
-    z, numbers = place({0: CASES[case][1]}, 30), (1.0, 1.0, CASES[case][0])
     tolerances, errors = 10.0 ** -np.arange(4.0, 11.0), []
     for tolerance in tolerances:
         solver = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
-        final = integrate(numbers, "dirichlet", z, WHOLE, output_times(5.0, 5.0), solver).final
+        final = integrate(data_of(case), solver, 5.0, numbers=numbers_of(case)).final
         errors.append(np.abs(final - scipy_solution(case, 5.0)).max())
     slope, _ = np.polyfit(np.log(tolerances), np.log(errors), 1)
     assert slope == pytest.approx(1.0, abs=0.25)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from oracle import BOUNDARIES, SOLVERS, laplacian, random_chain
 from pendula.models.linear_flow import flow
-from pendula.simulation.lattice import find_reduction
-from pendula.simulation.simulate import integrate, output_times
+from pendula.simulation.simulate import simulate
+from problems import make_problem
 from scipy.linalg import expm
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -66,8 +66,7 @@ def test_solvers_follow_the_flow_up_to_the_cube_of_the_amplitude(name, boundary)
     difference = []
     for size in (0.08, 0.04):
         z = size * random_chain(3)
-        times = output_times(1.0, 0.5)
-        final = integrate(CONSTANTS, boundary, z, find_reduction(z), times, solver).final
+        final = simulate(make_problem(z, CONSTANTS, boundary, solver)).final
         difference.append(np.linalg.norm(final - flow(z, 1.0, *CONSTANTS, boundary)))
     assert difference[0] / difference[1] == pytest.approx(8.0, rel=0.05)
 
@@ -76,6 +75,5 @@ def test_solvers_follow_the_flow_up_to_the_cube_of_the_amplitude(name, boundary)
 def test_tiny_data_follow_the_flow_to_many_digits(boundary):
     z = 1e-6 * random_chain(3)
     solver = {"name": "dop853", "rtol": 1e-12, "atol": 1e-20}
-    times = output_times(2.0, 0.5)
-    final = integrate(CONSTANTS, boundary, z, find_reduction(z), times, solver).final
+    final = simulate(make_problem(z, CONSTANTS, boundary, solver, end_time=2.0)).final
     np.testing.assert_allclose(final, flow(z, 2.0, *CONSTANTS, boundary), atol=1e-15)
