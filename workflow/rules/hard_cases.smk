@@ -8,7 +8,6 @@ rule hard_cases:
         kernels=kernels(*ALL_SOLVERS, "taylor"),
     output:
         data="results/checks/hard_cases.nc",
-        table="results/tables/hard_cases.md",
     log:
         "results/logs/checks/hard_cases.log",
     conda:
@@ -17,3 +16,20 @@ rule hard_cases:
         "Running the solvers on hard cases"
     script:
         "../../scripts/hard_cases/run_hard_cases.py"
+
+
+rule hard_cases_table:
+    "The same as a table to read: results/tables/hard_cases.md"
+    input:
+        code=code("hard_cases/tabulate_hard_cases.py"),
+        data="results/checks/hard_cases.nc",
+    output:
+        table="results/tables/hard_cases.md",
+    log:
+        "results/logs/tables/hard_cases.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Tabling the hard cases"
+    script:
+        "../../scripts/hard_cases/tabulate_hard_cases.py"

@@ -7,6 +7,7 @@ import numpy as np
 
 from pendula.report.numbers import number
 from pendula.report.results import Results
+from pendula.report.tables import markdown
 from pendula.report.words import SOLVERS, symbols
 
 SOURCE = "checks/hard_cases"
@@ -55,3 +56,25 @@ def _row(results: Results, index: int) -> list:
     cells = (str(row[name].values) for name in ("case", "solver"))
     return [*map(symbols, cells), symbols(said), symbols(str(row["reference"].values)),
             "yes" if int(row["sound"]) else "no"]  # fmt: skip
+
+
+def page(data) -> list[str]:
+    """Return the parts of a page of Markdown on the dataset of the hard cases."""
+    rows = [data.isel(row=index) for index in range(data.sizes["row"])]
+    unsound = int((data["sound"] == 0).sum())
+    words = (
+        f"{len(rows)} runs, {unsound} with an outcome that is not the expected one. An error is "
+        "that of the largest component over the largest, or of what the reference names. Times "
+        "are of single runs, on warm kernels, with the run that makes the reference."
+    )
+    head = ("case", "solver", "outcome", "reference", "time, ms", "as expected")
+    return ["# Hard cases", words, markdown(head, map(_cells, rows))]
+
+
+def _cells(row) -> tuple[str, ...]:
+    case, solver, refusal, reference = (
+        str(row[name].values) for name in ("case", "solver", "refusal", "reference")
+    )
+    said = f"refused: {refusal}" if refusal else f"error {float(row['error']):.1e}"
+    time, answer = f"{1e3 * float(row['seconds']):.2g}", "yes" if int(row["sound"]) else "NO"
+    return case, solver, said, reference, time, answer

@@ -1,9 +1,8 @@
-"""The hard cases as a dataset and as a page to read."""
+"""The hard cases as a dataset."""
 
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.report.tables import markdown
 
 from .row import Outcome, Row, evaluate
 from .rows import ROWS
@@ -38,22 +37,3 @@ def variables(results: list[Outcome]) -> dict[str, Variable]:
         "seconds": column("seconds", "time of the run and of its reference", "s"),
         "sound": Variable(("row",), sound, "whether the outcome is the expected one"),
     }
-
-
-def page(results: list[Outcome]) -> str:
-    """Return a page of Markdown."""
-    unsound = [r for r in results if not r.sound]
-    words = (
-        f"{len(results)} runs, {len(unsound)} with an outcome that is not the expected one. An "
-        "error is that of the largest component over the largest, or of what the reference names. "
-        "Times are of single runs, on warm kernels, with the run that makes the reference."
-    )
-    head = ("case", "solver", "outcome", "reference", "time, ms", "as expected")
-    return "\n\n".join(["# Hard cases", words, markdown(head, map(cells, results))])
-
-
-def cells(result: Outcome) -> tuple[str, ...]:
-    """Return one row of the table."""
-    said = f"refused: {result.refusal}" if result.refusal else f"error {result.error:.1e}"
-    time, answer = f"{1e3 * result.seconds:.2g}", "yes" if result.sound else "NO"
-    return result.case, result.solver, said, result.reference, time, answer
