@@ -79,7 +79,6 @@ def test_what_draws_does_not_depend_on_how_it_was_integrated(recorded, script):
     sorted(
         path.parent.relative_to(sources.SCRIPTS).as_posix()
         for path in sources.SCRIPTS.glob("pendula/**/__init__.py")
-        if path.parent.name != "peers"
     ),
 )
 def test_importing_a_package_drags_in_no_other_room(package):
@@ -143,6 +142,21 @@ def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
+def test_no_part_of_a_reproduction_depends_on_the_benchmarks(recorded, script):
+    assert not [file for file in recorded(script) if file.startswith("benchmarks/")]
+
+
+def test_a_record_of_a_benchmark_lists_what_it_measures_with(recorded):
+    files = recorded("benchmarks/jobs/measure_work_precision.py")
+    names = ("__init__.py", "timing.py", "peers_in_python.py", "taylor.cpp")
+    assert {f"benchmarks/{name}" for name in names} <= files
+    assert "simulation/simulate.py" in files
+
+
+JOBS = [f"../{path.relative_to(ROOT)}" for path in sorted((ROOT / "benchmarks/jobs").glob("*.py"))]
+
+
+@pytest.mark.parametrize("script", [*SCRIPTS, *JOBS])
 def test_scripts_touch_snakemake_only_under_the_main_guard(script):
     tree = ast.parse((sources.SCRIPTS / script).read_text())
     inside = {id(node) for node in ast.walk(tree.body[-1])}

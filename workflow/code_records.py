@@ -20,9 +20,13 @@ _handed_out: set[str] = set()
 
 
 def code(script: str) -> str:
-    """Return the path of the record for scripts/`script`, brought up to date."""
+    """Return the path of the record for a script, brought up to date.
+
+    Those of the benchmarks are named from the project's folder, all others from scripts/.
+    """
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
-    modules = modules_of(SCRIPTS / script)
+    folder = ROOT if script.startswith("benchmarks/") else SCRIPTS
+    modules = modules_of(folder / script)
     common = [ROOT / "environment.txt", SCRIPTS / "job.py"]
     return _hand_out(record, _lines([*common, *modules, *attached_to(modules)]))
 

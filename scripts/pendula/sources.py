@@ -1,20 +1,25 @@
-"""Which modules a file depends on, by reading imports; needs the standard library only."""
+"""What a result comes from: the modules that a file imports, the processor and the versions.
+
+Needs the standard library only.
+"""
 
 import ast
 import hashlib
+import platform
 from collections.abc import Iterator
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parent.parent
-"""The folder that is on the path: packages and modules are found below it."""
+"""The folder of the library and of the scripts."""
 
-OURS = ("pendula", "job")
-"""What of it is followed: beside an installed library there may be everything else."""
+OURS = ("pendula", "job", "benchmarks")
+"""What is followed: beside an installed library there may be everything else."""
 
 
 def modules_of(file: Path) -> list[Path]:
-    """Return the file and every module below scripts/ that it imports, at any depth."""
+    """Return the file and every module of OURS that it imports, at any depth."""
     found, waiting = set(), [file]
     while waiting:
         module = waiting.pop()
@@ -72,10 +77,21 @@ def _imports_of(file: Path) -> frozenset[Path]:
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            package = file.relative_to(SCRIPTS).parts[: -node.level] if node.level else ()
+            package = _names_of(file)[: -node.level] if node.level else ()
             base = ".".join([*package, *([node.module] if node.module else [])])
             names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
     return frozenset(path for name in names for path in _files_of(name))
+
+
+def _folder_of(name: str) -> Path:
+    """Return the folder on the path that a package of OURS is found in."""
+    return SCRIPTS.parent if name == "benchmarks" else SCRIPTS
+
+
+def _names_of(file: Path) -> tuple[str, ...]:
+    """Return the parts of a module's dotted name."""
+    folder = SCRIPTS if file.is_relative_to(SCRIPTS) else _folder_of("benchmarks")
+    return file.relative_to(folder).parts
 
 
 def _statements(tree: ast.AST) -> Iterator[ast.AST]:
@@ -95,6 +111,24 @@ def _files_of(name: str) -> list[Path]:
         return []
     paths = []
     for depth in range(1, len(parts) + 1):
-        folder = SCRIPTS.joinpath(*parts[:depth])
+        folder = _folder_of(parts[0]).joinpath(*parts[:depth])
         paths += [folder / "__init__.py", folder.with_suffix(".py")]
     return [path for path in paths if path.is_file()]
+
+
+def describe_machine() -> dict[str, str]:
+    """Return the processor's name and the versions that decide how long a run takes."""
+    return {
+        "processor": _processor(),
+        "python": platform.python_version(),
+        **{name: version(name) for name in ("numpy", "numba", "scipy")},
+    }
+
+
+def _processor() -> str:
+    information = Path("/proc/cpuinfo")
+    if information.exists():
+        for line in information.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

@@ -7,7 +7,7 @@ import pytest
 from helpers import ROOT
 
 PARTS = (
-    *("Snakefile", "workflow", "scripts", "config", "profiles", "environment.txt"),
+    *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
     *("tests/baseline/reference", "tests/baseline/speed", "tests/baseline/tolerances.yaml"),
 )
 

@@ -4,18 +4,18 @@ import sys
 
 from snakemake.exceptions import WorkflowError
 
-sys.path[:0] = [f"{workflow.basedir}/workflow", f"{workflow.basedir}/scripts"]
+sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts", "")]
 
+from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
 from pendula.configuration.messages import ConfigurationError, load
 from pendula.problem import name_window
-from pendula.speed.regimes import REGIMES
 from pendula.studies.theory.groups import GROUPS, OBSERVED
 
-# Jobs find the library, and use one thread each, since they run in parallel.
+# Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(
-    PYTHONPATH=f"{workflow.basedir}/scripts",
+    PYTHONPATH=os.pathsep.join([f"{workflow.basedir}/scripts", workflow.basedir]),
     OMP_NUM_THREADS="1",
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",

@@ -24,7 +24,7 @@ def speed_measured():
     They are copied, not taken as inputs: else an edit would start the timing anew, which is no part
     of a full run.
     """
-    here = [f"results/speed/table.md", *(f"results/figures/{n}.png" for n in SPEED_FIGURES)]
+    here = ["results/speed/work_precision.md", *(f"results/figures/{n}.png" for n in SPEED_FIGURES)]
     if all(was_made(path) for path in here):
         table, *pictures = (kept(path) for path in here)
         return True, table, pictures

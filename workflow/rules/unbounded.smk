@@ -52,7 +52,6 @@ rule unbounded:
     input:
         expand(f"{LONG}/{{name}}.nc", name=[*STUDIES, *map_names()]),
         expand(f"{LONG}/{{name}}.{{kind}}", name=UNBOUNDED_FIGURES, kind=["png", "pdf"]),
-        f"{LONG}/scale.md",
 
 
 rule spread:
@@ -144,24 +143,6 @@ rule thermal:
         "Sampling the thermal states without energy"
     script:
         "../../scripts/unbounded/sample_thermal.py"
-
-
-rule scale:
-    input:
-        code=code("unbounded/measure_scale.py"),
-        kernels=kernels("dop853"),
-    output:
-        data=f"{LONG}/scale.nc",
-        table=f"{LONG}/scale.md",
-    log:
-        "results/logs/unbounded/long/scale.log",
-    conda:
-        "../envs/pinned.yaml"
-    threads: workflow.cores
-    message:
-        "Timing windows of up to a million sites"
-    script:
-        "../../scripts/unbounded/measure_scale.py"
 
 
 rule measure_growth:

@@ -8,7 +8,7 @@ from typing import Any
 
 from llvmlite import binding
 
-from pendula.speed.machine import describe
+from pendula.sources import describe_machine
 
 from .results import Results
 
@@ -38,7 +38,7 @@ def gather(results: Results, inputs: list[str], settings: str, logs: str, took: 
 
 def versions() -> dict[str, str]:
     """Return the processor and the versions of the packages that the numbers pass through."""
-    return describe() | {name: version(name) for name in PACKAGES}
+    return describe_machine() | {name: version(name) for name in PACKAGES}
 
 
 def features() -> list[str]:

@@ -3,12 +3,16 @@
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pendula.speed.regimes import REGIME_OF, REGIMES
-
 from .numbers import number
 from .pictures import picture
 from .results import ReportError, Results
 from .words import SOLVERS, case_of, symbols
+
+TARGETS = {
+    **dict.fromkeys(("fig2_small", "fig3_small"), 1e-10),
+    **dict.fromkeys(("fig2_large", "fig3_large", "fig4_small", "fig4_large"), 1e-6),
+}
+"""The error at which solvers are compared on each case."""
 
 
 class Measured(NamedTuple):
@@ -23,8 +27,8 @@ def gather(results: Results, measured: Measured) -> dict[str, Any]:
     """Return the peers' times over ours and our solvers' own times at the error asked for."""
     tables = read(results.path(measured.table))
     _, *peers = next(rows for title, rows in tables.items() if "peers" in title)
-    ours = {case: tables[case] for case in REGIME_OF if case in tables}
-    times = {case: best_times(rows, REGIMES[REGIME_OF[case]].target) for case, rows in ours.items()}
+    ours = {case: tables[case] for case in TARGETS if case in tables}
+    times = {case: best_times(rows, TARGETS[case]) for case, rows in ours.items()}
     solvers = list(dict.fromkeys(name for found in times.values() for name in found))
     wins = [min(found, key=found.get) for found in times.values() if found]
     fastest = max(dict.fromkeys(wins), key=wins.count)
@@ -54,9 +58,9 @@ def read(path: Path) -> dict[str, list[list[str]]]:
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith("#"):
             title = line.lstrip("# ")
-        elif line.startswith("|") and not line.startswith("| ---"):
+        elif line.startswith("|") and set(line) - set("|- "):
             tables.setdefault(title, []).append([cell.strip() for cell in line[1:-1].split("|")])
-    if not any("peers" in title for title in tables) and not set(tables) & set(REGIME_OF):
+    if not any("peers" in title for title in tables) and not set(tables) & set(TARGETS):
         raise ReportError(f"{path} holds no table of speed: run `snakemake speed`")
     return tables
 
@@ -75,7 +79,7 @@ def best_times(rows: list[list[str]], target: float) -> dict[str, float]:
 def _row(results: Results, table: str, case: str, times: dict, solvers: list[str]) -> list:
     cells = [results.quote(table, times[s]) if s in times else "not reached" for s in solvers]
     known = results["checks/cases"].sel(case=case)
-    return [case_of(known), number(REGIMES[REGIME_OF[case]].target), *cells]
+    return [case_of(known), number(TARGETS[case]), *cells]
 
 
 def _alt(times: dict[str, dict], solvers: list[str]) -> str:

@@ -5,7 +5,6 @@ import pytest
 from pendula.problem import on_sites
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.unbounded.scale import measure
 from pendula.studies.unbounded.spread import spread
 from pendula.studies.unbounded.window import BLOCK, advance, open_window, powers, widen
 from problems import constants_of, problem_of
@@ -76,12 +75,3 @@ def test_one_component_is_enough_where_a_equals_b():
     one = spread(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
     assert one.state.shape[0] == 2
     np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
-
-
-def test_memory_is_proportional_to_the_window():
-    widths = np.array([4000, 8000, 16_000])
-    memory = measure(widths=widths, duration=0.02)["memory"].values
-    a_site = np.diff(memory) / np.diff(widths)
-    # a complex pair is 32 bytes; dop853 keeps 11 more of them, and the stretch that it works on
-    np.testing.assert_allclose(a_site, 32 * 13, rtol=0.1)
-    assert memory[0] < 4000 * 32 * 13 + 1e6

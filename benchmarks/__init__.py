@@ -1,0 +1,1 @@
+"""Speed against error, and the cost of a run: measurements, which no reproduction repeats."""

@@ -1,0 +1,91 @@
+# Speed against error, and the cost of a run. Not part of the full run: timing jobs run alone.
+
+
+rule speed:
+    "Speed against error of every solver and installed peer, and what runs cost (takes minutes)"
+    input:
+        "results/speed/work_precision.md",
+        "results/speed/cost.md",
+        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=["png", "pdf", "nc"]),
+
+
+rule work_precision:
+    input:
+        code=code("benchmarks/jobs/measure_work_precision.py"),
+        kernels=kernels(*ALL_SOLVERS),
+        references=references(*PAPER_CASES),
+    output:
+        data="results/speed/work_precision.nc",
+        table="results/speed/work_precision.md",
+    log:
+        "results/logs/speed/work_precision.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    threads: workflow.cores
+    params:
+        problems={case: SETTINGS.problem(case) for case in PAPER_CASES},
+    message:
+        "Timing every solver and installed peer on the paper's cases"
+    script:
+        "jobs/measure_work_precision.py"
+
+
+rule cost:
+    input:
+        code=code("benchmarks/jobs/measure_cost.py"),
+        kernels=kernels("dop853", "taylor"),
+    output:
+        data="results/speed/cost.nc",
+        table="results/speed/cost.md",
+    log:
+        "results/logs/speed/cost.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    threads: workflow.cores
+    params:
+        problem=SETTINGS.problem("fig3_small"),
+    message:
+        "Timing longer chains, longer runs and more active sites"
+    script:
+        "jobs/measure_cost.py"
+
+
+rule speed_figures:
+    input:
+        code=code("benchmarks/jobs/draw_speed.py"),
+        work_precision="results/speed/work_precision.nc",
+        cost="results/speed/cost.nc",
+    output:
+        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=["png", "pdf", "nc"]),
+    log:
+        "results/logs/figures/speed.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    params:
+        regimes=list(REGIMES),
+        stems=[f"results/figures/{name}" for name in SPEED_FIGURES],
+    message:
+        "Drawing speed against error, and what runs cost"
+    script:
+        "jobs/draw_speed.py"
+
+
+rule reproduction:
+    "How long the whole reproduction takes, from nothing and with compiled kernels"
+    input:
+        program=code("benchmarks/reproduction.py"),
+        code=code("trajectories/simulate_case.py"),
+    output:
+        table="results/speed/reproduction.md",
+    log:
+        "results/logs/speed/reproduction.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    threads: workflow.cores
+    params:
+        python=sys.executable,
+    message:
+        "Running the whole reproduction twice, in a copy of the project"
+    shell:
+        "{params.python:q} -m benchmarks.reproduction > {output.table:q} 2> {log:q} &&"
+        " cat {output.table:q}"

@@ -1,0 +1,138 @@
+"""Integrators that are programs of their own: GNU Octave's ode45, and a Taylor method in C++.
+
+Octave is run as a program that reports its own time. The Taylor method is this project's once more,
+by hand with vectors of four sites (taylor.cpp): it shows how near the compiled Python comes to it.
+"""
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from functools import cache, partial
+from pathlib import Path
+
+import numpy as np
+from pendula.problem import Problem
+from pendula.simulation.lattice import pack, unpack
+
+from .peer import HALF, Peer, Solve, check
+from .timing import timed
+
+
+def needs(program: str) -> Callable[[], str | None]:
+    """Return a function that says what is missing where a program is not on the PATH."""
+    return lambda: None if shutil.which(program) else f"{program} is not on the PATH"
+
+
+# GNU Octave
+
+OCTAVE = """1;  % a script, not a function file
+function slope = rates(tau, u, n, epsilon, gamma_, omega)
+  z = reshape(u, n, 2);
+  padded = [0, 0; z; 0, 0];
+  coupling = epsilon * (padded(3:end, :) - 2 * z + padded(1:end-2, :));
+  drive = gamma_ * (conj(fliplr(z)) - conj(z));
+  slope = -1i * (coupling + omega * z + drive + 0.5 * abs(z) .^ 2 .* z)(:);
+end
+u = {start};
+f = @(tau, u) rates(tau, u, {n}, {epsilon!r}, {gamma!r}, {omega!r});
+options = odeset("RelTol", {rtol!r}, "AbsTol", {atol!r}, "Refine", 1);
+[tau, y] = ode45(f, [0, {short!r}], u, options);
+tic;
+[tau, y] = ode45(f, [0, {end_time!r}], u, options);
+seconds = toc;
+printf("%.17g\\n", seconds, [real(y(end, :)); imag(y(end, :))]);
+"""
+
+
+def prepare_octave(problem: Problem) -> Solve:
+    """Return ode45 with the absolute tolerance rtol / 100, as in the paper's pair."""
+    check(problem)
+    z, constants, end_time = problem.amplitudes, problem.constants, float(problem.end_time)
+    parts = ", ".join(f"{complex(u).real!r} + {complex(u).imag!r}i" for u in z.ravel())
+
+    def solve(rtol):
+        text = OCTAVE.format(
+            start=f"complex([{parts}].')",
+            n=z.shape[1],
+            epsilon=float(constants.epsilon),
+            gamma=float(constants.gamma),
+            omega=float(constants.omega),
+            rtol=float(rtol),
+            atol=0.01 * rtol,
+            short=0.01 * end_time,
+            end_time=end_time,
+        )
+        seconds, *values = run_octave(text)
+        return np.array(values).view(complex).reshape(z.shape), seconds
+
+    return solve
+
+
+def run_octave(program: str) -> list[float]:
+    """Return the numbers that a program of Octave prints."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "integrate.m"
+        path.write_text(program)
+        done = subprocess.run(
+            ["octave-cli", "--no-init-file", "--quiet", path.name],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+        )
+    if done.returncode:
+        raise RuntimeError(f"Octave failed: {done.stderr.strip()}")
+    return [float(word) for word in done.stdout.split()]
+
+
+OCTAVE_ODE45 = Peer("Octave ode45", needs("octave-cli"), prepare_octave)
+
+
+# The Taylor method in C++
+
+SOURCE = Path(__file__).with_name("taylor.cpp")
+OPTIONS = ("-std=c++17", "-O3", "-march=native", "-shared", "-fPIC")
+
+
+@cache
+def compiled(contract: str):
+    """Return the C function `solve`; GCC joins a product and a sum where `contract` is "fast"."""
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / "taylor.so"
+        command = ["g++", *OPTIONS, f"-ffp-contract={contract}", str(SOURCE), "-o", str(library)]
+        subprocess.run(command, check=True, capture_output=True)
+        function = ctypes.CDLL(str(library)).solve  # stays loaded when the folder goes
+    number, integer = ctypes.c_double, ctypes.c_long
+    function.restype = integer
+    function.argtypes = [*[number] * 3, integer, ctypes.c_void_p, *[number] * 3]
+    return function
+
+
+def prepare_taylor(problem: Problem, contract: str) -> Solve:
+    """Return the solver of half the chain, compiled into a temporary folder."""
+    check(problem, HALF)
+    function = compiled(contract)
+    constants, start = problem.constants, pack(problem.amplitudes, HALF)
+
+    def solve(rtol):
+        y = start[:, 1:-1].copy()
+        where, sites = y.ctypes.data, y.shape[1]
+        numbers = (constants.epsilon, constants.gamma, constants.omega)
+        arguments = (*numbers, sites, where, problem.end_time, rtol, rtol)
+        steps, seconds = timed(lambda: function(*arguments))
+        if steps < 0:
+            raise RuntimeError("the Taylor method in C++ gave up")
+        end = start.copy()
+        end[:, 1:-1] = y
+        return unpack(end, HALF), seconds
+
+    return solve
+
+
+TAYLOR_SEPARATE = Peer(
+    "Taylor in C++, no contraction", needs("g++"), partial(prepare_taylor, contract="off")
+)
+TAYLOR_FUSED = Peer(
+    "Taylor in C++, contracted", needs("g++"), partial(prepare_taylor, contract="fast")
+)

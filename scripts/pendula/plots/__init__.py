@@ -1,1 +1,0 @@
-"""The figures: each module gathers what it draws into a dataset, and draws from that alone."""

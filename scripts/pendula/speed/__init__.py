@@ -1,1 +1,0 @@
-"""Speed against error: this project's solvers and other people's on the paper's cases."""

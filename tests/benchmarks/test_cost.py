@@ -1,0 +1,118 @@
+"""How the cost of a run grows, and what the machine could do."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.datasets.netcdf import read, write
+from pendula.problem import Constants, Problem, on_sites
+from pendula.sources import describe_machine
+from scipy.integrate._ivp import dop853_coefficients as published
+
+from benchmarks import cost, figures, machine
+from benchmarks.tables import write_cost
+
+PROBLEM = Problem(
+    constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
+    half_width=4,
+    boundary="dirichlet",
+    initial=on_sites({0: (1.0, 0.1)}),
+    end_time=50.0,
+    output_step=0.025,
+    solver={"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
+)
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cost, "SITES", (11, 101))
+        patch.setattr(cost, "END_TIMES", (1.0, 4.0))
+        patch.setattr(cost, "REPEAT", 1)
+        patch.setattr(cost, "WORK", 100)
+        patch.setattr(cost, "ACTIVE_WIDTHS", (4000, 8000, 16_000))
+        patch.setattr(cost, "ACTIVE_DURATION", 0.02)
+        patch.setattr(machine, "LONG", 10_000)
+        variables = cost.measure(PROBLEM)
+    path = tmp_path_factory.mktemp("cost") / "cost.nc"
+    write(path, variables, describe_machine())
+    return read(path)
+
+
+def test_the_noisy_chain_is_even_and_the_same_every_time():
+    problem = cost.noisy_chain(11, "dop853")
+    z = problem.amplitudes
+    np.testing.assert_array_equal(z, z[:, ::-1])
+    np.testing.assert_array_equal(z, cost.noisy_chain(11, "taylor").amplitudes)
+    assert z.shape == (2, 11) and len(problem.times) == 2
+
+
+def test_memory_grows_with_the_chain_and_not_faster(measured):
+    memory = measured["memory"].sel(solver="dop853").values
+    assert 400 < memory[1] < memory[0] < 2000  # 38 arrays of 4 numbers for each site of a half
+
+
+def test_memory_is_proportional_to_the_active_sites(measured):
+    widths = measured["active_width"].values
+    memory = measured["active_memory"].values * widths
+    a_site = np.diff(memory) / np.diff(widths)
+    # a complex pair is 32 bytes; dop853 keeps 11 more of them, and the stretch that it works on
+    np.testing.assert_allclose(a_site, 32 * 13, rtol=0.1)
+    assert memory[0] < 4000 * 32 * 13 + 1e6
+
+
+def test_no_run_is_faster_than_the_machine(measured):
+    data = figures.gather_cost(measured)
+    assert bool((data["carried"].sel(solver="dop853") < 2 * data["arithmetic_limit"]).all())
+    assert len(figures.draw_cost(data).axes) == 3
+
+
+def made_up_cost():
+    """Return costs of 2 and 3 µs at 1001 sites, of 3 and 6 at 100 001."""
+    costs = 1e-6 * np.array([[2.0, 3.0], [3.0, 6.0]])
+    return xr.Dataset(
+        {
+            "seconds": (("sites", "solver"), costs),
+            "long_seconds": (("end_time", "solver"), costs[:1]),
+        },
+        coords={
+            "sites": ("sites", [1001, 100_001], {"long_name": "number of sites N"}),
+            "end_time": ("end_time", [10.0], {"long_name": "slow time at the end"}),
+            "solver": ["dop853", "taylor"],
+        },
+    )
+
+
+def cells_of(page):
+    """Return the cells of all rows of the tables of a page in Markdown."""
+    lines = [line for line in page.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line[1:-1].split("|")] for line in lines]
+
+
+def test_the_table_of_active_sites_has_a_row_each(measured):
+    rows = {row[0]: row[1:] for row in cells_of(write_cost(measured))}
+    for width, memory in zip((8001, 16_001, 32_001), measured["active_memory"].values, strict=True):
+        assert rows[f"{width:,}"][-1] == f"{memory:.0f}"
+
+
+def test_the_table_says_what_was_measured():
+    rows = cells_of(write_cost(made_up_cost()))
+    assert ["1001", "2", "3"] in rows and ["100001 over 1001", "1.5", "2"] in rows
+    assert ["10", "2", "3"] in rows
+
+
+def test_the_table_compares_only_chains_that_were_measured():
+    short = made_up_cost().isel(sites=[0])
+    assert " over 1001" not in write_cost(short)
+
+
+def test_operations_are_those_of_the_published_coefficients():
+    operations, traffic = machine.count_dop853()
+    weights = np.count_nonzero(published.A[:12]) + np.count_nonzero(published.B)
+    estimates = np.count_nonzero(published.E3) + np.count_nonzero(published.E5)
+    # 12 right-hand sides of 13.5 operations, two for each weight, and the norms of the errors
+    assert operations == 4 * (12 * 13.5 + 2 * (weights + estimates) + 12)
+    assert traffic == 4 * 32  # state and slope, read and written
+
+
+def test_the_machine_is_described():
+    assert {"processor", "python", "numpy", "numba", "scipy"} == set(describe_machine())
