@@ -247,7 +247,7 @@ def unbounded(baseline: Baseline) -> dict:
         "least_omega": number(long["varied_omega"].min()),
         "largest_omega": number(long["varied_omega"].max()),
         "omega_end": number(long["omega_end"]),
-        "omega_from": number(long["omega_end"] / 2),
+        "omega_from": number(long["omega_end"] / 4),
         "omega_exponents": span(long["omega_exponent"].values, 2),
         "omega_speeds": number(speeds.max(), 1),
         "furthest": percent(abs(ratio - 1.0).max(), 1),

@@ -17,6 +17,9 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs")]
 
 import facts  # noqa: E402
 
+TIED = "\0=\0"
+"""Stands for " = " while lines are filled, so that none ends between a symbol and its value."""
+
 SOURCE, BASELINE = ROOT / "docs/source", ROOT / "tests/baseline"
 
 
@@ -59,10 +62,11 @@ def filled(text: str) -> str:
         ends = fence or code or starts_item or not line or (kept.match(line) and not paragraph)
         if ends and paragraph:
             indent = "  " if paragraph[0].startswith("- ") else ""
-            lines += textwrap.wrap(
-                " ".join(part.strip() for part in paragraph), 100, subsequent_indent=indent,
-                break_long_words=False, break_on_hyphens=False,
-            )  # fmt: skip
+            words = " ".join(part.strip() for part in paragraph).replace(" = ", TIED)
+            wrapped = textwrap.wrap(
+                words, 100, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+            lines += [line.replace(TIED, " = ") for line in wrapped]
             paragraph = []
         if ends and not starts_item:
             lines.append(line)

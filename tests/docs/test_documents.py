@@ -217,6 +217,15 @@ def test_every_link_leads_to_a_file(page):
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
+def test_the_files_that_the_architecture_names_exist():
+    """Names with a placeholder, and those of the study that is shown as an example, do not."""
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    named = re.findall(r"`([\w.-]+/[\w./-]*)`", text)
+    places = (ROOT, ROOT / "scripts/pendula")
+    assert len(named) > 10
+    assert [n for n in named if not any((place / n).exists() for place in places)] == []
+
+
 def test_the_readme_is_one_page_and_leads_to_every_document():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert len(text.splitlines()) <= 100 and text.count("![") == 3
