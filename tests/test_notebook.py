@@ -9,9 +9,9 @@ from pathlib import Path
 import pendula
 import pytest
 import xarray as xr
-from pendula import notebook, notebook_plots
+from pendula import notebook
 from pendula.datasets.netcdf import read
-from pendula.studies.own import figure_norms as own_norms
+from pendula.studies.own import figures
 from simulate_own import as_the_workflow_writes
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -48,9 +48,8 @@ def test_every_public_name_is_there_and_explained():
         _ = pendula.simulat
 
 
-@pytest.mark.parametrize("module", [notebook, notebook_plots])
-def test_the_examples_in_the_docstrings_run(module):
-    found = doctest.testmod(module, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+def test_the_examples_in_the_docstrings_run():
+    found = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
     assert found.attempted and not found.failed
 
 
@@ -130,4 +129,4 @@ def test_the_second_run_is_drawn_where_it_parts_only(run, case):
     checks = pendula.check(case, run)
     assert len(pendula.draw_norms(run, checks).axes[0].get_lines()) == 2
     checks["parting"] = checks["parting"].fillna(1.0)
-    assert len(own_norms.draw(own_norms.gather(run, checks)).axes[0].get_lines()) == 5
+    assert len(figures.draw_norms(figures.gather_norms(run, checks)).axes[0].get_lines()) == 5

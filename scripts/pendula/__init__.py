@@ -9,8 +9,10 @@ from importlib import import_module
 __version__ = "0.1.0"
 
 _HOMES = {
-    "notebook": ("Case", "simulate", "sweep", "check"),
-    "notebook_plots": ("draw_norms", "draw_spacetime", "draw_sweep"),
+    "notebook": (
+        *("Case", "simulate", "sweep", "check"),
+        *("draw_norms", "draw_spacetime", "draw_sweep"),
+    ),
     "datasets.netcdf": ("read", "DatasetError"),
     "configuration.messages": ("ConfigurationError",),
     "simulation.simulate": ("IntegrationError",),

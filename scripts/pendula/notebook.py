@@ -3,6 +3,8 @@
 Everything is dimensionless, as in the paper (Phys. Lett. A 381 (2017) 3884, arXiv 1708.06134):
 time is tau = mu^2 t / 2 of its expansion (3), amplitudes are A_n and B_n of its equations (4),
 rates are per unit of tau. Datasets are those that the workflow writes, by the same code.
+Figures are matplotlib's: a notebook shows the one that a cell ends with, and saves it by
+`figure.savefig("mine.pdf")`.
 """
 
 from collections.abc import Iterable
@@ -10,17 +12,16 @@ from collections.abc import Iterable
 from pydantic import ValidationError
 
 from pendula.configuration.messages import in_words, load
-from pendula.datasets.netcdf import Variable, as_xarray
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
 from pendula.problem import Problem
 from pendula.studies.own.checks import check_run
 
 from .configuration import schema
-from .datasets import sweeps as sweep_dataset
-from .datasets import trajectories as trajectory_dataset
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
-__all__ = ["Case", "check", "simulate", "sweep"]
+__all__ = ["Case", "check", "draw_norms", "draw_spacetime", "draw_sweep", "simulate", "sweep"]
 
 
 class Case(schema.Case):
@@ -90,15 +91,8 @@ def simulate(case: Case, name: str = "case"):
     """
     problem = Problem.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
-    variables, attributes = trajectory_dataset.contents(name, problem, trajectory)
-    final = trajectory.final
-    state = {
-        "part": Variable(("part",), ["re", "im"], "part of the amplitude"),
-        "final": Variable(
-            ("part", "component", "site"), [final.real, final.imag], "amplitude at the end time"
-        ),
-    }
-    return as_xarray(variables | state, attributes)
+    variables, attributes = trajectory_contents(name, problem, trajectory)
+    return as_xarray(variables | final_state(trajectory), attributes)
 
 
 def sweep(
@@ -129,9 +123,7 @@ def sweep(
     settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}})
     checked, problem = settings.sweeps[name], Problem.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
-    return as_xarray(
-        *sweep_dataset.contents(name, problem, checked.half_widths, checked.windows, result)
-    )
+    return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
 
 
 def check(case: Case, run=None):
@@ -146,3 +138,46 @@ def check(case: Case, run=None):
     """
     run = simulate(case) if run is None else run
     return check_run(Problem.of(case.shown_problem()), run)
+
+
+def draw_norms(run, checks=None):
+    """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
+
+    `run` is a trajectory as `pendula.simulate` or `pendula.read` return it. With the `checks` that
+    `pendula.check` made of it, their second run lies below in pale colours, and a mark shows from
+    when on the two are other curves. Laid out as a row of Figs 2 to 4 of the paper.
+
+    >>> from pendula import Case, simulate
+    >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
+    2
+    """
+    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+
+    return figures.draw_norms(figures.gather_norms(run, checks))
+
+
+def draw_spacetime(run):
+    """Draw |A_n| (left) and |B_n| (right) over tau and sites, from a run that keeps `modulus`.
+
+    >>> from pendula import Case, simulate
+    >>> len(draw_spacetime(simulate(Case(omega=8, end_time=10))).axes)
+    3
+    """
+    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+
+    return figures.draw_spacetime(figures.gather_spacetime(run))
+
+
+def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
+    """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
+
+    Dots are the maximum over `max_window`, hollow ones the mean over `mean_window`, windows named
+    as in the dataset; left out, the first window serves for both. As in Figs 5 and 6 of the paper.
+
+    >>> from pendula import Case, sweep
+    >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)
+    2
+    """
+    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+
+    return figures.draw_sweep(figures.gather_sweep(sweep, max_window, mean_window))

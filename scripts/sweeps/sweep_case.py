@@ -1,7 +1,7 @@
 """Integrate one case on chains of many half-widths, by one solver or several."""
 
 from pendula.datasets.netcdf import write
-from pendula.datasets.sweeps import contents
+from pendula.datasets.trajectories import sweep_contents
 from pendula.problem import Problem
 from pendula.simulation.sweep import sweep
 
@@ -18,7 +18,7 @@ def sweep_case(
     for path, problem in zip(datasets, map(Problem.of, problems), strict=True):
         label = f"{name} ({problem.solver['name']})"
         result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
-        write(path, *contents(name, problem, half_widths, windows, result))
+        write(path, *sweep_contents(name, problem, half_widths, windows, result))
 
 
 if __name__ == "__main__":

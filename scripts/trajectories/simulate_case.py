@@ -1,7 +1,7 @@
 """Integrate one case, by one solver or by several, into a trajectory dataset each."""
 
 from pendula.datasets.netcdf import write
-from pendula.datasets.trajectories import contents
+from pendula.datasets.trajectories import trajectory_contents
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 
@@ -15,7 +15,7 @@ def simulate_case(
         if problem.solver["name"] == "crank_nicolson" and result.outcome.rejected:
             cut = result.outcome.rejected
             print(f"{name}: the iteration did not contract; {cut} steps were cut")
-        write(path, *contents(name, problem, result))
+        write(path, *trajectory_contents(name, problem, result))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,9 @@ import signal
 
 import numpy as np
 import pytest
-from pendula.datasets.netcdf import DatasetError, Variable, read, write
+import xarray as xr
+from pendula.datasets.netcdf import DatasetError, Variable, read, save, write
+from pendula.datasets.registry import NamingError
 
 SERIES = {
     "tau": Variable(("tau",), np.arange(3.0), "slow time"),
@@ -23,9 +25,46 @@ def test_what_is_written_is_read(tmp_path):
     assert data["l2"].attrs["units"] == "1"
 
 
+def test_every_file_says_what_it_is_and_by_what_it_was_made(tmp_path):
+    write(tmp_path / "a.nc", SERIES, {"title": "Norms of mine"})
+    attributes = read(tmp_path / "a.nc").attrs
+    assert attributes["title"] == "Norms of mine" and attributes["Conventions"].startswith("CF-")
+    assert attributes["version"] in attributes["history"]
+
+
+def test_a_name_of_the_registry_needs_no_description(tmp_path):
+    write(tmp_path / "a.nc", {"tau": Variable(("tau",), np.arange(3.0))}, {})
+    assert read(tmp_path / "a.nc")["tau"].attrs == {"long_name": "slow time", "units": "1"}
+
+
+@pytest.mark.parametrize(
+    ("name", "variable", "fault"),
+    [
+        ("mine", Variable((), 1.0), "mine: has no long_name"),
+        ("mine", Variable((), 1.0, "a rate", "1/tau"), "mine: has the units '1/tau'"),
+        ("tau", Variable((), 1.0, "slow time", "s"), "tau: has the units 's'"),
+    ],
+)
+def test_a_variable_that_nobody_could_read_is_not_written(tmp_path, name, variable, fault):
+    with pytest.raises(NamingError, match=fault):
+        write(tmp_path / "a.nc", {name: variable}, {})
+    with pytest.raises(NamingError, match=fault):
+        values = variable.values
+        attributes = {"long_name": variable.long_name, "units": variable.units}
+        save(tmp_path / "a.nc", xr.Dataset({name: ((), values, attributes)}))
+    assert not any(tmp_path.iterdir())
+
+
+def test_saving_states_no_missing_value_and_leaves_the_dataset_alone(tmp_path):
+    data = xr.Dataset({"mine": ("tau", [1.0, 2.0], {"long_name": "mine"})}, {"tau": [0.0, 1.0]})
+    save(tmp_path / "a.nc", data)
+    assert "_FillValue" not in read(tmp_path / "a.nc")["tau"].encoding
+    assert data.attrs == {} and data["tau"].attrs == {}
+
+
 def test_two_writes_give_the_same_bytes(tmp_path):
     for name in ("a.nc", "b.nc"):
-        write(tmp_path / name, SERIES, {"case": "mine"})
+        write(tmp_path / name, SERIES, {"title": "mine"})
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
 
 

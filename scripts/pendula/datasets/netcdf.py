@@ -11,8 +11,7 @@ import netCDF4
 import numpy as np
 
 from .files import complete_or_absent
-
-CONVENTIONS = "CF-1.11"
+from .registry import complete, describe
 
 
 class DatasetError(RuntimeError):
@@ -24,7 +23,7 @@ class Variable(NamedTuple):
 
     dimensions: tuple[str, ...]
     values: Any
-    long_name: str
+    long_name: str = ""  # that of the registry
     units: str = "1"
 
 
@@ -32,7 +31,7 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
     """Write a dataset; a fault (a full disk, say) leaves no file and names the one it was."""
     try:
         with complete_or_absent(path) as partial, _created(partial) as file:
-            file.setncatts({"Conventions": CONVENTIONS, **attributes})
+            file.setncatts(complete(attributes, Path(path).stem))
             for name, variable in variables.items():
                 _write_variable(file, name, variable)
     except (OSError, RuntimeError) as error:
@@ -43,16 +42,16 @@ def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
     """Return as an xarray.Dataset in memory what `write` would write and `read` would return."""
     import xarray  # here, so that writing does without it
 
-    def one(variable: Variable) -> xarray.Variable:
+    def one(name: str, variable: Variable) -> xarray.Variable:
         values = np.asarray(variable.values)
         values = values.astype(object) if values.dtype.kind == "U" else values
-        words = {"long_name": variable.long_name, "units": variable.units}
+        words = describe(name, variable.long_name, variable.units)
         return xarray.Variable(variable.dimensions, values, words)
 
-    all_of_them = {name: one(variable) for name, variable in variables.items()}
+    all_of_them = {name: one(name, variable) for name, variable in variables.items()}
     coordinates = {k: v for k, v in all_of_them.items() if v.dims == (k,)}
     values = {k: v for k, v in all_of_them.items() if k not in coordinates}
-    return xarray.Dataset(values, coordinates, {"Conventions": CONVENTIONS, **attributes})
+    return xarray.Dataset(values, coordinates, complete(attributes, "in memory"))
 
 
 def _created(path: Path) -> netCDF4.Dataset:
@@ -61,9 +60,15 @@ def _created(path: Path) -> netCDF4.Dataset:
 
 def save(path: str | Path, dataset) -> None:
     """Write an xarray.Dataset in the same way."""
+    stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
+    for name, variable in stated.variables.items():
+        about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
+        variable.attrs.update(describe(str(name), about["long_name"], about["units"] or "1"))
+    # CF forbids a missing value in coordinates, and xarray would state one for every variable
+    unfilled = {name: {"_FillValue": None} for name in stated.variables}
     try:
         with complete_or_absent(path) as partial:
-            dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
+            stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=unfilled)
     except (OSError, RuntimeError) as error:
         raise _not_written(path, error) from error
 
@@ -83,7 +88,7 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
     else:
         compression = "zlib" if values.size > 1_000 else None
         target = file.createVariable(name, values.dtype, variable.dimensions, compression)
-    target.long_name, target.units = variable.long_name, variable.units
+    target.setncatts(describe(name, variable.long_name, variable.units))
     target[...] = values
 
 

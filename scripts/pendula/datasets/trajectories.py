@@ -1,53 +1,83 @@
-"""A trajectory as a dataset."""
+"""Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 
-from pendula import __version__
-from pendula.problem import Problem, write_initial
+from pendula.problem import Problem, name_window, write_initial
 from pendula.simulation.simulate import Trajectory
+from pendula.simulation.sweep import QUANTITIES, STATISTICS, Sweep
 
 from .netcdf import Variable
 
-COMPONENTS = Variable(("component",), ["A", "B"], "pendulum of each pair")
+COMPONENTS = Variable(("component",), ["A", "B"])
+Contents = tuple[dict[str, Variable], dict[str, Any]]
+"""The variables and the attributes of a dataset."""
 
 
-def contents(name: str, problem: Problem, trajectory: Trajectory) -> tuple[dict, dict]:
-    """Return (variables, attributes) of the dataset that a run of `problem` makes."""
-    attributes = as_attributes(name, problem, trajectory.solver)
-    work = count_work([trajectory.outcome])
-    return as_variables(trajectory, problem.snapshot_every), {**attributes, **work}
+def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
+    """Return the dataset that a run of `problem` makes."""
+    variables = trajectory_variables(trajectory, problem.snapshot_every)
+    attributes = describe_run(name, problem, trajectory.solver)
+    title = f"Norms and energy of {name} against time, by {trajectory.solver['name']}"
+    return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
 
 
-def as_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
-    """Return the variables of a trajectory's dataset."""
-    series = ("component", "tau")
+def trajectory_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
+    """Return the norms and the energy, and the moduli where the run kept them."""
     variables = {
-        "tau": Variable(("tau",), trajectory.tau, "slow time"),
+        "tau": Variable(("tau",), trajectory.tau),
         "component": COMPONENTS,
-        "linf": Variable(series, trajectory.linf, "l-infinity norm over the chain"),
-        "l2": Variable(series, trajectory.l2, "l2 norm over the chain"),
-        "energy": Variable(("tau",), trajectory.energy, "conserved energy H of equation (8)"),
+        "linf": Variable(("component", "tau"), trajectory.linf),
+        "l2": Variable(("component", "tau"), trajectory.l2),
+        "energy": Variable(("tau",), trajectory.energy),
     }
     if snapshot_every:
         reach = trajectory.modulus.shape[1] // 2
+        grid = ("component", "site", "snapshot")
         variables |= {
-            "site": Variable(("site",), np.arange(-reach, reach + 1), "site of the chain"),
-            "snapshot_tau": Variable(
-                ("snapshot",), trajectory.tau[::snapshot_every], "slow time of the snapshots"
-            ),
-            "modulus": Variable(
-                ("component", "site", "snapshot"),
-                trajectory.modulus.astype(np.float32),
-                "modulus of the amplitude on a site",
-            ),
+            "site": Variable(("site",), np.arange(-reach, reach + 1)),
+            "snapshot_tau": Variable(("snapshot",), trajectory.tau[::snapshot_every]),
+            "modulus": Variable(grid, trajectory.modulus.astype(np.float32)),
         }
     return variables
 
 
-def as_attributes(name: str, problem: Problem, solver: Mapping) -> dict:
-    """Return the attributes that say what was solved, and by which controls: no dates, no hosts."""
+def final_state(trajectory: Trajectory) -> dict[str, Variable]:
+    """Return the amplitudes at the end time, for those who go on from them."""
+    parts = [trajectory.final.real, trajectory.final.imag]
+    return {
+        "part": Variable(("part",), ["re", "im"]),
+        "final": Variable(("part", "component", "site"), parts),
+    }
+
+
+def sweep_contents(
+    name: str,
+    problem: Problem,
+    half_widths: Iterable[int],
+    windows: Iterable[tuple[float, float]],
+    sweep: Sweep,
+) -> Contents:
+    """Return the dataset that a sweep of `problem` over half-widths makes."""
+    axes = ("half_width", "quantity", "statistic", "window")
+    variables = {
+        "half_width": Variable(("half_width",), np.asarray(half_widths)),
+        "quantity": Variable(("quantity",), list(QUANTITIES)),
+        "statistic": Variable(("statistic",), list(STATISTICS)),
+        "window": Variable(("window",), [name_window(window) for window in windows]),
+        "l2": Variable(axes, sweep.l2),
+        "linf": Variable(axes, sweep.linf),
+    }
+    attributes = describe_run(name, problem, problem.solver)
+    del attributes["half_width"]
+    title = f"Norms of {name} against the half-width, by {problem.solver['name']}"
+    return variables, {"title": title, **attributes, **count_work(sweep.outcomes)}
+
+
+def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
+    """Return the attributes that say what was solved, and by which controls."""
     values = problem.plain()
     plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
     return {
@@ -56,11 +86,30 @@ def as_attributes(name: str, problem: Problem, solver: Mapping) -> dict:
         "initial": write_initial(values["initial"]),
         "solver": solver["name"],
         **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
-        "version": __version__,
     }
 
 
-def count_work(outcomes: list) -> dict:
+def describe_cases(problems: Mapping[str, Problem]) -> Contents:
+    """Return names, detunings and data of several cases, and as attributes what they share.
+
+    The attributes hold each value that is the same in all of them, so that a dataset of many cases
+    says what was solved as that of a single one does.
+    """
+    each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
+    variables = {
+        "case": Variable(("case",), list(problems)),
+        "omega": Variable(("case",), [float(one["omega"]) for one in each]),
+        "initial": Variable(("case",), [one["initial"] for one in each]),
+    }
+    shared = {
+        key: value
+        for key, value in each[0].items()
+        if key not in ("case", "omega", "initial") and all(one.get(key) == value for one in each)
+    }
+    return variables, shared
+
+
+def count_work(outcomes: list) -> dict[str, int]:
     """Return the work of one run, or of many, as attributes."""
     return {
         "steps": sum(outcome.steps for outcome in outcomes),

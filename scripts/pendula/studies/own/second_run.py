@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.trajectories import contents
+from pendula.datasets.trajectories import trajectory_contents
 from pendula.measures.divergence import LEVELS, at_times, difference, first_above
 from pendula.problem import Problem
 from pendula.simulation.simulate import IntegrationError, simulate
@@ -36,7 +36,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     again = problem.changed(solver=solver, snapshot_every=0)
     said = {f"second_{key}": value for key, value in solver.items()}
     try:
-        second = as_xarray(*contents("second run", again, simulate(again)))
+        second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
         apart = difference(run, second).reindex(tau=run["tau"])
     except IntegrationError as error:
         second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)

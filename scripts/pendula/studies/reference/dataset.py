@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, as_attributes
+from pendula.datasets.trajectories import COMPONENTS, describe_run
 from pendula.problem import Problem
 from pendula.simulation.lattice import Reduction, spread
 
@@ -47,7 +47,7 @@ def _amplitude(run: Run) -> np.ndarray:
 def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
     """Return the attributes: the case, the controls of both runs, what they agree on."""
     return {
-        **as_attributes(name, problem, {"name": "heyoka", **_controls(run)}),
+        **describe_run(name, problem, {"name": "heyoka", **_controls(run)}),
         **{f"second_run_{key}": value for key, value in _controls(check).items()},
         "parameters_mean": "the printed decimals" if decimal else "the doubles nearest to them",
         "energy_drift": apart.energy_drift,

@@ -1,0 +1,75 @@
+"""What the variables and the attributes of datasets are called: one meaning to each name.
+
+Names that several datasets share stand here, with their long name and units: who writes one of them
+need not describe it, and cannot give it another meaning. A quantity of one study is described where
+it is computed; a test reads all datasets of a run and fails where one name means two things.
+
+Everything in the paper is dimensionless. Time is the slow time tau, so that a rate is "per unit of
+tau" and its units are "1", as UDUNITS asks for. Angles are in "rad".
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pendula import __version__
+
+CONVENTIONS = "CF-1.11"
+UNITS = ("1", "rad", "s", "byte")
+"""All units in use; each is one that UDUNITS parses."""
+
+NAMES = {
+    # coordinates
+    "tau": "slow time",
+    "snapshot_tau": "slow time of the snapshots",
+    "component": "pendulum of each pair",
+    "site": "site of the chain",
+    "part": "part of a complex number",
+    "half_width": "half-width M of the chain of 2M + 1 pairs",
+    "quantity": "pendulum of each pair, or both",
+    "statistic": "reduction over the time window",
+    "window": "window of slow time, both ends included",
+    "case": "case",
+    "sweep": "sweep over half-widths",
+    "solver": "solver",
+    "boundary": "ends of the chain",
+    "member": "member of the ensemble",
+    # the problem
+    "omega": "detuning Omega",
+    "gamma": "strength of the drive, gamma",
+    "epsilon": "coupling of neighbours, epsilon",
+    "initial": "initial {site: [A, B]}",
+    "sites": "number of sites N",
+    # the solution
+    "linf": "l-infinity norm over the chain",
+    "l2": "l2 norm over the chain",
+    "energy": "conserved energy H of equation (8)",
+    "modulus": "modulus of the amplitude on a site",
+    "final": "amplitude at the end time",
+}
+"""Long names of what several datasets share; all of them have the units "1"."""
+
+
+class NamingError(ValueError):
+    """A variable that is described otherwise than its name says, or not at all."""
+
+
+def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]:
+    """Return `long_name` and `units` of a variable, those of the registry where it has the name.
+
+    Raises NamingError where neither says what the variable is, or where its units are not known.
+    """
+    if not (long_name or name in NAMES):
+        raise NamingError(f"{name}: has no long_name, and is not in datasets/registry.py")
+    if units not in UNITS or (name in NAMES and units != "1"):
+        raise NamingError(f"{name}: has the units {units!r}; known are {', '.join(UNITS)}")
+    return {"long_name": long_name or NAMES[name], "units": units}
+
+
+def complete(attributes: Mapping[str, Any], title: str) -> dict[str, Any]:
+    """Return a dataset's attributes with those that every file carries.
+
+    There are no dates, hosts, users or paths among them: two runs give the same content.
+    """
+    made_by = f"computed by pendula {__version__}"
+    fixed = {"Conventions": CONVENTIONS, "version": __version__, "history": made_by}
+    return {"title": title, **attributes, **fixed}
