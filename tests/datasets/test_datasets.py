@@ -41,7 +41,7 @@ def test_a_name_of_the_registry_needs_no_description(tmp_path):
     ("name", "variable", "fault"),
     [
         ("mine", Variable((), 1.0), "mine: has no long_name"),
-        ("mine", Variable((), 1.0, "a rate", "1/tau"), "mine: has the units '1/tau'"),
+        ("mine", Variable((), 1.0, "a rate", "tau^-1"), r"mine: has the units 'tau\^-1'"),
         ("tau", Variable((), 1.0, "slow time", "s"), "tau: has the units 's'"),
     ],
 )

@@ -13,6 +13,7 @@ from matplotlib.image import imsave
 
 from pendula.datasets.files import complete_or_absent
 from pendula.problem import read_initial
+from pendula.datasets.netcdf import save as save_dataset
 
 SINGLE, DOUBLE = 3.4, 7.0
 """Widths of one and of two columns of a journal page, in inches."""
@@ -142,8 +143,8 @@ def save(
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         FigureCanvasPdf(figure).print_pdf(new_pdf, metadata=undated)
-        stated = data.assign_attrs(Conventions="CF-1.11")
-        stated.to_netcdf(new_netcdf, engine="netcdf4", format="NETCDF4")
+        title = f"What the figure {Path(netcdf).stem} shows"
+        save_dataset(new_netcdf, data.assign_attrs({"title": title}))
 
 
 def _panels(figure: Figure) -> str:
