@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
 from pendula.datasets.files import complete_or_absent
-from pendula.problem import read_initial
 from pendula.datasets.netcdf import save as save_dataset
+from pendula.problem import read_initial
 
 SINGLE, DOUBLE = 3.4, 7.0
 """Widths of one and of two columns of a journal page, in inches."""

@@ -5,7 +5,6 @@ from dataclasses import asdict, replace
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.netcdf import CONVENTIONS
 from pendula.problem import Constants
 
 from .linear_front import linear_front
@@ -82,7 +81,7 @@ def measure_front(
         {"omega": _named("omega", omegas["omega"].values, "detuning Omega")},
     )
     title = "The front on chains without ends, and the bulk behind it"
-    data.attrs = {"Conventions": CONVENTIONS, "title": title}
+    data.attrs = {"title": title}
     return data.assign_attrs(**asdict(constants), large_omega=large.attrs["omega"])
 
 

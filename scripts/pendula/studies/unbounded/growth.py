@@ -9,7 +9,6 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.netcdf import CONVENTIONS
 from pendula.measures.growth import local_powers
 
 POINTS, OCTAVES = 120, 4
@@ -39,7 +38,7 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
     same = {key: first[0].attrs[key] for key in ("epsilon", "gamma", "version") if key in
             first[0].attrs}  # fmt: skip
     title = "Growth of the norms on chains without ends"
-    return data.assign_attrs(Conventions=CONVENTIONS, title=title, **same)
+    return data.assign_attrs(title=title, **same)
 
 
 def _words(long_name: str) -> dict[str, str]:
