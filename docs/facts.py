@@ -232,7 +232,7 @@ def unbounded(baseline: Baseline) -> dict:
     ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
     speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
     grown = long["amplitude"].where(long["amplitude_exponent"] > GROWING, drop=True)
-    cut = baseline["quoted/cut_front"]
+    cut, cost = baseline["quoted/cut_front"], baseline["quoted/cost"]
     return {
         "end": number(bulk["end"], 4),
         "from": number(bulk["end"] / 2, 4),
@@ -271,10 +271,12 @@ def unbounded(baseline: Baseline) -> dict:
         "cut_lag": number(cut["lag"][-1], 2),
         "cut_end": number(cut["end"][-1], 4),
         "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
-        "site_memory": number(long["site_memory"][-1]),
+        "site_memory": number(cost["active_memory"][-1]),
         "site_times": [
-            {"sites": f"{int(width):,}", "time": number(1e6 * seconds)}
-            for width, seconds in zip(long["width"].values, long["site_time"].values, strict=True)
+            {"width": f"{int(width):,}", "time": number(1e6 * seconds)}
+            for width, seconds in zip(
+                cost["active_width"].values, cost["active_seconds"].values, strict=True
+            )
         ],
     }
 

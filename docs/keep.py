@@ -1,9 +1,9 @@
 """Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
 
-Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` if the
-long study was made anew. It reduces both to the few numbers that are quoted and writes these to
-tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, and the long study of
-the chain without ends.
+Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` or
+`snakemake speed` if these were made anew. It reduces each to the few numbers that are quoted and
+writes these to tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, the
+long study of the chain without ends, and what its sites cost.
 """
 
 import shutil
@@ -65,7 +65,6 @@ def keep_long_study(results: Path, folder: Path) -> None:
         **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
         **_amplitudes(read(long / "amplitudes.nc")),
         **_tolerances(read(long / "tolerances.nc")),
-        **_scale(read(long / "scale.nc")),
     }
     solver = {"solver": "dop853", "solver_rtol": TOLERANCE, "solver_atol": TOLERANCE}
     problem = {"epsilon": 1.0, "gamma": 1.0, "rest": REST["long"], **solver}
@@ -176,23 +175,29 @@ def _tolerances(run: xr.Dataset) -> dict[str, Variable]:
     }
 
 
-def _scale(measured: xr.Dataset) -> dict[str, Variable]:
-    along, width = ("width",), measured["width"].values
-    seconds, memory = measured["seconds"].values, measured["memory"].values / width
-    return {
-        "width": Variable(along, 2 * width + 1, "sites of the chain, half of them integrated"),
-        "site_time": Variable(along, seconds, "time per integrated site and unit of tau", "s"),
-        "site_memory": Variable(along, memory, "memory per integrated site", "byte"),
+def keep_cost(results: Path, folder: Path) -> None:
+    """Keep what active sites cost on chains without ends, of a measurement of speed."""
+    measured = read(results / "speed/cost.nc")
+    kept = {
+        name: Variable(
+            measured[name].dims, measured[name].values, attrs["long_name"], attrs["units"]
+        )
+        for name in ("active_width", "active_seconds", "active_memory")
+        if (attrs := measured[name].attrs)
     }
+    _write(folder / "cost.nc", "Cost of the active sites of a chain without ends", kept)
 
 
 def main(results: Path, folder: Path = QUOTED) -> None:
-    """Keep whatever of the two the folder of results holds."""
+    """Keep whatever of these the folder of results holds."""
     folder.mkdir(exist_ok=True)
-    if (results / "claims.json").exists():
-        keep_full_run(results, folder)
-    if (results / "unbounded/long/scale.nc").exists():
-        keep_long_study(results, folder)
+    for needed, keep in {
+        "claims.json": keep_full_run,
+        "unbounded/long/tolerances.nc": keep_long_study,
+        "speed/cost.nc": keep_cost,
+    }.items():
+        if (results / needed).exists():
+            keep(results, folder)
 
 
 if __name__ == "__main__":

@@ -197,7 +197,7 @@ def test_every_fact_follows_its_dataset():
     after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(2017))))
     same = {name for name in before if after.get(name) == before[name]}
     named = re.compile(
-        r"configured\.|.*\.(case|stated|omega|solver|peer|cases|sites|topic)$|"
+        r"configured\.|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$"
     )
     left = {name for name in same if not named.match(name) and before[name] != "never"}

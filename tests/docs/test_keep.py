@@ -35,9 +35,6 @@ def results(tmp_path):
         "omegas": made_up.spread(0.5, variants=2, omegas=(-1.0, 2.0)),
         "amplitudes": made_up.spread((0.0, 0.5), variants=2, amplitudes=(1.0, 5.0)),
         "tolerances": made_up.spread(0.5, variants=2).assign(tolerance=("variant", [1e-6, 1e-8])),
-        "scale": xr.Dataset(
-            {"seconds": ("width", [2e-6]), "memory": ("width", [4e5])}, {"width": [1000]}
-        ),
     }
     for name, run in runs.items():
         run.to_netcdf(long / f"{name}.nc")
@@ -54,7 +51,6 @@ def test_the_long_study_is_reduced_to_its_numbers(results, tmp_path):
         assert kept["omega_thermal_power"].values == pytest.approx(16.0)
         assert kept["amplitude_exponent"].values == pytest.approx([0.0, 0.5], abs=0.02)
         assert kept["tolerance_bulk_power"].values == pytest.approx(16.0, rel=0.2)
-        assert int(kept["width"][0]) == 2001 and float(kept["site_memory"][0]) == 400.0
         for name, variable in kept.variables.items():
             assert variable.attrs["long_name"] and variable.attrs["units"], name
 
@@ -79,3 +75,15 @@ def test_the_full_run_is_reduced_without_times_that_differ(tmp_path):
         times = dict(zip(kept["topic"].values, kept["seconds"].values, strict=True))
     assert times == {"figures": 3.5, "report": 3.0}
     assert json.loads((tmp_path / "quoted/claims.json").read_text()) == [{"name": "a"}]
+
+
+def test_of_the_cost_only_active_sites_are_kept(tmp_path):
+    names = ("active_width", "active_seconds", "active_memory", "seconds")
+    measured = xr.Dataset({name: ("active_width", [2.0]) for name in names})
+    for variable in measured.variables.values():
+        variable.attrs = {"long_name": "made up", "units": "1"}
+    (tmp_path / "results/speed").mkdir(parents=True)
+    measured.to_netcdf(tmp_path / "results/speed/cost.nc")
+    keep.main(tmp_path / "results", tmp_path / "quoted")
+    with xr.open_dataset(tmp_path / "quoted/cost.nc") as kept:
+        assert set(kept.variables) == set(names) - {"seconds"}
