@@ -272,6 +272,7 @@ def unbounded(baseline: Baseline) -> dict:
         "cut_end": number(cut["end"][-1], 4),
         "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
         "site_memory": number(cost["active_memory"][-1]),
+        "site_factor": number(cost["active_seconds"].max() / cost["active_seconds"].min(), 2),
         "site_times": [
             {"width": f"{int(width):,}", "time": number(1e6 * seconds)}
             for width, seconds in zip(
@@ -350,6 +351,7 @@ def speed(baseline: Baseline) -> dict:
         "faster": " and ".join(n for n, text in ratio.items() if text != "-" and _value(text) < 1),
         "taylor_error": number(max(errors), 1),
         "sites": [{"sites": row["number of sites N"], **_growth(row)} for row in sites[:-1]],
+        "long_over_short": {"sites": sites[-1]["number of sites N"], **_growth(sites[-1])},
         "jobs": _jobs(baseline["quoted/job_times"]),
         "jobs_total": number(baseline["quoted/job_times"]["seconds"].sum()),
     }

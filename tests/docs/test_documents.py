@@ -194,8 +194,10 @@ def flat(known, prefix=""):
 def test_every_fact_follows_its_dataset():
     """A number typed into facts.py would stay when the datasets change."""
     before = flat(render.known(facts.Baseline(render.BASELINE)))
-    after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(2017))))
-    same = {name for name in before if after.get(name) == before[name]}
+    same = set(before)
+    for seed in range(3):  # a rounded number may be the same by chance, but not each time
+        after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(seed))))
+        same = {name for name in same if after.get(name) == before[name]}
     named = re.compile(
         r"configured\.|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$"
