@@ -93,6 +93,7 @@ def own_checks(second):
 def gathered(make_trajectory, trajectories, make_sweep):
     """Return what every figure draws, by the name of the figure."""
     from pendula.studies.chaos import figures as chaos
+    from pendula.studies.chaos.comparison import compare
     from pendula.studies.own import figures as own
     from pendula.studies.paper import chain_figure, figures, solver_figures
     from pendula.studies.theory import bounds_figure
@@ -108,6 +109,10 @@ def gathered(make_trajectory, trajectories, make_sweep):
     long, short = chart(), short_chart()
     references = {"fig2_small": true, "fig2_large": true}
     maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
+    of_cases = dict(zip(made_up_chaos.CASES, pair, strict=True))
+    of_sweeps = dict(zip(made_up_chaos.SWEEPS, panels, strict=True))
+    named = dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True))
+    compared = compare(made_up_chaos.ensembles(), of_cases, of_cases, of_sweeps, named)
     runs = {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))}
     omegas = spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0))
     large = spread(0.5, omegas=(-4.0,))
@@ -128,13 +133,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "bounds": bounds_figure.gather_bounds(cases(), sweeps(), samples(), worst()),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
-        "ensembles": chaos.gather_ensembles(
-            made_up_chaos.ensembles(),
-            dict(zip(made_up_chaos.CASES, pair, strict=True)),
-            dict(zip(made_up_chaos.CASES, pair, strict=True)),
-            dict(zip(made_up_chaos.SWEEPS, panels, strict=True)),
-            dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True)),
-        ),
+        "ensembles": chaos.gather_ensembles(made_up_chaos.ensembles(), compared),
         "growth_law": unbounded.gather_growth_law(measure_growth(runs, thermal())),
         "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
         "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),

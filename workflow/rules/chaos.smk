@@ -94,23 +94,41 @@ rule chaos_figures:
         "../../scripts/chaos/draw_chaos.py"
 
 
+rule compare_ensembles:
+    "The paper's own runs, and the references, beside the ensembles"
+    input:
+        code=code("chaos/compare_ensembles.py"),
+        ensembles="results/checks/ensembles.nc",
+        runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
+        references=references(*CHAOTIC_CASES),
+        sweeps=expand("results/sweeps/{sweep}.nc", sweep=CHAOTIC_SWEEPS),
+    output:
+        data="results/checks/ensemble_runs.nc",
+    log:
+        "results/logs/checks/ensemble_runs.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=CHAOTIC_CASES,
+        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in CHAOTIC_SWEEPS},
+    message:
+        "Comparing the paper's runs with ensembles"
+    script:
+        "../../scripts/chaos/compare_ensembles.py"
+
+
 rule ensembles_figure:
     "What runs from almost equal data share, beside the paper's own"
     input:
         code=code("chaos/draw_ensembles.py"),
         ensembles="results/checks/ensembles.nc",
-        runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
-        references=references(*CHAOTIC_CASES),
-        sweeps=expand("results/sweeps/{sweep}.nc", sweep=CHAOTIC_SWEEPS),
+        comparison="results/checks/ensemble_runs.nc",
     output:
         **figure("ensembles"),
     log:
         "results/logs/figures/ensembles.log",
     conda:
         "../envs/pinned.yaml"
-    params:
-        cases=CHAOTIC_CASES,
-        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in CHAOTIC_SWEEPS},
     message:
         "Drawing ensembles of the chaotic cases and sweeps beside the paper's runs"
     script:

@@ -1,7 +1,5 @@
 """Chaos in pictures: exponents, how evenness is lost, and ensembles beside the paper's runs."""
 
-from collections.abc import Mapping
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,7 +8,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pendula.drawing import panels, style
-from pendula.measures.divergence import is_of_same_case
 
 COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 """By detuning, of different lightness."""
@@ -25,6 +22,8 @@ MEDIAN = {"color": style.RED, "lw": 1.3}
 MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
 OWN = {"color": style.BLUE, "lw": 0.6}
 TRUE = {"color": "black", "lw": 0.6}
+COMPARED = ["omega", "initial", "run", "true", "run_inside", "true_inside", "l2_mean"]
+COMPARED += ["l2_deviation", "swept_run", "swept_window", "swept_omega", "swept_initial"]
 OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
 NORM = r"$\ell^2$ norm"
 
@@ -168,57 +167,11 @@ def _draw_odd_part(axes: Axes, case: xr.Dataset) -> None:
     axes.set_ylim(1e-17, 10)
 
 
-def gather_ensembles(
-    ensembles: xr.Dataset,
-    runs: Mapping[str, xr.Dataset],
-    references: Mapping[str, xr.Dataset],
-    sweeps: Mapping[str, xr.Dataset],
-    windows: Mapping[str, str],
-) -> xr.Dataset:
-    """Return the pair's bands and swept maxima, and the same of the paper's runs, by name.
-
-    The true runs of the same cases stand beside them, and how long each run is within its band.
-    `windows` names the window of each sweep, such as "[10, 50]".
-    """
+def gather_ensembles(ensembles: xr.Dataset, comparison: xr.Dataset) -> xr.Dataset:
+    """Return the pair's bands, and all that they are compared with (see `comparison.compare`)."""
     pair = ensembles.sel(quantity="pair", drop=True)
-    names = xr.Variable("case", list(runs), ensembles["case"].attrs)
-    known = [
-        references[case].where(is_of_same_case(run, references[case])) for case, run in runs.items()
-    ]
-    run, true = (_norms_of(pair, names, data) for data in (runs.values(), known))
-    run.attrs = {"long_name": "l2 norm of the paper's run", "units": "1"}
-    true.attrs = {"long_name": "l2 norm of the true run", "units": "1"}
-    swept = [_read_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
-    swept = style.join(swept, list(windows), "sweep", "sweep")
-    swept = swept.rename(omega="swept_omega", initial="swept_initial")
-    cases = pair[["l2", "omega", "initial"]].assign(run=run, true=true)
-    cases["run_inside"], cases["true_inside"] = (_inside(pair, norm) for norm in (run, true))
-    return xr.merge([cases, swept])
-
-
-def _norms_of(pair: xr.Dataset, names: xr.Variable, runs) -> xr.DataArray:
-    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
-    return xr.concat(norms, names, join="outer").reindex(tau=pair["tau"], method="nearest")
-
-
-def _inside(pair: xr.Dataset, norm: xr.DataArray) -> xr.DataArray:
-    """Return the part of the later half of the time in which a norm is within the wider band."""
-    low, high = (pair["l2"].sel(quantile=quantile) for quantile in BANDS[0][0])
-    inside = ((norm >= low) & (norm <= high)).where(norm.notnull())
-    late = inside.sel(tau=slice(float(pair["tau"].max()) / 2, None)).mean("tau")
-    name = f"part of the later half that {norm.attrs['long_name']} is within 5 to 95 %"
-    return late.drop_vars("quantile", errors="ignore").assign_attrs(long_name=name, units="1")
-
-
-def _read_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:
-    at = {"statistic": "max", "window": window, "drop": True}
-    data = pair[["l2_mean", "l2_deviation"]].sel(sweep=name, **at)
-    run = own["l2"].sel(quantity="pair", **at).reindex(half_width=data["half_width"])
-    data["swept_run"] = run.assign_attrs(long_name="maximum of the paper's run", units="1")
-    data["swept_window"] = xr.Variable(
-        (), window, {"long_name": "window of the maximum", "units": "1"}
-    )
-    return data.assign_attrs({key: own.attrs[key] for key in ("omega", "initial")})
+    drawn = comparison[COMPARED].drop_attrs(deep=False)
+    return pair[["l2"]].drop_attrs(deep=False).merge(drawn)
 
 
 @style.styled
