@@ -16,7 +16,6 @@ rule work_precision:
         references=references(*PAPER_CASES),
     output:
         data="results/speed/work_precision.nc",
-        table="results/speed/work_precision.md",
     log:
         "results/logs/speed/work_precision.log",
     conda:
@@ -36,7 +35,6 @@ rule cost:
         kernels=kernels("dop853", "taylor"),
     output:
         data="results/speed/cost.nc",
-        table="results/speed/cost.md",
     log:
         "results/logs/speed/cost.log",
     conda:
@@ -48,6 +46,24 @@ rule cost:
         "Timing longer chains, longer runs and more active sites"
     script:
         "jobs/measure_cost.py"
+
+
+rule speed_tables:
+    input:
+        code=code("benchmarks/jobs/tabulate_speed.py"),
+        work_precision="results/speed/work_precision.nc",
+        cost="results/speed/cost.nc",
+    output:
+        work_precision_table="results/speed/work_precision.md",
+        cost_table="results/speed/cost.md",
+    log:
+        "results/logs/speed/tables.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    message:
+        "Tabling the measurements of speed"
+    script:
+        "jobs/tabulate_speed.py"
 
 
 rule speed_figures:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from tabulate import tabulate
+from pendula.report.tables import markdown
 
 from .cost import TOLERANCE
 from .problems import REGIMES
@@ -11,13 +11,8 @@ COMPARED = 1001, 100_001
 """Numbers of sites whose costs are compared in the last row of their table."""
 
 
-def markdown(head: list[str], rows: list[list[str]]) -> str:
-    """Return a table; every cell stands as it is given."""
-    return tabulate(rows, head, tablefmt="github", disable_numparse=True)
-
-
-def write_work_precision(measured: xr.Dataset) -> str:
-    """Return a page; every time in it stands beside the error that was measured."""
+def tabulate_work_precision(measured: xr.Dataset) -> list[str]:
+    """Return the parts of a page; every time in it stands beside the error that was measured."""
     parts = ["# Speed against error", _explain(measured)]
     if "peer" in measured.dims:
         parts += ["## Times of the peers over that of the fastest solver here, at equal error"]
@@ -26,7 +21,7 @@ def write_work_precision(measured: xr.Dataset) -> str:
     parts += [f"Not measured: {name}." for name in absent if name]
     for case in measured["case"].values:
         parts += [f"## {case}", _solvers(measured.sel(case=case))]
-    return "\n\n".join(parts) + "\n"
+    return parts
 
 
 def _explain(measured: xr.Dataset) -> str:
@@ -49,13 +44,13 @@ def _peers(measured: xr.Dataset) -> str:
     for peer in measured["peer"].values:
         own = measured.sel(peer=peer)
         cells = [_ratio(own.sel(case=case)) for case in cases]
-        rows.append([titles[peer], *cells, _mean(own["ratio"].values)])
+        rows.append([titles[peer], *cells, _mean(own)])
     return markdown(["peer", *cases, "geometric mean"], rows)
 
 
-def _mean(ratios: np.ndarray) -> str:
-    known = ratios[np.isfinite(ratios)]
-    return f"{np.exp(np.mean(np.log(known))):.3g} ({len(known)} cases)" if len(known) else "-"
+def _mean(peer: xr.Dataset) -> str:
+    mean, count = float(peer["mean_ratio"]), int(peer["reached_cases"])
+    return f"{mean:.3g} ({count} cases)" if count else "-"
 
 
 def _ratio(pair: xr.Dataset) -> str:
@@ -83,8 +78,8 @@ def _point(solver: str, point: xr.Dataset) -> list[str]:
     return [solver, accuracy, time, *small, *work]
 
 
-def write_cost(cost: xr.Dataset) -> str:
-    """Return a page on how the cost grows with the chain, with time and with the active sites."""
+def tabulate_cost(cost: xr.Dataset) -> list[str]:
+    """Return the parts of a page on how the cost grows: with chain, time and active sites."""
     title, said = "## Time a site and unit of slow time, in µs, over the ", "one core, medians."
     noise = f"Tolerance {TOLERANCE:.0e}, even noise on all sites, {said}"
     parts = ["# How cost grows"]
@@ -94,7 +89,7 @@ def write_cost(cost: xr.Dataset) -> str:
     parts += [f"{title}{cost['end_time'].long_name}", one_case, over_time]
     if "active_width" in cost:
         parts += ["## A chain without ends", _over_active_sites(cost)]
-    return "\n\n".join(parts) + "\n"
+    return parts
 
 
 def _over_sites(seconds: xr.DataArray) -> str:

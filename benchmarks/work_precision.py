@@ -8,7 +8,7 @@ from pendula.problem import Problem
 from pendula.simulation.simulate import Trajectory, simulate
 
 from .contestants import OURS, Contestant, controls
-from .points import Comparison, Point, compare, measure_points
+from .points import Comparison, Point, cheapest, compare, measure_points
 from .problems import OUTPUT_STEP, REGIME_OF, REGIMES, Reference
 
 POINT_FIELDS = {
@@ -58,13 +58,39 @@ def measure(
             watched[case, name] = [watch(problem, exact, name, point) for point in points]
         for name, peer in peers.items():
             pairs[case, name] = compare(problem, target, (peer, found[case, name]), own)
-    cases = list(problems)
+    return assemble(list(problems), contestants, found, watched, pairs)
+
+
+def assemble(
+    cases: list[str],
+    contestants: Mapping[str, Contestant],
+    found: Mapping[tuple[str, str], list[Point]],
+    watched: Mapping[tuple[str, str], list[tuple]],
+    pairs: Mapping[tuple[str, str], Comparison | None],
+) -> dict[str, Variable]:
+    """Return the dataset's variables; measurements are given by (case, contestant).
+
+    Among `contestants` are the solvers of this project, in OURS, and peers. What is published, the
+    least times and the mean ratios, is stored beside what it follows from.
+    """
+    peers = [name for name in contestants if name not in OURS]
     return {
         **_coordinates(cases, contestants, peers),
         **_by_point(POINT_FIELDS, found, cases, list(contestants), "contestant"),
         **_by_point(OWN_FIELDS, watched, cases, list(OURS), "solver"),
-        **_by_pair(pairs, cases, list(peers)),
+        "best_seconds": Variable(
+            ("case", "solver"),
+            np.array([[_best(found[case, name], case) for name in OURS] for case in cases]),
+            "least time within the error of the comparison, not a number where not reached",
+            "s",
+        ),
+        **(_by_pair(pairs, cases, peers) if peers else {}),
     }
+
+
+def _best(points: list[Point], case: str) -> float:
+    point = cheapest(points, target_of(case))
+    return point.seconds if point else np.nan
 
 
 def target_of(case: str) -> float:
@@ -128,8 +154,6 @@ def _by_point(fields, found, cases, names, dim) -> dict[str, Variable]:
 
 
 def _by_pair(pairs: dict[tuple, Comparison | None], cases, names) -> dict[str, Variable]:
-    if not names:
-        return {}
     table = np.full((len(PAIR_FIELDS), len(cases), len(names)), np.nan)
     best = np.full((len(cases), len(names)), "", dtype="U32")
     for i, case in enumerate(cases):
@@ -139,8 +163,14 @@ def _by_pair(pairs: dict[tuple, Comparison | None], cases, names) -> dict[str, V
                 ratios, errors = found.ratios, (found.peer_point.error, found.our_point.error)
                 table[:, i, j] = np.median(ratios), ratios.min(), ratios.max(), *errors
                 best[i, j] = found.ours
+    reached = np.isfinite(table[0])
+    logarithms = np.log(np.where(reached, table[0], 1.0)).sum(axis=0)
+    count = reached.sum(axis=0)
+    mean = np.where(count > 0, np.exp(logarithms / np.maximum(count, 1)), np.nan)
     return {
         "our_best": Variable(("case", "peer"), best, "our solver in the pairs"),
+        "mean_ratio": Variable(("peer",), mean, "geometric mean of the ratios over the cases"),
+        "reached_cases": Variable(("peer",), count, "cases in which the error was reached"),
         **{
             name: Variable(("case", "peer"), values, *PAIR_FIELDS[name])
             for name, values in zip(PAIR_FIELDS, table, strict=True)

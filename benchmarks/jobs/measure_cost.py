@@ -1,20 +1,16 @@
 """Measure how the cost of a run grows with the chain, with time and with the active sites."""
 
-from pendula.datasets.files import complete_or_absent
-from pendula.datasets.netcdf import read, write
+from pendula.datasets.netcdf import write
 from pendula.problem import Problem
 from pendula.sources import describe_machine
 
 from benchmarks.cost import measure
-from benchmarks.tables import write_cost
 
 
-def measure_cost(problem: dict, data: str, table: str, kernels: list[str] | tuple = ()) -> None:
+def measure_cost(problem: dict, data: str, kernels: list[str] | tuple = ()) -> None:
     """Write the measurements; `problem` is the case that is run for long."""
     variables = measure(Problem.of(problem))
     write(data, variables, {"title": "How the cost of a run grows", **describe_machine()})
-    with complete_or_absent(table) as partial:
-        partial.write_text(write_cost(read(data)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,18 +1,16 @@
 """Time every solver and every installed peer on the paper's cases, beside the errors they make."""
 
-from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read, write
 from pendula.problem import by_name
 from pendula.sources import describe_machine
 
 from benchmarks.contestants import find_peers
 from benchmarks.problems import REGIME_OF, REGIMES, read_reference, until
-from benchmarks.tables import write_work_precision
 from benchmarks.work_precision import measure
 
 
 def measure_work_precision(
-    references: list[str], problems: dict[str, dict], data: str, table: str, kernels: list[str] = ()
+    references: list[str], problems: dict[str, dict], data: str, kernels: list[str] | tuple = ()
 ) -> None:
     """Measure the cases of `problems` against their `references`, in the same order."""
     cases, exact = {}, {}
@@ -25,8 +23,6 @@ def measure_work_precision(
     variables = measure(cases, exact, peers, lambda text: print(text, flush=True))
     title = {"title": "Speed against error", "absent": "; ".join(absent.values())}
     write(data, variables, {**title, **describe_machine()})
-    with complete_or_absent(table) as partial:
-        partial.write_text(write_work_precision(read(data)), encoding="utf-8")
 
 
 if __name__ == "__main__":

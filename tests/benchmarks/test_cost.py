@@ -9,7 +9,7 @@ from pendula.sources import describe_machine
 from scipy.integrate._ivp import dop853_coefficients as published
 
 from benchmarks import cost, figures, machine
-from benchmarks.tables import write_cost
+from benchmarks.tables import tabulate_cost
 
 PROBLEM = Problem(
     constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
@@ -82,27 +82,27 @@ def made_up_cost():
     )
 
 
-def cells_of(page):
-    """Return the cells of all rows of the tables of a page in Markdown."""
-    lines = [line for line in page.splitlines() if line.startswith("|")]
+def cells_of(parts):
+    """Return the cells of all rows of the tables in the parts of a page of Markdown."""
+    lines = [line for part in parts for line in part.splitlines() if line.startswith("|")]
     return [[cell.strip() for cell in line[1:-1].split("|")] for line in lines]
 
 
 def test_the_table_of_active_sites_has_a_row_each(measured):
-    rows = {row[0]: row[1:] for row in cells_of(write_cost(measured))}
+    rows = {row[0]: row[1:] for row in cells_of(tabulate_cost(measured))}
     for width, memory in zip((8001, 16_001, 32_001), measured["active_memory"].values, strict=True):
         assert rows[f"{width:,}"][-1] == f"{memory:.0f}"
 
 
 def test_the_table_says_what_was_measured():
-    rows = cells_of(write_cost(made_up_cost()))
+    rows = cells_of(tabulate_cost(made_up_cost()))
     assert ["1001", "2", "3"] in rows and ["100001 over 1001", "1.5", "2"] in rows
     assert ["10", "2", "3"] in rows
 
 
 def test_the_table_compares_only_chains_that_were_measured():
     short = made_up_cost().isel(sites=[0])
-    assert " over 1001" not in write_cost(short)
+    assert " over 1001" not in "".join(tabulate_cost(short))
 
 
 def test_operations_are_those_of_the_published_coefficients():

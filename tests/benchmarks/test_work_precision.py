@@ -9,7 +9,7 @@ from pendula.simulation.simulate import simulate
 from benchmarks import figures, points, work_precision
 from benchmarks.contestants import OURS
 from benchmarks.problems import OUTPUT_STEP, Reference, until
-from benchmarks.tables import write_work_precision
+from benchmarks.tables import tabulate_work_precision
 
 PROBLEM = Problem(
     constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
@@ -69,7 +69,7 @@ def test_the_pair_is_compared_below_the_target(measured):
 
 
 def test_the_table_gives_every_time_beside_its_error(measured):
-    page = write_work_precision(measured)
+    page = "\n\n".join(tabulate_work_precision(measured))
     rows = [line for line in page.splitlines() if line.startswith("| taylor")]
     assert len(rows) == int(np.isfinite(measured["seconds"].sel(contestant="taylor")).sum())
     assert "Not measured: another one is not installed." in page

@@ -1,0 +1,56 @@
+"""The measurements that the project keeps: tables follow from datasets, and words from both."""
+
+import numpy as np
+import pytest
+from helpers import ROOT
+from pendula.datasets.netcdf import read
+
+from benchmarks.tables import tabulate_cost, tabulate_work_precision
+
+FOLDER = ROOT / "tests/baseline/speed"
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return read(FOLDER / "work_precision.nc")
+
+
+@pytest.mark.parametrize(
+    ("name", "tabulate"), [("work_precision", tabulate_work_precision), ("cost", tabulate_cost)]
+)
+def test_the_kept_tables_are_made_from_the_kept_datasets(name, tabulate):
+    page = "\n\n".join(tabulate(read(FOLDER / f"{name}.nc"))) + "\n"
+    assert (FOLDER / f"{name}.md").read_text(encoding="utf-8") == page
+
+
+def least_times(measured, case, error):
+    """Return the least time in which each solver comes within an error, NaN where it does not."""
+    own = measured.sel(case=case, contestant=measured["solver"].values)
+    return own["seconds"].where(own["error"] <= error).min("point").values
+
+
+def test_the_least_times_follow_from_the_points(measured):
+    for case in measured["case"].values:
+        one = measured.sel(case=case)
+        expected = least_times(measured, case, float(one["target"]))
+        np.testing.assert_array_equal(one["best_seconds"], expected)
+
+
+def test_mean_ratios_are_geometric(measured):
+    for peer in measured["peer"].values:
+        ratios = measured["ratio"].sel(peer=peer).dropna("case").values
+        assert int(measured["reached_cases"].sel(peer=peer)) == len(ratios)
+        mean = np.prod(ratios) ** (1 / len(ratios)) if len(ratios) else np.nan
+        np.testing.assert_allclose(measured["mean_ratio"].sel(peer=peer), mean)
+
+
+def test_the_default_solver_is_the_fastest_below_the_error_that_the_configuration_names(measured):
+    names, cases = list(measured["solver"].values), measured["case"].values
+    comment = (ROOT / "config/config.yaml").read_text(encoding="utf-8").partition("taylor:")[0]
+    assert "at errors of 1e-5 and below" in comment
+    fastest = {
+        error: [names[np.nanargmin(least_times(measured, case, error))] for case in cases]
+        for error in (1e-3, 1e-5, 1e-8, 1e-11)
+    }
+    assert all(set(fastest[error]) == {"taylor"} for error in (1e-5, 1e-8, 1e-11))
+    assert "dop853" in fastest[1e-3]
