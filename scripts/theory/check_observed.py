@@ -3,7 +3,7 @@
 import xarray
 from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import read, save
-from pendula.studies.theory.cases import check_cases, check_sweeps
+from pendula.studies.theory.bounds import check_cases, check_sweeps
 
 
 def check_observed(

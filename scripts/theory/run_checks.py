@@ -3,7 +3,7 @@
 import xarray
 from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import save
-from pendula.studies.theory.catalogue import run_check
+from pendula.studies.theory.checks import run_check
 
 
 def run_checks(datasets: list[str], checks: list[str], kernels: list[str] | tuple = ()) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pendula.ledger.verdicts import UndecidableError
+from pendula.problem import Constants
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
 # that none is fitted to the numbers of one row. "Comparable", "the same level", "no drastic
@@ -68,9 +69,9 @@ def mean(trajectory, name: str, component: str) -> float:
     return float(trajectory[name].sel(component=component).mean())
 
 
-def constants(dataset) -> tuple[float, float, float]:
-    """Return (epsilon, gamma, Omega) of a trajectory or a sweep."""
-    return tuple(float(dataset.attrs[name]) for name in ("epsilon", "gamma", "omega"))
+def constants(dataset) -> Constants:
+    """Return the constants of a trajectory or a sweep."""
+    return Constants.of(dataset.attrs)
 
 
 def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair"):

@@ -8,7 +8,7 @@ from pendula.models.tangent import bundle_rates, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
 from pendula.studies.chaos.tangents import grow
-from pendula.studies.theory.linear import finite_rate
+from pendula.studies.theory.linear_stability import finite_rate
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)

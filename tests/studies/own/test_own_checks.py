@@ -6,8 +6,9 @@ from pendula import Case, check, simulate
 from pendula.problem import Problem
 from pendula.studies.own import second_run, sensitivity, statements
 from pendula.studies.theory.bounds import best_bound, extent, theorem_1_bound, widened_bound
-from pendula.studies.theory.linear import gamma_0, infinite_rate
-from pendula.studies.theory.runs import total_energy
+from pendula.studies.theory.equations import total_energy
+from pendula.studies.theory.linear_stability import gamma_0, infinite_rate
+from problems import constants_of
 
 STILL = Case(omega=8, half_width=8, end_time=10)
 SEA = Case(omega=0, half_width=12, end_time=30)
@@ -95,7 +96,7 @@ def test_a_negative_coupling_is_that_of_the_staggered_chain():
     signs = (-1.0) ** np.arange(9)
     for _ in range(50):
         state = rng.normal(size=(2, 9)) + 1j * rng.normal(size=(2, 9))
-        constants, mirrored = (-1.3, 0.4, 2.0), (1.3, 0.4, 7.2)
+        constants, mirrored = constants_of((-1.3, 0.4, 2.0)), constants_of((1.3, 0.4, 7.2))
         energy = total_energy(constants, "dirichlet", state)
         assert energy == pytest.approx(total_energy(mirrored, "dirichlet", signs * state))
         power = float(np.sum(np.abs(state) ** 2))

@@ -3,7 +3,7 @@
 from functools import cache
 
 import pytest
-from pendula.studies.theory.catalogue import run_check
+from pendula.studies.theory.checks import run_check
 
 
 @pytest.fixture(scope="session")

@@ -1,13 +1,13 @@
 """Names the first check that fails on the library on the path: one mutant a process."""
 
 from pendula.datasets.checks import broken
-from pendula.studies.theory.conservation import check_conservation
-from pendula.studies.theory.growth import check_balance
-from pendula.studies.theory.hamiltonian import check_gradient, check_symmetries
-from pendula.studies.theory.pt_symmetry import check_pt_form
-from pendula.studies.theory.spectrum import check_dispersion
+from pendula.problem import Constants
+from pendula.studies.theory.equations import check_conservation, check_gradient, check_symmetries
+from pendula.studies.theory.estimates import check_balance
+from pendula.studies.theory.linear_stability import check_dispersion
+from pendula.studies.theory.other_forms import check_pt_form
 
-CONSTANTS = (1.0, 1.0, -4.0)
+CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 
 CHECKS = {
     "gradient": lambda: check_gradient(CONSTANTS, 3, 1),

@@ -1,5 +1,7 @@
 """The explicit constants of Theorems 1 to 3, and how they fit together."""
 
+from dataclasses import astuple
+
 import numpy as np
 import pytest
 from pendula.studies.theory.bounds import (
@@ -14,19 +16,20 @@ from pendula.studies.theory.bounds import (
     widened_bound,
     widened_delta_0,
 )
-from pendula.studies.theory.inequalities import energy_ratios
-from pendula.studies.theory.runs import total_energy
-from pendula.studies.theory.search import maximise
-from pendula.studies.theory.worst import ring_energy
+from pendula.studies.theory.equations import total_energy
+from pendula.studies.theory.estimates import energy_ratios
+from pendula.studies.theory.worst_data import maximise, ring_energy
+from problems import constants_of
 
-NEGATIVE = (1.0, 1.0, -4.0)
-PARAMETERS = [NEGATIVE, (0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0)]
+NEGATIVE = constants_of((1.0, 1.0, -4.0))
+OTHERS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
+PARAMETERS = [NEGATIVE, *map(constants_of, OTHERS)]
 
 
 def start_of(omega, pair):
     amplitudes = np.zeros((2, 61), complex)
     amplitudes[:, 30] = pair
-    constants = (1.0, 1.0, omega)
+    constants = constants_of((1.0, 1.0, omega))
     power = float(np.sum(np.abs(amplitudes) ** 2))
     return total_energy(constants, "dirichlet", amplitudes), power, constants
 
@@ -63,7 +66,7 @@ def test_numbers_at_omega_minus_4():
     assert widened_delta_0(NEGATIVE) == pytest.approx(1.340, abs=1e-3)
     energy, power, _ = start_of(-4.0, (1.0, 0.1))
     assert widened_bound(energy, power, NEGATIVE) == pytest.approx(3.3858, abs=1e-4)
-    assert theorem_1_bound(5.5, (1.0, 1.0, 8.0)) == 2.75
+    assert theorem_1_bound(5.5, constants_of((1.0, 1.0, 8.0))) == 2.75
 
 
 @pytest.mark.parametrize("constants", PARAMETERS)
@@ -88,7 +91,7 @@ def test_barrier_is_the_maximum_of_the_coercivity(constants):
 
 @pytest.mark.parametrize("constants", PARAMETERS)
 def test_coercivity_takes_the_worst_split_between_a_and_b(constants):
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = astuple(constants)
     angle = np.linspace(0.0, np.pi / 4, 20001)
     for power in (0.5, 3.0, 7.0, 12.0):
         p, q = power * np.cos(angle) ** 2, power * np.sin(angle) ** 2

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.datasets.checks import broken, variable
-from pendula.studies.theory.catalogue import CHECKS, GROUPS, run_check
+from pendula.studies.theory.checks import CHECKS, GROUPS, run_check
 
 
 @pytest.mark.parametrize("name", CHECKS)

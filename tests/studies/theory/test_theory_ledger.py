@@ -10,7 +10,7 @@ from made_up_unbounded import spread, unbounded_runs
 from pendula.ledger.claims import CLAIMS
 from pendula.ledger.evaluate import decide, evaluate, needed
 from pendula.ledger.verdicts import Verdict
-from pendula.studies.theory.catalogue import CHECKS
+from pendula.studies.theory.checks import CHECKS
 
 HOLDS = {Verdict.CONFIRMED, Verdict.CAVEAT}
 CLAIM = {claim.name: claim for claim in CLAIMS}

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.studies.theory.linear import (
+from pendula.studies.theory.linear_stability import (
     finite_rate,
     finite_threshold,
     gamma_0,

@@ -10,37 +10,38 @@ import pytest
 
 LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
 MUTANTS = Path(__file__).parent / "mutants.py"
+MODEL = "models/amplitudes.py"
 
 MUTATIONS = {
-    "sign of the cubic term": ("chain.py", "+ 0.5 * density * u", "- 0.5 * density * u"),
-    "factor of the cubic term": ("chain.py", "+ 0.5 * density * u", "+ density * u"),
-    "sign of the coupling": ("chain.py", "return coupling +", "return -coupling +"),
-    "sign of Omega": ("chain.py", "+ chain.omega * u", "- chain.omega * u"),
-    "sign of the drive": ("chain.py", "+ drive * (partner - u)", "- drive * (partner - u)"),
-    "twice gamma": ("chain.py", "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
-    "drive without the own part": ("chain.py", "drive * (partner - u)", "drive * partner"),
-    "drive not conjugated": ("chain.py", "chain, -gamma, y[im", "chain, gamma, y[im"),
-    "free ends for Dirichlet": ("chain.py", "chain.left == FREE", "chain.left <= FREE"),
-    "Dirichlet ends for free": ("chain.py", "chain.right == FREE", "chain.right == MIRROR"),
-    "ring joined wrongly": ("chain.py", "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
-    "lost end bonds": ("energy.py", "chain.left != PERIODIC", "False"),
-    "twice the bonds": ("energy.py", "chain.epsilon * on_bonds", "2 * chain.epsilon * on_bonds"),
-    "sign of the drive's energy": ("energy.py", "drive = chain.gamma", "drive = -chain.gamma"),
-    "quartic term": ("energy.py", "out[j] = density * (0.25", "out[j] = density * (0.5"),
+    "sign of the cubic term": (MODEL, "+ 0.5 * squared_modulus * u", "- 0.5 * squared_modulus * u"),
+    "factor of the cubic term": (MODEL, "+ 0.5 * squared_modulus * u", "+ squared_modulus * u"),
+    "sign of the coupling": (MODEL, "return coupling +", "return -coupling +"),
+    "sign of Omega": (MODEL, "+ chain.omega * u", "- chain.omega * u"),
+    "sign of the drive": (MODEL, "+ drive * (partner - u)", "- drive * (partner - u)"),
+    "twice gamma": (MODEL, "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
+    "drive without the own part": (MODEL, "drive * (partner - u)", "drive * partner"),
+    "drive not conjugated": (MODEL, "chain, -gamma, y[im, j - 1]", "chain, gamma, y[im, j - 1]"),
+    "free ends for Dirichlet": (MODEL, "chain.left == FREE", "chain.left <= FREE"),
+    "Dirichlet ends for free": (MODEL, "chain.right == FREE", "chain.right == MIRROR"),
+    "ring joined wrongly": (MODEL, "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
+    "lost end bonds": (MODEL, "n < reach or chain.left != PERIODIC", "n < reach"),
+    "twice the bonds": (MODEL, "chain.epsilon * on_bonds", "2 * chain.epsilon * on_bonds"),
+    "sign of the drive's energy": (MODEL, "drive = chain.gamma", "drive = -chain.gamma"),
+    "quartic term": (MODEL, "out[j] = square * (0.25", "out[j] = square * (0.5"),
 }  # fmt: skip
 
 CONSISTENT = {
     "twice gamma in both": [
-        ("chain.py", "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
-        ("energy.py", "drive = chain.gamma", "drive = 2.0 * chain.gamma"),
+        (MODEL, "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
+        (MODEL, "drive = chain.gamma", "drive = 2.0 * chain.gamma"),
     ],
     "sign of gamma in both": [
-        ("chain.py", "+ drive * (partner - u)", "- drive * (partner - u)"),
-        ("energy.py", "drive = chain.gamma", "drive = -chain.gamma"),
+        (MODEL, "+ drive * (partner - u)", "- drive * (partner - u)"),
+        (MODEL, "drive = chain.gamma", "drive = -chain.gamma"),
     ],
     "free ends in both": [
-        ("chain.py", "chain.left == FREE", "chain.left <= FREE"),
-        ("chain.py", "chain.right == FREE", "chain.right <= FREE"),
+        (MODEL, "chain.left == FREE", "chain.left <= FREE"),
+        (MODEL, "chain.right == FREE", "chain.right <= FREE"),
     ],
 }
 
@@ -48,7 +49,7 @@ CONSISTENT = {
 def failing_check(folder, edits) -> str:
     """Return the first check that fails on a library with these edits, run as plain Python."""
     scripts = folder / "scripts"
-    skip = shutil.ignore_patterns("__pycache__", "plots")
+    skip = shutil.ignore_patterns("__pycache__", "drawing")
     shutil.copytree(LIBRARY, scripts / "pendula", ignore=skip)
     for name, old, new in edits:
         path = scripts / "pendula" / name

@@ -2,9 +2,10 @@
 
 import numpy as np
 from oracle import BOUNDARIES, hamiltonian
-from pendula.studies.theory.runs import run, run_powers, squared_norm
+from pendula.studies.theory.equations import run, run_powers, squared_norm
+from problems import constants_of
 
-TIMES = [0.0, 0.5, 1.0]
+END, OUTPUTS = 1.0, 2
 
 
 def draw(runs):
@@ -15,11 +16,19 @@ def draw(runs):
     return constants, boundaries, rng.normal(size=(runs, 2, 3, 2)) @ (1.0, 1j)
 
 
+def run_drawn(constants, boundaries, data):
+    return run_powers(
+        [constants_of(numbers) for numbers in constants], boundaries, data, END, OUTPUTS
+    )
+
+
 def test_each_run_keeps_its_place_its_ends_and_its_parameters():
     constants, boundaries, data = draw(7)
-    powers, energies = run_powers(constants, boundaries, data, TIMES)
+    powers, energies = run_powers(
+        list(map(constants_of, constants)), boundaries, data, END, OUTPUTS
+    )
     for i, boundary in enumerate(boundaries):
-        alone = run(constants[i], boundary, data[i], TIMES)
+        alone = run(constants_of(constants[i]), boundary, data[i], END, OUTPUTS)
         np.testing.assert_allclose(powers[i], squared_norm(alone.l2), rtol=1e-10)
         np.testing.assert_allclose(energies[i], hamiltonian(data[i], constants[i], boundary))
 
@@ -27,7 +36,9 @@ def test_each_run_keeps_its_place_its_ends_and_its_parameters():
 def test_a_run_that_is_refused_has_an_infinite_power_after_its_start():
     constants, boundaries, data = draw(4)
     constants[2, 0] = 1e300
-    powers, energies = run_powers(constants, boundaries, data, TIMES)
+    powers, energies = run_powers(
+        list(map(constants_of, constants)), boundaries, data, END, OUTPUTS
+    )
     lost = np.zeros((4, 3), bool)
     lost[2, 1:] = True
     np.testing.assert_array_equal(powers == np.inf, lost)

@@ -8,7 +8,7 @@ import numpy as np
 from pendula.models.linear_flow import flow
 from pendula.problem import Constants, Problem, on_sites, place
 from pendula.simulation.simulate import Trajectory, simulate
-from pendula.studies.theory.linear import gamma_0
+from pendula.studies.theory.linear_stability import gamma_0
 
 OUTPUTS = 5
 

@@ -7,9 +7,14 @@ import xarray as xr
 
 from pendula.datasets.checks import table, variable
 from pendula.problem import Problem
-from pendula.studies.theory.cases import NUMBERS, case_numbers
-from pendula.studies.theory.growth import integrated_balance
-from pendula.studies.theory.linear import finite_rate, finite_threshold, gamma_0, infinite_rate
+from pendula.studies.theory.bounds import NUMBERS, case_numbers
+from pendula.studies.theory.estimates import integrated_balance
+from pendula.studies.theory.linear_stability import (
+    finite_rate,
+    finite_threshold,
+    gamma_0,
+    infinite_rate,
+)
 
 RADIANS, PANELS = 40.0, 24
 """The balance of Lemma 2 is integrated while the data turn by so much, on so many panels."""
@@ -48,9 +53,10 @@ def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
 
     The state is carried by `solver` from node to node, and the balance integrated over them.
     """
-    constants, amplitudes = astuple(problem.constants), problem.amplitudes
+    constants, amplitudes = problem.constants, problem.amplitudes
     start, largest = float(np.sum(np.abs(amplitudes) ** 2)), float(run["linf"].max()) ** 2
-    rate = 4 * abs(constants[0]) + 2 * abs(constants[1]) + abs(constants[2]) + largest
+    linear = 4 * abs(constants.epsilon) + 2 * abs(constants.gamma) + abs(constants.omega)
+    rate = linear + largest
     span = min(problem.end_time, RADIANS / rate) if rate else problem.end_time
     change, integral = integrated_balance(
         constants, problem.boundary, amplitudes, span, PANELS, solver

@@ -17,41 +17,69 @@ epsilon is -epsilon and Omega is Omega - 4 epsilon: see `with_positive_coupling`
 Theorem 3 (N sites): H >= P^2 / (8 N) - c P, hence P <= C_N = 4 N (c + sqrt(c^2 + H / (2 N))).
 """
 
+from collections.abc import Mapping
+from dataclasses import astuple, replace
+
 import numpy as np
+import xarray as xr
+
+from pendula.datasets.checks import table, variable
+from pendula.measures.readings import growth_margin, powers
+from pendula.problem import Constants, on_sites, place, read_initial
+
+from .equations import total_energy
+
+NUMBERS = {
+    "energy": "H at the start",
+    "start": "P at the start, delta",
+    "observed": "largest P",
+    "theorem_1": "C of Theorem 1",
+    "theorem_2": "bound on P from the barrier of (25)",
+    "widened": "the same with the bonds kept",
+    "theorem_3": "C_N of Theorem 3",
+    "best": "smallest bound that holds",
+    "delta_0": "radius of Theorem 2",
+    "c_0": "constant C_0 of Theorem 2",
+    "from_start": "largest P over its bound (19)",
+    "backwards": "the same seen from the end",
+    "steepest": "steepest log P over 4 gamma",
+}
 
 
-def with_positive_coupling(constants) -> tuple[float, float, float]:
-    """Return (epsilon, gamma, Omega) of the staggered chain where epsilon is negative."""
-    epsilon, gamma, omega = constants
-    return (epsilon, gamma, omega) if epsilon >= 0 else (-epsilon, gamma, omega - 4.0 * epsilon)
+def with_positive_coupling(constants: Constants) -> Constants:
+    """Return the constants of the staggered chain where epsilon is negative."""
+    if constants.epsilon >= 0:
+        return constants
+    omega = constants.omega - 4.0 * constants.epsilon
+    return replace(constants, epsilon=-constants.epsilon, omega=omega)
 
 
-def extent(constants) -> float:
+def extent(constants: Constants) -> float:
     """Return c = |Omega| + 2 gamma + 4 epsilon, the corrected constant of Theorem 3's proof."""
-    epsilon, gamma, omega = with_positive_coupling(constants)
-    return abs(omega) + 2.0 * abs(gamma) + 4.0 * epsilon
+    k = with_positive_coupling(constants)
+    return abs(k.omega) + 2.0 * abs(k.gamma) + 4.0 * k.epsilon
 
 
-def theorem_1_bound(energy, constants):
+def theorem_1_bound(energy, constants: Constants):
     """Return C of Theorem 1; infinite outside its range of parameters."""
-    epsilon, gamma, omega = with_positive_coupling(constants)
-    gap = omega - 2.0 * abs(gamma) - 4.0 * epsilon
+    k = with_positive_coupling(constants)
+    gap = k.omega - 2.0 * abs(k.gamma) - 4.0 * k.epsilon
     return np.asarray(energy) / gap if gap > 0 else np.full(np.shape(energy), np.inf)
 
 
-def theorem_2_gap(constants) -> float:
+def theorem_2_gap(constants: Constants) -> float:
     """Return a = |Omega| - 2 gamma where Omega < -2 gamma, and otherwise 0."""
-    _, gamma, omega = with_positive_coupling(constants)
-    return max(0.0, -omega - 2.0 * abs(gamma))
+    k = with_positive_coupling(constants)
+    return max(0.0, -k.omega - 2.0 * abs(k.gamma))
 
 
-def theorem_2_constants(constants) -> tuple[float, float]:
+def theorem_2_constants(constants: Constants) -> tuple[float, float]:
     """Return (delta_0, C_0) of Theorem 2, (0, inf) outside its range of parameters."""
     a, c = theorem_2_gap(constants), extent(constants)
     return (a * a / c, 2.0 * c / a) if a > 0 else (0.0, np.inf)
 
 
-def theorem_2_bound(energy, start, constants):
+def theorem_2_bound(energy, start, constants: Constants):
     """Return the smaller root of f(P) = -H for data with P(0) = `start`; infinite outside."""
     a = theorem_2_gap(constants)
     energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
@@ -63,7 +91,7 @@ def theorem_2_bound(energy, start, constants):
     return np.where(inside, 2.0 * -energy / a / (1.0 + root), np.inf)
 
 
-def coercivity(power, constants):
+def coercivity(power, constants: Constants):
     """Return a lower bound of -H at P = `power` that keeps the bonds (25) drops: Theorem 2 widened.
 
     On Z, and on a chain with sites at rest beyond its ends, max |A_n|^2 <= |A| |grad A| in l2, so
@@ -72,7 +100,7 @@ def coercivity(power, constants):
     -H >= |Omega| P - gamma P (1 + s) - P^3 (1 - 3 s^2 / 4) / (64 epsilon), here at its least s.
     Concave in P. Does not hold on a ring or with free ends, where a constant has no gradient.
     """
-    epsilon, gamma, omega = with_positive_coupling(constants)
+    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
     power = np.asarray(power, dtype=float)
     cubic = power**2 / (64.0 * epsilon)
     with np.errstate(divide="ignore", over="ignore"):
@@ -80,14 +108,14 @@ def coercivity(power, constants):
     return power * (abs(omega) - abs(gamma) * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
 
 
-def widened_barrier(constants) -> tuple[float, float]:
+def widened_barrier(constants: Constants) -> tuple[float, float]:
     """Return (P, -H) at the top of `coercivity`, (0, 0) where Theorem 2 does not apply.
 
     The slope vanishes at P^2 = 256 epsilon a / 3 as long as s = 1 there, that is 2 a <= gamma,
     and else at P^2 = (32 epsilon / 3) (m + sqrt(m^2 + 4 gamma^2)) with m = |Omega| - gamma.
     With epsilon = gamma = 1, Omega = -4 the top is 13.4 at P = 8.4; (25) has 4 at P = 4.
     """
-    epsilon, gamma, omega = with_positive_coupling(constants)
+    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
     a = theorem_2_gap(constants)
     if a == 0 or epsilon == 0:
         return 0.0, 0.0
@@ -99,13 +127,13 @@ def widened_barrier(constants) -> tuple[float, float]:
     return float(top), float(coercivity(top, constants))
 
 
-def widened_delta_0(constants) -> float:
+def widened_delta_0(constants: Constants) -> float:
     """Return the radius in P that the widened Theorem 2 covers: -H <= c delta below the barrier."""
     top, barrier = widened_barrier(constants)
     return min(top, barrier / extent(constants))
 
 
-def widened_bound(energy, start, constants):
+def widened_bound(energy, start, constants: Constants):
     """Return the smaller root of coercivity(P) = -H by bisection; infinite if not covered."""
     top, barrier = widened_barrier(constants)
     energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
@@ -118,7 +146,7 @@ def widened_bound(energy, start, constants):
     return np.where(inside, high, np.inf)
 
 
-def theorem_3_bound(energy, sites: int, constants):
+def theorem_3_bound(energy, sites: int, constants: Constants):
     """Return C_N of Theorem 3."""
     c = extent(constants)
     # a state at the very bottom of H may round below it
@@ -126,7 +154,7 @@ def theorem_3_bound(energy, sites: int, constants):
     return 4.0 * sites * (c + np.sqrt(inner))
 
 
-def proven_region(energy: float, start: float, constants, boundary: str) -> str:
+def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
     """Return which theorem bounds P independently of N: the ledger's word for a case's standing."""
     if np.isfinite(theorem_1_bound(energy, constants)):
         return "theorem 1"
@@ -139,7 +167,9 @@ def proven_region(energy: float, start: float, constants, boundary: str) -> str:
     return "none"
 
 
-def best_bound(energy: float, start: float, sites: int, constants, boundary: str) -> float:
+def best_bound(
+    energy: float, start: float, sites: int, constants: Constants, boundary: str
+) -> float:
     """Return the smallest of the bounds that hold for these data."""
     bounds = [
         theorem_1_bound(energy, constants),
@@ -149,3 +179,86 @@ def best_bound(energy: float, start: float, sites: int, constants, boundary: str
     if boundary == "dirichlet":
         bounds.append(widened_bound(energy, start, constants))
     return float(min(bounds))
+
+
+def case_numbers(trajectory: xr.Dataset) -> tuple[dict[str, float], str]:
+    """Return the numbers of one trajectory named in NUMBERS, and the theorem that covers it."""
+    constants, boundary = Constants.of(trajectory.attrs), str(trajectory.attrs["boundary"])
+    sites = 2 * int(trajectory.attrs["half_width"]) + 1
+    energy, power = float(trajectory["energy"][0]), powers(trajectory)
+    start = float(power[0])
+    widened = widened_bound(energy, start, constants) if boundary == "dirichlet" else np.inf
+    delta_0, c_0 = theorem_2_constants(constants)
+    numbers = {
+        "energy": energy,
+        "start": start,
+        "observed": power.max(),
+        "theorem_1": theorem_1_bound(energy, constants),
+        "theorem_2": theorem_2_bound(energy, start, constants),
+        "widened": widened,
+        "theorem_3": theorem_3_bound(energy, sites, constants),
+        "best": best_bound(energy, start, sites, constants, boundary),
+        "delta_0": delta_0,
+        "c_0": c_0,
+    }
+    tau, l2 = trajectory["tau"].values, trajectory["l2"].values
+    numbers |= growth_margin(tau, l2, constants.gamma)
+    region = proven_region(energy, start, constants, boundary)
+    return {name: float(value) for name, value in numbers.items()}, region
+
+
+def labels(datasets, dims: tuple) -> dict:
+    """Return the detuning and the initial data of each dataset, by which a figure names it."""
+    return {
+        "omega": variable([float(ds.attrs["omega"]) for ds in datasets], dims, "detuning Omega"),
+        "initial": variable(
+            [str(ds.attrs["initial"]) for ds in datasets], dims, "initial {site: [A, B]}"
+        ),
+    }
+
+
+def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
+    """Set each of the paper's trajectories (by the name of its case) beside its bounds."""
+    found = [case_numbers(trajectory) for trajectory in trajectories.values()]
+    columns = {name: [numbers[name] for numbers, _ in found] for name in NUMBERS}
+    dims = ("case",)
+    ratio = np.array(columns["observed"]) / np.array(columns["best"])
+    described = {name: variable(columns[name], dims, text) for name, text in NUMBERS.items()}
+    return table(
+        "The paper's cases beside the bounds of its theorems",
+        {"case": list(trajectories)},
+        region=variable([region for _, region in found], dims, "theorem that covers the case"),
+        ratio=variable(ratio, dims, "largest P over its smallest bound", tolerance=1.0),
+        margin=variable(columns["steepest"], dims, "growth over that of (19)", tolerance=1 + 1e-6),
+        **labels(trajectories.values(), dims),
+        **described,
+    )
+
+
+def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
+    """Set the largest P of each swept chain beside its bounds, that of Theorem 3 growing with N."""
+    half_widths = np.unique(np.concatenate([s["half_width"].values for s in sweeps.values()]))
+    shape, dims = (len(sweeps), len(half_widths)), ("sweep", "half_width")
+    observed, finite, best = (np.full(shape, np.nan) for _ in range(3))
+    for i, sweep in enumerate(sweeps.values()):
+        constants, boundary = Constants.of(sweep.attrs), str(sweep.attrs["boundary"])
+        peaks = sweep["l2"].sel(quantity="pair", statistic="max").max("window").values ** 2
+        for half_width, peak in zip(sweep["half_width"].values, peaks, strict=True):
+            j, sites = np.searchsorted(half_widths, half_width), 2 * int(half_width) + 1
+            amplitudes = place(on_sites(read_initial(sweep.attrs["initial"])), int(half_width))
+            energy = total_energy(constants, boundary, amplitudes)
+            start = float(np.sum(np.abs(amplitudes) ** 2))
+            observed[i, j] = peak
+            finite[i, j] = theorem_3_bound(energy, sites, constants)
+            best[i, j] = best_bound(energy, start, sites, constants, boundary)
+    return table(
+        "The paper's sweeps beside the bounds of its theorems",
+        {"sweep": list(sweeps), "half_width": half_widths},
+        observed=variable(observed, dims, "largest P in the windows"),
+        theorem_3=variable(finite, dims, "C_N of Theorem 3"),
+        best=variable(best, dims, "smallest bound that holds"),
+        **labels(sweeps.values(), ("sweep",)),
+        excess=variable(
+            np.nanmax(observed / best), (), "largest P over its smallest bound", tolerance=1.0
+        ),
+    )

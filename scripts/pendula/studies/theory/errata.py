@@ -13,7 +13,7 @@ from .bounds import (
     widened_bound,
     widened_delta_0,
 )
-from .runs import run, total_energy
+from .equations import TIGHT, run, squared_norm, total_energy
 
 
 def alternating(sites: int, x: float) -> np.ndarray:
@@ -22,21 +22,22 @@ def alternating(sites: int, x: float) -> np.ndarray:
     return np.stack([wave, -wave]).astype(complex)
 
 
-def theorem_3_margin(constants, amplitudes: np.ndarray, boundary: str, drive: float) -> float:
+def theorem_3_margin(
+    constants: Constants, amplitudes: np.ndarray, boundary: str, drive: float
+) -> float:
     """Return H minus the lower bound of Theorem 3's proof with `drive` times gamma in it.
 
     The paper prints one, the right number is two. The quartic terms of both sides are equal, so
     that the sign does not depend on the size of the data.
     """
-    epsilon, gamma, omega = constants
     density = np.abs(amplitudes) ** 2
     quartic = np.sum(density**2, axis=1)
-    constant = abs(omega) + drive * gamma + 4.0 * epsilon
+    constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
     linear = constant * np.sqrt(amplitudes.shape[1]) * np.sum(np.sqrt(quartic))
     return total_energy(constants, boundary, amplitudes) - (0.25 * quartic.sum() - linear)
 
 
-def check_theorem_3_constant(constants, x: float = 0.1, longest: int = 9) -> dict:
+def check_theorem_3_constant(constants: Constants, x: float = 0.1, longest: int = 9) -> dict:
     """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails."""
     sizes = np.arange(1, longest + 1, 2)
     margins = np.array(
@@ -60,7 +61,7 @@ def check_theorem_3_constant(constants, x: float = 0.1, longest: int = 9) -> dic
     )
 
 
-def check_theorem_2_case(constants, pair=(1.0, 0.1), sites: int = 61) -> dict:
+def check_theorem_2_case(constants: Constants, pair=(1.0, 0.1), sites: int = 61) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair
@@ -84,7 +85,7 @@ def check_theorem_2_case(constants, pair=(1.0, 0.1), sites: int = 61) -> dict:
     )
 
 
-def check_negative_depth(constants, longest: float = 10.0) -> dict:
+def check_negative_depth(constants: Constants, longest: float = 10.0) -> dict:
     """Find where -H > 0, which Theorem 2's proof takes for granted, fails: one pair (x, 0).
 
     By (25) -H is positive for P < 4 a; beyond, the quartic term wins.
@@ -130,16 +131,42 @@ def check_energy_drift(solver: dict, end_time: float = 10.0, omegas=(8.0, -4.0, 
     )
 
 
-def check_opposite(constants, sites: int, end_time: float, seed: int = 11) -> dict:
+def check_opposite(constants: Constants, sites: int, end_time: float, seed: int = 11) -> dict:
     """Show that A = -B is invariant too: the drive acts there as -2 gamma conj(A).
 
     The paper mentions A = B alone, where the drive is silent.
     """
     rng = np.random.default_rng(seed)
     a = rng.normal(size=sites) + 1j * rng.normal(size=sites)
-    final = run(constants, "dirichlet", np.stack([a, -a]), [0.0, end_time]).final
+    final = run(constants, "dirichlet", np.stack([a, -a]), end_time).final
     return table(
         "The second invariant reduction, A = -B",
         {},
         departure=variable(np.abs(final[0] + final[1]).max(), (), "|A + B|", tolerance=0.0),
+    )
+
+
+def check_not_shown(
+    half_widths, window=(10.0, 50.0), omega: float = 8.0, solver: dict | None = None
+) -> dict:
+    """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
+    peaks = []
+    for half_width in half_widths:
+        trajectory = simulate(
+            Problem(
+                constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
+                half_width=int(half_width),
+                boundary="dirichlet",
+                initial=on_sites({0: (1.0, 0.1)}),
+                end_time=window[1],
+                output_step=0.025,
+                solver=solver or TIGHT | {"rtol": 1e-9},
+            )
+        )
+        inside = trajectory.tau >= window[0]
+        peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
+    return table(
+        f"Largest l2 on [{window[0]:g}, {window[1]:g}] at Omega = {omega:g}, small data",
+        {"half_width": np.asarray(half_widths)},
+        l2=variable(peaks, ("half_width",), "largest l2 norm of the pair"),
     )

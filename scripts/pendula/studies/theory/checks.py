@@ -2,30 +2,25 @@
 
 import numpy as np
 
-from .cases import check_not_shown
-from .conservation import check_conservation
+from pendula.problem import Constants
+
+from .equations import check_conservation, check_gradient, check_symmetries
 from .errata import (
     check_energy_drift,
     check_negative_depth,
+    check_not_shown,
     check_opposite,
     check_theorem_2_case,
     check_theorem_3_constant,
 )
-from .groups import GROUPS as GROUPS
-from .growth import check_balance, check_growth
-from .hamiltonian import check_gradient, check_symmetries
-from .inequalities import check_inequalities
-from .linear import check_windows
-from .newton import check_expansion
-from .pt_symmetry import check_pt_form
-from .sampling import check_samples
-from .spectrum import check_dispersion
-from .stability import check_chart, check_measured_windows
-from .threshold import check_threshold
-from .worst import check_worst
+from .estimates import check_balance, check_growth, check_inequalities
+from .linear_stability import check_dispersion, check_windows
+from .other_forms import check_expansion, check_pt_form
+from .stability_chart import check_chart, check_measured_windows, check_threshold
+from .worst_data import check_samples, check_worst
 
 PAPER = {"gamma": 1.0, "epsilon": 1.0}
-NEGATIVE, ZERO = (1.0, 1.0, -4.0), (1.0, 1.0, 0.0)  # (epsilon, gamma, Omega)
+NEGATIVE, ZERO = Constants(**PAPER, omega=-4.0), Constants(**PAPER, omega=0.0)
 POINTS = [(-4.0, 1.0), (-4.0, 2.0), (0.0, 1.0), (2.0, 0.01), (4.0, 0.5), (8.0, 1.0), (8.0, 2.0)]
 ODE45 = {"name": "ode45", "rtol": 1e-7, "atol": 1e-9}
 CHART = {

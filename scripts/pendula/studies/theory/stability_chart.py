@@ -1,12 +1,15 @@
-"""The stability chart measured: growth of tiny data under the full equations."""
+"""Lemma 1 measured: how fast tiny data grow under the full equations, on and off the thresholds."""
+
+from dataclasses import astuple
 
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.models.linear_flow import flow
+from pendula.models.linear_flow import driven, flow, modes
+from pendula.problem import Constants
 
-from .linear import finite_rate, finite_threshold, gamma_0, infinite_rate, stable_windows
-from .runs import random_amplitudes, run_powers
+from .equations import random_amplitudes, run, run_powers
+from .linear_stability import finite_rate, finite_threshold, gamma_0, infinite_rate, stable_windows
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
@@ -23,9 +26,11 @@ def log_slope(start: float, end: float, span: float) -> float:
     return 0.5 * float(np.log(end / start)) / span
 
 
-def flow_slope(amplitudes: np.ndarray, constants, boundary: str, end_time: float) -> float:
+def flow_slope(
+    amplitudes: np.ndarray, constants: Constants, boundary: str, end_time: float
+) -> float:
     """Return what the exact linear flow gives for the growth rate over the second half."""
-    epsilon, gamma, omega = constants
+    epsilon, gamma, omega = astuple(constants)
     norms = []
     for tau in (0.5 * end_time, end_time):
         moved = flow(amplitudes, tau, epsilon, gamma, omega, boundary)
@@ -35,10 +40,9 @@ def flow_slope(amplitudes: np.ndarray, constants, boundary: str, end_time: float
 
 def measured_slopes(cells, boundary: str, data: np.ndarray, end_time: float) -> np.ndarray:
     """Return the growth rates of TINY * data over the second half of nonlinear runs, by cell."""
-    times = [0.0, 0.5 * end_time, end_time]
     count = len(cells)
     starts = [TINY * data] * count
-    powers, _ = run_powers(cells, [boundary] * count, starts, times, tiny_tolerances())
+    powers, _ = run_powers(cells, [boundary] * count, starts, end_time, 2, tiny_tolerances())
     return np.array([log_slope(p[1], p[2], 0.5 * end_time) for p in powers])
 
 
@@ -71,7 +75,7 @@ def check_chart(
     times = running_times(gammas, end_time, foldings)
     measured, exact = [], []
     for gamma, end in zip(gammas, times, strict=True):
-        cells = [(epsilon, gamma, omega) for omega in omegas]
+        cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
         measured.append(measured_slopes(cells, boundary, data, end))
         exact.append([flow_slope(data, cell, boundary, end) for cell in cells])
     measured, exact, dims = np.array(measured).T, np.array(exact).T, ("omega", "gamma")
@@ -135,7 +139,7 @@ def check_measured_windows(
     edges = windows.ravel()[1:-1].reshape(-1, 2)
     omegas = np.sort(np.concatenate([windows.mean(axis=1), edges.mean(axis=1)]))
     data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
-    cells = [(epsilon, gamma, omega) for omega in omegas]
+    cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     measured = measured_slopes(cells, boundary, data, end_time)
     finite = finite_rate(omegas, gamma, epsilon, sites, boundary)
     return table(
@@ -146,4 +150,101 @@ def check_measured_windows(
         misclassified=variable(
             misclassified(measured, finite, end_time), (), "contradictions", tolerance=0
         ),
+    )
+
+
+def threshold_run(epsilon: float, omega: float, sites: int, boundary: str, mode: int, times):
+    """Return |Im D| / (4 gamma tau |D_0|) of a mode run at exactly its own threshold.
+
+    D = A - B starts real in the mode with kappa = +- 2 gamma, where (14) makes its other part
+    grow as 4 gamma tau: the ratio is one.
+    """
+    shape = modes(sites, boundary)[mode]
+    gamma = float(finite_threshold(omega, epsilon, sites, boundary))
+    constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+    along_real = omega < 0  # kappa = 2 gamma > 0 feeds the imaginary part, kappa < 0 the real one
+    start = 0.5 * TINY * shape * (1.0 if along_real else 1j)
+    data = np.stack([start, -start]).astype(complex)
+    ratios, solver = [], {"name": "dop853", **tiny_tolerances(1e-12)}
+    for tau in times:
+        final = run(constants, boundary, data, tau, solver=solver).final
+        grown = (final[0] - final[1]) @ shape / TINY
+        ratios.append(abs(grown.imag if along_real else grown.real) / (4.0 * gamma * tau))
+    return gamma, np.array(ratios)
+
+
+def spreading_norms(epsilon: float, omega: float, times, sites: int):
+    """Return l2 and l-infinity norms of D at |gamma| = gamma_0 on the infinite chain, (2, time).
+
+    One site is set to D = 1 + i; a ring so long that no wave returns stands for the infinite
+    chain.
+    """
+    gamma = float(gamma_0(omega, epsilon))
+    kappa = epsilon * curvature_of_ring(sites) - omega
+    norms = []
+    for tau in times:
+        even, odd = driven(kappa, gamma, tau)
+        p = even + (2.0 * gamma - kappa) * odd
+        q = even + (2.0 * gamma + kappa) * odd
+        field = np.fft.ifft(p).real + 1j * np.fft.ifft(q).real
+        norms.append([np.sqrt(np.sum(np.abs(field) ** 2)), np.abs(field).max()])
+    return np.array(norms).T
+
+
+def curvature_of_ring(sites: int) -> np.ndarray:
+    """Return lambda of each wave of a ring in the order of the fast Fourier transform."""
+    return 4.0 * np.sin(np.pi * np.arange(sites) / sites) ** 2
+
+
+def exponent(times, norms) -> float:
+    """Return the power of time that fits the last two of the norms."""
+    return float(np.log(norms[-1] / norms[-2]) / np.log(times[-1] / times[-2]))
+
+
+def check_threshold(epsilon: float, sites: int, omegas=(-4.0, 8.0)) -> dict:
+    """Test the polynomial growth at |gamma| = gamma_0 that Lemma 1 ends with.
+
+    A single wave grows linearly in time, on a finite chain at its own threshold. From data in l2
+    the infinite chain grows at gamma_0 only as tau^(1/2) in l2, and not at all in l-infinity: the
+    band's edge is one wave number. A finite Dirichlet chain is stable there, its threshold being
+    higher.
+    """
+    times = np.array([2.5, 5.0, 10.0, 20.0, 40.0])
+    long_times = 25.0 * 2.0 ** np.arange(6)
+    ratio, thresholds, spreading = [], [], []
+    for omega in omegas:
+        mode = 0 if omega < 0 else sites - 1
+        gamma, ratios = threshold_run(epsilon, omega, sites, "dirichlet", mode, times)
+        ratio.append(ratios)
+        thresholds.append(gamma)
+        spreading.append(spreading_norms(epsilon, omega, long_times, 8192))
+    thresholds, dims = np.array(thresholds), ("omega",)
+    l2, linf = ([exponent(long_times, norms[i]) for norms in spreading] for i in range(2))
+    gap = thresholds - gamma_0(np.asarray(omegas, float), epsilon)
+    return table(
+        "Growth exactly at the threshold of Lemma 1",
+        {
+            "omega": np.asarray(omegas, float),
+            "tau": times,
+            "norm": ["l2", "linf"],
+            "long_tau": long_times,
+        },
+        ratio=variable(ratio, ("omega", "tau"), "growth of the threshold mode over 4 gamma tau"),
+        error=variable(
+            np.abs(np.array(ratio) - 1.0).max(axis=1), dims, "its distance to one", tolerance=1e-8
+        ),
+        grown=variable(
+            4.0 * thresholds[:, None] * times * np.array(ratio),
+            ("omega", "tau"),
+            "growth of the threshold mode, |Im D| / |D(0)|",
+        ),
+        threshold=variable(thresholds, dims, "threshold of the finite chain"),
+        spreading=variable(
+            spreading,
+            ("omega", "norm", "long_tau"),
+            "norm of D at gamma_0 on the infinite chain from one site D = 1 + i",
+        ),
+        finite_gap=variable(gap, dims, "threshold of the finite chain minus gamma_0"),
+        l2_exponent=variable(l2, dims, "power of tau in l2 on the infinite chain at gamma_0"),
+        linf_exponent=variable(linf, dims, "the same in l-infinity"),
     )

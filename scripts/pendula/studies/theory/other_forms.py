@@ -1,0 +1,226 @@
+"""The paper's other forms of the equations: PT-symmetric (10), and Newton's for the pendula (1).
+
+The right-hand sides here are written from the paper and share nothing with the library's model:
+where both agree, the change of variables (9), the expansion (3) and the ends are right.
+"""
+
+from collections.abc import Callable
+from dataclasses import astuple
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.problem import Constants
+
+from .equations import BOUNDARIES, random_amplitudes, right_hand_side, run, slope, total_energy
+
+
+def laplacian(w: np.ndarray, boundary: str) -> np.ndarray:
+    """Return w_{n+1} - 2 w_n + w_{n-1} along the last axis, with what the ends see beyond them."""
+    right, left = np.roll(w, -1, axis=-1), np.roll(w, 1, axis=-1)
+    if boundary == "dirichlet":
+        right[..., -1] = left[..., 0] = 0.0
+    elif boundary == "free":
+        right[..., -1], left[..., 0] = w[..., -1], w[..., 0]
+    return right + left - 2.0 * w
+
+
+def to_pt(amplitudes: np.ndarray) -> np.ndarray:
+    """Return (u, v) of (9) from (A, B), both of shape (2, N)."""
+    a, b = amplitudes
+    return np.stack([a - 1j * b.conj(), a + 1j * b.conj()]) / 4.0
+
+
+def from_pt(w: np.ndarray) -> np.ndarray:
+    """Return (A, B) from (u, v): A = 2 (u + v), conj(B) = 2i (u - v)."""
+    u, v = w
+    return np.stack([2.0 * (u + v), (2j * (u - v)).conj()])
+
+
+def pt_rates(constants: Constants, boundary: str, w: np.ndarray) -> np.ndarray:
+    """Return (du/dtau, dv/dtau) of (10), shape (2, N)."""
+    epsilon, gamma, omega = astuple(constants)
+    u, v = w
+    lap_u, lap_v = laplacian(w, boundary)
+    uu, vv = np.abs(u) ** 2, np.abs(v) ** 2
+    fu = epsilon * lap_v + omega * v + 1j * gamma * u - gamma * u.conj()
+    fu = fu + 2.0 * ((2.0 * uu + vv) * v + u**2 * v.conj())
+    fv = epsilon * lap_u + omega * u - 1j * gamma * v - gamma * v.conj()
+    fv = fv + 2.0 * ((uu + 2.0 * vv) * u + u.conj() * v**2)
+    return -1j * np.stack([fu, fv])
+
+
+def pt_run(constants: Constants, boundary: str, w: np.ndarray, end_time: float) -> np.ndarray:
+    """Integrate (10) from (u, v) = `w` by SciPy's DOP853, which shares nothing with the library."""
+    from scipy.integrate import solve_ivp  # here, so that the other checks do without it
+
+    def function(_, flat):
+        return pt_rates(constants, boundary, flat.reshape(w.shape)).ravel()
+
+    solution = solve_ivp(
+        function, (0.0, end_time), w.ravel(), "DOP853", rtol=1e-12, atol=1e-14, t_eval=[end_time]
+    )
+    return solution.y[:, -1].reshape(w.shape)
+
+
+def parity(w: np.ndarray) -> np.ndarray:
+    """Return P (u, v) = (v, u) of (11)."""
+    return w[::-1]
+
+
+def invariance(constants: Constants, boundary: str, w: np.ndarray, image: Callable) -> float:
+    """Return how far (10) is from invariant under w -> image(conj w) with time reversed.
+
+    If W(tau) = image(conj w(-tau)) solves (10), its rate at 0 is -image(conj of the rate of w).
+    """
+    rate = pt_rates(constants, boundary, w)
+    return float(np.abs(pt_rates(constants, boundary, image(w.conj())) + image(rate.conj())).max())
+
+
+def parity_alone(constants: Constants, boundary: str, w: np.ndarray) -> float:
+    """Return how far (10) is from invariant under P without T."""
+    rate = pt_rates(constants, boundary, w)
+    return float(np.abs(pt_rates(constants, boundary, parity(w)) - parity(rate)).max())
+
+
+def check_pt_form(constants: Constants, sites: int, end_time: float, seed: int = 3) -> dict:
+    """Compare (10) with (4): rates, trajectories, the energy, and the symmetries (11).
+
+    PT is a symmetry; P alone and T alone are not while gamma is not zero: each misses
+    by 2 gamma times the amplitude. The energy of (10) is H / 8: i u' = dH/d(conj v) / 8.
+    """
+    rng = np.random.default_rng(seed)
+    names = ("rates", "trajectory", "pt", "p_alone", "t_alone", "gain", "energy_gradient")
+    found = {name: [] for name in names}
+    for boundary in BOUNDARIES:
+        pair = random_amplitudes(rng, sites, 1.5)
+        w = to_pt(pair)
+        rates = to_pt(right_hand_side(constants, boundary, pair))
+        found["rates"].append(np.abs(pt_rates(constants, boundary, w) - rates).max())
+        final = run(constants, boundary, pair, end_time).final
+        other = from_pt(pt_run(constants, boundary, w, end_time))
+        found["trajectory"].append(np.abs(final - other).max())
+        found["pt"].append(invariance(constants, boundary, w, parity))
+        found["t_alone"].append(invariance(constants, boundary, w, lambda z: z))
+        found["p_alone"].append(parity_alone(constants, boundary, w))
+        found["gain"].append(2.0 * abs(constants.gamma) * np.abs(w).max())
+        found["energy_gradient"].append(pt_energy_error(constants, boundary, w))
+    dims = ("boundary",)
+    return table(
+        "The PT-symmetric form (10) against (4), and the symmetries (11)",
+        {"boundary": list(BOUNDARIES)},
+        rates=variable(found["rates"], dims, "rates of (10) minus those of (4)", tolerance=1e-13),
+        trajectory=variable(found["trajectory"], dims, "(10) minus (4) at the end", tolerance=1e-9),
+        pt=variable(found["pt"], dims, "defect of PT", tolerance=1e-13),
+        p_alone=variable(found["p_alone"], dims, "defect of P without T"),
+        t_alone=variable(found["t_alone"], dims, "defect of T without P"),
+        gain=variable(found["gain"], dims, "2 gamma max(|u|, |v|): what P or T alone must miss"),
+        energy_gradient=variable(
+            found["energy_gradient"], dims, "rates of (10) minus gradient of H / 8", tolerance=1e-12
+        ),
+    )
+
+
+def pt_energy_error(constants: Constants, boundary: str, w: np.ndarray) -> float:
+    """Return the largest |i u' - dK/d(conj v)| or |i v' - dK/d(conj u)| for K = H / 8."""
+
+    def energy(z):
+        return total_energy(constants, boundary, from_pt(z)) / 8.0
+
+    gradient = np.zeros_like(w)
+    for index in np.ndindex(w.shape):
+        unit = np.zeros_like(w)
+        unit[index] = 1.0
+        by_re, by_im = slope(energy, w, unit), slope(energy, w, 1j * unit)
+        gradient[index] = 0.5 * (by_re + 1j * by_im)
+    return float(np.abs(1j * pt_rates(constants, boundary, w) - gradient[::-1]).max())
+
+
+def pendula_rates(t: float, flat: np.ndarray, drives, frequency: float, bonds) -> np.ndarray:
+    """Return the rates of angles and velocities of (1), flat from (2, run, pendulum x or y, site).
+
+    `drives` holds the amplitude of D(t) for each run, `bonds` the matrix C Lap.
+    """
+    angles, velocities = flat.reshape(2, len(drives), 2, -1)
+    drive = np.cos(2.0 * frequency * t) * drives[:, None, None]
+    forces = angles @ bonds + drive * (angles[:, ::-1] - angles) - np.sin(angles)
+    return np.concatenate([velocities.ravel(), forces.ravel()])
+
+
+def pendula_run(
+    constants: Constants, mu: float, boundary: str, amplitudes: np.ndarray, times
+) -> np.ndarray:
+    """Return the angles (time, run, 2, N) of (1) from the data that (3) makes of `amplitudes`.
+
+    Run 0 has the drive as it is, run 1 with the opposite sign. The velocity keeps the slow rate
+    of the amplitudes, so that the data err by mu^3 only.
+    """
+    from scipy.integrate import solve_ivp  # here, so that the other checks do without it
+
+    frequency = np.sqrt(1.0 + mu * mu * constants.omega)
+    slow = 0.5 * mu * mu * right_hand_side(constants, boundary, amplitudes)
+    angles = 2.0 * mu * amplitudes.real
+    velocities = 2.0 * mu * (1j * frequency * amplitudes + slow).real
+    bonds = constants.epsilon * mu * mu * laplacian(np.eye(amplitudes.shape[1]), boundary)
+    drives = 2.0 * constants.gamma * mu * mu * np.array([1.0, -1.0])
+    solution = solve_ivp(
+        pendula_rates,
+        (0.0, times[-1]),
+        np.stack([[angles, angles], [velocities, velocities]]).ravel(),
+        "DOP853",
+        t_eval=times,
+        rtol=1e-7,
+        atol=1e-7 * mu,
+        args=(drives, frequency, bonds),
+    )
+    return solution.y.T.reshape(len(times), 2, 2, *amplitudes.shape)[:, 0]
+
+
+def envelope_run(constants: Constants, boundary: str, amplitudes: np.ndarray, taus) -> np.ndarray:
+    """Return the amplitudes (time, 2, N) of (4) at the slow times `taus`, the first of them 0."""
+    states = [amplitudes]
+    for step in np.diff(taus):
+        states.append(run(constants, boundary, states[-1], step).final)
+    return np.array(states)
+
+
+def expansion_errors(
+    constants: Constants, mu: float, boundary: str, amplitudes, end: float
+) -> list[float]:
+    """Return max |x - x of (3)| up to mu^2 t / 2 = `end` for three readings of the equations.
+
+    The slow time mu^2 t / 2, the slow time mu^2 t, and the first with pendula that feel the drive
+    with the opposite sign, which is the same as shifting it by half a period.
+    """
+    times = np.linspace(0.0, 2.0 * end / mu**2, 41)
+    phase = np.exp(1j * np.sqrt(1.0 + mu * mu * constants.omega) * times)[:, None, None]
+    angles, shifted = pendula_run(constants, mu, boundary, amplitudes, times).swapaxes(0, 1)
+    half = envelope_run(constants, boundary, amplitudes, 0.5 * mu**2 * times)
+    whole = envelope_run(constants, boundary, amplitudes, mu**2 * times)
+    pairs = ((angles, half), (angles, whole), (shifted, half))
+    return [float(np.abs(x - 2.0 * mu * (z * phase).real).max()) for x, z in pairs]
+
+
+def order_in_mu(mus, errors) -> float:
+    """Return the power of mu that fits the errors at its two smallest values."""
+    return float(np.log(errors[-2] / errors[-1]) / np.log(mus[-2] / mus[-1]))
+
+
+def check_expansion(
+    constants: Constants, sites: int, end: float, mus=(0.2, 0.1, 0.05), pair=(1.0, 0.1)
+) -> dict:
+    """Measure the order in mu of the expansion's error for each reading: only one has order 3."""
+    amplitudes = np.zeros((2, sites), complex)
+    amplitudes[:, sites // 2] = pair
+    errors = np.array([expansion_errors(constants, mu, "dirichlet", amplitudes, end) for mu in mus])
+    orders = [order_in_mu(mus, column) for column in errors.T]
+    dims, readings = ("reading",), ["mu^2 t / 2", "mu^2 t", "mu^2 t / 2, opposite drive"]
+    return table(
+        "Newton's equations (1) against the expansion (3) with the amplitudes of (4)",
+        {"mu": np.asarray(mus), "reading": readings},
+        error=variable(errors, ("mu", "reading"), "largest error of an angle", "rad"),
+        order=variable(orders, dims, "order in mu of the error"),
+        order_error=variable(
+            abs(orders[0] - 3.0), (), "distance to 3 of the order with mu^2 t / 2", tolerance=0.5
+        ),
+    )
