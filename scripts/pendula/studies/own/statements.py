@@ -21,7 +21,7 @@ RADIANS, PANELS = 40.0, 24
 
 
 def beside_bounds(run: xr.Dataset) -> dict:
-    """Return the numbers of theory.cases for a trajectory, and the theorem that covers it."""
+    """Return the numbers of theory.bounds for a trajectory, and the theorem that covers it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
         numbers, region = case_numbers(run)
         ratio = np.float64(numbers["observed"]) / numbers["best"]
