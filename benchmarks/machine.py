@@ -11,7 +11,7 @@ import numpy as np
 from pendula.compiled import kernel
 from pendula.datasets.netcdf import Variable
 from pendula.integrators import dop853
-from pendula.integrators.dop853_tableau import E3, E5
+from pendula.integrators.dop853_coefficients import E3, E5
 
 from .timing import clocked, repeat
 

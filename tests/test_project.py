@@ -44,7 +44,7 @@ def test_a_record_lists_the_modules_that_a_script_reaches(recorded):
     assert {
         *("environment.txt", "scripts/job.py", "scripts/trajectories/simulate_case.py"),
         *("__init__.py", "models/__init__.py", "models/amplitudes.py"),
-        *("simulation/simulate.py", "integrators/dop853_tableau.py"),
+        *("simulation/simulate.py", "integrators/dop853_coefficients.py"),
     } <= recorded("trajectories/simulate_case.py")
 
 

@@ -1,11 +1,17 @@
 """The decorators of every compiled function, and a cache that cannot be stale.
 
-numba's on-disk cache notices a change in the file of a cached function, but not in the files of
-the functions that it calls. So each kernel is kept in a folder named after the text of its module
-and of all that the module imports: an edit of any of them starts an empty one. No kernel uses
-fastmath: without it no operation is reordered or contracted, and +, -, *, / and sqrt give the
-same bits on every processor. The C library's functions (a power, a sine) need not: taylor, dop853
-and crank_nicolson do without, ode45 and splitting do not (tests/test_same_bits.py).
+A `kernel` is compiled for plain values and kept on disk. What it calls may be other kernels, or
+functions that are compiled into it: `uncached` ones, `inlined_by_numba` and `inlined_by_llvm`.
+
+Cache. numba's on-disk cache notices a change in the file of a cached function, but not in the files
+of the functions that it calls: it would return numbers of the old code. So each kernel is kept in a
+folder that is named after the text of its module and of all that the module imports (see
+`sources`). An edit of any of them starts an empty folder.
+
+Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
+*, / and sqrt give the same bits on every processor. The C library's functions (a power, a sine)
+need not: taylor, dop853 and crank_nicolson do without them, ode45 and splitting cannot
+(tests/test_same_bits.py).
 """
 
 import os

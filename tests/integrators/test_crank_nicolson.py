@@ -108,27 +108,27 @@ def test_unequal_outputs_do_not_disturb_the_scheme():
     assert finals[0] == pytest.approx(finals[1], rel=1e-13)
 
 
-@pytest.mark.parametrize(("step", "cuts"), [(1.5, 0), (3.0, 1), (6.0, 2), (13.0, 3)])
-def test_a_step_that_does_not_contract_is_cut_and_reported(step, cuts):
+@pytest.mark.parametrize(("step", "halvings"), [(1.5, 0), (3.0, 1), (6.0, 2), (13.0, 3)])
+def test_a_step_that_does_not_contract_is_halved_and_reported(step, halvings):
     """For x' = -x the iteration contracts below h = 2, and a step divides by (2 + h) / (2 - h)."""
     factors, times, controls = (-1.0, 0.0), [0.0, 2 * step], (step, 1e-13, 500)
     _, final, outcome = systems.run("crank_nicolson", factors, times, controls, 1 + 0j)
-    h = step / 2**cuts
-    assert (outcome.steps, outcome.rejected) == (2, 2 * cuts)
-    assert final.real == pytest.approx(((2 - h) / (2 + h)) ** (2 * 2**cuts), abs=1e-12)
+    h = step / 2**halvings
+    assert (outcome.steps, outcome.rejected) == (2, 2 * halvings)
+    assert final.real == pytest.approx(((2 - h) / (2 + h)) ** (2 * 2**halvings), abs=1e-12)
 
 
-def test_too_few_iterations_cut_the_step_as_well():
+def test_too_few_iterations_halve_the_step_as_well():
     accurate = exact_final(1.0)
-    cut = run(large(), 1.0, step=0.002, iterations=5)
+    halved = run(large(), 1.0, step=0.002, iterations=5)
     whole = run(large(), 1.0, step=0.002)
-    assert cut.outcome.rejected > whole.outcome.rejected == 0
-    error, usual = (np.abs(r.final - accurate).max() for r in (cut, whole))
+    assert halved.outcome.rejected > whole.outcome.rejected == 0
+    error, usual = (np.abs(r.final - accurate).max() for r in (halved, whole))
     assert error <= usual
 
 
 @pytest.mark.parametrize(("amplitude", "iterations"), [(1e6, 50), (1.0, 1)])
-def test_where_cutting_does_not_help_the_run_ends(amplitude, iterations):
+def test_where_halving_does_not_help_the_run_ends(amplitude, iterations):
     with pytest.raises(IntegrationError, match=r"^crank_nicolson stopped at tau = 0: .* contract"):
         run(amplitude * random_chain(1), 1e-4, iterations=iterations)
 

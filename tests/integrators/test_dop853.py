@@ -7,8 +7,7 @@ import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import CASES, random_chain, slope
 from pendula.integrators import dop853
-from pendula.integrators import dop853_tableau as tableau
-from pendula.integrators.dop853_errors import weigh
+from pendula.integrators import dop853_coefficients as coefficients
 from pendula.integrators.outcome import DONE
 from pendula.simulation.lattice import find_reduction
 from scipy.integrate._ivp import dop853_coefficients as published
@@ -42,13 +41,13 @@ def interpolation_weights(fraction, solution):
 
 def error_weights(row):
     out = np.zeros(16)
-    weigh(np.eye(16), row, out)
+    dop853.weigh_slopes(np.eye(16), row, out)
     return out
 
 
 def error_of(y, w, h, k, tolerances):
     spare = np.zeros((2, *y.shape))
-    found = dop853.estimates(y, w, k, spare[0], spare[1], tolerances, (1, y.shape[1] - 1))
+    found = dop853.error_estimates(y, w, k, spare[0], spare[1], tolerances, (1, y.shape[1] - 1))
     return dop853.step_error(h, *found)
 
 
@@ -59,7 +58,7 @@ def test_every_stage_has_the_published_coefficients(matrix):
 @pytest.mark.parametrize("name", ["E3", "E5"])
 def test_error_estimates_have_the_published_coefficients(name):
     expected = np.append(getattr(published, name), [0.0, 0.0, 0.0])
-    np.testing.assert_array_equal(error_weights(getattr(tableau, name)), expected)
+    np.testing.assert_array_equal(error_weights(getattr(coefficients, name)), expected)
 
 
 def test_the_interpolant_has_the_published_coefficients():
@@ -74,7 +73,7 @@ def test_the_solution_is_of_order_eight(matrix):
 
 
 def test_the_error_estimates_are_of_orders_five_and_three(matrix):
-    fifth, third = error_weights(tableau.E5), error_weights(tableau.E3)
+    fifth, third = error_weights(coefficients.E5), error_weights(coefficients.E3)
     assert defect(matrix, fifth, 5, expected=0.0) < 1e-13
     assert defect(matrix, third, 3, expected=0.0) < 1e-13
 

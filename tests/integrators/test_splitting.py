@@ -20,10 +20,12 @@ def run(z, step, end=1.0, outputs=1, numbers=NUMBERS):
 
 
 def test_the_parts_of_a_step_add_up_and_read_the_same_backwards():
-    assert 2 * splitting.FLOWS[0] + splitting.FLOWS[1:].sum() == pytest.approx(1.0, abs=1e-15)
-    assert splitting.TURNS.sum() == pytest.approx(1.0, abs=1e-15)
-    np.testing.assert_array_equal(splitting.TURNS, splitting.TURNS[::-1])
-    np.testing.assert_array_equal(splitting.FLOWS[1:], splitting.FLOWS[:0:-1])
+    assert 2 * splitting.LINEAR_PARTS[0] + splitting.LINEAR_PARTS[1:].sum() == pytest.approx(
+        1.0, abs=1e-15
+    )
+    assert splitting.NONLINEAR_PARTS.sum() == pytest.approx(1.0, abs=1e-15)
+    np.testing.assert_array_equal(splitting.NONLINEAR_PARTS, splitting.NONLINEAR_PARTS[::-1])
+    np.testing.assert_array_equal(splitting.LINEAR_PARTS[1:], splitting.LINEAR_PARTS[:0:-1])
 
 
 def test_the_error_falls_with_the_sixth_power_of_the_step():
@@ -59,7 +61,7 @@ def test_the_linear_flow_is_exact(boundary, step):
     np.testing.assert_allclose(final.ravel(), parts[:10] + 1j * parts[10:], atol=1e-22)
 
 
-def test_the_turn_is_the_exact_flow_of_the_cubic_terms():
+def test_the_nonlinear_flow_is_the_exact_one_of_the_cubic_terms():
     z = random_chain(2)
     y = pack(z, WHOLE)
     nonlinear_flow(y, 0.3)

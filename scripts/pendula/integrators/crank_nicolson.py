@@ -2,11 +2,14 @@
 
 new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
 (J. Comput. Phys. 44 (1981) 277): second order, symmetric in time, and the energy is conserved up
-to the tolerance of the iteration. The iteration starts from the extrapolation of the last six
-steps by a polynomial, and stops when the largest change of a part falls below tolerance * |y|,
-|y| the largest part at the last output. Where the changes do not shrink, or not far enough within
-the allowed count, the step is cut in halves until they do: each cut is counted as a rejected step,
-and the run ends with a fault where cutting does not help.
+to the tolerance of the iteration. It is the second method of the replication, for it shares no step
+control and no error estimate with the others.
+
+The iteration starts from the extrapolation of the last six steps by a polynomial, and stops when
+the largest change of a part (real or imaginary) falls below tolerance * |y|, where |y| is the
+largest part at the last output. Where the changes do not shrink, or not far enough within the
+allowed count, the step is halved until they do: each halving is counted as a rejected step, and the
+run ends with a fault where halving does not help.
 """
 
 import numpy as np
@@ -17,8 +20,11 @@ from pendula.simd import largest_in_rows
 from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
 
 PAST = 6
-WORK = 3 + PAST  # arrays of the size of a state
+"""Increments that the first guess is extrapolated from."""
+WORK = 3 + PAST
+"""Work arrays of the size of a state."""
 SMALLEST_FRACTION = 2.0**-20
+"""The part of a step below which halving it is given up."""
 
 
 @kernel
@@ -47,7 +53,12 @@ def size(y):
 
 @kernel
 def extrapolate(old, past, latest, new):
-    """Guess `new` from the last six increments; `latest` is the place of the newest in the ring."""
+    """Guess `new` from the last six increments; `latest` is the place of the newest in the ring.
+
+    A polynomial of degree five through six increments gives the next one the binomial weights
+    6, -15, 20, -15, 6, -1. Before six steps are taken the missing increments are zero: the guess is
+    worse, which costs a few iterations. Terms of one sign are summed first, in pairs.
+    """
     a, b, c = past[latest], past[latest - 1], past[latest - 2]
     d, e, f = past[latest - 3], past[latest - 4], past[latest - 5]
     for row in range(old.shape[0]):
@@ -59,7 +70,7 @@ def extrapolate(old, past, latest, new):
 
 @kernel
 def accept(old, new, increment):
-    """Keep the increment of this step and move on to `new`."""
+    """Keep the increment of this step for later guesses, and move `old` on to `new`."""
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):
             increment[row, j] = new[row, j] - old[row, j]
@@ -91,16 +102,20 @@ def build(mean_rates, observe):
             change = update(old, h, scratch[1], new)
             if change <= enough:
                 return True, count
+            # the first change is that of the guess, which may be anything
             if not change < np.inf or (count > 2 and change >= last):
                 return False, count
             last = change
         return False, most
 
     @uncached
-    def cut(system, old, new, h, scratch, enough, most):
-        """Cover `h` in equal parts, halved until the iteration contracts; return the counts."""
+    def halve(system, old, new, h, scratch, enough, most):
+        """Cover `h` in equal parts, halved until the iteration contracts.
+
+        Return whether that worked, the number of halvings, and the evaluations.
+        """
         fraction, covered = 0.5, 0.0
-        cuts, evaluations = 1, 0
+        halvings, evaluations = 1, 0
         while covered < 1.0:
             copy(old, new)
             good, count = iterate(system, old, new, fraction * h, scratch, enough, most)
@@ -110,10 +125,10 @@ def build(mean_rates, observe):
                 covered += fraction
             else:
                 fraction *= 0.5
-                cuts += 1
+                halvings += 1
                 if fraction < SMALLEST_FRACTION:
-                    return False, cuts, evaluations
-        return True, cuts, evaluations
+                    return False, halvings, evaluations
+        return True, halvings, evaluations
 
     @inlined_by_numba
     def solve(system, y, times, controls, work, record):
@@ -133,8 +148,8 @@ def build(mean_rates, observe):
                     accept(y, new, past[next_past])
                     next_past = (next_past + 1) % PAST
                 else:
-                    good, cuts, count = cut(system, y, new, h, scratch, enough, int(most))
-                    rejected += cuts
+                    good, halvings, count = halve(system, y, new, h, scratch, enough, int(most))
+                    rejected += halvings
                     evaluations += count
                 if not good:
                     status = NO_CONTRACTION if is_finite(y) else NOT_FINITE

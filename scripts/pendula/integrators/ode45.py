@@ -1,10 +1,17 @@
 """MATLAB's ode45: the Dormand-Prince 5(4) pair under ode45's own step control.
 
-The pair is from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19; the error norm, the
-initial step and the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci.
-Comput. 18 (1997) 1; outputs between steps come from the pair's quartic interpolant.
+The paper used ode45, and another control of the same pair makes another run: SciPy's RK45 drifts
+ten times as much in energy at the same tolerances. So every choice here is MATLAB's. The pair is
+from Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19; the error norm, the initial step and
+the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci. Comput. 18 (1997)
+1; outputs between steps come from the pair's quartic interpolant.
 # ASSUME: the paper's unknowns are MATLAB complex numbers, so that the error of a component is the
 # modulus of a complex number, relative to the larger modulus at the two ends of the step.
+
+From top to bottom: the stages, the error, the interpolant, the choice of the first step, and the
+loop. `y` is the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]`
+the slope of stage s; the slope of the last stage is the first of the next step. The sums are
+written out term by term, each one pass over the state in a fixed order of operations.
 
 Steps come from powers of 1/5 by the C library, as in MATLAB: their last bit, and with it that of
 the trajectory, may differ from machine to machine.
@@ -14,13 +21,14 @@ from math import sqrt
 
 import numpy as np
 
-from pendula.compiled import copy, inlined_by_numba, kernel
+from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_in_rows
 
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
-WORK = 9  # arrays of the size of a state
-# b - b^ of the pair: what the two solutions differ by
+WORK = 9
+"""Work arrays of the size of a state."""
+# the weights b of the fifth-order solution less those of the fourth-order one
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
 
 
@@ -63,10 +71,10 @@ def combine(stage, y, h, k, w):
 
 @kernel
 def relative_error(y, w, k, threshold, scratch):
-    """Return the largest error of a complex component per unit step, as ode45 measures it.
+    """Return the largest error of a complex component, over h, as ode45 measures it.
 
-    It is relative to the larger modulus at the two ends of the step, but at least `threshold`;
-    it is NaN or infinite where the step overflowed.
+    It is relative to the larger modulus at the two ends of the step, but at least to `threshold`;
+    it is NaN or infinite where the step overflowed. Squares are compared, one root is taken.
     """
     floor = threshold * threshold
     k1, k3, k4, k5, k6, k7 = k[0], k[2], k[3], k[4], k[5], k[6]
@@ -105,7 +113,7 @@ def interpolate(s, y, h, k, out):
 
 @kernel
 def initial_step(y, slope, threshold, rtol, longest):
-    """Return ode45's first step: about 0.8 rtol^(1/5) over the largest relative rate."""
+    """Return ode45's first step: 0.8 rtol^(1/5) over the largest relative rate, or `longest`."""
     rate2 = 0.0
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
@@ -125,6 +133,27 @@ def spacing(t):
 def build(rates, observe):
     """Return the solver of y' = rates; see the package for its arguments."""
 
+    @uncached
+    def step(system, y, h, shortest, tolerances, k, w, scratch):
+        """Shrink `h` until a step of it passes, or cannot shrink; return h, error, failures.
+
+        The error is in the same units as rtol. The first failure takes the error for its guide,
+        each further one halves the step.
+        """
+        y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
+        rtol, threshold = tolerances
+        failures = 0
+        while True:
+            for stage in range(2, 8):
+                combine(stage, y_flat, h, k_flat, w_flat)
+                rates(system, w, k[stage - 1])
+            error = h * relative_error(y, w, k, threshold, scratch)
+            if error <= rtol or not h > shortest:
+                return h, error, failures
+            shrink = 0.5 if failures > 0 else max(0.1, 0.8 * (rtol / error) ** 0.2)
+            h = max(shortest, h * shrink)
+            failures += 1
+
     @inlined_by_numba
     def solve(system, y, times, controls, work, record):
         rtol, atol = controls
@@ -132,7 +161,6 @@ def build(rates, observe):
         t, end = times[0], times[-1]
         longest, refused = 0.1 * (end - t), SMALLEST_PART * (end - t)
         k, w, out = work[:7], work[7], work[8]
-        y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
         rates(system, y, k[0])
         h = initial_step(y, k[0], threshold, rtol, min(longest, times[1] - times[0]))
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
@@ -142,26 +170,16 @@ def build(rates, observe):
         while i < times.size:
             shortest = spacing(t)
             h = min(longest, max(shortest, h))
-            if 1.1 * h >= end - t:
+            if 1.1 * h >= end - t:  # stretch the last step rather than leave a short one
                 h = end - t
             elif not h > refused:  # also where h is NaN
                 return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)
-            failed = False
-            while True:
-                for stage in range(2, 8):
-                    combine(stage, y_flat, h, k_flat, w_flat)
-                    rates(system, w, k[stage - 1])
-                evaluations += 6
-                error = h * relative_error(y, w, k, threshold, out)
-                if error <= rtol:
-                    break
-                if not h > shortest:
-                    status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
-                    return Outcome(status, t, steps, rejected, evaluations)
-                shrink = 0.5 if failed else max(0.1, 0.8 * (rtol / error) ** 0.2)
-                h = max(shortest, h * shrink)
-                rejected += 1
-                failed = True
+            h, error, failures = step(system, y, h, shortest, (rtol, threshold), k, w, out)
+            rejected += failures
+            evaluations += 6 * (1 + failures)
+            if not error <= rtol:
+                status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
+                return Outcome(status, t, steps, rejected, evaluations)
             t_new = end if h == end - t else t + h
             while i < times.size and times[i] <= t_new:
                 interpolate((times[i] - t) / h, y, h, k, out)
@@ -171,9 +189,9 @@ def build(rates, observe):
             copy(k[6], k[0])
             t = t_new
             steps += 1
-            if not failed:
-                stretch = 1.25 * (error / rtol) ** 0.2
-                h = h / stretch if stretch > 0.2 else 5.0 * h
+            if failures == 0:  # no growth right after a rejection
+                shrink = 1.25 * (error / rtol) ** 0.2
+                h = h / shrink if shrink > 0.2 else 5.0 * h
         return Outcome(DONE, t, steps, rejected, evaluations)
 
     return solve

@@ -1,13 +1,9 @@
-"""How a run ended and what it cost."""
+"""How a run ended and what it cost; and which steps no method takes."""
 
 from typing import NamedTuple
 
 DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG = range(5)
-
-MOST_STEPS = 1e9
-"""More steps are refused: the run would take hours or never end."""
-SMALLEST_PART = 1e-10
-"""A step shorter than this part of the run is refused."""
+"""The status of a run."""
 
 FAULTS = {
     STEP_TOO_SMALL: "the step fell below what rounding or the length of the run allows",
@@ -15,6 +11,12 @@ FAULTS = {
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
     STEP_TOO_LONG: "the step is too long for amplitudes that large, or they are not finite",
 }
+"""What a status other than DONE means, in words."""
+
+MOST_STEPS = 1e9
+"""More steps are refused: the run would take hours or never end."""
+SMALLEST_PART = 1e-10
+"""A step shorter than this part of the run is refused."""
 
 
 class Outcome(NamedTuple):
@@ -22,6 +24,6 @@ class Outcome(NamedTuple):
 
     status: int
     time: float
-    steps: int
-    rejected: int
-    evaluations: int
+    steps: int  # taken
+    rejected: int  # tried in vain; for Crank-Nicolson how often a step was halved
+    evaluations: int  # of the right-hand side; of the orders of a series for Taylor

@@ -6,7 +6,7 @@ import numba
 import numpy as np
 import pytest
 from pendula.datasets.netcdf import read
-from pendula.integrators import dop853, dop853_stages
+from pendula.integrators import dop853
 from pendula.models.amplitudes import rates
 from pendula.simulation import simulate as simulation
 from pendula.simulation import solvers
@@ -39,11 +39,11 @@ def error(exact) -> float:
 @pytest.fixture
 def wrong_dop853(monkeypatch):
     """Put in place of dop853 one whose last weight is wrong in the seventh digit."""
-    weights = list(dop853_stages.A13)
+    weights = list(dop853.A13)
     weights[-1] *= 1.0 + 1e-7
     # compiled afresh from the plain function: the cached kernel has the right weights built in
-    namespace = {**vars(dop853_stages), "A13": tuple(weights)}
-    plain = dop853_stages.combine.py_func
+    namespace = {**vars(dop853), "A13": tuple(weights)}
+    plain = dop853.combine.py_func
     changed = type(plain)(plain.__code__, namespace)
     monkeypatch.setattr(dop853, "combine", numba.njit(error_model="numpy")(changed))
     wrong = numba.njit(error_model="numpy")(dop853.build(rates, observe).py_func)

@@ -1,11 +1,11 @@
-"""A long state taken in stretches: each site owned once, and the bits those of one piece."""
+"""A long state taken in tiles: each site owned once, and the bits those of one piece."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pendula.compiled import uncached
-from pendula.integrators import dop853, stretches
+from pendula.integrators import dop853, tiles
 from pendula.integrators.outcome import DONE
 from pendula.models.amplitudes import Chain, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack
@@ -34,13 +34,13 @@ def run(method, amplitudes, boundary, even):
 
 
 CHAINS = [(boundary, False) for boundary in ("dirichlet", "free", "periodic")]
-CHAINS += [(boundary, True) for boundary in ("dirichlet", "free")]  # half of a ring is no stretch
+CHAINS += [(boundary, True) for boundary in ("dirichlet", "free")]  # half of a ring has no tiles
 
 
 @pytest.mark.parametrize("strength", [(2.0, 2.0), (0.0, 3.0)], ids=["level", "rising"])
 @pytest.mark.parametrize(("boundary", "even"), CHAINS)
-def test_stretches_give_the_bits_of_one_piece(boundary, even, strength):
-    half = 3 * stretches.LONGEST // (1 if even else 2)
+def test_tiles_give_the_bits_of_one_piece(boundary, even, strength):
+    half = 3 * tiles.LONGEST // (1 if even else 2)
     rng = np.random.default_rng(5)
     right = rng.normal(size=(2, half + 1)) + 1j * rng.normal(size=(2, half + 1))
     right *= np.linspace(*strength, half + 1)
@@ -53,15 +53,15 @@ def test_stretches_give_the_bits_of_one_piece(boundary, even, strength):
         np.testing.assert_array_equal(one, other)
 
 
-@given(sites=st.integers(1, 5 * stretches.LONGEST))
+@given(sites=st.integers(1, 5 * tiles.LONGEST))
 def test_every_site_is_owned_once_and_well_inside(sites):
-    count = stretches.count_stretches(sites)
-    held, owner = stretches.length_of(sites, count), np.zeros(sites, int)
-    for stretch in range(count):
-        left, first, stop = stretches.place_of(stretch, count, sites)
-        assert stop - first <= stretches.LONGEST
-        assert left == 0 or first - left >= stretches.MARGIN
-        assert left + held == sites or left + held - stop >= stretches.MARGIN
+    count = tiles.count_tiles(sites)
+    held, owner = tiles.tile_length(sites, count), np.zeros(sites, int)
+    for tile in range(count):
+        left, first, stop = tiles.tile_place(tile, count, sites)
+        assert stop - first <= tiles.LONGEST
+        assert left == 0 or first - left >= tiles.MARGIN
+        assert left + held == sites or left + held - stop >= tiles.MARGIN
         owner[first:stop] += 1
     np.testing.assert_array_equal(owner, 1)
 
@@ -69,10 +69,10 @@ def test_every_site_is_owned_once_and_well_inside(sites):
 def test_what_is_given_was_taken():
     whole = np.arange(4.0 * 12).reshape(4, 12)
     part, back = np.zeros((4, 7)), np.zeros((4, 12))
-    stretches.take(whole, 3, part)
+    tiles.take(whole, 3, part)
     np.testing.assert_array_equal(part[:, 1:6], whole[:, 4:9])
     np.testing.assert_array_equal(part[:, [0, 6]], 0.0)
-    stretches.give(part, 3, 5, 7, back)
+    tiles.give(part, 3, 5, 7, back)
     np.testing.assert_array_equal(back[:, 6:8], whole[:, 6:8])
     assert np.count_nonzero(back) == 8
 
