@@ -235,5 +235,19 @@ def test_the_readme_is_one_page_and_leads_to_every_document():
         assert page.name == "README.md" or f"(docs/{page.name})" in text
 
 
+def test_the_readme_names_every_figure_and_commands_that_exist():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    figures = {path.stem for path in (ROOT / "tests/baseline/figures").glob("*.png")}
+    shown = {f"fig{number}" for number in re.findall(r"^\| (\d)", text, re.MULTILINE)}
+    shown |= set(re.findall(r"`(\w+)`", text))
+    assert figures <= shown
+    rules = [ROOT / "Snakefile", *ROOT.glob("benchmarks/*.smk"), *ROOT.glob("workflow/rules/*.smk")]
+    known = "".join(path.read_text(encoding="utf-8") for path in rules)
+    texts = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    targets = " ".join(re.findall(r"`(?:\.venv/bin/)?snakemake ([a-z]\w*(?: \w+)*)", texts)).split()
+    made = set(re.findall(r"^(?:rule|use rule \w+ as) (\w+)", known, re.MULTILINE))
+    assert targets and set(targets) <= made
+
+
 def test_every_document_has_a_template():
     assert sorted((ROOT / "docs").glob("*.md")) == sorted(set(PAGES) - {ROOT / "README.md"})
