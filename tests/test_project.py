@@ -91,7 +91,7 @@ def test_importing_a_package_drags_in_no_other_room(package):
 def test_a_record_lists_the_templates_beside_the_modules(recorded):
     files = recorded("report/write_report.py")
     names = ("style.css", "script.js", "templates/base.html.j2")
-    assert {f"report/{name}" for name in names} <= files
+    assert {f"report/page/{name}" for name in names} <= files
     assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
 
 

@@ -5,7 +5,7 @@ import re
 import xarray as xr
 from helpers import planned, snakemake
 
-FOLDER = "scripts/pendula/report"
+FOLDER = "scripts/pendula/report/page"
 
 
 def page_of(project) -> str:
