@@ -3,6 +3,7 @@
 import json
 
 import made_up_results as made_up
+import netCDF4
 import pytest
 from figure_diff.accept_results import accept_results
 from figure_diff.compare_results import compare_results
@@ -93,3 +94,9 @@ def test_accepting_removes_what_is_no_longer_made(run):
     assert changed == [f"{PICTURE} (removed)"] and not (run.accepted / PICTURE).exists()
     record = json.loads((run.accepted / RECORD).read_text())
     assert PICTURE not in record["files"] and "matplotlib" in record["environment"]
+
+
+def test_accepted_datasets_are_compressed(run):
+    """The baseline is committed, and ten times as large without."""
+    with netCDF4.Dataset(run.accepted / REGULAR) as data:
+        assert data["l2"].filters()["zlib"]

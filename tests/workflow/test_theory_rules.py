@@ -108,11 +108,11 @@ def test_the_ledger_is_the_same_every_time(finished):
     assert (finished / "results/claims.json").read_bytes() == before
 
 
-@pytest.mark.parametrize("module", ["bounds.py", "catalogue.py"])
+@pytest.mark.parametrize("module", ["bounds.py", "checks.py"])
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone, module):
     change(clone / "scripts/pendula/studies/theory" / module)
     jobs = set(planned(clone, finished))
-    without = {"check_observed"} if module == "catalogue.py" else set()
+    without = {"check_observed"} if module == "checks.py" else set()
     assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "report", "all"}
 
 

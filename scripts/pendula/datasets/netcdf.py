@@ -64,11 +64,12 @@ def save(path: str | Path, dataset) -> None:
     for name, variable in stated.variables.items():
         about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
         variable.attrs.update(describe(str(name), about["long_name"], about["units"] or "1"))
-    # CF forbids a missing value in coordinates, and xarray would state one for every variable
-    unfilled = {name: {"_FillValue": None} for name in stated.variables}
+        # CF forbids a missing value in coordinates, and xarray would state one for every variable.
+        # It stands beside the compression that the caller may have asked for.
+        variable.encoding["_FillValue"] = None
     try:
         with complete_or_absent(path) as partial:
-            stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4", encoding=unfilled)
+            stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
     except (OSError, RuntimeError) as error:
         raise _not_written(path, error) from error
 

@@ -128,7 +128,9 @@ def _take(new: Path, accepted: Path) -> bool:
 
 def _take_dataset(thinned: xr.Dataset, accepted: Path) -> bool:
     try:
-        if thinned.identical(read(accepted)):
+        # `save` adds attributes of its own to the file, which are no change.
+        known = read(accepted).drop_attrs(deep=False)
+        if thinned.drop_attrs(deep=False).identical(known):
             return False
     except DatasetError:
         pass  # an absent or damaged file is written anew
