@@ -8,7 +8,7 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
-from pendula.studies.unbounded.window import advance
+from pendula.studies.unbounded.active_sites import advance
 
 from . import machine
 from .contestants import controls

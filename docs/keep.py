@@ -21,8 +21,8 @@ import job  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.growth import fit_power  # noqa: E402
-from pendula.studies.unbounded.fronts import BULK, FRONT, speeds  # noqa: E402
-from pendula.studies.unbounded.sea import mean_powers  # noqa: E402
+from pendula.studies.unbounded.bulk import mean_powers  # noqa: E402
+from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
 from pendula.studies.unbounded.studies import CASES, REST, TOLERANCE  # noqa: E402
 
 QUOTED = ROOT / "tests/baseline/quoted"

@@ -5,9 +5,8 @@ from functools import partial
 import numpy as np
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
-from pendula.studies.unbounded.dataset import attributes, map_variables
-from pendula.studies.unbounded.linear_front import linear_front
-from pendula.studies.unbounded.members import member
+from pendula.studies.unbounded.front import linear_front
+from pendula.studies.unbounded.long_runs import attributes, map_variables, member
 from pendula.studies.unbounded.window_map import START, window_map
 
 

@@ -1,8 +1,8 @@
 """Measure the chains without ends: growth laws of the norms, the front, the bulk behind it."""
 
 from pendula.datasets.netcdf import read, save
-from pendula.studies.unbounded.fronts import measure_front
-from pendula.studies.unbounded.growth import measure_growth
+from pendula.studies.unbounded.front import measure_front
+from pendula.studies.unbounded.long_runs import measure_growth
 
 
 def measure(

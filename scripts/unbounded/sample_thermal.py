@@ -1,10 +1,9 @@
-"""Sample the thermal states without energy, with which the sea behind the front is compared."""
+"""Sample the thermal states without energy, with which the bulk behind the front is compared."""
 
 from pendula import __version__
 from pendula.datasets.netcdf import write
 from pendula.problem import Constants
-from pendula.studies.unbounded.thermal import zero_energy
-from pendula.studies.unbounded.thermal_dataset import thermal_variables
+from pendula.studies.unbounded.bulk import thermal_variables, zero_energy
 
 
 def sample_thermal(data: str, epsilon: float, gamma: float, omegas: list[float]) -> None:

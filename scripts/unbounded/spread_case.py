@@ -4,9 +4,8 @@ from pathlib import Path
 
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
-from pendula.studies.unbounded.dataset import attributes, spread_variables
-from pendula.studies.unbounded.members import member
-from pendula.studies.unbounded.spread import spread
+from pendula.studies.unbounded.active_sites import run_long
+from pendula.studies.unbounded.long_runs import attributes, member, run_variables
 
 
 def spread_case(
@@ -28,9 +27,9 @@ def spread_case(
         for number in range(members):
             kept.append(Path(checkpoints, f"{name}-{variant}-{number}.npz"))
             started = problem.changed(initial=member(problem.initial, number))
-            runs[-1].append(spread(started, rest, kept[-1] if checkpoints else None))
+            runs[-1].append(run_long(started, rest, kept[-1] if checkpoints else None))
             print(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
-    write(data, spread_variables(varied, runs), attributes(name, varied[0], rest))
+    write(data, run_variables(varied, runs), attributes(name, varied[0], rest))
     for path in kept:
         path.unlink(missing_ok=True)
 

@@ -100,8 +100,8 @@ def gathered(make_trajectory, trajectories, make_sweep):
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
     from pendula.studies.unbounded import front_figure
-    from pendula.studies.unbounded.fronts import measure_front
-    from pendula.studies.unbounded.growth import measure_growth
+    from pendula.studies.unbounded.front import measure_front
+    from pendula.studies.unbounded.long_runs import measure_growth
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     true = make_trajectory(end_time=5.0, scale=1.02)

@@ -1,8 +1,7 @@
 """The chain without ends: only its sites in motion are integrated.
 
-From the bottom: `window` (the sites in motion), `checkpoint`, `spread` (a long run in pieces),
-`members` (ensembles), `window_map` (maxima over windows), `linear_front` (the speed of linear
-spreading), `fronts` (measured speeds), `sea` (the state behind the front), `thermal` (what it is
-compared with), `powers` (growth laws), `dataset`, `thermal_dataset`, `scale`; `studies` says what
-is run.
+From the bottom: `active_sites` (a long run on the sites in motion), `bulk` (the state behind the
+front, and the thermal states that it is compared with), `front` (the speed of linear spreading, and
+measured speeds), `long_runs` (ensembles as datasets, and how their norms grow), `window_map`
+(maxima over half-widths and time windows); `studies` says what is run.
 """

@@ -12,8 +12,8 @@ from pendula.ledger.verdicts import Finding, UndecidableError, judge
 from pendula.measures.growth import fit_power, fit_rise, local_powers
 from pendula.measures.readings import CHANGE, CONSTANT
 
-from .fronts import speeds
-from .sea import end_of_sea, mean_powers, tail_scale
+from .bulk import end_of_bulk, mean_powers, tail_scale
+from .front import speeds
 
 # ASSUME: l2 "grows" as tau^(1/2), the power of a sea of fixed height that spreads steadily, if its
 # measured power is within 0.1 of that, and "grows" at all if it is above 0.3; a front is pulled if
@@ -138,7 +138,9 @@ def maximum_grows_slowly(run) -> Finding:
     power = power_of(run, "linf")
     tau, values = run["tau"].values, run["linf"].isel(variant=0).transpose("member", "tau").values
     rise = fit_rise(tau, values**4, tau[-1] * 0.5 ** (OCTAVES + 2))
-    scales = [tail_scale(state, end_of_sea(state)) for state in run["state"].isel(variant=0).values]
+    scales = [
+        tail_scale(state, end_of_bulk(state)) for state in run["state"].isel(variant=0).values
+    ]
     measured = {
         "power": power.exponent,
         "last": values[:, -1].mean(),

@@ -31,7 +31,7 @@ TERM_LOOKS = {
 
 
 def gather_front(measured: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn of the front and of the bulk, as `fronts.measure_front` found it."""
+    """Return what is drawn of the front and of the bulk, as `front.measure_front` found it."""
     attributes = ("omega", "gamma", "epsilon", "large_omega")
     data = measured[list(MEASURED)].drop_attrs(deep=False)
     return data.assign_attrs({name: measured.attrs[name] for name in attributes})

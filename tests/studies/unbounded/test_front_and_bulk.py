@@ -5,9 +5,7 @@ import pytest
 import xarray as xr
 from oracle import hamiltonian, random_chain
 from pendula.measures.growth import fit_power, local_powers
-from pendula.studies.unbounded.fronts import speeds
-from pendula.studies.unbounded.linear_front import growth_rate, linear_front
-from pendula.studies.unbounded.sea import (
+from pendula.studies.unbounded.bulk import (
     complex_pair,
     distribution,
     energy_terms,
@@ -15,6 +13,7 @@ from pendula.studies.unbounded.sea import (
     spectrum,
     with_ghosts,
 )
+from pendula.studies.unbounded.front import growth_rate, linear_front, speeds
 from problems import constants_of
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from pendula.studies.unbounded import spread as spread_module
-from pendula.studies.unbounded.members import member
-from pendula.studies.unbounded.spread import SERIES, spread
+from pendula.studies.unbounded import active_sites
+from pendula.studies.unbounded.active_sites import SERIES, run_long
+from pendula.studies.unbounded.long_runs import member
 from pendula.studies.unbounded.window_map import maxima, window_map
 from problems import problem_of
 
@@ -20,7 +20,7 @@ class StoppedError(Exception):
 @pytest.fixture
 def interrupted(monkeypatch, tmp_path):
     """Return the checkpoint of a run that was killed at its 14th piece, after 10 were kept."""
-    calls, advance = [], spread_module.advance
+    calls, advance = [], active_sites.advance
 
     def stop(*arguments):
         calls.append(1)
@@ -29,24 +29,24 @@ def interrupted(monkeypatch, tmp_path):
         return advance(*arguments)
 
     with monkeypatch.context() as patch:
-        patch.setattr(spread_module, "advance", stop)
+        patch.setattr(active_sites, "advance", stop)
         with pytest.raises(StoppedError):
-            spread(PROBLEM, REST, tmp_path / "kept.npz", keep_every=5)
+            run_long(PROBLEM, REST, tmp_path / "kept.npz", keep_every=5)
     return tmp_path / "kept.npz"
 
 
 def count_pieces(monkeypatch):
-    done, advance = [], spread_module.advance
-    monkeypatch.setattr(spread_module, "advance", lambda *a: done.append(1) or advance(*a))
+    done, advance = [], active_sites.advance
+    monkeypatch.setattr(active_sites, "advance", lambda *a: done.append(1) or advance(*a))
     return done
 
 
 def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted(
     interrupted, monkeypatch
 ):
-    whole = spread(PROBLEM, REST)
+    whole = run_long(PROBLEM, REST)
     done = count_pieces(monkeypatch)
-    continued = spread(PROBLEM, REST, interrupted)
+    continued = run_long(PROBLEM, REST, interrupted)
     assert len(done) == 10
     for name in (*SERIES, "state"):
         assert np.array_equal(getattr(whole, name), getattr(continued, name)), name
@@ -54,14 +54,14 @@ def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted
 
 def test_a_checkpoint_of_another_problem_is_not_taken(interrupted, monkeypatch):
     done = count_pieces(monkeypatch)
-    spread(PROBLEM.changed(end_time=24.0), REST, interrupted)
+    run_long(PROBLEM.changed(end_time=24.0), REST, interrupted)
     assert len(done) == 12
-    spread(PROBLEM, 0.1 * REST, interrupted)
+    run_long(PROBLEM, 0.1 * REST, interrupted)
     assert len(done) == 12 + 20
 
 
 def test_series_are_at_every_output_once():
-    run = spread(PROBLEM.changed(end_time=6.0), REST)
+    run = run_long(PROBLEM.changed(end_time=6.0), REST)
     np.testing.assert_array_equal(run.tau, 0.25 * np.arange(25))
     assert run.l2.shape == run.linf.shape == run.energy.shape == (25,)
     assert run.front.shape == (3, 4) and (np.diff(run.front[-1]) <= 0).all()
@@ -77,7 +77,7 @@ def test_members_differ_by_little_and_are_the_same_every_time():
 
 
 def test_chaos_makes_of_members_different_runs():
-    runs = [spread(PROBLEM.changed(initial=member(PROBLEM.initial, n)), REST) for n in (0, 1)]
+    runs = [run_long(PROBLEM.changed(initial=member(PROBLEM.initial, n)), REST) for n in (0, 1)]
     apart = np.abs(runs[0].l2 / runs[1].l2 - 1.0)
     assert apart[:8].max() < 1e-3 < apart.max()
     assert runs[0].front[-1, 0] == runs[1].front[-1, 0]
@@ -105,7 +105,7 @@ def test_a_tolerance_of_1e_8_is_enough_for_the_sea():
     for tolerance in (1e-8, 1e-11):
         solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
         runs = [
-            spread(PROBLEM.changed(solver=solver, initial=member(PROBLEM.initial, number)), REST)
+            run_long(PROBLEM.changed(solver=solver, initial=member(PROBLEM.initial, number)), REST)
             for number in range(4)
         ]
         powers[tolerance] = np.array([(run.l2**2)[run.tau > 20.0].mean() for run in runs])

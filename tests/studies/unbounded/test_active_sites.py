@@ -1,12 +1,18 @@
-"""The active window: the numbers are those of the whole chain, and it opens before the front."""
+"""Active sites: the numbers are those of the whole chain, and sites are added before the front."""
 
 import numpy as np
 import pytest
 from pendula.problem import on_sites
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.unbounded.spread import spread
-from pendula.studies.unbounded.window import BLOCK, advance, open_window, powers, widen
+from pendula.studies.unbounded.active_sites import (
+    BLOCK,
+    advance,
+    begin,
+    run_long,
+    site_powers,
+    widen,
+)
 from problems import constants_of, problem_of
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
@@ -22,7 +28,7 @@ def problem(case="fig3_small", half_width=None, **changes):
 @pytest.mark.parametrize("half_width", [None, 30, 70, 150])
 def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width):
     windowed = problem(half_width=half_width)
-    one, other = spread(windowed, REST), simulate(windowed.changed(half_width=half_width or 150))
+    one, other = run_long(windowed, REST), simulate(windowed.changed(half_width=half_width or 150))
     np.testing.assert_allclose(one.tau, other.tau, rtol=1e-14)
     np.testing.assert_allclose(one.l2, np.hypot(*other.l2), rtol=1e-12)
     np.testing.assert_allclose(one.linf, other.linf.max(axis=0), atol=1e-12)
@@ -31,7 +37,7 @@ def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width):
 
 def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
     windowed = problem("fig4_small", end_time=8.0)
-    one = spread(windowed, REST)
+    one = run_long(windowed, REST)
     whole = simulate(windowed.changed(half_width=150), WHOLE)
     assert np.array_equal(whole.final, whole.final[:, ::-1])
     width = one.width[-1]
@@ -41,11 +47,11 @@ def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
     np.testing.assert_allclose(one.state[2, 1:-1] + 1j * one.state[3, 1:-1], right[1], atol=1e-10)
 
 
-def test_the_window_opens_by_blocks_and_never_beyond_the_chain():
-    free = spread(problem(end_time=60.0, solver=LOOSE), REST)
+def test_sites_are_added_by_blocks_and_never_beyond_the_chain():
+    free = run_long(problem(end_time=60.0, solver=LOOSE), REST)
     assert not (np.diff(free.width) % BLOCK).any() and free.width[-1] > 2 * BLOCK
     assert (free.front.max(axis=1) < free.width).all()
-    short = spread(problem(half_width=70, end_time=60.0, solver=LOOSE), REST)
+    short = run_long(problem(half_width=70, end_time=60.0, solver=LOOSE), REST)
     assert short.width.max() == short.width[-1] == 70
 
 
@@ -54,24 +60,24 @@ def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
     """Later it does: it is the growth of its leading edge that draws it."""
     sites = {}
     for cut in (rest, 1e-150):
-        state = open_window(on_sites({0: (1.0, 0.1)}), None)
+        state = begin(on_sites({0: (1.0, 0.1)}), None)
         for piece in range(25):
             state = widen(state, None, cut)
             times = np.array([2.0 * piece, 2.0 * piece + 2.0])
             advance(constants_of((1.0, 1.0, 0.0)), state, times, LOOSE)
-        sites[cut] = np.flatnonzero(powers(state) > 1e-6).max(), state.shape[1]
+        sites[cut] = np.flatnonzero(site_powers(state) > 1e-6).max(), state.shape[1]
     assert sites[rest][0] == sites[1e-150][0] and sites[rest][1] < sites[1e-150][1]
-    assert powers(state)[-8:].max() < 1e-290
+    assert site_powers(state)[-8:].max() < 1e-290
 
 
 def test_data_must_be_even():
     with pytest.raises(ValueError, match="even in n"):
-        open_window(on_sites({0: (1.0, 0.0), 1: (1.0, 0.0)}), None)
+        begin(on_sites({0: (1.0, 0.0), 1: (1.0, 0.0)}), None)
     even = on_sites({-1: (1.0, 0.0), 1: (1.0, 0.0)})
-    assert open_window(even, None).shape == (4, BLOCK + 4)
+    assert begin(even, None).shape == (4, BLOCK + 4)
 
 
 def test_one_component_is_enough_where_a_equals_b():
-    one = spread(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
+    one = run_long(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
     assert one.state.shape[0] == 2
     np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)

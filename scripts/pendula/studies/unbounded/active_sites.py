@@ -1,0 +1,196 @@
+"""An even chain of which only the sites in motion are integrated: 0..W, and W grows.
+
+W grows by a block when anything above `rest` of the largest amplitude comes near the last site.
+For the numbers of a short run 1e-20 is enough, four orders below rounding. But a front that is
+pulled by the growth of its leading edge is slowed where the edge is cut off (Brunet and Derrida,
+Phys. Rev. E 56 (1997) 2597): up to tau = 600 not by a site, by tau = 1800 it is 0.9 sites behind.
+A long run takes 1e-150, about the least whose square is a normal double, and keeps the speed of
+linear spreading.
+
+A run goes in pieces. Each piece starts the solver anew from the state alone, so that a run which
+continues from a checkpoint has the bits of one that was never interrupted (the new first step costs
+half a per cent).
+"""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.datasets.files import complete_or_absent
+from pendula.integrators.outcome import DONE, FAULTS, Outcome
+from pendula.problem import Constants, Problem, place
+from pendula.simulation.lattice import Reduction, find_reduction, pack
+from pendula.simulation.observables import Record, blank_record
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain
+from pendula.simulation.solvers import SOLVERS
+from pendula.sources import digest_of_modules
+
+BLOCK, GUARD = 64, 32
+"""Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
+sites within a piece of a few units of tau."""
+
+
+class Piece(NamedTuple):
+    """What a piece of a run gave: norms and energy at its outputs, the state at its end."""
+
+    record: Record
+    state: np.ndarray  # (row, 1 + site): sites 0..W and two ghosts
+    outcome: Outcome
+
+
+def begin(initial: np.ndarray, half_width: int | None) -> np.ndarray:
+    """Return the state of even data on the sites 0..W; `half_width` None is a chain without ends.
+
+    Raises ValueError where the data are not even in n.
+    """
+    reach = initial.shape[1] // 2
+    width = reach + BLOCK if half_width is None else min(reach + BLOCK, half_width)
+    amplitudes = place(initial, width)
+    reduction = find_reduction(amplitudes)
+    if not reduction.even:
+        raise ValueError("sites are added on both sides alike: give data that are even in n")
+    return pack(amplitudes, reduction)
+
+
+def site_powers(state: np.ndarray) -> np.ndarray:
+    """Return |A_n|^2 + |B_n|^2 on the sites 0..W of a state (|A_n|^2 alone where A = B)."""
+    return (state[:, 1:-1] ** 2).sum(axis=0)
+
+
+def widen(state: np.ndarray, half_width: int | None, rest: float) -> np.ndarray:
+    """Return the state with a block of sites at rest added where its end is no longer at rest."""
+    power = site_powers(state)
+    width = power.size - 1
+    if width == half_width or not power[-GUARD:].max() > rest**2 * power.max():
+        return state
+    wider = width + BLOCK if half_width is None else min(width + BLOCK, half_width)
+    opened = np.zeros((state.shape[0], wider + 3))
+    opened[:, : width + 2] = state[:, :-1]
+    return opened
+
+
+def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: Mapping) -> Piece:
+    """Integrate `state` in place over `times` (outputs, both ends included) on its sites 0..W.
+
+    Raises IntegrationError where the solver gives up.
+    """
+    method = SOLVERS[solver["name"]]
+    record = blank_record(state.shape[0] // 2, state.shape[1] - 2, len(times), 0)
+    controls = tuple(float(solver[name]) for name in method.controls)
+    work = aligned((method.work, *state.shape))
+    chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
+    outcome = method.run(chain, state, times, controls, work, record)
+    if outcome.status != DONE:
+        reason = FAULTS[outcome.status]
+        raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {reason}")
+    return Piece(record, state, outcome)
+
+
+# --- A run in pieces ------------------------------------------------------------------------------
+
+LEVELS = np.array([1e-6, 1e-2, 1.0, 4.0])
+"""Powers |A|^2 + |B|^2 at which the front is found: its leading edge, and where it breaks."""
+
+PIECE = 2.0
+"""Units of tau between two looks at the last sites."""
+
+
+class LongRun(NamedTuple):
+    """Series of a run: of the pair (A, B), at every output, or at the end of every piece."""
+
+    tau: np.ndarray  # (time,)
+    l2: np.ndarray  # (time,)
+    linf: np.ndarray  # (time,)
+    energy: np.ndarray  # (time,)
+    piece_tau: np.ndarray  # (piece,)
+    front: np.ndarray  # (piece, level): outermost site above each of LEVELS, -1 if none
+    width: np.ndarray  # (piece,): W, the last site integrated
+    evaluations: np.ndarray  # (piece,): right-hand sides taken
+    state: np.ndarray  # (row, 1 + site) at the end
+
+
+SERIES = LongRun._fields[:-1]
+
+
+def run_long(
+    problem: Problem, rest: float, keep_at: str | Path | None = None, keep_every: int = 50
+) -> LongRun:
+    """Return the run of `problem`, continued from the checkpoint `keep_at` if there is one.
+
+    Its data are even in n, its half-width is None where the chain has no ends; `rest` is what
+    counts as at rest ahead of the front (see above). A checkpoint is written after each
+    `keep_every` pieces, and left.
+    """
+    description = describe_run(problem, rest)
+    outputs = round(PIECE / problem.output_step)
+    count = round(problem.end_time / PIECE)
+    kept = recall_checkpoint(keep_at, description) if keep_at else None
+    series, state = _start(problem) if kept is None else _continue(kept)
+    for piece in range(len(series["piece_tau"]), count):
+        state = widen(state, problem.half_width, rest)
+        times = problem.output_step * np.arange(piece * outputs, (piece + 1) * outputs + 1)
+        done = advance(problem.constants, state, times, problem.solver)
+        _add(series, times, done, first=piece == 0)
+        if keep_at and (piece + 1) % keep_every == 0:
+            keep_checkpoint(keep_at, description, {**_joined(series), "state": state})
+    return LongRun(**_joined(series), state=state)
+
+
+def find_front(state: np.ndarray) -> np.ndarray:
+    """Return the outermost site whose power is above each of LEVELS, -1 where there is none."""
+    power = site_powers(state)
+    return np.array([np.flatnonzero(power > level).max(initial=-1) for level in LEVELS])
+
+
+def _start(problem: Problem) -> tuple[dict, np.ndarray]:
+    return {name: [] for name in SERIES}, begin(problem.initial, problem.half_width)
+
+
+def _continue(kept: dict) -> tuple[dict, np.ndarray]:
+    return {name: list(kept[name]) for name in SERIES}, kept["state"]
+
+
+def _add(series: dict, times: np.ndarray, done: Piece, first: bool) -> None:
+    """Append a piece; its first output is the last of the piece before."""
+    new = slice(0 if first else 1, None)
+    copies = 3 - len(done.record.l2)  # A = B: the one component counts twice
+    series["tau"].extend(times[new])
+    series["l2"].extend(np.sqrt(copies * (done.record.l2[:, new] ** 2).sum(axis=0)))
+    series["linf"].extend(done.record.linf[:, new].max(axis=0))
+    series["energy"].extend(done.record.energy[new])
+    series["piece_tau"].append(times[-1])
+    series["front"].append(find_front(done.state))
+    series["width"].append(done.state.shape[1] - 3)
+    series["evaluations"].append(done.outcome.evaluations)
+
+
+def _joined(series: dict) -> dict[str, np.ndarray]:
+    return {name: np.array(values) for name, values in series.items()}
+
+
+# --- Checkpoints ----------------------------------------------------------------------------------
+
+
+def describe_run(problem: Problem, rest: float) -> str:
+    """Return all that the numbers of a run depend on: its problem and the code."""
+    plain = {key: str(value) for key, value in sorted(problem.plain().items())}
+    return json.dumps({"problem": plain, "rest": rest, "code": digest_of_modules(Path(__file__))})
+
+
+def keep_checkpoint(path: str | Path, description: str, arrays: dict[str, np.ndarray]) -> None:
+    """Write the arrays and the description of the run that they belong to."""
+    with complete_or_absent(path) as partial, open(partial, "wb") as file:
+        np.savez(file, description=description, **arrays)
+
+
+def recall_checkpoint(path: str | Path, description: str) -> dict[str, np.ndarray] | None:
+    """Return the arrays kept at `path`; None if there are none, or those of another run."""
+    if not Path(path).exists():
+        return None
+    with np.load(path) as kept:
+        if str(kept["description"]) != description:
+            return None
+        return {name: kept[name] for name in kept.files if name != "description"}
