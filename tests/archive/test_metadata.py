@@ -3,6 +3,7 @@
 import json
 
 import jsonschema
+import netCDF4
 import pytest
 import yaml
 from metadata_schemas import CODEMETA, CRATE
@@ -91,7 +92,7 @@ def test_a_dataset_is_described_by_its_own_title(about, tmp_path):
     """A study that is added needs no line here."""
     titled, plain = tmp_path / "titled.nc", tmp_path / "plain.nc"
     netcdf.write(titled, {}, {"title": "The lifetime of a breather"})
-    netcdf.write(plain, {}, {})
+    netCDF4.Dataset(plain, "w").close()
     members = {"Snakefile": b"", "results/new/a.nc": titled, "results/new/b.nc": plain}
     entities = by_id(ro_crate.describe(about, members))
     assert entities["results/new/a.nc"]["description"] == "The lifetime of a breather"
