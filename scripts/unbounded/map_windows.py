@@ -6,8 +6,8 @@ import numpy as np
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
 from pendula.studies.unbounded.front import linear_front
-from pendula.studies.unbounded.long_runs import attributes, map_variables, member
-from pendula.studies.unbounded.window_map import START, window_map
+from pendula.studies.unbounded.long_runs import attributes, member
+from pendula.studies.unbounded.window_map import START, map_variables, window_map
 
 
 def map_windows(
