@@ -51,7 +51,6 @@ DEFINITIONS = [
     r"A_0|B_0",
     r"2γ|4ε",  # the bounds of the unstable band
     r"A = B = 0",
-    r"τ = 10\b",  # where the check of the energy ends
     r"printed 0\.1",  # what the paper prints
     r"from 0 to the end",
 ]
@@ -68,7 +67,7 @@ COUNTED = {
     *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
     *("speed.faster", "speed.fastest_below", "theory.cells", "theory.broken_sites"),
     *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
-    *("chaos.count", "chaos.cases", "chaos.limit", "solvers.cases", "solvers.diverged"),
+    *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
     *("solvers.kept", "ensembles.share", "ensembles.peak_at", "ensembles.late_from"),
 }
 
