@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import made_up_results as made_up
 import pytest
-from pendula.figure_diff import baseline, tolerances
+from pendula.figure_diff import baseline, compare_data
 from pendula.figure_diff.findings import Finding
 
-TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / tolerances.FILE
+TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / compare_data.TOLERANCES
 
 
 class Run(NamedTuple):

@@ -6,8 +6,13 @@ import pytest
 import xarray as xr
 from pendula.datasets.netcdf import read
 from pendula.figure_diff.baseline import recorded
-from pendula.figure_diff.compare_data import curves
-from pendula.figure_diff.tolerances import FILE, ToleranceError, read_rules, rule_for
+from pendula.figure_diff.compare_data import (
+    TOLERANCES,
+    ToleranceError,
+    curves,
+    read_rules,
+    rule_for,
+)
 
 BASELINE = Path(__file__).resolve().parents[1] / "baseline"
 
@@ -45,8 +50,8 @@ def test_without_a_table_every_curve_is_regular(tmp_path):
     ids=["without a reason", "unknown method", "unknown key", "no YAML"],
 )
 def test_a_faulty_table_is_refused_by_name_and_place(tmp_path, table, said):
-    (tmp_path / FILE).write_text(table)
-    with pytest.raises(ToleranceError, match=FILE) as refused:
+    (tmp_path / TOLERANCES).write_text(table)
+    with pytest.raises(ToleranceError, match=TOLERANCES) as refused:
         read_rules(tmp_path)
     assert said in str(refused.value)
 

@@ -16,8 +16,8 @@ from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import DatasetError, read, save
 
 from . import compare_data, compare_images
+from .compare_data import Rule, read_rules
 from .findings import DAMAGED, EXTRA, MISSING, STATUSES, Finding
-from .tolerances import Rule, read_rules
 
 RECORD = "accepted.json"
 """The file that names every file of the baseline, and what drew it."""

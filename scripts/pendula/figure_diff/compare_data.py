@@ -1,18 +1,102 @@
 """Compares a dataset with that of the baseline, curve by curve.
 
 A variable is split into curves, one for each combination of its named coordinates. Each curve is
-compared by the method of the first rule that fits its label (`tolerances`). A deviation is counted
-in units of what the rule allows, so that more than 1 is a fault by any method.
+compared by the method of the first rule that fits its label. A deviation is counted in units of
+what the rule allows, so that more than 1 is a fault by any method.
+
+The rules stand in one table, tests/baseline/tolerances.yaml, and not in the folders of the studies,
+because one chaotic case appears in the files of several studies and the first match counts: only
+one list, read from top to bottom, shows which rule wins.
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from .findings import DIFFERENT, IDENTICAL, NEARLY, Finding
-from .tolerances import Rule, rule_for
+
+TOLERANCES = "tolerances.yaml"
+
+
+class ToleranceError(ValueError):
+    """Tolerances that cannot be read; the message names the file and the way out."""
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Bands(_Table):
+    """How far the statistics of a curve may move beyond the horizon, relative; None allows all."""
+
+    mean: float | None = Field(None, gt=0)
+    standard_deviation: float | None = Field(None, gt=0)
+    maximum: float | None = Field(None, gt=0)
+
+
+class Rule(_Table):
+    """How to compare the curves whose label (see `curves`) matches a pattern."""
+
+    labels: list[str] = Field(min_length=1)
+    method: Literal["pointwise", "chaotic", "magnitude"]
+    """`chaotic` compares pointwise up to the horizon, and by statistics beyond it."""
+    limit: float = Field(gt=0)
+    """A fraction of the largest value of the curve; for `magnitude`, a number of decades."""
+    reason: str = Field(min_length=1)
+    horizon: float = 0.0
+    """In units of tau."""
+    bands: Bands = Bands()
+    below: float = float("inf")
+    """The rule holds only for curves whose largest value is smaller than this."""
+
+    def fits(self, label: str, largest: float) -> bool:
+        """Return whether this rule holds for the curve `label` with this largest value."""
+        small = largest < self.below or self.below == float("inf")
+        return small and any(fnmatchcase(label, pattern) for pattern in self.labels)
+
+
+REGULAR = Rule(
+    labels=["*"],
+    method="pointwise",
+    limit=1e-6,
+    reason="regular: other roundings give 1e-9, and the baseline's single precision 6e-8",
+)
+"""This rule holds for every curve that no rule of the table names."""
+
+
+class _Rules(_Table):
+    bands: dict[str, Bands] = {}
+    """Only for YAML anchors: the rules refer to them."""
+    horizons: dict[str, float] = {}
+    rules: list[Rule]
+
+
+def read_rules(baseline: Path) -> list[Rule]:
+    """Return the rules in the baseline's folder, then the one for regular curves.
+
+    Without a table every curve counts as regular, which is the strictest comparison. A table that
+    cannot be read raises ToleranceError.
+    """
+    path = baseline / TOLERANCES
+    try:
+        table = _Rules.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
+    except FileNotFoundError:
+        return [REGULAR]
+    except (yaml.YAMLError, ValidationError) as error:
+        raise ToleranceError(f"{path} cannot be read; mend these entries:\n{error}") from None
+    return [*table.rules, REGULAR]
+
+
+def rule_for(rules: list[Rule], label: str, largest: float) -> Rule:
+    """Return the first of the rules that fits; the last of `read_rules` fits every curve."""
+    return next(rule for rule in rules if rule.fits(label, largest))
+
 
 VISIBLE = 1e-4
 """A tenth of a pixel in a panel 900 pixels wide, as a fraction of its height or width."""
