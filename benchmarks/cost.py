@@ -38,9 +38,9 @@ def measure(problem: Problem) -> dict[str, Variable]:
     by_time = np.array([[_until(problem, end, name) for name in SOLVERS] for end in END_TIMES])
     grid, long = ("sites", "solver"), ("end_time", "solver")
     return {
-        "sites": Variable(("sites",), np.array(SITES), "number of sites N"),
+        "sites": Variable(("sites",), np.array(SITES)),
         "end_time": Variable(("end_time",), np.array(END_TIMES), "slow time at the end"),
-        "solver": Variable(("solver",), np.array(SOLVERS), "solver"),
+        "solver": Variable(("solver",), np.array(SOLVERS)),
         "seconds": Variable(grid, by_sites[..., 0], "time a site and unit of slow time", "s"),
         "steps": Variable(grid, by_sites[..., 1], "steps a unit of slow time", "1"),
         "memory": Variable(grid, by_sites[..., 2], "largest memory a site", "byte"),

@@ -128,13 +128,13 @@ def _coordinates(cases, contestants, peers) -> dict[str, Variable]:
     horizons = np.array([regime.horizon for regime in regimes])
     targets = np.array([regime.target for regime in regimes])
     return {
-        "case": Variable(by_case, np.array(cases), "case of the paper"),
+        "case": Variable(by_case, np.array(cases)),
         "regime": Variable(by_case, names, "kind of motion"),
         "horizon": Variable(by_case, horizons, "slow time of the errors"),
         "target": Variable(by_case, targets, "error of the comparison"),
         "contestant": Variable(by_contestant, np.array(list(contestants)), "solver or peer"),
         "title": Variable(by_contestant, titles, "its name in tables"),
-        "solver": Variable(("solver",), np.array(list(OURS)), "solver of this project"),
+        "solver": Variable(("solver",), np.array(list(OURS))),
         **({"peer": Variable(("peer",), np.array(list(peers)), "peer")} if peers else {}),
     }
 

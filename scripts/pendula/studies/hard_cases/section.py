@@ -14,7 +14,7 @@ SOURCE = "checks/hard_cases"
 
 
 def gather(results: Results) -> dict[str, Any]:
-    """Return the outcomes by solver, and every row; times are left out: they differ by the run."""
+    """Return the outcomes by solver, and every row."""
     data = results[SOURCE]
     names = [str(solver).partition(":")[0] for solver in data["solver"].values]
     refused = data["refusal"].values != ""
@@ -64,10 +64,9 @@ def page(data) -> list[str]:
     unsound = int((data["sound"] == 0).sum())
     words = (
         f"{len(rows)} runs, {unsound} with an outcome that is not the expected one. An error is "
-        "that of the largest component over the largest, or of what the reference names. Times "
-        "are of single runs, on warm kernels, with the run that makes the reference."
+        "that of the largest component over the largest, or of what the reference names."
     )
-    head = ("case", "solver", "outcome", "reference", "time, ms", "as expected")
+    head = ("case", "solver", "outcome", "reference", "as expected")
     return ["# Hard cases", words, markdown(head, map(_cells, rows))]
 
 
@@ -76,5 +75,4 @@ def _cells(row) -> tuple[str, ...]:
         str(row[name].values) for name in ("case", "solver", "refusal", "reference")
     )
     said = f"refused: {refusal}" if refusal else f"error {float(row['error']):.1e}"
-    time, answer = f"{1e3 * float(row['seconds']):.2g}", "yes" if int(row["sound"]) else "NO"
-    return case, solver, said, reference, time, answer
+    return case, solver, said, reference, "yes" if int(row["sound"]) else "NO"
