@@ -68,7 +68,7 @@ COUNTED = {
     *("speed.faster", "speed.fastest_below", "theory.cells", "theory.broken_sites"),
     *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
-    *("solvers.kept", "ensembles.share", "ensembles.peak_at", "ensembles.late_from"),
+    *("solvers.kept", "ensembles.peak_at", "ensembles.late_from"),
 }
 
 
