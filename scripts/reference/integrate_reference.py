@@ -2,9 +2,13 @@
 
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
-from pendula.studies.reference.dataset import as_case, as_variables
-from pendula.studies.reference.run import integrate
-from pendula.studies.reference.verify import compare, require_agreement
+from pendula.studies.reference.verified_run import (
+    as_case,
+    as_variables,
+    compare,
+    integrate,
+    require_agreement,
+)
 
 
 def integrate_reference(

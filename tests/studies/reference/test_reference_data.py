@@ -11,7 +11,7 @@ from oracle import CASES, hamiltonian
 from pendula.datasets.netcdf import read
 from pendula.simulation.simulate import simulate
 from pendula.studies.reference.precision import BITS
-from pendula.studies.reference.verify import LIMIT
+from pendula.studies.reference.verified_run import LIMIT
 from problems import problem_of
 
 FOLDER = Path(__file__).resolve().parents[2] / "baseline/reference"

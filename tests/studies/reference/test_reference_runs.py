@@ -10,11 +10,18 @@ import yaml
 from oracle import hamiltonian, random_chain, slope
 from pendula.datasets.netcdf import read
 from pendula.simulation.lattice import Reduction, pack
-from pendula.studies.reference import half_chain
-from pendula.studies.reference.numbers import HEYOKA, HeyokaMissingError, Numbers
+from pendula.studies.reference import multiprecision
+from pendula.studies.reference.multiprecision import HEYOKA, HeyokaMissingError, Numbers
 from pendula.studies.reference.precision import BITS
-from pendula.studies.reference.run import Run, integrate, start
-from pendula.studies.reference.verify import LIMIT, UnverifiedError, compare, require_agreement
+from pendula.studies.reference.verified_run import (
+    LIMIT,
+    Run,
+    UnverifiedError,
+    compare,
+    integrate,
+    require_agreement,
+    start,
+)
 from problems import problem_of
 from reference.integrate_reference import integrate_reference
 
@@ -40,10 +47,10 @@ def made_up(bits, shift=0.0):
 def test_norms_and_energy_are_those_of_the_whole_chain(half_width):
     chains = [random_chain(half_width, even=True, seed=seed) for seed in range(3)]
     states = np.array([rows_of(z) for z in chains])
-    linf, l2 = half_chain.norms(states)
+    linf, l2 = multiprecision.norms(states)
     np.testing.assert_allclose(linf.T, [np.abs(z).max(axis=1) for z in chains], rtol=1e-14)
     np.testing.assert_allclose(l2.T, [np.linalg.norm(z, axis=1) for z in chains], rtol=1e-14)
-    energies = half_chain.energy(half_chain.Constants(*NUMBERS), states)
+    energies = multiprecision.energy(multiprecision.RealConstants(*NUMBERS), states)
     exact = [hamiltonian(z, NUMBERS, "dirichlet") for z in chains]
     np.testing.assert_allclose(energies, exact, rtol=1e-12, atol=1e-12)
 
@@ -88,7 +95,9 @@ def test_a_parameter_is_the_decimal_that_is_printed():
 def test_the_equations_are_those_of_the_oracle(half_width):
     heyoka = pytest.importorskip("heyoka")
     z = random_chain(half_width, even=True)
-    pairs = half_chain.right_hand_side(heyoka, half_chain.Constants(*NUMBERS), half_width)
+    pairs = multiprecision.right_hand_side(
+        heyoka, multiprecision.RealConstants(*NUMBERS), half_width
+    )
     variables, rates = zip(*pairs, strict=True)
     values = heyoka.cfunc(rates, variables, compact_mode=True)(rows_of(z).ravel())
     exact = rows_of(slope(z, NUMBERS, "dirichlet"))

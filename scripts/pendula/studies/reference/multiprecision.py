@@ -1,15 +1,58 @@
-"""Equations (4) and their energy (8) for heyoka, on the half chain 0..M of even data.
+"""Equations (4) and their energy (8) in multiprecision, for heyoka, on half a chain of even data.
 
-A state has the rows Re A, Im A, Re B, Im B, and A = B = 0 beyond site M. The equations stand here
-a second time, because heyoka takes expressions and the kernels take numbers; a test compares them.
+A state has the rows Re A, Im A, Re B, Im B on the sites 0..M, and A = B = 0 beyond site M. The
+equations stand here a second time, because heyoka takes expressions and the kernels take numbers; a
+test compares them. The numbers come from the decimals that the configuration prints.
 """
 
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+HEYOKA = "heyoka==7.13.2"
 
-class Constants(NamedTuple):
+
+class HeyokaMissingError(RuntimeError):
+    """heyoka, which only the reference needs, is not installed."""
+
+
+def load_heyoka() -> ModuleType:
+    """Return the module heyoka; raises HeyokaMissingError with the command that installs it."""
+    try:
+        import heyoka
+    except ImportError:
+        raise HeyokaMissingError(
+            f"the reference, and nothing else, needs heyoka: pip install {HEYOKA}"
+        ) from None
+    return heyoka
+
+
+class Numbers:
+    """Makes multiprecision reals of `bits` bits.
+
+    With `decimal`, 0.1 is one tenth: the shortest decimal that names the double, which is what
+    the configuration prints. Without, it is the double itself.
+    """
+
+    def __init__(self, bits: int, decimal: bool = True):
+        self.heyoka, self.bits, self.decimal = load_heyoka(), bits, decimal
+
+    def exact(self, x: float):
+        """Return the double `x`, exactly."""
+        return self.heyoka.real(float(x), self.bits)
+
+    def given(self, x: float):
+        """Return the number that the configuration means by `x`."""
+        return self.heyoka.real(repr(float(x)), self.bits) if self.decimal else self.exact(x)
+
+    def exactly(self, values) -> np.ndarray:
+        """Return an array of doubles as reals."""
+        flat = [self.exact(x) for x in np.ravel(values)]
+        return np.array(flat).reshape(np.shape(values))
+
+
+class RealConstants(NamedTuple):
     """Coupling, drive and detuning, as multiprecision reals."""
 
     epsilon: Any
@@ -17,26 +60,26 @@ class Constants(NamedTuple):
     omega: Any
 
 
-def right_hand_side(heyoka, constants: Constants, half_width: int) -> list[tuple]:
+def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[tuple]:
     """Return the pairs (variable, its rate of change), in the order of a flattened state."""
     names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
     rows = [[heyoka.make_vars(name) for name in row] for row in names]
     pairs = []
     for re in (0, 2):
         # |A_n|^2 is one subexpression for both parts: heyoka computes its series once
-        density = [x**2 + y**2 for x, y in zip(rows[re], rows[re + 1], strict=True)]
+        squared_modulus = [x**2 + y**2 for x, y in zip(rows[re], rows[re + 1], strict=True)]
         pairs += [
-            (u, _field(heyoka, constants, -constants.gamma, rows, re + 1, n, density[n]))
+            (u, _field(heyoka, constants, -constants.gamma, rows, re + 1, n, squared_modulus[n]))
             for n, u in enumerate(rows[re])
         ]
         pairs += [
-            (u, -_field(heyoka, constants, constants.gamma, rows, re, n, density[n]))
+            (u, -_field(heyoka, constants, constants.gamma, rows, re, n, squared_modulus[n]))
             for n, u in enumerate(rows[re + 1])
         ]
     return pairs
 
 
-def _field(heyoka, constants, drive, rows, row, n, density):
+def _field(heyoka, constants, drive, rows, row, n, squared_modulus):
     """Return one part of the right-hand side; `drive` is gamma for Re, -gamma for Im."""
     sites, partner = rows[row], rows[(row + 2) % 4]
     # site -1 moves as site 1, site M + 1 is at rest
@@ -47,7 +90,7 @@ def _field(heyoka, constants, drive, rows, row, n, density):
             *(constants.epsilon * u for u in neighbours),
             own * sites[n],
             drive * partner[n],
-            0.5 * (density * sites[n]),
+            0.5 * (squared_modulus * sites[n]),
         ]
     )
 
@@ -59,7 +102,7 @@ def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.sqrt(largest), np.sqrt(_over_chain(modulus2))
 
 
-def energy(constants: Constants, states: np.ndarray) -> np.ndarray:
+def energy(constants: RealConstants, states: np.ndarray) -> np.ndarray:
     """Return the energy (8), (time,), of states (time, row, site)."""
     epsilon, gamma, omega = constants
     modulus2 = _squares(states)

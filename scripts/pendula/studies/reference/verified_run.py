@@ -1,0 +1,175 @@
+"""A case integrated twice in multiprecision: what both runs agree on is the solution's.
+
+Two runs of different precision and order share no rounding. Their common digits, each number
+rounded once to double, make the dataset of a reference.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import COMPONENTS
+from pendula.problem import Problem, by_site
+from pendula.simulation.lattice import Reduction, spread
+from pendula.simulation.simulate import IntegrationError
+
+from .multiprecision import Numbers, RealConstants, energy, norms, right_hand_side
+
+
+class Run(NamedTuple):
+    """What is kept of a run, in multiprecision; components are A, B and sites 0..M."""
+
+    tau: np.ndarray  # (time,), doubles
+    linf: np.ndarray  # (component, time)
+    l2: np.ndarray  # (component, time)
+    energy: np.ndarray  # (time,)
+    snapshot_tau: np.ndarray  # (snapshot,), doubles
+    amplitude: np.ndarray  # (snapshot, row, site), rows Re A, Im A, Re B, Im B
+    bits: int
+    order: int
+    tolerance: float
+    steps: int
+
+
+def start(problem: Problem, numbers: Numbers) -> np.ndarray:
+    """Return the initial state (row, site) of the half chain 0..M, in multiprecision.
+
+    Raises ValueError where the data are not even, or the ends are not at rest.
+    """
+    if problem.boundary != "dirichlet":
+        raise ValueError(f"the reference has Dirichlet ends only, not {problem.boundary}")
+    if not np.array_equal(problem.initial, problem.initial[:, ::-1]):
+        raise ValueError("the reference integrates half a chain: its data must be even")
+    state = numbers.exactly(np.zeros((4, problem.half_width + 1)))
+    for site, (a, b) in by_site(problem.initial).items():
+        parts = [part for z in (complex(a), complex(b)) for part in (z.real, z.imag)]
+        for row, part in enumerate(parts):
+            state[row, abs(site)] = numbers.given(part)
+    return state
+
+
+def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool = True) -> Run:
+    """Integrate a case with `bits` bits, and a tolerance of 2^-bits.
+
+    The problem's own solver is not used. Outputs are at the doubles `problem.times`; those
+    among `snapshots` keep the state. `decimal` is explained by Numbers. Raises IntegrationError
+    where heyoka does not reach the end, ValueError as `start` does.
+    """
+    numbers = Numbers(bits, decimal)
+    given = problem.constants
+    constants = RealConstants(
+        *(numbers.given(getattr(given, key)) for key in RealConstants._fields)
+    )
+    times = problem.times
+    kept = np.isin(times, snapshots)
+    stepper = _stepper(numbers, constants, start(problem, numbers))
+    outcome, _, _, steps, _, states = stepper.propagate_grid(numbers.exactly(times))
+    if outcome != numbers.heyoka.taylor_outcome.time_limit:
+        raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
+    states = states.reshape(len(times), 4, -1)
+    energies = energy(constants, states)
+    observed = (times, *norms(states), energies, times[kept], states[kept])
+    return Run(*observed, bits, stepper.order, float(stepper.tol), steps)
+
+
+def _stepper(numbers: Numbers, constants: RealConstants, state: np.ndarray):
+    """Return heyoka's adaptive Taylor method, which chooses its order from the tolerance."""
+    return numbers.heyoka.taylor_adaptive(
+        right_hand_side(numbers.heyoka, constants, state.shape[1] - 1),
+        state.ravel(),
+        time=numbers.exact(0.0),
+        fp_type=numbers.heyoka.real,
+        prec=numbers.bits,
+        tol=numbers.exact(2.0**-numbers.bits),
+        compact_mode=True,  # else it compiles every site by itself, for minutes
+    )
+
+
+LIMIT = 1e-12
+"""The largest difference of any norm that two runs may have, at any output time."""
+
+
+class UnverifiedError(RuntimeError):
+    """Two multiprecision runs that differ too much: neither has digits enough."""
+
+
+class Discrepancy(NamedTuple):
+    """How far two runs of a case are apart, in doubles."""
+
+    norms: np.ndarray  # (time,), the largest over both norms and components
+    amplitude: np.ndarray  # (snapshot,), the largest over parts, components and sites
+    energy_drift: float  # max |H - H(0)| of the first run
+
+
+def compare(run: Run, check: Run) -> Discrepancy:
+    """Return how far two runs are apart, the difference taken before any rounding to double."""
+    linf, l2 = np.abs(run.linf - check.linf), np.abs(run.l2 - check.l2)
+    apart = np.maximum(np.maximum.reduce(linf), np.maximum.reduce(l2))
+    amplitude = np.maximum.reduce(np.abs(run.amplitude - check.amplitude), axis=(1, 2))
+    drift = np.maximum.reduce(np.abs(run.energy - run.energy[0]))
+    return Discrepancy(apart.astype(float), amplitude.astype(float), float(drift))
+
+
+def require_agreement(name: str, run: Run, check: Run, discrepancy: Discrepancy) -> None:
+    """Raise UnverifiedError where a norm of the two runs differs by LIMIT or more."""
+    apart = np.flatnonzero(~(discrepancy.norms < LIMIT))
+    if apart.size:
+        raise UnverifiedError(
+            f"{name}: runs of {run.bits} and {check.bits} bits differ by {LIMIT:g} or more "
+            f"from tau = {run.tau[apart[0]]:g} on; give the case more bits"
+        )
+
+
+MIRRORED = Reduction(even=True, synchronised=False)
+
+
+def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
+    """Return the variables; times are exact, `amplitude` may start any run as an exact state."""
+    series = ("component", "tau")
+    reach = run.amplitude.shape[2] - 1
+    return {
+        "tau": Variable(("tau",), run.tau, "slow time"),
+        "component": COMPONENTS,
+        "linf": Variable(series, run.linf.astype(float), "l-infinity norm over the chain"),
+        "l2": Variable(series, run.l2.astype(float), "l2 norm over the chain"),
+        "energy": Variable(("tau",), run.energy.astype(float), "energy H of equation (8)"),
+        "discrepancy": Variable(
+            ("tau",), apart.norms, "largest difference of a norm from that of the second run"
+        ),
+        "part": Variable(("part",), ["re", "im"], "part of the amplitude"),
+        "site": Variable(("site",), np.arange(-reach, reach + 1), "site of the chain"),
+        "snapshot_tau": Variable(("snapshot",), run.snapshot_tau, "slow time of the snapshots"),
+        "amplitude": Variable(
+            ("part", "component", "site", "snapshot"), _amplitude(run), "amplitude on a site"
+        ),
+        "amplitude_discrepancy": Variable(
+            ("snapshot",), apart.amplitude, "largest difference from the second run's amplitudes"
+        ),
+    }
+
+
+def _amplitude(run: Run) -> np.ndarray:
+    """Return amplitudes (part, component, site, snapshot) on the whole chain, in doubles."""
+    rows = run.amplitude.astype(float).transpose(1, 2, 0)
+    return np.stack([spread(rows[part::2], MIRRORED) for part in (0, 1)])
+
+
+def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
+    """Return the attributes: the case, the controls of both runs, what they agree on."""
+    return {
+        **describe_run(name, problem, {"name": "heyoka", **_controls(run)}),
+        **{f"second_run_{key}": value for key, value in _controls(check).items()},
+        "parameters_mean": "the printed decimals" if decimal else "the doubles nearest to them",
+        "energy_drift": apart.energy_drift,
+        "largest_discrepancy": float(apart.norms.max()),
+    }
+
+
+def _controls(run: Run) -> dict:
+    return {
+        "bits": run.bits,
+        "order": run.order,
+        "tolerance": run.tolerance,
+        "steps": run.steps,
+    }
