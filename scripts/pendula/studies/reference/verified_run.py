@@ -4,12 +4,13 @@ Two runs of different precision and order share no rounding. Their common digits
 rounded once to double, make the dataset of a reference.
 """
 
+from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS
+from pendula.datasets.trajectories import COMPONENTS, describe_run
 from pendula.problem import Problem, by_site
 from pendula.simulation.lattice import Reduction, spread
 from pendula.simulation.simulate import IntegrationError
@@ -57,10 +58,7 @@ def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool
     where heyoka does not reach the end, ValueError as `start` does.
     """
     numbers = Numbers(bits, decimal)
-    given = problem.constants
-    constants = RealConstants(
-        *(numbers.given(getattr(given, key)) for key in RealConstants._fields)
-    )
+    constants = RealConstants(*map(numbers.given, astuple(problem.constants)))
     times = problem.times
     kept = np.isin(times, snapshots)
     stepper = _stepper(numbers, constants, start(problem, numbers))
