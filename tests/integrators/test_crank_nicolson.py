@@ -34,9 +34,9 @@ def test_one_step_solves_the_implicit_equation(boundary):
     z, h = random_chain(3), 0.05
     new = run(z, h, boundary=boundary, step=h).final
     mean = (z + new) / 2
-    density = (np.abs(z) ** 2 + np.abs(new) ** 2) / 2
+    mean_square = (np.abs(z) ** 2 + np.abs(new) ** 2) / 2
     linear = slope(mean, NUMBERS, boundary) + 0.5j * np.abs(mean) ** 2 * mean
-    np.testing.assert_allclose(new, z + h * (linear - 0.5j * density * mean), atol=1e-13)
+    np.testing.assert_allclose(new, z + h * (linear - 0.5j * mean_square * mean), atol=1e-13)
 
 
 def test_later_steps_solve_it_too():

@@ -45,11 +45,11 @@ def test_tiles_give_the_bits_of_one_piece(boundary, even, strength):
     right = rng.normal(size=(2, half + 1)) + 1j * rng.normal(size=(2, half + 1))
     right *= np.linspace(*strength, half + 1)
     amplitudes = np.concatenate([right[:, :0:-1], right], axis=1)
-    cut, counts = run(run_dop853, amplitudes, boundary, even)
+    tiled, counts = run(run_dop853, amplitudes, boundary, even)
     whole, expected = run(run_in_one, amplitudes, boundary, even)
     assert counts == expected
     assert counts.rejected > 0
-    for one, other in zip(cut, whole, strict=True):
+    for one, other in zip(tiled, whole, strict=True):
         np.testing.assert_array_equal(one, other)
 
 

@@ -89,13 +89,13 @@ def test_four_sites_at_a_time_get_the_bits_of_one_by_one(sites):
 
 @pytest.mark.parametrize("half_width", [3, 7])
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_density(boundary, half_width):
+def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary, half_width):
     old, new = random_chain(half_width, seed=1), random_chain(half_width, seed=2)
     mean = (old + new) / 2
-    density = (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
+    mean_square = (np.abs(old) ** 2 + np.abs(new) ** 2) / 2
     linear = slope(mean, CONSTANTS, boundary) + 0.5j * np.abs(mean) ** 2 * mean
     chain = Chain(*CONSTANTS, *choose_ends(boundary, WHOLE))
     middle, dy = np.zeros((2, 4, 2 * half_width + 3))
     midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
-    expected = linear - 0.5j * density * mean
+    expected = linear - 0.5j * mean_square * mean
     np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)

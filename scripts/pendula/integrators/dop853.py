@@ -44,7 +44,7 @@ from .dop853_coefficients import (
     D7,
     E3,
     E5,
-)  # fmt: skip
+)
 from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .tiles import count_tiles, give, take, tile_length, tile_place
 

@@ -181,7 +181,7 @@ def write_next_order(chain, series, k, first, last):
     """Write a_{k+1} of the blocks `first` to `last` - 1 of each component."""
     m = series.memory
     for component in range(series.components):
-        if k % 2 == 0:
+        if k % 2 == 0:  # asked outside the loops over blocks, whose bodies are long
             for block in range(first, last):
                 cubic = cubic_of_even_order(m, k, block_start(series, component, block))
                 write_next_coefficient(chain, series, k, component, block, cubic)
