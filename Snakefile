@@ -43,7 +43,7 @@ rule all:
         expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
-        expand("results/checks/{name}.nc", name=[*CHECKS, *CHAOS_CHECKS]),
+        expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
         "results/claims.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",

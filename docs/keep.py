@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT / "scripts")]
 import job  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
-from pendula.measures.growth import fit_power  # noqa: E402
+from pendula.measures.growth import fit_exponent  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers  # noqa: E402
 from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
 from pendula.studies.unbounded.studies import CASES, REST, TOLERANCE  # noqa: E402
@@ -80,12 +80,12 @@ def _exponent(run: xr.Dataset, variant: int = 0, octaves: int = 1):
     """Return the exponent of tau that l2 follows in the last octaves of time, with its error."""
     values = run["l2"].isel(variant=variant).transpose("member", "tau").values
     tau = run["tau"].values
-    return fit_power(tau, values, tau[-1] * 0.5**octaves)
+    return fit_exponent(tau, values, tau[-1] * 0.5**octaves)
 
 
 def _varied_exponents(run: xr.Dataset) -> list[float]:
     """Return the exponent of each variant over the last two octaves, as the ledger takes it."""
-    return [_exponent(run, variant, 2).exponent for variant in range(run.sizes["variant"])]
+    return [_exponent(run, variant, 2).value for variant in range(run.sizes["variant"])]
 
 
 def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
@@ -117,7 +117,7 @@ def _case(run: xr.Dataset) -> dict[str, float]:
         "end": float(run["tau"][-1]),
         "members": run.sizes["member"],
         "sites": 2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
-        "exponent": exponent.exponent,
+        "exponent": exponent.value,
         "exponent_error": exponent.error,
         "linf": float(run["linf"].isel(variant=0, tau=-1).mean()),
         "speed": speed[0],

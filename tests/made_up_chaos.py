@@ -18,7 +18,7 @@ def lyapunov() -> xr.Dataset:
     """Return exponents of changes that grow at RATES, on solutions of constant size."""
     tau, rtol = np.linspace(0.0, 20.0, 81), [1e-6, 1e-9, 1e-12]
     spectrum = np.array([np.linspace(2.0, -2.0, 12)])
-    parting = np.array([[np.nan] * 3, [8.0, 12.0, 16.0]])
+    divergence_time = np.array([[np.inf] * 3, [8.0, 12.0, 16.0]])
     coordinates = {"case": CASES, "parity": ["even", "odd"], "tau": tau, "rtol": rtol}
     coordinates |= {
         "spectrum_case": CASES[1:],
@@ -31,8 +31,8 @@ def lyapunov() -> xr.Dataset:
         stretch=(("case", "parity", "tau"), RATES[:, :, None] * tau),
         size=(("case", "tau"), np.full((2, tau.size), 3.0)),
         exponent=(("case", "parity"), RATES),
-        parting_predicted=(("case", "rtol"), parting),
-        parting_measured=(("case", "rtol"), parting + 1),
+        divergence_predicted=(("case", "rtol"), divergence_time),
+        divergence_measured=(("case", "rtol"), divergence_time + 1),
         spectrum=(("spectrum_case", "index"), spectrum),
         spectrum_error=(("spectrum_case", "index"), 0.01 + 0 * spectrum),
         running_spectrum=(

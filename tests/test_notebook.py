@@ -125,8 +125,8 @@ def test_a_run_without_snapshots_is_no_picture_of_space_and_time(run):
         pendula.draw_spacetime(run.drop_vars("modulus"))
 
 
-def test_the_second_run_is_drawn_where_it_parts_only(run, case):
+def test_the_second_run_is_drawn_where_it_diverges_only(run, case):
     checks = pendula.check(case, run)
     assert len(pendula.draw_norms(run, checks).axes[0].get_lines()) == 2
-    checks["parting"] = checks["parting"].fillna(1.0)
+    checks["divergence_time"] = xr.full_like(checks["divergence_time"], 1.0)
     assert len(figures.draw_norms(figures.gather_norms(run, checks)).axes[0].get_lines()) == 5

@@ -1,4 +1,4 @@
-"""Lyapunov exponents and parting times, and how evenness is lost in every case."""
+"""Lyapunov exponents and divergence times, and how evenness is lost in every case."""
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save

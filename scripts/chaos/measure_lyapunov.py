@@ -1,8 +1,8 @@
-"""Measure Lyapunov exponents, and when solvers part from the truth as these predict."""
+"""Measure Lyapunov exponents, and when runs leave the solution as these predict."""
 
 from pendula.datasets.netcdf import write
 from pendula.problem import by_name
-from pendula.studies.chaos.tables import largest_exponents, parting_times, spectra
+from pendula.studies.chaos.tables import divergence_times, largest_exponents, spectra
 
 
 def measure_lyapunov(
@@ -17,7 +17,7 @@ def measure_lyapunov(
     """Follow `problems` to `end_time`, and all changes of `short_problems` to their own."""
     cases, short_cases = by_name(problems), by_name(short_problems)
     growth = largest_exponents(cases, end_time)
-    times = parting_times(cases, tolerances, growth)
+    times = divergence_times(cases, tolerances, growth)
     attributes = {"spectrum_half_width": next(iter(short_cases.values())).half_width}
     write(data, growth | times | spectra(short_cases, short_end_time), attributes)
 

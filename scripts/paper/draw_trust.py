@@ -1,11 +1,11 @@
 """Until when each solver's trajectory can be trusted: against the multiprecision references."""
 
+import math
 from itertools import product
 
 from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.measures.divergence import write_table
 from pendula.studies.paper import solver_figures
 
 
@@ -26,6 +26,26 @@ def judge_trajectories(
     save(solver_figures.draw_trust(drawn), drawn, png, pdf, data)
     with complete_or_absent(table) as partial:
         partial.write_text(write_table(drawn), encoding="utf-8")
+
+
+def write_table(data) -> str:
+    """Return a Markdown table of `solvers.trust` by case: a row a solver, a column a level."""
+    levels = [f"off by {float(size):.2%}" for size in data["size"]]
+    lines = [
+        "# Until when the solvers can be trusted",
+        "",
+        "The first tau at which a norm is off by a part of its full scale (0.67 % is the width of "
+        "a line in Figs 2 to 4), against the multiprecision references.",
+        "",
+        f"| case | solver | {' | '.join(levels)} |",
+        f"| --- | --- |{' --- |' * len(levels)}",
+    ]
+    for case in data["case"].values:
+        for solver in data["solver"].values:
+            lost = data["horizon"].sel(case=case, solver=solver).values
+            times = [f"{tau:.4g}" if tau < math.inf else "never" for tau in lost]
+            lines.append(f"| {case} | {solver} | {' | '.join(times)} |")
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

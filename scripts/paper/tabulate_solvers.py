@@ -1,5 +1,6 @@
 """The paper's two solvers in numbers: conservation of the energy, and agreement."""
 
+import math
 from pathlib import Path
 
 import xarray
@@ -62,14 +63,14 @@ def energy_section(data: xarray.Dataset) -> list[str]:
 
 
 def agreement_section(data: xarray.Dataset) -> list[str]:
-    """Return the time at which each pair of solvers parts by a difference that can be seen."""
+    """Return the divergence time of each pair of solvers in each case."""
     visible = float(data["visible"])
     lines = [
         "",
         "## Agreement of the trajectories",
         "",
         f"The first tau at which the norms of two solvers differ by {visible:.0%} of full scale,",
-        "and the largest difference. Once a pair has parted in a chaotic case, it stays so: the",
+        "and the largest difference. Once a pair has diverged in a chaotic case, it stays so: the",
         "curves are then two different solutions of the same kind.",
         "",
         *head("case", *(str(pair) for pair in data["pair"].values)),
@@ -77,10 +78,10 @@ def agreement_section(data: xarray.Dataset) -> list[str]:
     for case in data["case"].values:
         cells = []
         for pair in data["pair"].values:
-            parting = float(data["parting"].sel(case=case, pair=pair))
+            time = float(data["divergence_time"].sel(case=case, pair=pair))
             largest = float(data["difference"].sel(case=case, pair=pair).max())
             cells.append(
-                f"never ({largest:.0e})" if parting != parting else f"{parting:.1f} ({largest:.0e})"
+                f"never ({largest:.0e})" if time == math.inf else f"{time:.1f} ({largest:.0e})"
             )
         lines.append(row(case, *cells))
     return lines

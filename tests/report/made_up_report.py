@@ -60,8 +60,8 @@ def ledger(*rows: dict) -> str:
     return json.dumps(list(rows))
 
 
-def norms(scale: float = 1.0, parting: float = np.nan) -> xr.Dataset:
-    """Return the dataset of Fig 2: norms that fall from `scale`, large data that part."""
+def norms(scale: float = 1.0, divergence_time: float = np.inf) -> xr.Dataset:
+    """Return the dataset of Fig 2: norms that fall from `scale`, large data that diverge."""
     tau = np.linspace(0.0, 4.0, 5)
     falling = scale * np.array([1.0, 0.8, 0.6, 0.6, 0.6])
     pair = np.stack([falling, 0.0 * falling])
@@ -70,7 +70,7 @@ def norms(scale: float = 1.0, parting: float = np.nan) -> xr.Dataset:
         {
             "l2": (("amplitude", "component", "tau"), both),
             "linf": (("amplitude", "component", "tau"), both),
-            "parting": ("amplitude", [np.nan, parting]),
+            "divergence_time": ("amplitude", [np.inf, divergence_time]),
             "omega": ("amplitude", [8.0, 8.0]),
             "initial": ("amplitude", [SMALL, LARGE]),
         },

@@ -17,8 +17,12 @@ TAU = np.linspace(0.0, 10.0, 11)
 def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
     by_parity, by_solver = ("case", "parity"), ("case", "level", "solver")
     rates = np.array([[0.001, 0.002]] * 3 + [[rate, rate / 2]])
-    growing = made_up.by_case(exponent=(by_parity, rates), exponent_error=(by_parity, rates / 10))
-    horizons = np.full((4, 1, 2), np.nan)
+    growing = made_up.by_case(
+        exponent=(by_parity, rates),
+        exponent_error=(by_parity, rates / 10),
+        chaotic=("case", [0, 0, 0, int(rate > 1)]),
+    )
+    horizons = np.full((4, 1, 2), np.inf)
     horizons[3, 0] = [lost, 2 * lost]
     coords = {"solver": ["ode45", "taylor"], "level": ["visible"], "tau": TAU}
     trust = made_up.by_case(horizon=(by_solver, horizons), size=("level", [0.01]))
@@ -28,7 +32,7 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
         l2=(("case", "quantile", "tau"), bands[None]),
         run_inside=("case", [0.875]),
     ).assign_coords(quantile=[0.05, 0.5, 0.95], tau=TAU)
-    rounded = made_up.by_case(rounded_time=("case", [np.nan, np.nan, np.nan, 6.5]))
+    rounded = made_up.by_case(rounded_time=("case", [np.inf, np.inf, np.inf, 6.5]))
     tenth, double = true_run(0.0), true_run(lost)
     members = xr.Dataset(attrs={"members": 32, "perturbation": 1e-7})
     return made_up.MadeUp(
@@ -45,10 +49,10 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
     )
 
 
-def true_run(parting: float) -> xr.Dataset:
-    """Return norms of one, off by 1e-9 from tau = 2 on and by a half after `parting`, if any."""
-    off = np.where(TAU >= 2.0, 1e-9, 0.0) + np.where(parting < TAU, 0.5, 0.0)
-    norm = ("component", "tau"), np.stack([1.0 + off * (parting > 0.0)] * 2)
+def true_run(divergence_time: float) -> xr.Dataset:
+    """Return norms of one, off by 1e-9 from tau = 2 on, by a half after `divergence_time`."""
+    off = np.where(TAU >= 2.0, 1e-9, 0.0) + np.where(divergence_time < TAU, 0.5, 0.0)
+    norm = ("component", "tau"), np.stack([1.0 + off * (divergence_time > 0.0)] * 2)
     return xr.Dataset({"l2": norm, "linf": norm}, {"tau": TAU}, {"omega": 0.0})
 
 
@@ -59,7 +63,7 @@ def test_a_double_is_no_tenth(tmp_path):
 
 
 @pytest.mark.parametrize(("rate", "lost", "count"), [(2.5, 4.5, "1"), (0.05, 8.25, "0")])
-def test_chaos_is_told_from_the_rates(tmp_path, rate, lost, count):
+def test_chaos_is_read_from_its_dataset(tmp_path, rate, lost, count):
     found = chaos.gather(chaotic_results(tmp_path, rate, lost))
     assert str(found["count"]) == count and str(found["cases"]) == "4"
     assert len(found["chaotic"]) == int(count)
@@ -124,7 +128,7 @@ def test_runs_that_are_too_short_tell_no_power(tmp_path):
 
 def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
     drift = np.array([[[0.0, 1.5e-6], [0.0, 1e-9]]] * 3 + [[[0.0, 3e-6], [0.0, 1e-9]]])
-    parting = np.array([[np.nan]] * 3 + [[7.5]])
+    divergence_time = np.array([[np.inf]] * 3 + [[7.5]])
     results = made_up.MadeUp(
         tmp_path,
         {
@@ -132,7 +136,7 @@ def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
                 drift=(("case", "solver", "tau"), drift), claim=("case", [1e-6] * 4)
             ).assign_coords(solver=["ode45", "crank_nicolson"], tau=[0.0, 50.0]),
             "figures/solver_agreement": made_up.by_case(
-                parting=(("case", "pair"), parting), visible=0.01
+                divergence_time=(("case", "pair"), divergence_time), visible=0.01
             ).assign_coords(pair=["ode45 - crank_nicolson"]),
         },
     )

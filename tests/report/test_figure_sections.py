@@ -33,7 +33,7 @@ def test_norms_are_read_from_their_datasets(tmp_path, scale, shown):
     results = made_up.MadeUp(
         tmp_path,
         {
-            "figures/fig2": made_up.norms(scale, parting=3.5),
+            "figures/fig2": made_up.norms(scale, divergence_time=3.5),
             "checks/cases": observed(),
             "trajectories/fig2_small": run_of(120),
             "trajectories/fig2_large": run_of(450),
@@ -45,7 +45,7 @@ def test_norms_are_read_from_their_datasets(tmp_path, scale, shown):
         *(shown, f"{0.6 * scale:#.3g}", "never", "Theorem 1", "0.5", "120")
     ]  # fmt: skip
     assert str(large[3]) == "3.5" and large[3].link == "figures/fig2.nc"
-    assert len(figure["partings"]) == 1 and shown.split()[0][:3] in figure["picture"].alt
+    assert len(figure["divergences"]) == 1 and shown.split()[0][:3] in figure["picture"].alt
 
 
 def sweep(right: list[float]) -> xr.Dataset:

@@ -86,7 +86,7 @@ def make_sweep():
 def own_checks(second):
     """Return of a case's checks what its figure shows: a second run, and when they part."""
     norms = second[["linf", "l2"]].rename(linf="second_linf", l2="second_l2")
-    return norms.assign(parting=variable((), 2.0, "first tau at which the runs differ"))
+    return norms.assign(divergence_time=variable((), 2.0, "first tau at which the runs differ"))
 
 
 @pytest.fixture(scope="session")

@@ -94,7 +94,7 @@ def test_the_page_says_what_the_checks_say(own_run):
     assert "To the end." in still and "Theorem 1 covers" in still and "No chaos is seen" in still
     assert "The motion is chaotic." in sea and "Neither Theorem 1 nor Theorem 2" in sea
     with xr.open_dataset(own_run / "results/own/cases/sea.checks.nc") as checks:
-        assert f"To τ = {float(checks['parting']):.3g}." in sea
+        assert f"To τ = {float(checks['divergence_time']):.3g}." in sea
     assert "nan" not in text.lower().split("versions")[0].replace("finan", "")
 
 

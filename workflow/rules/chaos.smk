@@ -2,7 +2,7 @@
 
 
 rule measure_lyapunov:
-    "Lyapunov exponents of every case, and when solvers part from the truth"
+    "Lyapunov exponents of every case, and when runs leave the solution"
     input:
         code=code("chaos/measure_lyapunov.py"),
         kernels=kernels("dop853"),

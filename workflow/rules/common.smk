@@ -36,6 +36,7 @@ CHAOTIC_SWEEPS = ["fig5_right", "fig6_right"]
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
+SOLVER_CHECKS = ["solvers", "trust"]
 CHAOS_CHECKS = ["lyapunov", "symmetry", "ensembles", "ensemble_runs"]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 

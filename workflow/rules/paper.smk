@@ -105,6 +105,31 @@ use rule fig5 as fig6 with:
         "Drawing Fig 6, norms against half-width for large data"
 
 
+rule measure_solvers:
+    "How well each solver conserves the energy, and until when pairs of them agree"
+    input:
+        code=code("paper/measure_solvers.py"),
+        trajectories=expand(
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=COMPARED
+        ),
+        first=expand("results/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS),
+        second=expand("results/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
+    output:
+        data="results/checks/solvers.nc",
+    log:
+        "results/logs/checks/solvers.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=COMPARED,
+        sweeps=PAPER_SWEEPS,
+    message:
+        "Measuring how the solvers conserve the energy, and until when they agree"
+    script:
+        "../../scripts/paper/measure_solvers.py"
+
+
 rule solver_figures:
     "How well each solver conserves the energy, and until when they draw the same curves"
     input:
@@ -148,6 +173,30 @@ rule solver_table:
         "Tabling energy drift and agreement of the solvers"
     script:
         "../../scripts/paper/tabulate_solvers.py"
+
+
+rule measure_trust:
+    "From when on the norms of a solver are not those of the multiprecision reference"
+    input:
+        code=code("paper/measure_trust.py"),
+        trajectories=expand(
+            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
+        ),
+        references=references(*PAPER_CASES),
+        decimal=references("fig4_small", "fig4_small.double"),
+    output:
+        data="results/checks/trust.nc",
+    log:
+        "results/logs/checks/trust.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        solvers=ALL_SOLVERS,
+    message:
+        "Measuring until when the trajectories can be trusted"
+    script:
+        "../../scripts/paper/measure_trust.py"
 
 
 rule trust_horizons:

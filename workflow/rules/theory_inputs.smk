@@ -18,6 +18,8 @@ def makers():
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
         "measure_ensembles": checks("ensembles"),
+        "measure_solvers": checks("solvers"),
+        "measure_trust": checks("trust"),
         "trajectory": trajectories() + trajectories(".crank_nicolson"),
         "sweep": sweeps() + sweeps(".crank_nicolson"),
         "spread": [f"results/unbounded/{study}.nc" for study in STUDIES],

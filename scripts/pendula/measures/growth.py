@@ -1,4 +1,4 @@
-"""Growth laws: the power of tau that a series follows, with its error."""
+"""Growth: exponents of power laws and of tangent vectors, with their errors; what is chaotic."""
 
 from itertools import pairwise
 from typing import NamedTuple
@@ -8,11 +8,17 @@ import numpy as np
 POINTS = 60
 """Points of a fit, equally spaced in log tau, so that no decade of time outweighs another."""
 
+MANY = np.log(100.0)
+"""Growth over the second half of a run that no power of time gives: tau^6 grows by 64."""
+ERRORS = 3.0
+"""Standard errors by which a growth must exceed that."""
+PARTS = 8
 
-class Power(NamedTuple):
-    """values ~ tau^exponent, with the standard error of the exponent."""
 
-    exponent: float
+class Exponent(NamedTuple):
+    """values ~ tau^value, with the standard error of the exponent."""
+
+    value: float
     error: float
 
 
@@ -22,25 +28,25 @@ def slope(tau: np.ndarray, values: np.ndarray, start: float) -> float:
     return float(np.polyfit(x, y, 1)[0])
 
 
-def fit_power(tau: np.ndarray, values: np.ndarray, start: float) -> Power:
-    """Return the power of values (member, time) from `start` on.
+def fit_exponent(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
+    """Return the exponent of tau that values (member, time) follow from `start` on.
 
     Its error is that of the mean over the members; of one member, that of a block bootstrap.
     """
     slopes = np.array([slope(tau, series, start) for series in values])
     if len(slopes) > 1:
-        return Power(slopes.mean(), slopes.std(ddof=1) / np.sqrt(len(slopes)))
-    return Power(slopes[0], bootstrap_error(tau, values[0], start))
+        return Exponent(slopes.mean(), slopes.std(ddof=1) / np.sqrt(len(slopes)))
+    return Exponent(slopes[0], bootstrap_error(tau, values[0], start))
 
 
-def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Power:
+def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
     """Return what the members' values gain per unit of log tau, with its error over members."""
     x = np.linspace(np.log(start), np.log(tau[-1]), POINTS)
     kept = tau > 0
     drawn = [np.interp(x, np.log(tau[kept]), series[kept]) for series in values]
     slopes = np.polyfit(x, np.array(drawn).T, 1)[0]
     error = slopes.std(ddof=1) / np.sqrt(len(slopes)) if len(slopes) > 1 else np.inf
-    return Power(float(slopes.mean()), float(error))
+    return Exponent(float(slopes.mean()), float(error))
 
 
 def bootstrap_error(
@@ -55,16 +61,50 @@ def bootstrap_error(
     return float(np.polyfit(x, (line + residuals[chosen].reshape(draws, -1)).T, 1)[0].std())
 
 
-def local_powers(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
-    """Return the middles of the last octaves of time, and the Power of each."""
+def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
+    """Return the middles of the last octaves of time, and the Exponent of each."""
     edges = tau[-1] * 0.5 ** np.arange(octaves, -1, -1)
-    powers = []
+    found = []
     for first, last in pairwise(edges):
         kept = tau <= last * (1.0 + 1e-9)
-        powers.append(fit_power(tau[kept], values[:, kept], first))
-    return np.sqrt(edges[:-1] * edges[1:]), powers
+        found.append(fit_exponent(tau[kept], values[:, kept], first))
+    return np.sqrt(edges[:-1] * edges[1:]), found
 
 
 def _log_points(tau: np.ndarray, values: np.ndarray, start: float):
     x = np.linspace(np.log(max(start, tau[tau > 0][0])), np.log(tau[-1]), POINTS)
     return x, np.interp(x, np.log(tau[tau > 0]), np.log(values[tau > 0]))
+
+
+def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:
+    """Return the mean rate of growth from `start` to the end, of log_growth (..., time).
+
+    Of a tangent vector it is a Lyapunov exponent, per unit of tau.
+    """
+    first = int(np.searchsorted(tau, start))
+    span = tau[-1] - tau[first]
+    return (log_growth[..., -1] - log_growth[..., first]) / span
+
+
+def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, parts=PARTS):
+    """Return the standard error of that rate, from as many consecutive parts of the time."""
+    edges = np.linspace(np.searchsorted(tau, start), len(tau) - 1, parts + 1)
+    edges = edges.round().astype(int)
+    rates = np.diff(log_growth[..., edges], axis=-1) / np.diff(tau[edges])
+    return rates.std(axis=-1, ddof=1) / np.sqrt(parts)
+
+
+def is_chaotic(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Return whether a tangent vector grows exponentially along a solution, (...).
+
+    It does where, relative to the solution of l2 norm `size` (..., time), it grows over the second
+    half of the run by more than MANY, which no power of time gives, and by ERRORS standard errors
+    more. Relative to the solution, since a chain that leaves its rest grows with it; the limit
+    follows from the powers of time, not from any case.
+    """
+    middle = tau[-1] / 2
+    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
+        relative = log_growth - np.log(size)
+        rate = mean_rate(tau, relative, middle)
+        error = mean_rate_error(tau, relative, middle)
+    return (rate - ERRORS * error) * (tau[-1] - middle) > MANY

@@ -56,7 +56,7 @@ class Results:
 
     def quote_time(self, name: str, tau: float) -> Quote:
         """Return a time, or that it never comes."""
-        return self.say(name, number(tau, 4) if np.isfinite(tau) else "never")
+        return self.say(name, "never" if tau == np.inf else number(tau, 4))
 
     def say(self, name: str, text: str) -> Quote:
         """Return words made from a dataset, or from another file with its ending, linked to it."""

@@ -13,10 +13,10 @@ def test_the_running_rate_is_growth_over_time(gathered):
 
 
 def test_every_case_and_parity_has_a_line_of_its_own(gathered):
-    running, spectrum, parting = figures.draw_lyapunov(gathered["lyapunov"]).axes
+    running, spectrum, divergence_time = figures.draw_lyapunov(gathered["lyapunov"]).axes
     assert len(running.get_lines()) == RATES.size
     assert spectrum.get_lines()[0].get_ydata().tolist() == np.linspace(2, -2, 12).tolist()
-    dots = [line for line in parting.get_lines() if line.get_linestyle() == "None"]
+    dots = [line for line in divergence_time.get_lines() if line.get_linestyle() == "None"]
     assert [*dots[-1].get_xdata(), *dots[-1].get_ydata()] == [16.0, 17.0]
 
 

@@ -44,13 +44,3 @@ def test_a_swept_ensemble_has_the_shape_of_a_sweep_for_each_member():
     l2, linf = ensembles.sweep_members(PROBLEM, [2, 4], [(1.0, 3.0)], 1e-3, 3)
     assert l2.shape == linf.shape == (3, 2, 3, 2, 1)
     assert np.all(l2.std(axis=0) > 0)
-
-
-def test_bands_and_moments_are_those_over_the_members():
-    values = np.arange(11.0)[:, None] * [1.0, 10.0]
-    np.testing.assert_allclose(ensembles.bands(values)[2], [5.0, 50.0])
-    np.testing.assert_allclose(ensembles.bands(values)[0], [0.5, 5.0])
-    found = ensembles.moments(values)
-    np.testing.assert_allclose(found["mean"], [5.0, 50.0])
-    np.testing.assert_allclose(found["deviation"][0], np.sqrt(11.0))
-    np.testing.assert_allclose(found["error"][0], 1.0)

@@ -31,14 +31,14 @@ def test_every_number_has_a_name_and_units(still):
 
 
 def test_a_regular_case_is_true_to_the_end(still):
-    assert float(still["largest_difference"]) < 1e-11 and np.isnan(still["parting"])
-    assert still["chaotic"] == 0 and np.isnan(still["rounding_parting"])
+    assert float(still["largest_difference"]) < 1e-11 and still["divergence_time"] == np.inf
+    assert still["chaotic"] == 0 and still["divergence_rounding"] == np.inf
 
 
 def test_a_chaotic_case_is_found_out(sea):
     assert sea["chaotic"] == 1 and 1.0 < float(sea["exponent"]) < 2.5
-    assert 10 < float(sea["parting"]) < 30
-    assert abs(float(sea["rounding_parting"] - sea["parting"])) < 6
+    assert 10 < float(sea["divergence_time"]) < 30
+    assert abs(float(sea["divergence_rounding"] - sea["divergence_time"])) < 6
 
 
 def test_tiny_data_that_only_grow_are_no_chaos():
@@ -49,10 +49,10 @@ def test_tiny_data_that_only_grow_are_no_chaos():
     assert found["chaotic"] == 0 and float(found["exponent"]) > 1
 
 
-def test_a_coarse_run_parts_though_nothing_is_chaotic():
+def test_a_coarse_run_diverges_though_nothing_is_chaotic():
     coarse = STILL.changed(solver={"name": "crank_nicolson", "step": 0.025}, initial={0: (5, 1)})
     found = check(coarse)
-    assert np.isfinite(found["parting"]) and found["chaotic"] == 0
+    assert np.isfinite(found["divergence_time"]) and found["chaotic"] == 0
 
 
 def test_a_refused_second_run_leaves_its_reason_and_no_numbers():

@@ -1,10 +1,9 @@
-"""The speed of linear spreading, growth laws of made-up series, and the state behind the front."""
+"""The speed of linear spreading, and the state behind the front."""
 
 import numpy as np
 import pytest
 import xarray as xr
 from oracle import hamiltonian, random_chain
-from pendula.measures.growth import fit_power, local_powers
 from pendula.studies.unbounded.bulk import (
     complex_pair,
     distribution,
@@ -66,31 +65,6 @@ def test_a_linear_front_bounds_the_linear_chain():
     assert (size <= 3.0 * bound + rounding).all()
     reached = np.flatnonzero(size > 1.0).max()
     assert abs(reached - (front.speed * tau - front.delay * np.log(tau))) < 2.0
-
-
-def made_up(power, members=6, noise=0.05):
-    """Return a power of tau with noise that keeps its memory for ten units of tau."""
-    rng = np.random.default_rng(5)
-    tau = np.linspace(0.0, 400.0, 1601)
-    white = rng.normal(size=(members, tau.size))
-    waves = np.array([np.convolve(series, np.ones(40) / 6.3, "same") for series in white])
-    return tau, 7.0 * np.maximum(tau, 0.1) ** power * np.exp(noise * waves)
-
-
-@pytest.mark.parametrize("power", [0.0, 0.5, 1.0])
-@pytest.mark.parametrize("members", [1, 6])
-def test_the_power_of_a_made_up_series_is_found_within_its_error(power, members):
-    found = fit_power(*made_up(power, members), start=20.0)
-    assert found.error < 0.03
-    assert abs(found.exponent - power) < 4.0 * found.error
-
-
-def test_local_powers_see_where_the_law_changes():
-    tau, _ = made_up(0.5)
-    values = np.where(tau < 100.0, tau, 10.0 * np.sqrt(tau)).clip(0.1)[None]
-    middles, powers = local_powers(tau, values, 3)
-    np.testing.assert_allclose(middles, [70.7, 141.4, 282.8], rtol=1e-3)
-    np.testing.assert_allclose([p.exponent for p in powers], [1.0, 0.5, 0.5], atol=1e-6)
 
 
 def test_the_speed_of_a_made_up_front():

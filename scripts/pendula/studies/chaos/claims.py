@@ -6,9 +6,9 @@ same measures, are put to runs from data that differ in their last digits.
 
 import numpy as np
 
+from pendula.ledger.readings import CHANGE, FACTOR, NEARLY_ALL, halves, late, spread
 from pendula.ledger.row import checks, claim
 from pendula.ledger.verdicts import Finding, UndecidableError, judge, undecided
-from pendula.measures.readings import CHANGE, FACTOR, NEARLY_ALL, halves, late, spread
 
 # ASSUME: what differs by less than two standard errors is not told apart.
 APART = 2.0

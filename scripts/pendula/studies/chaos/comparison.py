@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from pendula.measures.divergence import is_of_same_case
+from pendula.measures.difference import is_of_same_case
 
 BAND = (0.05, 0.95)
 """The quantiles that bound the band of an ensemble."""

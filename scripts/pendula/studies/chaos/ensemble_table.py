@@ -3,11 +3,12 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, name_window
 from pendula.simulation.sweep import QUANTITIES, STATISTICS
 
 from .cases import describe_cases
-from .ensembles import QUANTILES, bands, moments, run_members, sweep_members
+from .ensembles import QUANTILES, run_members, sweep_members
 
 NORMS = {"l2": "l2", "linf": "l-infinity"}
 MOMENTS = {
@@ -30,7 +31,7 @@ def case_bands(problems: dict[str, Problem], size: float, members: int, seed: in
         "tau": Variable(("tau",), tau, "slow time"),
     }
     for (name, title), norms in zip(NORMS.items(), zip(*results, strict=True), strict=True):
-        values = np.array([bands(norm) for norm in norms])
+        values = np.array([bands(norm, QUANTILES) for norm in norms])
         variables[name] = Variable(grid, values, f"quantiles of the {title} norm")
     return variables
 

@@ -45,18 +45,3 @@ def sweep_members(
     drawn = draw_members(problem, size, members, seed)
     sweeps = [sweep(member, half_widths, windows) for member in drawn]
     return np.array([s.l2 for s in sweeps]), np.array([s.linf for s in sweeps])
-
-
-def bands(norms: np.ndarray) -> np.ndarray:
-    """Return the QUANTILES over the members of (member, ...), shape (quantile, ...)."""
-    return np.quantile(norms, QUANTILES, axis=0)
-
-
-def moments(values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the mean, standard deviation and standard error over the members of (member, ...)."""
-    deviation = values.std(axis=0, ddof=1)
-    return {
-        "mean": values.mean(axis=0),
-        "deviation": deviation,
-        "error": deviation / np.sqrt(len(values)),
-    }

@@ -15,7 +15,7 @@ WIDTHS = {"small": 0.7, "large": 1.5}
 DASHES = {"even": (None, None), "odd": (3, 1.5)}
 MARKERS = ["o", "s", "^", "D"]
 DRAWN = ["running", "exponent", "running_spectrum", "spectrum", "spectrum_error"]
-DRAWN += ["parting_predicted", "parting_measured", "omega", "initial"]
+DRAWN += ["divergence_predicted", "divergence_measured", "omega", "initial"]
 LIGHT = "#f2a15f"
 BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
 MEDIAN = {"color": style.RED, "lw": 1.3}
@@ -29,7 +29,7 @@ NORM = r"$\ell^2$ norm"
 
 
 def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn: rates on their way, the spectra, and parting times."""
+    """Return what is drawn: rates on their way, the spectra, and divergence times."""
     later = lyapunov.isel(tau=slice(1, None))
     running = later["stretch"] / later["tau"]
     running.attrs = {"long_name": "mean rate of growth since the start", "units": "tau-1"}
@@ -39,12 +39,12 @@ def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_lyapunov(data: xr.Dataset) -> Figure:
-    """Draw the rates of growth against time, all exponents of short chains, and parting times."""
+    """Draw the rates of growth, all exponents of short chains, and divergence times."""
     figure = style.new_figure(style.DOUBLE, 3.1)
-    running, spectrum, parting = figure.subplots(1, 3, width_ratios=(1.25, 1, 1))
+    running, spectrum, times = figure.subplots(1, 3, width_ratios=(1.25, 1, 1))
     _draw_running(running, data)
     _draw_spectrum(spectrum, data)
-    _draw_parting(parting, data)
+    _draw_divergence(times, data)
     figure.legend(handles=_lyapunov_legend(data), loc="outside upper center", ncols=4)
     return figure
 
@@ -96,23 +96,23 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
     axes.legend(loc="upper right", handletextpad=0.1)
 
 
-def _draw_parting(axes: Axes, data: xr.Dataset) -> None:
+def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
     tops = [1.0]
     for case in data["case"].values:
-        predicted = data["parting_predicted"].sel(case=case)
-        measured = data["parting_measured"].sel(case=case)
+        predicted = data["divergence_predicted"].sel(case=case)
+        measured = data["divergence_measured"].sel(case=case)
         look = _marked(data, case) | {"linestyle": "none"}
         for marker, rtol in zip(MARKERS, data["rtol"].values, strict=False):
             point = predicted.sel(rtol=rtol), measured.sel(rtol=rtol)
             axes.plot(*point, **look | {"marker": marker})
-            tops.append(np.nanmax([1.0, *map(float, point)]))
+            tops += [float(time) for time in point if np.isfinite(time)]
     top = 1.1 * max(tops)
     axes.plot([0, top], [0, top], color="black", lw=0.8)
     axes.set_xlim(0, top)
     axes.set_ylim(0, top)
-    axes.set_xlabel(r"parting predicted ($\tau$)")
-    axes.set_ylabel(r"parting measured ($\tau$)")
-    axes.set_title("runs parted by 1 %", loc="left")
+    axes.set_xlabel(r"divergence time predicted ($\tau$)")
+    axes.set_ylabel(r"divergence time measured ($\tau$)")
+    axes.set_title("runs differ by 1 %", loc="left")
     handles = [
         Line2D([], [], marker=marker, color="0.3", linestyle="none", markersize=4, label=_power(t))
         for marker, t in zip(MARKERS, data["rtol"].values, strict=False)

@@ -33,18 +33,3 @@ def follow_all(problem: Problem, end_time: float, **controls) -> Growth:
     rng = np.random.default_rng(SEED)
     changes = np.array([random_change(problem.sites, None, rng) for _ in range(4 * problem.sites)])
     return grow(problem, changes, end_time, **controls)
-
-
-def exponents(growth: Growth, start: float) -> np.ndarray:
-    """Return the mean rate of growth of each change from `start` to the end."""
-    first = int(np.searchsorted(growth.tau, start))
-    span = growth.tau[-1] - growth.tau[first]
-    return (growth.stretch[:, -1] - growth.stretch[:, first]) / span
-
-
-def spread_of(growth: Growth, start: float, parts: int = 8) -> np.ndarray:
-    """Return the standard error of the exponents, from as many consecutive parts of the run."""
-    edges = np.linspace(np.searchsorted(growth.tau, start), len(growth.tau) - 1, parts + 1)
-    edges = edges.round().astype(int)
-    rates = np.diff(growth.stretch[:, edges], axis=1) / np.diff(growth.tau[edges])
-    return rates.std(axis=1, ddof=1) / np.sqrt(parts)

@@ -4,13 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from pendula.measures.divergence import LEVELS, difference, first_above
+from pendula.measures.difference import VISIBLE, difference, divergence_time
+from pendula.measures.growth import MANY
 from pendula.report.numbers import number, percent, span
 from pendula.report.results import Results
 from pendula.report.words import SOLVERS, case_of
 
-# ASSUME: "chaotic" means a rate above this: powers of tau look slower over runs of this length.
-CHAOTIC = 0.1
 LYAPUNOV, TRUST = "checks/lyapunov", "figures/trust_horizons"
 ENSEMBLES = "figures/ensembles"
 TENTH, DOUBLE = "truth/fig4_small", "truth/fig4_small.double"
@@ -22,14 +21,14 @@ def gather(results: Results) -> dict[str, Any]:
     """Return a row for each case, what each solver loses, and the ensembles in words."""
     growth, trust = results[LYAPUNOV], results[TRUST]
     rates = growth["exponent"].max("parity")
-    chaotic = [str(case) for case in growth["case"].values[rates.values > CHAOTIC]]
+    chaotic = [str(case) for case in growth["case"].values[growth["chaotic"].values == 1]]
     solvers = [str(solver) for solver in trust["solver"].values]
     return {
         "cases": results.quote(LYAPUNOV, growth.sizes["case"]),
         "chaotic": [case_of(growth.sel(case=case)) for case in chaotic],
         "count": results.quote(LYAPUNOV, len(chaotic)),
         "rates": results.say(LYAPUNOV, span(rates.sel(case=chaotic), 2) if chaotic else "none"),
-        "limit": number(CHAOTIC),
+        "limit": number(float(np.exp(MANY))),
         "visible": percent(float(trust["size"].sel(level="visible"))),
         "end": results.quote(TRUST, float(trust["tau"].max())),
         "head": ["case", "growth, even", "growth, odd", *map(_title, solvers), "uneven from"],
@@ -79,7 +78,7 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
 def not_a_tenth(results: Results) -> dict[str, Any]:
     """Return when the true run from the double next to 0.1 leaves the one from a tenth."""
     apart = difference(results[TENTH], results[DOUBLE])
-    first, seen = (float(first_above(apart, level)) for level in (DIGITS, LEVELS["visible"]))
+    first, seen = (float(divergence_time(apart, level)) for level in (DIGITS, VISIBLE))
     return {
         "omega": number(float(results[DOUBLE].attrs["omega"])),
         "digits": number(DIGITS),

@@ -3,10 +3,10 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.measures.difference import first_above
 from pendula.problem import Problem
 
 from .cases import describe_cases
-from .parting import first_above
 from .symmetry import BROKEN, GROWING, break_symmetry, growth_between
 
 
@@ -29,7 +29,7 @@ def odd_parts(
         ("perturbed", "from an odd perturbation", ("case", "member")),
     ):
         odd = np.array([getattr(run, name) for run in runs])
-        broken = np.apply_along_axis(lambda one: first_above(tau, one, BROKEN), -1, odd)
+        broken = first_above(tau, odd, BROKEN)
         rates = np.apply_along_axis(lambda one: growth_between(tau, one, *GROWING), -1, odd)
         variables |= {
             name: Variable((*dims, "tau"), odd, f"relative l2 norm of the odd part {title}"),

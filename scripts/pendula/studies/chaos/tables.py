@@ -3,12 +3,13 @@
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.problem import Problem
 
-from . import parting
+from . import divergence
 from .cases import describe_cases
 from .changes import PARITIES
-from .lyapunov import exponents, follow_all, follow_parity, spread_of
+from .lyapunov import follow_all, follow_parity
 
 RATE = "tau-1"
 SAMPLED = 4  # every so many orthonormalisations the spectrum on its way is kept
@@ -24,9 +25,12 @@ def largest_exponents(problems: dict[str, Problem], end_time: float) -> dict[str
     `problems` are given by case; rates are over the second half of time.
     """
     runs = [[follow_parity(p, parity, end_time) for parity in PARITIES] for p in problems.values()]
-    amplified = [parting.amplification(even.tau, even.stretch[0], even.size) for even, _ in runs]
-    rates = [[exponents(run, end_time / 2)[0] for run in pair] for pair in runs]
-    errors = [[spread_of(run, end_time / 2)[0] for run in pair] for pair in runs]
+    amplified = [divergence.amplification(even.tau, even.stretch[0], even.size) for even, _ in runs]
+    rates = [[mean_rate(run.tau, run.stretch[0], end_time / 2) for run in pair] for pair in runs]
+    errors = [
+        [mean_rate_error(run.tau, run.stretch[0], end_time / 2) for run in pair] for pair in runs
+    ]
+    chaotic = [any(is_chaotic(run.tau, run.stretch[0], run.size) for run in pair) for pair in runs]
     by_parity, series = ("case", "parity"), ("case", "parity", "tau")
     stretch = [[run.stretch[0] for run in pair] for pair in runs]
     return {
@@ -44,37 +48,42 @@ def largest_exponents(problems: dict[str, Problem], end_time: float) -> dict[str
         ),
         "exponent": Variable(by_parity, rates, "largest Lyapunov exponent", RATE),
         "exponent_error": Variable(by_parity, errors, "standard error of the exponent", RATE),
+        "chaotic": Variable(
+            ("case",), np.array(chaotic, int), "one where a small change grows exponentially"
+        ),
     }
 
 
-def parting_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
-    """Return when dop853 at each tolerance parts from the truth, predicted and measured.
+def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
+    """Return the divergence times of dop853 at each tolerance, predicted and measured.
 
     `growth` is what `largest_exponents` returned; predictions use its amplification of errors,
     of the tolerance at each step or of the errors that the run is seen to make up to EARLY.
     """
     tau, amplified = growth["tau"].values, growth["amplification"].values
-    early = parting.early_index(tau)
+    early = divergence.early_index(tau)
     bound, seen, measured, rounding = [], [], [], []
     for problem, log in zip(problems.values(), amplified, strict=True):
-        found = parting.measure(problem, tolerances)
+        found = divergence.measure(problem, tolerances)
         made = found.early / np.exp(log[early])
-        bound.append([parting.predict(tau, log, e) for e in tolerances * found.steps])
-        seen.append([parting.predict(tau, log, e) for e in made])
+        bound.append([divergence.predict(tau, log, e) for e in tolerances * found.steps])
+        seen.append([divergence.predict(tau, log, e) for e in made])
         measured.append(found.time)
-        rounding.append(parting.predict(tau, log, parting.ROUNDING))
+        rounding.append(divergence.predict(tau, log, divergence.ROUNDING))
     grid = ("case", "rtol")
     return {
         **_coordinates(rtol=(np.asarray(tolerances), "tolerance of dop853")),
-        "parting_bound": Variable(
-            grid, bound, "parting with the tolerance made at each step", "tau"
+        "divergence_bound": Variable(
+            grid, bound, "divergence time with the tolerance made at each step", "tau"
         ),
-        "parting_predicted": Variable(
-            grid, seen, "parting predicted from errors made early", "tau"
+        "divergence_predicted": Variable(
+            grid, seen, "divergence time predicted from errors made early", "tau"
         ),
-        "parting_measured": Variable(grid, measured, "parting from a run at 1e-15", "tau"),
-        "parting_rounding": Variable(
-            ("case",), rounding, "parting by one rounding a unit of tau", "tau"
+        "divergence_measured": Variable(
+            grid, measured, "divergence time from a run at 1e-15", "tau"
+        ),
+        "divergence_rounding": Variable(
+            ("case",), rounding, "divergence time by one rounding a unit of tau", "tau"
         ),
     }
 
@@ -84,8 +93,8 @@ def spectra(problems: dict[str, Problem], end_time: float) -> dict[str, Variable
     runs = [follow_all(problem, end_time) for problem in problems.values()]
     tau = runs[0].tau[SAMPLED::SAMPLED]
     running = [run.stretch[:, SAMPLED::SAMPLED] / tau for run in runs]
-    rates = [exponents(run, end_time / 4) for run in runs]
-    errors = [spread_of(run, end_time / 4) for run in runs]
+    rates = [mean_rate(run.tau, run.stretch, end_time / 4) for run in runs]
+    errors = [mean_rate_error(run.tau, run.stretch, end_time / 4) for run in runs]
     grid = ("spectrum_case", "index")
     return {
         **_coordinates(

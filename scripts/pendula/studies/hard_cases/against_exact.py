@@ -5,6 +5,7 @@ Errors of amplitudes are those of the largest component, relative to the largest
 
 import numpy as np
 
+from pendula.measures.difference import state_error
 from pendula.models.linear_flow import flow
 from pendula.problem import Constants, Problem, on_sites, place
 from pendula.simulation.simulate import Trajectory, simulate
@@ -33,16 +34,11 @@ def run(constants, data: np.ndarray, tau: float, solver: dict, outputs=OUTPUTS) 
     return simulate(problem)
 
 
-def relative_error(found: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest error of a component over the largest component."""
-    return float(np.abs(found - exact).max() / np.abs(exact).max())
-
-
 def miss_of_linear_flow(solver, omega, gamma, size, sites=21, tau=10.0) -> float:
     """Compare tiny data with the exact flow of the linear terms."""
     data, constants = random_data(sites, size), (1.0, gamma, omega)
     exact = flow(data, tau, *constants, "dirichlet")
-    return relative_error(run(constants, data, tau, solver).final, exact)
+    return state_error(run(constants, data, tau, solver).final, exact)
 
 
 def miss_near_threshold(solver, omega, factor, size, sites=21, tau=40.0) -> float:
@@ -59,7 +55,7 @@ def miss_of_rotation(solver, size, omega=-4.0, sites=5, turns=1.0) -> float:
     data = random_data(sites, size)
     tau = turns / (1.0 + size**2)
     exact = data * np.exp(-1j * tau * (omega + 0.5 * np.abs(data) ** 2))
-    return relative_error(run((0.0, 0.0, omega), data, tau, solver).final, exact)
+    return state_error(run((0.0, 0.0, omega), data, tau, solver).final, exact)
 
 
 def drift_of_norms(solver, size, omega=-4.0, sites=21, tau=5.0) -> float:

@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import panels, style
 from pendula.drawing.panels import NORMS, Below
-from pendula.measures.divergence import LEVELS
+from pendula.measures.difference import VISIBLE
 
 FEW = 8
 """So many half-widths all find room below a panel."""
 
-SECOND = Below("second", "second run,", f"the runs part by {100 * LEVELS['visible']:g} %")
+SECOND = Below("second", "second run,", f"the runs part by {100 * VISIBLE:g} %")
 ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
 LONGEST = 46
 """A formula of at most so many characters leaves room for the rest of a title."""
@@ -44,7 +44,7 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
     if checks is None:
         return drawn
     second = {f"second_{name}": checks[f"second_{name}"] for name in NORMS}
-    return drawn.assign(second | {"divergence_time": checks["parting"]})
+    return drawn.assign(second | {"divergence_time": checks["divergence_time"]})
 
 
 @style.styled

@@ -16,7 +16,7 @@ def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, 
     Links are seen from `folder`, where the page will lie.
     """
     shown = [own_cases.gather(case, folder) for case in cases]
-    trusted = {case["name"]: case["parting"] for case in shown}
+    trusted = {case["name"]: case["divergence_time"] for case in shown}
     return {
         "cases": shown,
         "sweeps": [own_sweeps.gather(name, case, folder, trusted) for name, case in sweeps.items()],

@@ -9,7 +9,7 @@ import xarray as xr
 
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
-from pendula.measures.divergence import LEVELS, at_times, difference, first_above
+from pendula.measures.difference import at_times, difference, divergence_time
 from pendula.problem import Problem
 from pendula.simulation.simulate import IntegrationError, simulate
 
@@ -60,7 +60,5 @@ def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Da
     data["largest_difference"] = apart.max().assign_attrs(
         long_name="its largest value: the error of the worse run", units="1"
     )
-    data["parting"] = first_above(apart, LEVELS["visible"]).assign_attrs(
-        long_name=f"first tau at which the runs differ by {100 * LEVELS['visible']:g} %", units="1"
-    )
+    data["divergence_time"] = divergence_time(apart)
     return data

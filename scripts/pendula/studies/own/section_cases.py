@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 
 from pendula.datasets.netcdf import read
-from pendula.measures.divergence import LEVELS
+from pendula.measures.difference import VISIBLE
 from pendula.report.numbers import Quote, number, percent, with_error
 from pendula.report.pictures import Picture, picture
-from pendula.studies.chaos.parting import PARTED
 
 from .words import parameters, quotes, solver
 
@@ -33,9 +32,9 @@ def gather(name: str, folder: Path) -> dict[str, Any]:
         "refusals": {
             key: str(checks.attrs.get(f"{key}_refusal", "")) for key in ("second", "sensitivity")
         },
-        "level": percent(LEVELS["visible"]),
-        "rounding_level": percent(PARTED),
-        "parting": float(checks["parting"]),
+        "level": percent(VISIBLE),
+        "rounding_level": percent(VISIBLE),
+        "divergence_time": float(checks["divergence_time"]),
         "said": _said(checks, link),
         **_decided(checks),
     }
@@ -57,9 +56,9 @@ def _decided(checks) -> dict[str, Any]:
     limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
     return {
         "at_rest": float(checks["start"]) == 0.0,
-        "parts": bool(np.isfinite(checks["parting"])),
+        "parts": bool(np.isfinite(checks["divergence_time"])),
         "chaotic": bool(checks.get("chaotic", 0)),
-        "lost": bool(np.isfinite(checks.get("rounding_parting", np.nan))),
+        "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
         "region": str(checks["region"].values),
         "growth_holds": bool(checks["from_start"] <= limit),
         "bound_holds": bool(checks["ratio"] <= limit),

@@ -27,7 +27,7 @@ def gather(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "name": name,
         "case": case,
         "is_own": case in trusted,
-        "parting": trusted.get(case, np.nan),
+        "divergence_time": trusted.get(case, np.nan),
         "parts": bool(trusted.get(case, np.nan) < swept.attrs["end_time"]),
         "data": f"sweeps/{name}.nc",
         "checks": link,

@@ -7,16 +7,15 @@ One random change, even where the data are even, is carried along by the tangent
 import numpy as np
 import xarray as xr
 
+from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 from pendula.studies.chaos.changes import random_change
-from pendula.studies.chaos.lyapunov import SEED, exponents, spread_of
-from pendula.studies.chaos.parting import ROUNDING, amplification, predict
+from pendula.studies.chaos.divergence import ROUNDING, amplification, predict
+from pendula.studies.chaos.lyapunov import SEED
 from pendula.studies.chaos.tangents import STEP, Growth, grow
 
-MANY = np.log(100.0)
-"""Growth over the second half of the run, relative to the solution, that no power of time gives."""
 FEWEST_STEPS = 64
 
 
@@ -40,16 +39,19 @@ def measure(problem: Problem) -> xr.Dataset:
         relative = growth.stretch[0] - np.log(growth.size)
         late = relative[-1] - relative[np.searchsorted(growth.tau, middle)]
         amplified = amplification(growth.tau, growth.stretch[0], growth.size)
+    rate = mean_rate(growth.tau, growth.stretch[0], middle)
+    error = mean_rate_error(growth.tau, growth.stretch[0], middle)
+    chaotic = is_chaotic(growth.tau, growth.stretch[0], growth.size)
     times = {"long_name": "slow time", "units": "1"}
     named = {
         "stretch": (
             ("growth_tau", growth.stretch[0]), "logarithm of the growth of a small change", "1"
         ),
-        "exponent": (exponents(growth, middle)[0], "rate of that growth, second half", "tau-1"),
-        "exponent_error": (spread_of(growth, middle)[0], "standard error of the rate", "tau-1"),
+        "exponent": (rate, "rate of that growth, second half", "tau-1"),
+        "exponent_error": (error, "standard error of the rate", "tau-1"),
         "late_growth": (late, "growth relative to the solution's, second half, logarithm", "1"),
-        "chaotic": (int(late > MANY), "one where that growth is no power of time", "1"),
-        "rounding_parting": (
+        "chaotic": (int(chaotic), "one where that growth is exponential", "1"),
+        "divergence_rounding": (
             predict(growth.tau, amplified, ROUNDING),
             "tau at which one rounding a unit of tau has grown to 1 %", "1",
         ),

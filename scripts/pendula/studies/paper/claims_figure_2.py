@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from pendula.ledger.readings import CHANGE, FACTOR, MUCH, constants, halves, late, mean, powers
 from pendula.ledger.row import claim, runs
 from pendula.ledger.verdicts import Finding, judge
-from pendula.measures.readings import CHANGE, FACTOR, MUCH, constants, halves, late, mean, powers
 from pendula.studies.theory.bounds import theorem_1_bound
 
 # ASSUME: "decreases": to less than half; "oscillates between": squares of norms correlated below

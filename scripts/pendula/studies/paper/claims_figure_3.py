@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from pendula.ledger.readings import FACTOR, MUCH, halves, largest, late, mean, powers
 from pendula.ledger.row import claim, runs
 from pendula.ledger.verdicts import Finding, judge
-from pendula.measures.readings import FACTOR, MUCH, halves, largest, late, mean, powers
 
 # ASSUME: a rise of 10 % is worth a caveat.
 RISE = 0.1

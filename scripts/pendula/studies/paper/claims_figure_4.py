@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from pendula.ledger.readings import CHANGE, MUCH, constants, halves, largest, late, powers
 from pendula.ledger.row import LARGE, SMALL, claim, runs
 from pendula.ledger.verdicts import Finding, UndecidableError, judge
-from pendula.measures.readings import CHANGE, MUCH, constants, halves, largest, late, powers
 from pendula.studies.theory.bounds import theorem_3_bound
 
 # ASSUME: "is unstable": grows by e within 3; "many": a quarter; a pendulum is "excited" at a fifth

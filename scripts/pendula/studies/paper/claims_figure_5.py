@@ -6,9 +6,7 @@ and once the front does not reach the ends, a longer chain changes nothing.
 
 import numpy as np
 
-from pendula.ledger.row import checks, claim, runs, sweeps
-from pendula.ledger.verdicts import Finding, judge, undecided
-from pendula.measures.readings import (
+from pendula.ledger.readings import (
     CHANGE,
     CONSTANT,
     FACTOR,
@@ -20,6 +18,8 @@ from pendula.measures.readings import (
     spread,
     swept,
 )
+from pendula.ledger.row import checks, claim, runs, sweeps
+from pendula.ledger.verdicts import Finding, judge, undecided
 from pendula.studies.theory.bounds import proven_region, theorem_2_constants, widened_bound
 
 # ASSUME: "whatever M" leaves out M < 10, where the ends are everywhere.

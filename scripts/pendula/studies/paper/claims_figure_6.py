@@ -6,9 +6,9 @@ and once the front does not reach the ends, a longer chain changes nothing.
 
 import numpy as np
 
+from pendula.ledger.readings import CONSTANT, FACTOR, constants, levelling, powers, spread, swept
 from pendula.ledger.row import claim, runs, sweeps
 from pendula.ledger.verdicts import Finding, judge, undecided
-from pendula.measures.readings import CONSTANT, FACTOR, constants, levelling, powers, spread, swept
 from pendula.studies.theory.bounds import theorem_1_bound, theorem_2_constants
 
 # ASSUME: a maximum that falls to 90 % of the peak has fallen back.

@@ -2,15 +2,15 @@
 
 import numpy as np
 
+from pendula.ledger.readings import CHANGE, largest, powers
 from pendula.ledger.row import LARGE, SMALL, SWEEPS, by_second, claim
 from pendula.ledger.verdicts import Finding, UndecidableError, judge
-from pendula.measures.readings import CHANGE, largest, powers
 
 # ASSUME: two curves part for the eye at one per cent of full scale.
 VISIBLE = 0.01
 
 
-def parting_time(one, other, share: float = VISIBLE) -> float:
+def divergence_time_of(one, other, share: float = VISIBLE) -> float:
     """Return when the l2 or l-infinity norms differ by `share` of full scale; inf if never."""
     apart = np.zeros(one.sizes["tau"], bool)
     for name in ("l2", "linf"):
@@ -39,10 +39,10 @@ def solvers_agree(*trajectories) -> Finding:
     """The second solver gave no significant differences: first all by one, then by the other."""
     half = len(trajectories) // 2
     pairs = list(zip(trajectories[:half], trajectories[half:], strict=True))
-    parting = {str(a.attrs["case"]): parting_time(a, b) for a, b in pairs}
-    apart = {name: time for name, time in parting.items() if np.isfinite(time)}
+    divergence_time = {str(a.attrs["case"]): divergence_time_of(a, b) for a, b in pairs}
+    apart = {name: time for name, time in divergence_time.items() if np.isfinite(time)}
     difference = max(late_difference(a, b) for a, b in pairs)
-    measured = {f"parting_{name}": time for name, time in parting.items()}
+    measured = {f"divergence_{name}": time for name, time in divergence_time.items()}
     measured["largest_late_difference"] = difference
     caveat = ""
     if apart:

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import panels, style
 from pendula.drawing.panels import NORMS, Below
-from pendula.measures.divergence import LEVELS, at_times, difference, first_above, is_of_same_case
+from pendula.measures.difference import at_times, difference, divergence_time, is_of_same_case
 
 REFERENCE = Below("true", "true", "off by 1 % from here on")
 SIZES = ["small", "large"]
@@ -29,9 +29,7 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
         long_name = f"true {reference[name].attrs['long_name']}, in multiprecision"
         drawn[f"true_{name}"] = true[name].where(known).assign_attrs(long_name=long_name, units="1")
     apart = difference(run, reference) if known else xr.full_like(run["tau"], np.nan)
-    drawn["divergence_time"] = first_above(apart, LEVELS["visible"]).assign_attrs(
-        long_name="first tau at which a norm is off by 1 % of full scale", units="1"
-    )
+    drawn["divergence_time"] = divergence_time(apart)
     return drawn
 
 

@@ -35,7 +35,11 @@ def _figure(results: Results, which: int) -> dict[str, Any]:
         "omega": results.quote(f"figures/fig{which}", float(data["omega"][0])),
         "end": results.quote(f"figures/fig{which}", float(data["tau"].max())),
         "rows": [panel["row"] for panel in panels],
-        "partings": [(panel["case"], panel["parting"]) for panel in panels if panel["parting"]],
+        "divergences": [
+            (panel["case"], panel["divergence_time"])
+            for panel in panels
+            if panel["divergence_time"]
+        ],
     }
 
 
@@ -44,20 +48,20 @@ def _panel(results: Results, which: int, size: str) -> dict[str, Any]:
     panel = results[source].sel(amplitude=size)
     l2 = np.sqrt((panel["l2"].values ** 2).sum(axis=0))
     late = l2[len(l2) // 2 :]
-    parting, case = float(panel["parting"]), case_of(panel)
+    time, case = float(panel["divergence_time"]), case_of(panel)
     run = f"trajectories/fig{which}_{size}"
     row = [
         case,
         results.say(source, span(l2)),
         results.say(source, measured(late.mean())),
-        results.quote_time(source, parting),
+        results.quote_time(source, time),
         *_bound(results, f"fig{which}_{size}"),
         results.quote(run, results[run].attrs["steps"], 6),
     ]
     peak = number(float(panel["linf"].max()))
     alt = PANEL.format(case=case, low=number(l2.min()), high=number(l2.max()), peak=peak)
-    known = results.quote_time(source, parting) if np.isfinite(parting) else None
-    return {"row": row, "alt": alt, "case": case, "parting": known}
+    known = results.quote_time(source, time) if np.isfinite(time) else None
+    return {"row": row, "alt": alt, "case": case, "divergence_time": known}
 
 
 def _bound(results: Results, case: str) -> list:

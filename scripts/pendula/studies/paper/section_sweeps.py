@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from pendula.measures.readings import CHANGE, CONSTANT, levelling
+from pendula.ledger.readings import CHANGE, CONSTANT
+from pendula.measures.levels import levelling
 from pendula.report.numbers import FIRM, measured, number, percent
 from pendula.report.results import Results
 from pendula.report.words import case_in_words, case_of

@@ -7,14 +7,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import panels, style
-from pendula.measures.divergence import LEVELS, difference, first_above, horizons
+from pendula.measures.difference import VISIBLE, difference, divergence_time
+
+from .solvers import trust
 
 Trajectories = Mapping[tuple[str, str], xr.Dataset]
 """Trajectories by (case, solver); the cases of one figure follow each other, small then large."""
 
 CLAIMS = {"small": 1e-6, "large": 1e-4}
 """The drifts that the paper states, for the cases whose names end so."""
-VISIBLE = LEVELS["visible"]
 
 DRAWN = ["ode45", "dop853", "crank_nicolson"]  # the noisy curve lies below the smooth one
 # two of the curves nearly coincide: the first is a broad light band under the thin second
@@ -88,9 +89,7 @@ def gather_agreement(trajectories: Trajectories) -> xr.Dataset:
         pairs = ([trajectories[case, solver] for solver in name.split(" - ")] for name in PAIRS)
         curves[case] = xr.concat([difference(*both) for both in pairs], pair)
     data = _stack(trajectories, curves)
-    time = first_above(data["difference"], VISIBLE)
-    about = {"long_name": "first tau at which the difference is visible", "units": "1"}
-    data["divergence_time"] = time.assign_attrs(about)
+    data["divergence_time"] = divergence_time(data["difference"])
     data["visible"] = ((), VISIBLE, {"long_name": "visible difference", "units": "1"})
     return data
 
@@ -117,16 +116,7 @@ def _draw_agreement(axes: Axes, case: xr.Dataset) -> None:
 
 def gather_trust(trajectories: Trajectories, references: dict[str, xr.Dataset]) -> xr.Dataset:
     """Return by case and solver how far the norms are from the reference, and when they leave."""
-    cases, solvers = _names(trajectories)
-    curves = {
-        case: horizons({name: trajectories[case, name] for name in solvers}, references[case])
-        for case in cases
-    }
-    data = _stack(trajectories, {case: found["difference"] for case, found in curves.items()})
-    case = xr.Variable("case", cases, data["case"].attrs)
-    data["horizon"] = xr.concat([found["horizon"] for found in curves.values()], case)
-    data["size"] = next(iter(curves.values()))["size"]
-    return data
+    return trust(trajectories, references)
 
 
 @style.styled

@@ -24,7 +24,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.checks import table, variable
-from pendula.measures.readings import growth_margin, powers
+from pendula.measures.norms import growth_margin, total_power
 from pendula.problem import Constants, on_sites, place, read_initial
 
 from .equations import total_energy
@@ -185,7 +185,7 @@ def case_numbers(trajectory: xr.Dataset) -> tuple[dict[str, float], str]:
     """Return the numbers of one trajectory named in NUMBERS, and the theorem that covers it."""
     constants, boundary = Constants.of(trajectory.attrs), str(trajectory.attrs["boundary"])
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
-    energy, power = float(trajectory["energy"][0]), powers(trajectory)
+    energy, power = float(trajectory["energy"][0]), total_power(trajectory)
     start = float(power[0])
     widened = widened_bound(energy, start, constants) if boundary == "dirichlet" else np.inf
     delta_0, c_0 = theorem_2_constants(constants)

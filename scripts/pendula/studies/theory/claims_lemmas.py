@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from pendula.ledger.readings import growth_margin
 from pendula.ledger.row import LARGE, SMALL, checks, claim
 from pendula.ledger.verdicts import Finding, judge, number, within_tolerance
-from pendula.measures.readings import growth_margin
 
 # ASSUME: what the charts resolve: bounded beats change a slope by 6 / tau at most, here tau = 40;
 # an unstable cell must grow at half of its predicted rate once that is twice the resolution.

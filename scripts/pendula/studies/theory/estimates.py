@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.measures.readings import growth_margin
+from pendula.measures.norms import growth_margin
 from pendula.problem import Constants
 
 from .bounds import coercivity, extent, theorem_2_gap

@@ -7,10 +7,10 @@ that stops, would refute the paper.
 
 import numpy as np
 
+from pendula.ledger.readings import CHANGE, CONSTANT
 from pendula.ledger.row import claim, unbounded
 from pendula.ledger.verdicts import Finding, UndecidableError, judge
-from pendula.measures.growth import fit_power, fit_rise, local_powers
-from pendula.measures.readings import CHANGE, CONSTANT
+from pendula.measures.growth import fit_exponent, fit_rise, local_exponents
 
 from .bulk import end_of_bulk, mean_powers, tail_scale
 from .front import speeds
@@ -32,7 +32,7 @@ def power_of(run, name: str, variant: int = 0):
     if tau[-1] < SHORTEST:
         raise UndecidableError(f"the runs end at tau = {tau[-1]:g}, before {SHORTEST:g}")
     values = run[name].isel(variant=variant).transpose("member", "tau").values
-    return fit_power(tau, values, tau[-1] * 0.5**OCTAVES)
+    return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
 def law_at_end(run, thermal) -> float:
@@ -60,16 +60,16 @@ def grows(run, thermal) -> Finding:
     """
     power = power_of(run, "l2")
     values = run["l2"].isel(variant=0).transpose("member", "tau").values
-    last = local_powers(run["tau"].values, values, 1)[1][0]
+    last = local_exponents(run["tau"].values, values, 1)[1][0]
     measured = {
-        "power": power.exponent,
+        "power": power.value,
         "error": power.error,
-        "power_of_last_octave": last.exponent,
+        "power_of_last_octave": last.value,
         "over_its_law": values[:, -1].mean() / law_at_end(run, thermal),
         "end": run["tau"][-1],
         "sites": sites_in_motion(run),
     }
-    holds = max(abs(p.exponent - HALF) for p in (power, last)) < NEAR_HALF
+    holds = max(abs(p.value - HALF) for p in (power, last)) < NEAR_HALF
     caveat = f"up to tau = {measured['end']:.0f}: it would fall with a front that stops"
     return judge(measured, "power of tau within 0.1 of 1/2", holds, caveat)
 
@@ -82,7 +82,7 @@ def grows(run, thermal) -> Finding:
 )
 def grows_in_the_band(run) -> Finding:
     """The conjecture over the band in which the chain at rest is unstable."""
-    found = [power_of(run, "l2", variant).exponent for variant in range(run.sizes["variant"])]
+    found = [power_of(run, "l2", variant).value for variant in range(run.sizes["variant"])]
     omegas = run["omega"].values
     measured = {"least_power": min(found), "largest_power": max(found), "values": len(found)}
     holds = np.abs(np.array(found) - HALF).max() < NEAR_HALF
@@ -142,16 +142,16 @@ def maximum_grows_slowly(run) -> Finding:
         tail_scale(state, end_of_bulk(state)) for state in run["state"].isel(variant=0).values
     ]
     measured = {
-        "power": power.exponent,
+        "power": power.value,
         "last": values[:, -1].mean(),
-        "rise_of_fourth_power": rise.exponent,
+        "rise_of_fourth_power": rise.value,
         "error": rise.error,
         "scale_of_the_tail": np.mean(scales),
     }
     caveat = ""
-    if rise.exponent > 2.0 * rise.error:
+    if rise.value > 2.0 * rise.error:
         caveat = "it creeps up with log tau, as the largest amplitude of ever more sites must"
-    return judge(measured, "power of tau below 0.1", power.exponent < SLOW, caveat)
+    return judge(measured, "power of tau below 0.1", power.value < SLOW, caveat)
 
 
 @claim(
@@ -163,23 +163,23 @@ def maximum_grows_slowly(run) -> Finding:
 def large_data_grow(run, amplitudes) -> Finding:
     """Fig 6, right: large data grow in time at Omega = -4; not all of them do."""
     power = power_of(run, "l2")
-    grown = [power_of(amplitudes, "l2", v).exponent for v in range(amplitudes.sizes["variant"])]
+    grown = [power_of(amplitudes, "l2", v).value for v in range(amplitudes.sizes["variant"])]
     sizes = amplitudes["amplitude"].values[np.array(grown) > GROWING]
-    measured = {"power": power.exponent, "error": power.error, "end": run["tau"][-1]}
+    measured = {"power": power.value, "error": power.error, "end": run["tau"][-1]}
     measured |= {"spreading": len(sizes), "tried": len(grown)}
     which = ", ".join(f"{size:g}" for size in sizes) or "none"
     caveat = f"it depends on the data: of |A_0| = 5 |B_0| tried, these spread by then: {which}"
     if len(sizes) == len(grown):
         caveat = ""
-    holds = power.exponent - 3.0 * power.error > GROWING
+    holds = power.value - 3.0 * power.error > GROWING
     return judge(measured, "power of tau above 0.3", holds, caveat)
 
 
 def stays(run) -> Finding:
     """Return the finding that l2 does not grow."""
     power = power_of(run, "l2")
-    measured = {"power": power.exponent, "error": power.error, "end": run["tau"][-1]}
-    return judge(measured, "power of tau below 0.02", power.exponent < CONSTANT)
+    measured = {"power": power.value, "error": power.error, "end": run["tau"][-1]}
+    return judge(measured, "power of tau below 0.02", power.value < CONSTANT)
 
 
 @claim(

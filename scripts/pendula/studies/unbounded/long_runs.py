@@ -11,7 +11,7 @@ import xarray as xr
 
 from pendula import __version__
 from pendula.datasets.netcdf import Variable
-from pendula.measures.growth import local_powers
+from pendula.measures.growth import local_exponents
 from pendula.problem import Problem, write_initial
 
 from .active_sites import LEVELS, LongRun
@@ -162,7 +162,7 @@ def _measure(run: xr.Dataset) -> xr.Dataset:
         drawn = np.array([np.interp(grid, tau, series) for series in values])
         band = [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
         found[name] = ("statistic", "point"), np.array(band), _words(f"{title} norm of (A, B)")
-        middles, fits = local_powers(tau, values, OCTAVES)
+        middles, fits = local_exponents(tau, values, OCTAVES)
         exponents, errors = np.array(fits).T
         title = f"exponent of tau in the {title} norm over an octave"
         found[f"{name}_exponent"] = "octave", exponents, _words(title)

@@ -1,14 +1,13 @@
-"""When a run parts from the truth: predicted from the growth of small changes, and measured."""
+"""When a run leaves the solution: predicted from the growth of small changes, and measured."""
 
 from typing import NamedTuple
 
 import numpy as np
 
+from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.problem import Problem
 from pendula.simulation.simulate import Trajectory, simulate
 
-PARTED = 0.01
-"""Relative difference at which two runs count as parted."""
 ROUNDING = 2.0**-53
 """Relative error of one rounded operation in double precision."""
 FINEST = 1e-15
@@ -28,37 +27,28 @@ def amplification(tau: np.ndarray, stretch: np.ndarray, size: np.ndarray) -> np.
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which `error` a unit of tau has grown to PARTED; NaN if at none."""
-    return first_above(tau, log_amplification, np.log(PARTED / error))
-
-
-def first_above(tau: np.ndarray, values: np.ndarray, limit: float) -> float:
-    """Return the first tau at which `values` reach `limit`, NaN where they never do."""
-    above = np.flatnonzero(values >= limit)
-    return float(tau[above[0]]) if above.size else np.nan
+    """Return the first tau at which `error` a unit of tau has grown to VISIBLE; inf if at none."""
+    return first_above(tau, log_amplification, np.log(VISIBLE / error))
 
 
 class Parting(NamedTuple):
-    """How runs at several tolerances part from a finer one; all are (tolerance,)."""
+    """How runs at several tolerances differ from a finer one; all are (tolerance,)."""
 
-    time: np.ndarray  # tau at which they part, NaN where they never do
+    time: np.ndarray  # divergence time, inf where there is none
     steps: np.ndarray  # of the solver per unit of tau
-    early: np.ndarray  # relative difference at tau = EARLY
+    early: np.ndarray  # difference at tau = EARLY
 
 
 def measure(problem: Problem, tolerances: list[float]) -> Parting:
-    """Follow a case by dop853 at each tolerance and at FINEST.
-
-    Compared are the moduli on all sites, in l2.
-    """
+    """Follow a case by dop853 at each tolerance and at FINEST."""
     finest = _run(problem, FINEST)
     first = early_index(finest.tau)
     rows = []
     for tolerance in tolerances:
         run = _run(problem, tolerance)
-        difference = _l2(run.modulus - finest.modulus) / _l2(finest.modulus)
+        difference = norm_difference(run.linf, run.l2, finest.linf, finest.l2)
         steps = (run.outcome.steps + run.outcome.rejected) / run.tau[-1]
-        rows.append((first_above(run.tau, difference, PARTED), steps, difference[first]))
+        rows.append((first_above(run.tau, difference, VISIBLE), steps, difference[first]))
     return Parting(*np.array(rows).T)
 
 
@@ -69,8 +59,4 @@ def early_index(tau: np.ndarray) -> int:
 
 def _run(problem: Problem, tolerance: float) -> Trajectory:
     solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
-    return simulate(problem.changed(solver=solver, snapshot_every=1))
-
-
-def _l2(modulus: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.sum(modulus**2, axis=(0, 1)))
+    return simulate(problem.changed(solver=solver, snapshot_every=0))

@@ -1,0 +1,59 @@
+"""What is read off a curve against a parameter, and off an ensemble: levels, ranges, means."""
+
+import numpy as np
+
+# ASSUME: the paper gives no measure of "approaches a level"; half a percent is a line's width.
+LEVEL = 5e-3
+# ASSUME: what differs by less than two standard errors is not told apart.
+APART = 2.0
+
+
+def levelling(
+    half_widths: np.ndarray, values: np.ndarray, tolerance: float = LEVEL, least: int = 3
+) -> float:
+    """Return the half-width from which all values equal the last to `tolerance`, inf if none.
+
+    The last value alone says nothing: at least so many must agree.
+    """
+    return _first_of_tail(half_widths, np.abs(values / values[-1] - 1.0) <= tolerance, least)
+
+
+def levelling_of_means(
+    half_widths: np.ndarray, means: np.ndarray, errors: np.ndarray, least: int = 3
+) -> float:
+    """Return the half-width from which no mean differs from the last by more than the noise.
+
+    The noise is APART standard errors of the difference. It is infinite if there is none.
+    """
+    noise = APART * np.hypot(errors, errors[-1])
+    return _first_of_tail(half_widths, np.abs(means - means[-1]) <= noise, least)
+
+
+def _first_of_tail(half_widths: np.ndarray, near: np.ndarray, least: int) -> float:
+    first = len(near) - int(np.argmin(near[::-1])) if not near.all() else 0
+    return float(half_widths[first]) if first <= len(near) - least else np.inf
+
+
+def relative_range(values: np.ndarray) -> float:
+    """Return the range of the values over their mean."""
+    return float((np.max(values) - np.min(values)) / abs(np.mean(values)))
+
+
+def rising_share(values: np.ndarray) -> float:
+    """Return the share of steps that go up, 0 of a single value."""
+    return float(np.mean(np.diff(values) > 0)) if len(values) > 1 else 0.0
+
+
+def bands(norms: np.ndarray, quantiles) -> np.ndarray:
+    """Return the quantiles over the members of (member, ...), shape (quantile, ...)."""
+    return np.quantile(norms, quantiles, axis=0)
+
+
+def moments(values: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the mean, standard deviation and standard error over the members of (member, ...)."""
+    deviation = values.std(axis=0, ddof=1)
+    return {
+        "mean": values.mean(axis=0),
+        "deviation": deviation,
+        "error": deviation / np.sqrt(len(values)),
+    }

@@ -1,0 +1,68 @@
+"""What is read off the norms and the energy of one run: P, largest amplitude, drift, margin."""
+
+import numpy as np
+
+from pendula.problem import Constants
+
+
+def total_power(trajectory) -> np.ndarray:
+    """Return P = |A|^2 + |B|^2, the squared l2 norm of the pair, at all times."""
+    return (trajectory["l2"] ** 2).sum("component").values
+
+
+def largest(trajectory) -> np.ndarray:
+    """Return the l-infinity norm of the pair at all times."""
+    return trajectory["linf"].max("component").values
+
+
+def mean(trajectory, name: str, component: str) -> float:
+    """Return the mean of a norm of one component over time."""
+    return float(trajectory[name].sel(component=component).mean())
+
+
+def constants(dataset) -> Constants:
+    """Return the constants of a trajectory or a sweep."""
+    return Constants.of(dataset.attrs)
+
+
+def drift(energy) -> np.ndarray:
+    """Return abs(H(tau) - H(0)) at each time of an energy (..., time): the error of conservation.
+
+    It is absolute, as the paper states it.
+    """
+    energy = np.asarray(energy, dtype=float)
+    return np.abs(energy - energy[..., :1])
+
+
+def late_difference(one, other) -> float:
+    """Return the relative difference of two runs' mean norms over the second half of the time.
+
+    Two chaotic runs that are apart may still be alike in this sense. It is the larger of that of
+    l2 and that of l-infinity, both of the pair.
+    """
+    half = one["tau"].values >= 0.5 * float(one["tau"][-1])
+    l2 = np.mean(np.sqrt(total_power(other))[half]) / np.mean(np.sqrt(total_power(one))[half])
+    linf = np.mean(largest(other)[half]) / np.mean(largest(one)[half])
+    return float(max(abs(l2 - 1.0), abs(linf - 1.0)))
+
+
+def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:
+    """Return how close a trajectory with norms `l2`, shape (2, time), comes to the bound (19).
+
+    `from_start`: largest P(tau) / (P(0) e^{4 |gamma| tau}) over tau > 0; `backwards`: the same
+    seen from the end; `steepest`: largest |change of log P| over 4 |gamma| times its duration,
+    one for any pair of times at the bound. All must be at most one.
+    """
+    rise = np.log(np.sum(np.asarray(l2) ** 2, axis=0))
+    allowed = 4.0 * abs(gamma) * np.asarray(tau, dtype=float)
+    forth = (rise - rise[0]) - (allowed - allowed[0])
+    back = (rise - rise[-1]) - (allowed[-1] - allowed)
+    steps = np.abs(np.diff(rise))
+    bound = np.diff(allowed)
+    unbounded = np.where(steps > 0, np.inf, 0.0)  # without a drive P may not move at all
+    steepest = np.where(bound > 0, steps / np.where(bound > 0, bound, 1.0), unbounded)
+    return {
+        "from_start": float(np.exp(forth[1:].max())),
+        "backwards": float(np.exp(back[:-1].max())),
+        "steepest": float(steepest.max()),
+    }

@@ -1,0 +1,105 @@
+"""How far two runs differ and from when on; how far trajectories are from the reference."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from paper.draw_trust import write_table
+from pendula.measures.difference import (
+    LEVELS,
+    PARAMETERS,
+    difference,
+    divergence_time,
+    first_above,
+    norm_difference,
+    state_error,
+)
+from pendula.studies.paper.solvers import trust
+
+
+def run(count=11, omega=8.0, changes=()):
+    """Return norms that are 2 for A and 1 for B, but for `changes` {(norm, row, time): value}."""
+    norms = np.repeat([[2.0], [1.0]], count, axis=1)
+    data = xr.Dataset(
+        {name: (("component", "tau"), norms.copy()) for name in ("linf", "l2")},
+        {"tau": 0.5 * np.arange(count), "component": ["A", "B"]},
+        {**dict.fromkeys(PARAMETERS, 1.0), "omega": omega, "initial": "{}"},
+    )
+    data["energy"] = ("tau", np.zeros(count))
+    for (name, row, time), value in dict(changes).items():
+        data[name][row, time] = value
+    return data
+
+
+def test_differences_are_parts_of_the_largest_value_of_their_curve():
+    changed = run(changes={("l2", 0, 3): 1.0, ("linf", 1, 5): 1.25})
+    found = difference(changed, run())
+    assert found[3] == pytest.approx(1.0 / 2.0)
+    assert found[5] == pytest.approx(0.25 / 1.25)
+    assert float(found.sum()) == pytest.approx(0.7)
+    np.testing.assert_array_equal(found, difference(run(), changed))
+
+
+def test_a_small_component_that_is_wholly_wrong_is_seen_and_the_scale_of_the_data_is_not():
+    large, small = np.full(5, 100.0), np.array([0.0, 1e-6, 2e-6, 0.0, 0.0])
+    one, other = np.array([large, small]), np.array([large, small[::-1]])
+    assert norm_difference(one, one, one, other)[1] == 0.5
+    scaled = norm_difference(1e9 * one, one, 1e9 * one, other)
+    np.testing.assert_allclose(scaled, norm_difference(one, one, one, other))
+
+
+def test_chains_at_rest_do_not_differ():
+    rest = np.zeros((2, 4))
+    assert not norm_difference(rest, rest, rest, rest).any()
+    assert norm_difference(rest, rest, rest, rest + 1e-300).all()
+
+
+def test_a_longer_reference_is_shortened_and_rounded_times_are_the_same_times():
+    longer = run(count=21)
+    longer["tau"] = longer["tau"] * (1 + 1e-15)
+    found = difference(run(), longer)
+    assert found.sizes == {"tau": 11}
+    assert not found.any()
+
+
+def test_the_first_time_above_a_level_counts_and_never_is_not_unknown():
+    found = difference(run(changes={("l2", 0, 4): 2.03, ("l2", 0, 8): 3.0}), run())
+    assert divergence_time(found, 0.005) == 2.0
+    assert divergence_time(found, 0.2) == 4.0
+    assert divergence_time(found, 0.5) == np.inf
+    assert np.isnan(divergence_time(found * np.nan, 0.5))
+    values = np.array([[0.0, 1.0, 2.0], [0.0, np.nan, 0.0], [np.nan] * 3])
+    np.testing.assert_array_equal(first_above([5, 6, 7], values, 1.0), [7.0, np.inf, np.nan])
+    assert first_above([5, 6, 7], [0.0, 1.0, 1.0], 1.0) == np.inf
+
+
+def test_the_error_of_a_state_is_that_of_its_worst_component():
+    assert state_error(np.array([1.0, 4.0j]), np.array([1.5, 4.0j])) == 0.125
+
+
+def test_each_solver_has_its_horizon_at_each_level():
+    bad = run(changes={("l2", 1, 2): 1.008, ("l2", 1, 6): 1.02})
+    found = trust({("case", "good"): run(), ("case", "bad"): bad}, {"case": run()})
+    found = found.sel(case="case")
+    assert found["horizon"].sel(solver="bad").to_series().to_dict() == {"line": 1.0, "visible": 3.0}
+    assert (found["horizon"].sel(solver="good") == np.inf).all()
+    assert found["size"].values.tolist() == list(LEVELS.values())
+
+
+def test_another_case_has_no_horizon():
+    off = run(changes={("l2", 0, 1): 9.0})
+    found = trust({("case", "run"): off}, {"case": run(omega=7.0)})
+    assert found["horizon"].isnull().all() and found["difference"].isnull().all()
+
+
+def test_data_as_printed_and_the_doubles_next_to_them_lead_apart():
+    rounded = run(changes={("l2", 0, 3): 2.0 + 1e-9, ("l2", 0, 7): 2.5})
+    found = trust({("case", "run"): run()}, {"case": run()}, (run(), rounded))
+    assert found["decimal_horizon"].values.tolist() == [1.5, 3.5]
+
+
+def test_the_table_says_when_each_solver_is_lost_or_never():
+    bad = run(changes={("l2", 1, 6): 1.02})
+    runs = {("fig2_small", "good"): run(), ("fig2_small", "bad"): bad}
+    page = write_table(trust(runs, {"fig2_small": run()}))
+    assert "| fig2_small | bad | 3 | 3 |" in page
+    assert "| fig2_small | good | never | never |" in page

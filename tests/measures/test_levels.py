@@ -1,0 +1,49 @@
+"""Where curves level off, what range they have, and the means of ensembles with their errors."""
+
+import numpy as np
+from pendula.measures.levels import (
+    bands,
+    levelling,
+    levelling_of_means,
+    moments,
+    relative_range,
+    rising_share,
+)
+
+WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
+
+
+def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end():
+    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.01])) == 20.0
+    assert levelling(WIDTHS, np.array([3.0, 2.0, 3.0, 3.0, 3.0])) == 20.0
+    assert levelling(WIDTHS, np.full(5, 7.0)) == 5.0
+    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.1])) == np.inf
+    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.1]), tolerance=0.1) == 20.0
+
+
+def test_two_values_that_agree_are_no_level_unless_two_are_enough():
+    rising = np.array([1.0, 2.0, 2.5, 3.0, 3.0])
+    assert levelling(WIDTHS, rising) == np.inf
+    assert levelling(WIDTHS, rising, least=2) == 40.0
+
+
+def test_means_are_level_where_their_errors_hide_the_rest():
+    means = np.array([1.0, 2.0, 2.9, 3.1, 3.0])
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1)) == 20.0
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01)) == np.inf
+    assert levelling_of_means(WIDTHS, means, np.full(5, 1.0)) == 5.0
+
+
+def test_the_range_is_relative_to_the_mean_and_steps_up_are_counted():
+    assert relative_range(np.array([1.0, 2.0, 3.0])) == 1.0
+    assert rising_share(np.array([1.0, 2.0, 1.5, 3.0, 4.0])) == 0.75
+    assert rising_share(np.array([1.0])) == 0.0
+
+
+def test_bands_and_moments_are_those_over_the_members():
+    values = np.arange(11.0)[:, None] * [1.0, 10.0]
+    np.testing.assert_allclose(bands(values, (0.05, 0.5)), [[0.5, 5.0], [5.0, 50.0]])
+    found = moments(values)
+    np.testing.assert_allclose(found["mean"], [5.0, 50.0])
+    np.testing.assert_allclose(found["deviation"][0], np.sqrt(11.0))
+    np.testing.assert_allclose(found["error"][0], 1.0)
