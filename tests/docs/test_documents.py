@@ -7,19 +7,15 @@ fact changes with the data.
 """
 
 import re
-import sys
 from pathlib import Path
 
+import facts
 import numpy as np
 import pytest
+import render
 from pendula.ledger.claims import CLAIMS
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "docs"))
-
-import facts  # noqa: E402
-import render  # noqa: E402
-
 PAGES = render.pages()
 
 LEFT_OUT = [

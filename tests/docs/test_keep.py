@@ -1,17 +1,12 @@
 """What is kept of a run for the documents is what the run holds, on made-up results."""
 
 import json
-import sys
-from pathlib import Path
 
+import keep
 import made_up_unbounded as made_up
 import numpy as np
 import pytest
 import xarray as xr
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "docs"))
-
-import keep
 
 
 def _stable(exponent, speed):
