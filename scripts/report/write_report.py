@@ -13,6 +13,7 @@ def write_report(
     datasets: list[str],
     pictures: list[str],
     ledger: str,
+    speed_data: str,
     speed_table: str,
     speed_pictures: list[str],
     sources: list[str],
@@ -27,13 +28,13 @@ def write_report(
     `checks` names the checks of the theory, `sources` are the records of code and the references,
     `settings` the configuration as text and `logs` the folder of the jobs' logs.
     """
-    files = [*datasets, *pictures, ledger, speed_table, *speed_pictures, *sources]
+    files = [*datasets, *pictures, ledger, speed_data, speed_table, *speed_pictures, *sources]
     results = Results(files, html)
-    (table,), drawn, made_of = (
+    (times, table), drawn, made_of = (
         [Path(path).relative_to(Path(html).parent).as_posix() for path in paths]
-        for paths in ([speed_table], speed_pictures, sources)
+        for paths in ([speed_data, speed_table], speed_pictures, sources)
     )
-    measured = Measured(table, drawn, speed_is_fresh)
+    measured = Measured(times, table, drawn, speed_is_fresh)
     made = {"inputs": made_of, "settings": settings, "logs": logs, "took": TOOK}
     with complete_or_absent(html) as partial:
         Path(partial).write_text(document.write(results, checks, measured, made), "utf-8")

@@ -8,48 +8,53 @@ from pendula.report import provenance, speed
 from pendula.report.results import ReportError
 from pendula.studies.hard_cases import section as hard_cases
 
-HEAD = "| solver | accuracy | time, ms | error |\n| --- | --- | --- | --- |\n"
-TABLE = f"""# Speed against error
 
-Words.
-
-## Times of the peers over that of the fastest solver here, at equal error
-
-| peer | fig2_small | geometric mean |
-| --- | --- | --- |
-| SciPy RK45 | 900 | 9.2e+02 (4 cases) |
-| Octave | not reached | - |
-
-## fig2_small
-
-{HEAD}| taylor | 1e-9 | 2.5 | 1e-09 |
-| taylor | 1e-10 | {{taylor}} | 1e-11 |
-| taylor | 1e-12 | 9 | 1e-13 |
-| dop853 | 1e-12 | 6.1 | 3e-11 |
-| crank_nicolson | 1e-3 | 1.0 | 1e-3 |
-"""
-
-
-def speed_results(folder, table: str) -> made_up.MadeUp:
-    return made_up.MadeUp(folder, {"checks/cases": made_up.by_case()}, **{"table.md": table})
+def times(taylor: float) -> xr.Dataset:
+    """Return least times in s of two solvers that reach the error and of one that does not."""
+    names = ["dop853", "taylor", "crank_nicolson"]
+    return xr.Dataset(
+        {
+            "best_seconds": (("case", "solver"), [[6.1e-3, taylor, np.nan]]),
+            "target": ("case", [1e-10]),
+            "title": ("contestant", [*names, "SciPy RK45", "Octave"]),
+            "mean_ratio": ("peer", [924.0, np.nan]),
+            "reached_cases": ("peer", [4, 0]),
+        },
+        coords={
+            "case": ["fig2_small"],
+            "solver": names,
+            "contestant": [*names, "scipy", "octave"],
+            "peer": ["scipy", "octave"],
+        },
+    )
 
 
-@pytest.mark.parametrize(("taylor", "fastest"), [(3.25, "Taylor"), (7.5, "DOP853")])
+def gathered(folder, measured: xr.Dataset) -> dict:
+    """Return what the section shows of measurements in the dataset speed.nc."""
+    results = made_up.MadeUp(folder, {"checks/cases": made_up.by_case(), "speed": measured})
+    return speed.gather(results, speed.Measured("speed.nc", "table.md", [], False))
+
+
+@pytest.mark.parametrize(("taylor", "fastest"), [(3.25e-3, "Taylor"), (7.5e-3, "DOP853")])
 def test_the_fastest_is_found_at_the_error_asked_for(tmp_path, taylor, fastest):
-    results = speed_results(tmp_path, TABLE.format(taylor=taylor))
-    found = speed.gather(results, speed.Measured("table.md", [], False))
+    found = gathered(tmp_path, times(taylor))
     assert found["fastest"] == fastest and str(found["wins"]) == str(found["cases"]) == "1"
-    assert [str(cell) for cell in found["rows"][0][1:]] == ["10⁻¹⁰", f"{taylor:g}", "6.1"]
+    assert found["head"] == ["case", "error", "DOP853", "Taylor"]
+    assert [str(cell) for cell in found["rows"][0][1:]] == ["10⁻¹⁰", "6.1", f"{1e3 * taylor:g}"]
     assert [[name, str(ratio)] for name, ratio in found["peers"]] == [
-        ["SciPy RK45", "920 (4 cases)"]
+        ["SciPy RK45", "924 (4 cases)"]
     ]
-    assert found["absent"] == ["Octave"]
+    assert found["absent"] == ["Octave"] and found["table"] == "table.md"
 
 
-def test_a_table_without_times_is_refused(tmp_path):
-    results = speed_results(tmp_path, "# Nothing\n")
-    with pytest.raises(ReportError, match=r"table\.md holds no table of speed"):
-        speed.gather(results, speed.Measured("table.md", [], False))
+def test_times_without_peers_are_shown(tmp_path):
+    found = gathered(tmp_path, times(3e-3).drop_dims("peer"))
+    assert found["peers"] == found["absent"] == [] and found["fastest"] == "Taylor"
+
+
+def test_a_dataset_without_times_is_refused(tmp_path):
+    with pytest.raises(ReportError, match=r"speed\.nc holds no times"):
+        gathered(tmp_path, xr.Dataset())
 
 
 def hard(sound: int) -> xr.Dataset:

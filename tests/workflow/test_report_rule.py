@@ -48,7 +48,9 @@ def test_measurements_of_this_machine_are_preferred_and_start_no_timing(finished
     kept = clone / "tests/baseline/speed"
     names = ("speed_regular", "speed_large", "speed_unstable", "cost_growth")
     here = {f"figures/{name}.png": kept / "speed_regular.png" for name in names}
-    for name, source in {"speed/work_precision.md": kept / "table.md", **here}.items():
+    for kind in ("nc", "md"):
+        here[f"speed/work_precision.{kind}"] = kept / f"work_precision.{kind}"
+    for name, source in here.items():
         target = finished / "results" / name
         target.parent.mkdir(exist_ok=True)
         target.write_bytes(source.read_bytes())

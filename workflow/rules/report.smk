@@ -1,6 +1,6 @@
 # One page on the whole run, that opens anywhere.
 
-SPEED_IS_FRESH, SPEED_TABLE, SPEED_PICTURES = speed_measured()
+SPEED_IS_FRESH, SPEED_DATA, SPEED_TABLE, SPEED_PICTURES = speed_measured()
 
 
 rule report:
@@ -10,6 +10,7 @@ rule report:
         datasets=reported_datasets(),
         pictures=expand("results/figures/{name}.png", name=FIGURES),
         ledger="results/claims.json",
+        speed_data=SPEED_DATA,
         speed_table=SPEED_TABLE,
         speed_pictures=SPEED_PICTURES,
         sources=[*map(code, NUMBERS_BY), *references(*PAPER_CASES, "fig4_small.double")],

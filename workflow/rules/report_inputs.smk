@@ -20,17 +20,19 @@ def reported_datasets():
 
 
 def speed_measured():
-    """Return whether this machine timed the solvers, the table and its pictures.
+    """Return whether this machine timed the solvers, the dataset, its table and its pictures.
 
     They are copied, not taken as inputs: else an edit would start the timing anew, which is no part
     of a full run.
     """
-    here = ["results/speed/work_precision.md", *(f"results/figures/{n}.png" for n in SPEED_FIGURES)]
+    here = [f"results/speed/work_precision.{kind}" for kind in ("nc", "md")]
+    here += [f"results/figures/{name}.png" for name in SPEED_FIGURES]
     if all(was_made(path) for path in here):
-        table, *pictures = (kept(path) for path in here)
-        return True, table, pictures
-    folder = "tests/baseline/speed"
-    return False, committed(f"{folder}/table.md"), [committed(f"{folder}/speed_regular.png")]
+        data, table, *pictures = (kept(path) for path in here)
+        return True, data, table, pictures
+    names = ("work_precision.nc", "work_precision.md", "speed_regular.png")
+    data, table, picture = (committed(f"tests/baseline/speed/{name}") for name in names)
+    return False, data, table, [picture]
 
 
 def settings_in_words():

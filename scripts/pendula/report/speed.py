@@ -1,90 +1,76 @@
-"""Speed against error, read from the table that the speed rules write."""
+"""Speed against error, read from the dataset that `snakemake speed` makes."""
 
-from pathlib import Path
 from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
 
 from .numbers import number
 from .pictures import picture
 from .results import ReportError, Results
-from .words import SOLVERS, case_of, symbols
-
-TARGETS = {
-    **dict.fromkeys(("fig2_small", "fig3_small"), 1e-10),
-    **dict.fromkeys(("fig2_large", "fig3_large", "fig4_small", "fig4_large"), 1e-6),
-}
-"""The error at which solvers are compared on each case."""
+from .words import SOLVERS, case_of
 
 
 class Measured(NamedTuple):
     """Where the measurements are, as links of the page; `fresh` if this machine made them."""
 
+    data: str
     table: str
     pictures: list[str]
     fresh: bool
 
 
 def gather(results: Results, measured: Measured) -> dict[str, Any]:
-    """Return the peers' times over ours and our solvers' own times at the error asked for."""
-    tables = read(results.path(measured.table))
-    _, *peers = next(rows for title, rows in tables.items() if "peers" in title)
-    ours = {case: tables[case] for case in TARGETS if case in tables}
-    times = {case: best_times(rows, TARGETS[case]) for case, rows in ours.items()}
-    solvers = list(dict.fromkeys(name for found in times.values() for name in found))
-    wins = [min(found, key=found.get) for found in times.values() if found]
-    fastest = max(dict.fromkeys(wins), key=wins.count)
+    """Return the peers' times over ours and our solvers' least times at the error asked for."""
+    source = measured.data.removesuffix(".nc")
+    data = results[source]
+    if "best_seconds" not in data:
+        raise ReportError(f"{measured.data} holds no times of solvers: run `snakemake speed`")
+    best = 1e3 * data["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
+    winners = [str(name) for name in best.idxmin("solver").values]
+    fastest = max(dict.fromkeys(winners), key=winners.count)
+    alt = _alt(best)
     return {
         "fresh": measured.fresh,
-        "peers": [
-            [row[0], results.say(measured.table, symbols(row[-1]))]
-            for row in peers
-            if row[-1] != "-"
-        ],
-        "absent": [row[0] for row in peers if row[-1] == "-"],
-        "head": ["case", "error", *(SOLVERS[name] for name in solvers)],
-        "rows": [_row(results, measured.table, case, times[case], solvers) for case in times],
+        **_peers(results, source),
+        "head": ["case", "error", *(SOLVERS[str(name)] for name in best["solver"].values)],
+        "rows": [_row(results, source, best.sel(case=case)) for case in best["case"].values],
         "fastest": SOLVERS[fastest],
-        "wins": results.quote(measured.table, wins.count(fastest)),
-        "cases": results.quote(measured.table, len(times)),
-        "pictures": [
-            picture(results.path(link), _alt(times, solvers), link) for link in measured.pictures
-        ],
+        "wins": results.quote(source, winners.count(fastest)),
+        "cases": results.quote(source, len(winners)),
+        "pictures": [picture(results.path(link), alt, link) for link in measured.pictures],
         "table": measured.table,
     }
 
 
-def read(path: Path) -> dict[str, list[list[str]]]:
-    """Return the tables of a Markdown file by the headings above them, each row split in cells."""
-    tables, title = {}, ""
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if line.startswith("#"):
-            title = line.lstrip("# ")
-        elif line.startswith("|") and set(line) - set("|- "):
-            tables.setdefault(title, []).append([cell.strip() for cell in line[1:-1].split("|")])
-    if not any("peers" in title for title in tables) and not set(tables) & set(TARGETS):
-        raise ReportError(f"{path} holds no table of speed: run `snakemake speed`")
-    return tables
+def _peers(results: Results, source: str) -> dict[str, list]:
+    """Return the mean ratio of each peer that reached the error, and the names of the others."""
+    data = results[source]
+    titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
+    reached, absent = [], []
+    for peer in data["peer"].values if "peer" in data.dims else []:
+        own = data.sel(peer=peer)
+        if count := int(own["reached_cases"]):
+            mean = f"{number(float(own['mean_ratio']))} ({count} cases)"
+            reached.append([str(titles[peer]), results.say(source, mean)])
+        else:
+            absent.append(str(titles[peer]))
+    return {"peers": reached, "absent": absent}
 
 
-def best_times(rows: list[list[str]], target: float) -> dict[str, float]:
-    """Return the least time in ms in which each solver comes within an error."""
-    head, *body = rows
-    solver, time, error = (head.index(name) for name in ("solver", "time, ms", "error"))
-    best = {}
-    for row in body:
-        if float(row[error]) <= target:
-            best[row[solver]] = min(float(row[time]), best.get(row[solver], float("inf")))
-    return best
+def _row(results: Results, source: str, times: xr.DataArray) -> list:
+    cells = [
+        results.quote(source, time) if np.isfinite(time) else "not reached" for time in times.values
+    ]
+    case = str(times["case"].values)
+    target = float(results[source]["target"].sel(case=case))
+    return [case_of(results["checks/cases"].sel(case=case)), number(target), *cells]
 
 
-def _row(results: Results, table: str, case: str, times: dict, solvers: list[str]) -> list:
-    cells = [results.quote(table, times[s]) if s in times else "not reached" for s in solvers]
-    known = results["checks/cases"].sel(case=case)
-    return [case_of(known), number(TARGETS[case]), *cells]
-
-
-def _alt(times: dict[str, dict], solvers: list[str]) -> str:
+def _alt(times: xr.DataArray) -> str:
+    least = times.min("case")
     told = "; ".join(
-        f"{SOLVERS[name]} {number(min(found[name] for found in times.values() if name in found))}"
-        for name in solvers
+        f"{SOLVERS[str(name)]} {number(float(least.sel(solver=name)))}"
+        for name in times["solver"].values
     )
     return f"Time against error, a line a solver. Least times in ms at the error asked for: {told}."
