@@ -6,7 +6,6 @@ dataset a number stands; the text around the fact names them as well.
 """
 
 import json
-import math
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +17,9 @@ from pendula.report.words import SOLVERS, case_of, symbols
 
 GROWING = 0.3
 """The exponent above which a norm counts as growing."""
+
+COMPARED = 1001, 100_001
+"""Numbers of sites whose costs are compared."""
 
 REGULAR_ERROR = 1e-10
 """The error at which solvers are compared."""
@@ -41,19 +43,6 @@ class Baseline:
     def claims(self) -> list[dict]:
         """Return the rows of the ledger of the last full run that was accepted."""
         return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
-
-    def tables(self, name: str) -> dict[str, list[dict]]:
-        """Return the tables of a measurement of speed by the headings above them."""
-        found, title, head = {}, "", None
-        for line in (self.folder / "speed" / f"{name}.md").read_text("utf-8").splitlines():
-            cells = [cell.strip() for cell in line.strip("|").split("|")]
-            if line.startswith("#"):
-                title, head = line.lstrip("# "), None
-            elif line.startswith("|") and head is None:
-                head = cells
-            elif line.startswith("|") and not line.startswith("| ---"):
-                found.setdefault(title, []).append(dict(zip(head, cells, strict=True)))
-        return found
 
 
 def gather(baseline: Baseline, configuration: dict) -> dict[str, dict]:
@@ -306,74 +295,58 @@ def references(baseline: Baseline) -> dict:
 
 def speed(baseline: Baseline) -> dict:
     """Return times at equal error, the growth of the cost, and the times of the jobs of a run."""
-    tables, growth = baseline.tables("table"), baseline.tables("growth")
-    peers = next(rows for title, rows in tables.items() if "peers" in title)
-    ratio = {row["peer"]: row["geometric mean"] for row in peers}
-    sites = next(rows for title, rows in growth.items() if "number of sites" in title)
-    regular = {case: tables[case] for case in ("fig2_small", "fig3_small")}
-    errors = [
-        float(row["error"])
-        for rows in regular.values()
-        for row in rows
-        if row["solver"] == "taylor" and float(row["accuracy"]) < 1.5e-14
-    ]
+    measured, cost = baseline["speed/work_precision"], baseline["speed/cost"]["seconds"]
+    titles = measured["title"].to_series()
+    ratios = measured["mean_ratio"].dropna("peer").to_series()
+    tight = measured.sel(case=["fig2_small", "fig3_small"], contestant="taylor")
+    errors = tight["error"].where(tight["accuracy"] < 1.5e-14)
+    short, long = (cost.sel(sites=sites) for sites in COMPARED)
     return {
         "peers": [
             {
-                "peer": name,
-                "ratio": f"{_value(text):.2g}" if _value(text) < 100 else f"{_value(text):.0f}",
-                "cases": _cases(text),
+                "peer": titles[peer],
+                "ratio": f"{ratio:.2g}" if ratio < 100 else f"{float(f'{ratio:.3g}'):.0f}",
+                "cases": str(int(measured["reached_cases"].sel(peer=peer))),
             }
-            for name, text in ratio.items()
-            if text != "-"
+            for peer, ratio in ratios.items()
         ],
         "best": [
-            {"solver": SOLVERS[name], "time": number(time, 2)}
-            for name, time in _best(regular["fig3_small"], REGULAR_ERROR).items()
+            {"solver": SOLVERS[name], "time": number(1e3 * seconds, 2)}
+            for name, seconds in _best(measured.sel(case="fig3_small"), REGULAR_ERROR).items()
         ],
         "best_error": number(REGULAR_ERROR),
-        "fastest_below": number(_fastest_below(tables, "taylor")),
-        "faster": " and ".join(n for n, text in ratio.items() if text != "-" and _value(text) < 1),
-        "taylor_error": number(max(errors), 1),
-        "sites": [{"sites": row["number of sites N"], **_growth(row)} for row in sites[:-1]],
-        "long_over_short": {"sites": sites[-1]["number of sites N"], **_growth(sites[-1])},
+        "fastest_below": number(_fastest_below(measured, "taylor")),
+        "faster": " and ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
+        "taylor_error": number(float(errors.max()), 1),
+        "sites": [
+            {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
+        ],
+        "long_over_short": {"sites": f"{COMPARED[1]} over {COMPARED[0]}", **_growth(long / short)},
         "jobs": _jobs(baseline["quoted/job_times"]),
         "jobs_total": number(baseline["quoted/job_times"]["seconds"].sum()),
     }
 
 
-def _growth(row: dict) -> dict[str, str]:
-    return {name: number(float(row[name])) for name in ("dop853", "taylor")}
-
-
-def _value(text: str) -> float:
-    return float(text.split()[0])
+def _growth(cost: xr.DataArray) -> dict[str, str]:
+    return {name: number(float(cost.sel(solver=name))) for name in ("dop853", "taylor")}
 
 
 def _ratio(value: float) -> str:
     return f"{value:.0f}" if value >= 10 else number(value, 2)
 
 
-def _cases(text: str) -> str:
-    return text.partition("(")[2].rstrip(")").split()[0]
+def _best(case: xr.Dataset, error: float) -> dict[str, float]:
+    """Return the least time, in s, in which each solver comes within an error, the least first."""
+    own = case.sel(contestant=case["solver"].values)
+    least = own["seconds"].where(own["error"] <= error).min("point").dropna("contestant")
+    return least.to_series().sort_values().to_dict()
 
 
-def _best(rows: list[dict], error: float) -> dict[str, float]:
-    """Return the least time, in ms, in which each solver comes within an error, the least first."""
-    best = {}
-    for row in rows:
-        if float(row["error"]) <= error:
-            time = float(row["time, ms"])
-            best[row["solver"]] = min(time, best.get(row["solver"], math.inf))
-    return dict(sorted(best.items(), key=lambda item: item[1]))
-
-
-def _fastest_below(tables: dict[str, list[dict]], solver: str) -> float:
+def _fastest_below(measured: xr.Dataset, solver: str) -> float:
     """Return the largest power of ten below which the solver is the fastest in every case."""
-    cases = [rows for rows in tables.values() if "accuracy" in rows[0]]
     below = None
     for error in 10.0 ** np.arange(-13, 0):
-        found = [_best(rows, error) for rows in cases]
+        found = [_best(measured.sel(case=case), error) for case in measured["case"].values]
         if any(best and next(iter(best)) != solver for best in found):
             break
         below = error
