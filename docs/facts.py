@@ -54,17 +54,9 @@ def gather(baseline: Baseline, configuration: dict) -> dict[str, dict]:
 
 
 def configured(configuration: dict) -> dict:
-    """Return parameters of the configuration and constants of the measures."""
-    settings = load(configuration)
-    case = settings.cases["fig3_small"]
-    own = settings.solvers.taylor
-    return {
-        "pairs": str(2 * case.half_width + 1),
-        "half_width": str(case.half_width),
-        "end_time": number(case.end_time),
-        "own_rtol": number(own.rtol),
-        "step": number(settings.solvers.crank_nicolson.step),
-    }
+    """Return parameters of solvers in the configuration."""
+    given = load(configuration).solvers
+    return {"own_rtol": number(given.taylor.rtol), "step": number(given.crank_nicolson.step)}
 
 
 def ledger(baseline: Baseline) -> dict:
@@ -164,7 +156,7 @@ def chaos(baseline: Baseline) -> dict:
             }
             for case in chaotic
         ],
-        "regular_rate": number(rates.where(growth["chaotic"] == 0).max(), 1),
+        "regular_rate": number(rates.where(growth["chaotic"] == 0).max(), 2),
     }
 
 
@@ -220,8 +212,8 @@ def unbounded(baseline: Baseline) -> dict:
         "omega_end": number(long["omega_end"]),
         "omega_from": number(long["omega_end"] / 4),
         "omega_exponents": span(long["omega_exponent"].values, 2),
-        "omega_speeds": number(speeds.max(), 1),
-        "furthest": percent(abs(ratio - 1.0).max(), 1),
+        "omega_speeds": number(speeds.max(), 2),
+        "furthest": percent(abs(ratio - 1.0).max()),
         "furthest_omega": number(long["varied_omega"][int(abs(ratio - 1.0).values.argmax())]),
         "amplitudes": str(long.sizes["amplitude"]),
         "spreading": " and ".join(number(size) for size in grown.values),
@@ -263,7 +255,7 @@ def theory(baseline: Baseline) -> dict:
     return {
         "cells": str(sum(chart.size for chart in charts)),
         "misclassified": str(int(measured["stable_below"]["misclassified"]) or "none"),
-        "stable_rate": number(measured["stable_below"]["fastest"], 1),
+        "stable_rate": number(measured["stable_below"]["fastest"], 2),
         "reached": number(worst["worst"].max()),
         "observed": span(cases["ratio"].values, 2),
         "broken_sites": number(printed["smallest"]),
@@ -285,7 +277,7 @@ def references(baseline: Baseline) -> dict:
         for case in trust["case"].values
     ]
     return {
-        "discrepancy": number(max(known), 1),
+        "discrepancy": number(max(known), 2),
         "decimals": number(trust["decimal_size"][0]),
         "first": _time(trust["decimal_horizon"][0]),
         "visible": percent(trust["decimal_size"][1]),
@@ -317,7 +309,7 @@ def speed(baseline: Baseline) -> dict:
         "best_error": number(REGULAR_ERROR),
         "fastest_below": number(_fastest_below(measured, "taylor")),
         "faster": " and ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
-        "taylor_error": number(float(errors.max()), 1),
+        "taylor_error": number(float(errors.max()), 2),
         "sites": [
             {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
         ],

@@ -123,6 +123,13 @@ def test_an_expression_only_names_a_fact(page):
     assert [e for e in expressions if not allowed.fullmatch(e)] == []
 
 
+def test_every_fact_is_quoted():
+    known = render.known(facts.Baseline(render.BASELINE))
+    text = "".join(template.read_text(encoding="utf-8") for template in PAGES.values())
+    named = set(re.findall(r"\b(\w+\.\w+)", text))
+    assert [f"{t}.{n}" for t, of in known.items() for n in of if f"{t}.{n}" not in named] == []
+
+
 class Changed(facts.Baseline):
     """The same datasets with every real number changed by a factor of its own."""
 
