@@ -195,7 +195,7 @@ def unbounded(baseline: Baseline) -> dict:
     ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
     speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
     grown = long["amplitude"].where(long["amplitude_exponent"] > GROWING, drop=True)
-    cut, cost = baseline["quoted/cut_front"], baseline["quoted/cost"]
+    cut, cost = baseline["quoted/cut_front"], baseline["speed/cost"]
     return {
         "end": number(bulk["end"], 4),
         "from": number(bulk["end"] / 2, 4),
@@ -297,7 +297,7 @@ def speed(baseline: Baseline) -> dict:
         "peers": [
             {
                 "peer": titles[peer],
-                "ratio": f"{ratio:.2g}" if ratio < 100 else f"{float(f'{ratio:.3g}'):.0f}",
+                "ratio": _ratio(ratio),
                 "cases": str(int(measured["reached_cases"].sel(peer=peer))),
             }
             for peer, ratio in ratios.items()
@@ -324,7 +324,8 @@ def _growth(cost: xr.DataArray) -> dict[str, str]:
 
 
 def _ratio(value: float) -> str:
-    return f"{value:.0f}" if value >= 10 else number(value, 2)
+    """Return a factor to two or three digits, without a power of ten."""
+    return f"{float(f'{value:.3g}'):.0f}" if value >= 10 else number(value, 2)
 
 
 def _best(case: xr.Dataset, error: float) -> dict[str, float]:

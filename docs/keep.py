@@ -1,9 +1,9 @@
 """Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
 
-Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` or
-`snakemake speed` if these were made anew. It reduces each to the few numbers that are quoted and
-writes these to tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, the
-long study of the chain without ends, and what its sites cost.
+Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` if the
+long study was made anew. It reduces both to the few numbers that are quoted and writes these to
+tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, and the long study of
+the chain without ends.
 """
 
 import shutil
@@ -175,26 +175,12 @@ def _tolerances(run: xr.Dataset) -> dict[str, Variable]:
     }
 
 
-def keep_cost(results: Path, folder: Path) -> None:
-    """Keep what active sites cost on chains without ends, of a measurement of speed."""
-    measured = read(results / "speed/cost.nc")
-    kept = {
-        name: Variable(
-            measured[name].dims, measured[name].values, attrs["long_name"], attrs["units"]
-        )
-        for name in ("active_width", "active_seconds", "active_memory")
-        if (attrs := measured[name].attrs)
-    }
-    _write(folder / "cost.nc", "Cost of the active sites of a chain without ends", kept)
-
-
 def main(results: Path, folder: Path = QUOTED) -> None:
     """Keep whatever of these the folder of results holds."""
     folder.mkdir(exist_ok=True)
     for needed, keep in {
         "claims.json": keep_full_run,
         "unbounded/long/tolerances.nc": keep_long_study,
-        "speed/cost.nc": keep_cost,
     }.items():
         if (results / needed).exists():
             keep(results, folder)

@@ -69,15 +69,3 @@ def test_the_full_run_is_reduced_to_what_is_quoted(tmp_path):
         times = dict(zip(kept["topic"].values, kept["seconds"].values, strict=True))
     assert times == {"figures": 3.5, "report": 3.0}
     assert json.loads((tmp_path / "quoted/claims.json").read_text()) == [{"name": "a"}]
-
-
-def test_of_the_cost_only_active_sites_are_kept(tmp_path):
-    names = ("active_width", "active_seconds", "active_memory", "seconds")
-    measured = xr.Dataset({name: ("active_width", [2.0]) for name in names})
-    for variable in measured.variables.values():
-        variable.attrs = {"long_name": "made up", "units": "1"}
-    (tmp_path / "results/speed").mkdir(parents=True)
-    measured.to_netcdf(tmp_path / "results/speed/cost.nc")
-    keep.main(tmp_path / "results", tmp_path / "quoted")
-    with xr.open_dataset(tmp_path / "quoted/cost.nc") as kept:
-        assert set(kept.variables) == set(names) - {"seconds"}
