@@ -4,7 +4,6 @@ Run as `python -m benchmarks.reproduction` in the project's folder; it works on 
 project in a temporary folder and prints two tables.
 """
 
-import base64
 import json
 import os
 import shutil
@@ -13,6 +12,8 @@ import sys
 import tempfile
 from collections import defaultdict
 from pathlib import Path
+
+from pendula.report.tables import markdown
 
 from .timing import timed
 
@@ -36,32 +37,31 @@ def run(project: Path) -> float:
 
 def rule_times(project: Path) -> dict[str, list[float]]:
     """Return the wall times of the jobs of each rule, from Snakemake's own records."""
-    jobs = {}
+    jobs = {}  # each output has a record; those of one job have the same times
     for record in (project / ".snakemake" / "metadata").iterdir():
         data = json.loads(record.read_text())
         if data.get("starttime") and data.get("rule"):
-            output = base64.b64decode(record.name.replace("@", "/")).decode()
-            key = (data["rule"], data["starttime"])
-            jobs[key] = (output, data["endtime"] - data["starttime"])
+            jobs[data["rule"], data["starttime"]] = data["endtime"] - data["starttime"]
     times = defaultdict(list)
-    for (rule, _), (_, seconds) in jobs.items():
+    for (rule, _), seconds in jobs.items():
         times[rule].append(seconds)
     return times
 
 
 def main() -> None:
+    """Measure in a copy of the project, and print what was measured."""
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder) / "project"
         shutil.copytree(ROOT, project, ignore=LEFT_OUT)
-        print("| run | wall time, s |\n| --- | --- |")
-        print(f"| everything, nothing compiled yet | {run(project):.1f} |")
-        print(f"| nothing to do | {run(project):.1f} |")
+        runs = [("everything, nothing compiled yet", run(project))]
+        runs.append(("nothing to do", run(project)))
         shutil.rmtree(project / "results")
         shutil.rmtree(project / ".snakemake")
-        print(f"| everything, kernels compiled before | {run(project):.1f} |")
-        print("\n| rule | jobs | longest, s |\n| --- | --- | --- |")
-        for rule, times in sorted(rule_times(project).items(), key=lambda item: -max(item[1])):
-            print(f"| {rule} | {len(times)} | {max(times):.1f} |")
+        runs.append(("everything, kernels compiled before", run(project)))
+        rules = sorted(rule_times(project).items(), key=lambda item: -max(item[1]))
+    print(markdown(["run", "wall time, s"], [(name, f"{seconds:.1f}") for name, seconds in runs]))
+    rows = [(rule, len(times), f"{max(times):.1f}") for rule, times in rules]
+    print("\n" + markdown(["rule", "jobs", "longest, s"], rows))
 
 
 if __name__ == "__main__":

@@ -55,7 +55,7 @@ def test_memory_is_proportional_to_the_active_sites(measured):
     widths = measured["active_width"].values
     memory = measured["active_memory"].values * widths
     a_site = np.diff(memory) / np.diff(widths)
-    # a complex pair is 32 bytes; dop853 keeps 11 more of them, and the stretch that it works on
+    # a complex pair is 32 bytes; dop853 keeps 11 more of them, and the tile that it works on
     np.testing.assert_allclose(a_site, 32 * 13, rtol=0.1)
     assert memory[0] < 4000 * 32 * 13 + 1e6
 
