@@ -306,6 +306,7 @@ def speed(baseline: Baseline) -> dict:
             {"solver": SOLVERS[name], "time": number(1e3 * seconds, 2)}
             for name, seconds in _best(measured.sel(case="fig3_small"), REGULAR_ERROR).items()
         ],
+        "processor": measured.attrs["processor"],
         "best_error": number(REGULAR_ERROR),
         "fastest_below": number(_fastest_below(measured, "taylor")),
         "faster": " and ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),

@@ -61,7 +61,13 @@ ALLOWED_WORDS = [
 COUNTED = {
     # counts of rows and words, thresholds, and places in a dataset: no change of a value moves them
     *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
-    *("speed.faster", "speed.fastest_below", "theory.cells", "theory.broken_sites"),
+    *(
+        "speed.processor",
+        "speed.faster",
+        "speed.fastest_below",
+        "theory.cells",
+        "theory.broken_sites",
+    ),
     *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
     *("solvers.kept", "ensembles.peak_at", "ensembles.late_from"),
