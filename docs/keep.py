@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
@@ -23,8 +24,8 @@ from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.growth import fit_exponent  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers  # noqa: E402
 from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
-from pendula.studies.unbounded.studies import CASES, REST, TOLERANCE  # noqa: E402
 
+GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
 QUOTED = ROOT / "tests/baseline/quoted"
 
 
@@ -61,13 +62,14 @@ def keep_long_study(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the chain without ends."""
     long = results / "unbounded/long"
     kept = {
-        **_cases({name: read(long / f"{name}.nc") for name in CASES}),
+        **_cases({name: read(long / f"{name}.nc") for name in GIVEN["cases"]}),
         **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
         **_amplitudes(read(long / "amplitudes.nc")),
         **_tolerances(read(long / "tolerances.nc")),
     }
-    solver = {"solver": "dop853", "solver_rtol": TOLERANCE, "solver_atol": TOLERANCE}
-    problem = {"epsilon": 1.0, "gamma": 1.0, "rest": REST["long"], **solver}
+    tolerance = GIVEN["tolerance"]
+    solver = {"solver": "dop853", "solver_rtol": tolerance, "solver_atol": tolerance}
+    problem = {"epsilon": 1.0, "gamma": 1.0, "rest": GIVEN["long"]["rest"], **solver}
     title = "The long study of the chain without ends, reduced to what the documents quote"
     _write(folder / "unbounded.nc", title, kept, **problem)
 

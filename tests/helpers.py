@@ -5,8 +5,16 @@ import sys
 from pathlib import Path
 
 import yaml
+from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]
+
+
+def chosen(study: str):
+    """Return the validated section of a study in the project's configuration."""
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", study)]
+    raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
+    return getattr(load(raw), study)
 
 
 def snakemake(project: Path, directory: Path, *arguments: str) -> subprocess.CompletedProcess:

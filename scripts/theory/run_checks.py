@@ -6,14 +6,18 @@ from pendula.datasets.netcdf import save
 from pendula.studies.theory.checks import run_check
 
 
-def run_checks(datasets: list[str], checks: list[str], kernels: list[str] | tuple = ()) -> None:
+def run_checks(
+    datasets: list[str], checks: dict[str, dict], kernels: list[str] | tuple = ()
+) -> None:
     """Write the numbers of each of `checks` to the path of the same place in `datasets`.
+
+    `checks` has the arguments of each by its name, as the configuration gives them.
 
     A check that does not hold does not stop the run: it is said here and in the table of claims,
     and it turns the verdicts that rest on it.
     """
-    for name, path in zip(checks, datasets, strict=True):
-        check = run_check(name)
+    for (name, arguments), path in zip(checks.items(), datasets, strict=True):
+        check = run_check(name, arguments)
         print(describe(name, check))
         save(path, xarray.Dataset.from_dict(check))
 

@@ -10,7 +10,7 @@ from pendula.datasets.checks import broken, table, variable
 from pendula.ledger.claims import CLAIMS
 from pendula.ledger.evaluate import needed
 from pendula.ledger.verdicts import Verdict
-from pendula.studies.theory.groups import GROUPS, OBSERVED
+from pendula.studies.theory.settings import GROUPS, OBSERVED
 from theory import run_checks
 
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
@@ -81,8 +81,8 @@ def test_all_that_the_claims_need_is_an_input(finished):
 
 def test_a_violated_check_is_written_and_named(tmp_path, monkeypatch, capsys):
     check = table("wrong", {}, error=variable(2.0, (), "error", tolerance=1.0))
-    monkeypatch.setattr(run_checks, "run_check", lambda name: check)
-    run_checks.run_checks([str(tmp_path / "wrong.nc")], ["wrong"])
+    monkeypatch.setattr(run_checks, "run_check", lambda name, arguments: check)
+    run_checks.run_checks([str(tmp_path / "wrong.nc")], {"wrong": {}})
     assert "CHECK VIOLATED: wrong: error is 2, tolerance 1" in capsys.readouterr().out
     assert xr.load_dataset(tmp_path / "wrong.nc")["error"] == 2.0
 

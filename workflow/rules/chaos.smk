@@ -14,11 +14,7 @@ rule measure_lyapunov:
     conda:
         "../envs/pinned.yaml"
     params:
-        problems=followed(PAPER_CASES, 1e-13),
-        end_time=4 * longest(PAPER_CASES),
-        tolerances=[1e-6, 1e-9, 1e-12],
-        short_problems=followed(["fig3_large", "fig4_small"], 1e-13, half_width=3),
-        short_end_time=6 * longest(["fig3_large", "fig4_small"]),
+        **lyapunov_params(SETTINGS.chaos.lyapunov),
     message:
         "Measuring Lyapunov exponents"
     script:
@@ -38,10 +34,7 @@ rule measure_symmetry:
     conda:
         "../envs/pinned.yaml"
     params:
-        problems=followed(PAPER_CASES, 1e-12, end_time=longest(PAPER_CASES)),
-        size=1e-12,
-        members=8,
-        seed=1,
+        **symmetry_params(SETTINGS.chaos.symmetry),
     message:
         "Measuring how evenness is lost"
     script:
@@ -61,14 +54,7 @@ rule measure_ensembles:
     conda:
         "../envs/pinned.yaml"
     params:
-        problems=followed(CHAOTIC_CASES, 1e-8, end_time=longest(CHAOTIC_CASES)),
-        members=32,
-        swept_problems=swept(1e-8),
-        half_widths=in_any("half_widths")[::2],  # every other one, to save time
-        windows=in_any("windows"),
-        swept_members=8,
-        size=1e-7,  # the relative tolerance of the paper's own runs
-        seed=2,
+        **ensemble_params(SETTINGS.chaos.ensembles),
     message:
         "Running ensembles of the chaotic cases and sweeps"
     script:

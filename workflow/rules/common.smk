@@ -11,7 +11,8 @@ from code_records import code, committed, copies, kept, records, was_made, whole
 from pendula import __version__
 from pendula.configuration.messages import ConfigurationError, load
 from pendula.problem import name_window
-from pendula.studies.theory.groups import GROUPS, OBSERVED
+from pendula.studies import CONFIGURED
+from pendula.studies.theory.settings import GROUPS, OBSERVED
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(
@@ -20,6 +21,11 @@ os.environ.update(
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",
 )
+
+for study in CONFIGURED:
+
+    configfile: f"{workflow.basedir}/config/{study}.yaml"
+
 
 try:
     SETTINGS = load(config)
@@ -31,8 +37,8 @@ COMPARED = [*PAPER_SOLVERS, "dop853"]  # in the figures of the paper's claims ab
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
-CHAOTIC_CASES = ["fig3_large", "fig4_small", "fig4_large"]
-CHAOTIC_SWEEPS = ["fig5_right", "fig6_right"]
+CHAOTIC_CASES = SETTINGS.chaos.ensembles.cases
+CHAOTIC_SWEEPS = SETTINGS.chaos.ensembles.sweeps
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]

@@ -2,9 +2,6 @@
 # part of the full run. Costs about 25 minutes of one core, half of them for fig3_large alone.
 # The only rule that needs heyoka: `pip install heyoka==7.13.2` first. To accept what it made:
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
-from pendula.studies.reference.precision import BITS
-
-SNAPSHOTS = [1, 2, 5, 10, 20, 30, 40, 50, 70]  # tau of the states that are kept
 # Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
 LONGEST = "fig3_large"  # as long as all others: it starts first, beside them
 REFERENCES = [*PAPER_CASES, "fig4_small.double"]
@@ -32,8 +29,8 @@ rule reference_case:
     params:
         name="{case}",
         problem=lambda wildcards: reference_problem(wildcards.case),
-        snapshots=SNAPSHOTS,
-        bits=lambda wildcards: BITS[wildcards.case],
+        snapshots=SETTINGS.reference.snapshots,
+        bits=lambda wildcards: SETTINGS.reference.bits[wildcards.case],
         decimal=lambda wildcards: not wildcards.numbers,
     message:
         "Integrating {wildcards.case}{wildcards.numbers} twice in multiprecision"

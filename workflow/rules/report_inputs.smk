@@ -39,5 +39,6 @@ def settings_in_words():
     """Return the configuration of the paper's cases and sweeps as text."""
     cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
     swept = {sweep: SETTINGS.sweeps[sweep].model_dump() for sweep in PAPER_SWEEPS}
-    told = {"cases": cases, "sweeps": swept, "unbounded": SETTINGS.unbounded}
+    studies = {name: getattr(SETTINGS, name).model_dump() for name in CONFIGURED}
+    told = {"cases": cases, "sweeps": swept, **studies}
     return json.dumps(told, sort_keys=True, default=str)

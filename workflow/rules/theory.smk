@@ -14,7 +14,7 @@ rule check_equations:
     conda:
         "../envs/pinned.yaml"
     params:
-        checks=GROUPS["equations"],
+        checks=SETTINGS.theory.arguments("equations"),
     message:
         "Checking the equations, their symmetries and their expansion"
     script:
@@ -27,7 +27,7 @@ use rule check_equations as check_stability with:
     log:
         "results/logs/checks/stability.log",
     params:
-        checks=GROUPS["stability"],
+        checks=SETTINGS.theory.arguments("stability"),
     message:
         "Checking Lemma 1: dispersion, thresholds, measured growth rates"
 
@@ -39,7 +39,7 @@ use rule check_equations as check_bounds with:
         "results/logs/checks/bounds.log",
     priority: 6
     params:
-        checks=GROUPS["bounds"],
+        checks=SETTINGS.theory.arguments("bounds"),
     message:
         "Checking Lemma 2 and Theorems 1 to 3 on random and on the worst data"
 

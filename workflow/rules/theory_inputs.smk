@@ -22,7 +22,7 @@ def makers():
         "measure_trust": checks("trust"),
         "trajectory": trajectories() + trajectories(".crank_nicolson"),
         "sweep": sweeps() + sweeps(".crank_nicolson"),
-        "spread": [f"results/unbounded/{study}.nc" for study in STUDIES],
+        "spread": [f"results/unbounded/{study}.nc" for study in SETTINGS.unbounded.names],
         "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
         "thermal": ["results/unbounded/thermal.nc"],
         "measure_growth": ["results/unbounded/growth.nc", "results/unbounded/front.nc"],

@@ -1,8 +1,5 @@
 # The chain without ends: does its l2 norm grow without bound in time? The short study is part of
 # the full run, the long one is `snakemake unbounded`.
-from pendula.studies.unbounded.studies import MAPS, REST, SPREADS, STUDIES, THERMAL, VARIED
-from pendula.studies.unbounded.studies import spread_problems, unbounded_problem
-
 LONG = "results/unbounded/long"
 GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
 UNBOUNDED_FIGURES = ["growth_law", "front", "window_map"]
@@ -12,23 +9,32 @@ def map_names():
     return [f"map_{sweep}" for sweep in PAPER_SWEEPS]
 
 
-def unbounded_problems(study, size):
-    """Return the problems of a study, from the paper's case that it starts from."""
-    case = VARIED[study][0] if study in VARIED else study
-    return spread_problems(SETTINGS.problem(case), study, size)
+def run_params(size):
+    given, extents = SETTINGS.unbounded, size.runs
+
+    def problems(wildcards):
+        case = SETTINGS.problem(given.case_of(wildcards.study))
+        return given.problems(case, wildcards.study, extents[wildcards.study].end_time)
+
+    return {
+        "name": "{study}",
+        "problems": problems,
+        "rest": size.rest,
+        "members": lambda wildcards: extents[wildcards.study].members,
+    }
 
 
-def map_params(size):
+def map_params(maps):
     def problem(wildcards):
         case = SETTINGS.problem(SETTINGS.sweeps[wildcards.sweep].case)
-        return unbounded_problem(case, MAPS[size]["end_time"], MAPS[size]["output_step"])
+        return SETTINGS.unbounded.problem(case, maps.end_time, maps.output_step)
 
     return {
         "name": "{sweep}",
         "problem": problem,
-        "rest": REST["short"],
-        "half_widths": MAPS[size]["half_widths"],
-        "members": lambda wildcards: MAPS[size]["members"][wildcards.sweep],
+        "rest": maps.rest,
+        "half_widths": maps.half_widths,
+        "members": lambda wildcards: maps.members[wildcards.sweep],
     }
 
 
@@ -50,7 +56,7 @@ def growth_inputs(folder):
 rule unbounded:
     "The long study of the chain without ends (takes about ten minutes)"
     input:
-        expand(f"{LONG}/{{name}}.nc", name=[*STUDIES, *map_names()]),
+        expand(f"{LONG}/{{name}}.nc", name=[*SETTINGS.unbounded.names, *map_names()]),
         expand(f"{LONG}/{{name}}.{{kind}}", name=UNBOUNDED_FIGURES, kind=["png", "pdf"]),
 
 
@@ -63,15 +69,12 @@ rule spread:
     log:
         "results/logs/unbounded/{study}.log",
     wildcard_constraints:
-        study=one_of(STUDIES),
+        study=one_of(SETTINGS.unbounded.names),
     priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
-        name="{study}",
-        problems=lambda wildcards: unbounded_problems(wildcards.study, SETTINGS.unbounded),
-        rest=REST[SETTINGS.unbounded],
-        members=lambda wildcards: SPREADS[SETTINGS.unbounded][wildcards.study][1],
+        **run_params(SETTINGS.unbounded.short),
     message:
         "Spreading on the chain without ends: {wildcards.study}"
     script:
@@ -84,10 +87,7 @@ use rule spread as long_spread with:
     log:
         "results/logs/unbounded/long/{study}.log",
     params:
-        name="{study}",
-        problems=lambda wildcards: unbounded_problems(wildcards.study, "long"),
-        rest=REST["long"],
-        members=lambda wildcards: SPREADS["long"][wildcards.study][1],
+        **run_params(SETTINGS.unbounded.long),
         checkpoints=f"{LONG}/checkpoints",
     message:
         "Spreading for long on the chain without ends: {wildcards.study}"
@@ -107,7 +107,7 @@ rule map_windows:
     conda:
         "../envs/pinned.yaml"
     params:
-        **map_params(SETTINGS.unbounded),
+        **map_params(SETTINGS.unbounded.short.maps),
     message:
         "Maxima over half-widths and windows: {wildcards.sweep}"
     script:
@@ -120,7 +120,7 @@ use rule map_windows as long_map_windows with:
     log:
         "results/logs/unbounded/long/map_{sweep}.log",
     params:
-        **map_params("long"),
+        **map_params(SETTINGS.unbounded.long.maps),
     message:
         "Maxima over many half-widths and long windows: {wildcards.sweep}"
 
@@ -138,7 +138,7 @@ rule thermal:
     params:
         epsilon=SETTINGS.cases["fig4_small"].epsilon,
         gamma=SETTINGS.cases["fig4_small"].gamma,
-        omegas=THERMAL[SETTINGS.unbounded],
+        omegas=SETTINGS.unbounded.thermal.omegas,
     message:
         "Sampling the thermal states without energy"
     script:

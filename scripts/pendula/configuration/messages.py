@@ -1,8 +1,12 @@
 """Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
 
 import difflib
+from importlib import import_module
+from typing import get_args
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ValidationError, create_model
+
+from pendula.studies import CONFIGURED
 
 from .schema import (
     Auto,
@@ -51,6 +55,13 @@ WORDS = {
 }
 
 
+STUDIES = {name: import_module(f"pendula.studies.{name}.settings").Settings for name in CONFIGURED}
+Whole = create_model(
+    "Whole", __base__=Configuration, **{name: (kind | None, None) for name, kind in STUDIES.items()}
+)
+"""The whole configuration: with a section for each study, None where none is given."""
+
+
 class ConfigurationError(ValueError):
     """The configuration has faults; the message lists them all."""
 
@@ -58,7 +69,7 @@ class ConfigurationError(ValueError):
 def load(raw: dict) -> Configuration:
     """Return the validated configuration, or raise ConfigurationError with every fault."""
     try:
-        return Configuration.model_validate(raw)
+        return Whole.model_validate(raw)
     except ValidationError as error:
         raise in_words(error, "the configuration") from None
 
@@ -115,7 +126,9 @@ def _closest(word: str, known) -> str:
 def _model_at(place: tuple) -> type[BaseModel]:
     """Return the model whose keys stand at this place of the configuration."""
     if len(place) == 1:
-        return Configuration
+        return Whole
+    if place[0] in STUDIES:
+        return _model_within(STUDIES[place[0]], place[1:-1])
     if place[0] == "solvers":
         return SOLVERS[place[1]] if len(place) == 3 else Solvers
     if place[-2] == "draw":
@@ -123,3 +136,25 @@ def _model_at(place: tuple) -> type[BaseModel]:
     if "solver" in place[:-1]:
         return SOLVERS[place[place.index("solver") + 1]]
     return {"cases": Case, "sweeps": Sweep}[place[0]]
+
+
+def _model_within(model: type[BaseModel], place: tuple) -> type[BaseModel]:
+    """Return the model that stands at a place within another: keys, names and numbers of items."""
+    for part in place:
+        field = model.model_fields.get(str(part)) if model else None
+        inner = _models_in(field.annotation) if field else [model]
+        tagged = [kind for kind in inner if _tag_of(kind) == part]
+        model = (tagged or inner or [model])[0]
+    return model
+
+
+def _models_in(annotation) -> list[type[BaseModel]]:
+    """Return the models that a type is made of: itself, or those of its parts."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models_in(part)]
+
+
+def _tag_of(model: type[BaseModel]) -> str | None:
+    name = model.model_fields.get("name")
+    return name.default if name else None

@@ -217,12 +217,11 @@ def with_controls(item: Any, shared: Any) -> Any:
 
 
 class Configuration(Model):
-    """The whole configuration: cases and sweeps by name, the solvers' controls, one size."""
+    """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
     cases: Annotated[dict[Name, Case], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
     solvers: Solvers = Solvers()
-    unbounded: Literal["quick", "short"] = "short"  # how far the chain without ends is run
 
     @model_validator(mode="before")
     @classmethod

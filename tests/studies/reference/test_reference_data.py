@@ -7,10 +7,10 @@ from pathlib import Path
 import fixed_point
 import numpy as np
 import pytest
+from helpers import chosen
 from oracle import CASES, hamiltonian
 from pendula.datasets.netcdf import read
 from pendula.simulation.simulate import simulate
-from pendula.studies.reference.precision import BITS
 from pendula.studies.reference.verified_run import LIMIT
 from problems import problem_of
 
@@ -66,7 +66,7 @@ def test_the_dataset_says_what_it_holds(name):
     snapshots = [tau for tau in (1, 2, 5, 10, 20, 30, 40, 50, 70) if tau <= end]
     np.testing.assert_array_equal(data["snapshot_tau"], snapshots)
     runs = (data.attrs["solver_bits"], data.attrs["second_run_bits"])
-    assert runs == BITS[name.removesuffix(".double")]
+    assert runs == chosen("reference").bits[name.removesuffix(".double")]
     for variable in data.variables.values():
         assert variable.attrs["long_name"] and variable.attrs["units"]
     assert "doubles" in data.attrs["parameters_mean"] or not name.endswith("double")

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from helpers import chosen
 from oracle import hamiltonian, random_chain, slope
 from pendula.datasets.netcdf import read
 from pendula.simulation.lattice import Reduction, pack
 from pendula.studies.reference import multiprecision
 from pendula.studies.reference.multiprecision import HEYOKA, HeyokaMissingError, Numbers
-from pendula.studies.reference.precision import BITS
 from pendula.studies.reference.verified_run import (
     LIMIT,
     Run,
@@ -126,7 +126,7 @@ def test_a_short_stretch_made_again_gives_the_same_doubles(case, tmp_path):
     pytest.importorskip("heyoka")
     path = tmp_path / "again.nc"
     plain = problem_of(case).plain()
-    integrate_reference(str(path), case, plain, [0.31, 1, 2], BITS[case], True)
+    integrate_reference(str(path), case, plain, [0.31, 1, 2], chosen("reference").bits[case], True)
     again, kept = read(path), read(ROOT / f"tests/baseline/reference/{case}.nc")
     np.testing.assert_array_equal(again["snapshot_tau"], [1])
     np.testing.assert_array_equal(again["amplitude"], kept["amplitude"][..., :1])

@@ -3,13 +3,15 @@
 from functools import cache
 
 import pytest
+from helpers import chosen
 from pendula.studies.theory.checks import run_check
 
 
 @pytest.fixture(scope="session")
 def checked():
     """Return a function: the numbers of a check by its name."""
-    return cache(run_check)
+    section = chosen("theory")
+    return cache(lambda name: run_check(name, getattr(section, name).model_dump()))
 
 
 @pytest.fixture(scope="session")

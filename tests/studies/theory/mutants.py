@@ -10,12 +10,12 @@ from pendula.studies.theory.other_forms import check_pt_form
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 
 CHECKS = {
-    "gradient": lambda: check_gradient(CONSTANTS, 3, 1),
+    "gradient": lambda: check_gradient(CONSTANTS, 3, 1, 1),
     "dispersion": lambda: check_dispersion([(-4.0, 1.0), (0.0, 1.0)], 1.0, 5),
-    "pt_form": lambda: check_pt_form(CONSTANTS, 3, 0.2),
-    "balance": lambda: check_balance(CONSTANTS, 3, 0.2, 1),
-    "symmetries": lambda: check_symmetries(CONSTANTS, 3, 0.2),
-    "conservation": lambda: check_conservation(1.0, 1.0, [-4.0], 3, 0.3),
+    "pt_form": lambda: check_pt_form(CONSTANTS, 3, 0.2, 3),
+    "balance": lambda: check_balance(CONSTANTS, 3, 0.2, 1, 7),
+    "symmetries": lambda: check_symmetries(CONSTANTS, 3, 0.2, 2),
+    "conservation": lambda: check_conservation(1.0, 1.0, [-4.0], 3, 0.3, 13),
 }
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import chosen
 from pendula.datasets.checks import broken, variable
-from pendula.studies.theory.checks import CHECKS, GROUPS, run_check
+from pendula.studies.theory.checks import CHECKS, run_check
+from pendula.studies.theory.settings import GROUPS
 
 
 @pytest.mark.parametrize("name", CHECKS)
@@ -13,7 +15,9 @@ def test_check_holds(name, checked):
 
 
 def test_checks_are_repeatable(numbers):
-    again = run_check("samples")["data_vars"]["ratio"]["data"]
+    again = run_check("samples", chosen("theory").samples.model_dump())["data_vars"]["ratio"][
+        "data"
+    ]
     np.testing.assert_array_equal(numbers("samples", "ratio"), again)
 
 

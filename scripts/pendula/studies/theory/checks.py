@@ -1,4 +1,7 @@
-"""The checks of the full reproduction: each name with its function and its arguments."""
+"""The checks by name: config/theory.yaml has the arguments of each."""
+
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -19,71 +22,45 @@ from .other_forms import check_expansion, check_pt_form
 from .stability_chart import check_chart, check_measured_windows, check_threshold
 from .worst_data import check_samples, check_worst
 
-PAPER = {"gamma": 1.0, "epsilon": 1.0}
-NEGATIVE, ZERO = Constants(**PAPER, omega=-4.0), Constants(**PAPER, omega=0.0)
-POINTS = [(-4.0, 1.0), (-4.0, 2.0), (0.0, 1.0), (2.0, 0.01), (4.0, 0.5), (8.0, 1.0), (8.0, 2.0)]
-ODE45 = {"name": "ode45", "rtol": 1e-7, "atol": 1e-9}
-CHART = {
-    "omegas": np.linspace(-6.0, 10.0, 33),
-    "gammas": np.linspace(0.0, 3.0, 13),
-    "epsilon": 1.0,
-    "sites": 21,
-    "boundary": "dirichlet",
-    "end_time": 40.0,
-}
-SHORT_CHART = {
-    "omegas": np.linspace(-0.5, 4.5, 41),
-    "gammas": np.linspace(0.0, 0.4, 11),
-    "epsilon": 1.0,
-    "sites": 5,
-    "boundary": "dirichlet",
-    "end_time": 60.0,
-    "foldings": 18.0,
-}
-WINDOWS = {
-    "epsilon": 1.0,
-    "boundary": "dirichlet",
-    "half_widths": [2, 5, 10, 20, 30],
-    "gammas": np.geomspace(0.001, 0.3, 26),
-}
-MEASURED_WINDOWS = {
-    "gamma": 0.05,
-    "epsilon": 1.0,
-    "sites": 5,
-    "boundary": "dirichlet",
-    "end_time": 200.0,
-}
-
 CHECKS = {
-    "gradient": (check_gradient, {"constants": NEGATIVE, "sites": 7}),
-    "symmetries": (check_symmetries, {"constants": ZERO, "sites": 9, "end_time": 2.0}),
-    "pt_form": (check_pt_form, {"constants": NEGATIVE, "sites": 7, "end_time": 2.0}),
-    "conservation": (
-        check_conservation,
-        {**PAPER, "omegas": [8.0, -4.0, 0.0], "sites": 9, "end_time": 5.0},
-    ),
-    "dispersion": (check_dispersion, {"points": POINTS, "epsilon": 1.0, "sites": 9}),
-    "chart": (check_chart, CHART),
-    "short_chart": (check_chart, SHORT_CHART),
-    "windows": (check_windows, WINDOWS),
-    "measured_windows": (check_measured_windows, MEASURED_WINDOWS),
-    "threshold": (check_threshold, {"epsilon": 1.0, "sites": 21}),
-    "balance": (check_balance, {"constants": NEGATIVE, "sites": 9, "end_time": 4.0}),
-    "growth": (check_growth, {"constants": ZERO, "sites": 9, "end_time": 3.0, "samples": 60}),
-    "inequalities": (check_inequalities, {"count": 600}),
-    "samples": (check_samples, {"count": 40, "end_time": 5.0}),
-    "worst": (check_worst, {**PAPER, "sites": 3, "end_time": 3.0, "generations": 50}),
-    "expansion": (check_expansion, {"constants": NEGATIVE, "sites": 5, "end": 1.0}),
-    "theorem_3_constant": (check_theorem_3_constant, {"constants": NEGATIVE}),
-    "theorem_2_case": (check_theorem_2_case, {"constants": NEGATIVE}),
-    "negative_depth": (check_negative_depth, {"constants": NEGATIVE}),
-    "energy_drift": (check_energy_drift, {"solver": ODE45}),
-    "opposite": (check_opposite, {"constants": ZERO, "sites": 9, "end_time": 3.0}),
-    "not_shown": (check_not_shown, {"half_widths": [5, 10, 15, 20, 30, 40, 60, 80, 100]}),
+    "gradient": check_gradient,
+    "symmetries": check_symmetries,
+    "opposite": check_opposite,
+    "pt_form": check_pt_form,
+    "conservation": check_conservation,
+    "expansion": check_expansion,
+    "theorem_3_constant": check_theorem_3_constant,
+    "theorem_2_case": check_theorem_2_case,
+    "negative_depth": check_negative_depth,
+    "energy_drift": check_energy_drift,
+    "not_shown": check_not_shown,
+    "dispersion": check_dispersion,
+    "chart": check_chart,
+    "short_chart": check_chart,
+    "windows": check_windows,
+    "measured_windows": check_measured_windows,
+    "threshold": check_threshold,
+    "balance": check_balance,
+    "growth": check_growth,
+    "inequalities": check_inequalities,
+    "samples": check_samples,
+    "worst": check_worst,
 }
 
 
-def run_check(name: str) -> dict:
-    """Return the numbers of one check with the arguments of the full reproduction."""
-    function, arguments = CHECKS[name]
-    return function(**arguments)
+def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
+    """Return the numbers of one check; `arguments` are plain values as the configuration has them.
+
+    What is None there is left out.
+    """
+    given = {key: _read(key, value) for key, value in arguments.items() if value is not None}
+    return CHECKS[name](**given)
+
+
+def _read(key: str, value: Any) -> Any:
+    if key == "constants":
+        return Constants.of(value)
+    if isinstance(value, Mapping) and "points" in value:
+        spaced = {"linear": np.linspace, "logarithmic": np.geomspace}[value["spacing"]]
+        return spaced(value["first"], value["last"], value["points"])
+    return value

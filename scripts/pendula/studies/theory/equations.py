@@ -130,7 +130,7 @@ def hamiltonian_rates(constants: Constants, boundary: str, amplitudes: np.ndarra
     return out
 
 
-def check_gradient(constants: Constants, sites: int, samples: int = 3, seed: int = 1) -> dict:
+def check_gradient(constants: Constants, sites: int, samples: int, seed: int) -> dict:
     """Compare the right-hand side with the energy's gradient for each kind of ends.
 
     The tolerance is what rounding in the energy allows: some tens of units in its last place.
@@ -171,7 +171,7 @@ def scalar_run(epsilon: float, omega: float, boundary: str, a: np.ndarray, end_t
     return a
 
 
-def check_symmetries(constants: Constants, sites: int, end_time: float, seed: int = 2) -> dict:
+def check_symmetries(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
     """Test the exchange of A and B, the reduction A = B (5), its conserved norm, and its equation.
 
     All four along trajectories: exchange must hold to the last bit, A = B as well.
@@ -215,7 +215,7 @@ def gauge_defect(
 
 
 def check_conservation(
-    gamma: float, epsilon: float, omegas, sites: int, end_time: float, seed: int = 13
+    gamma: float, epsilon: float, omegas, sites: int, end_time: float, seed: int
 ) -> dict:
     """Follow H and the l2 norm from random data, and turn the phase, for each kind of ends."""
     rng = np.random.default_rng(seed)

@@ -1,5 +1,7 @@
 """Errors and gaps of the paper, each with the smallest example that anyone can rerun."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from pendula.datasets.checks import table, variable
@@ -13,7 +15,7 @@ from .bounds import (
     widened_bound,
     widened_delta_0,
 )
-from .equations import TIGHT, run, squared_norm, total_energy
+from .equations import run, squared_norm, total_energy
 
 
 def alternating(sites: int, x: float) -> np.ndarray:
@@ -37,12 +39,15 @@ def theorem_3_margin(
     return total_energy(constants, boundary, amplitudes) - (0.25 * quartic.sum() - linear)
 
 
-def check_theorem_3_constant(constants: Constants, x: float = 0.1, longest: int = 9) -> dict:
+def check_theorem_3_constant(constants: Constants, amplitude: float, longest: int) -> dict:
     """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails."""
     sizes = np.arange(1, longest + 1, 2)
     margins = np.array(
         [
-            [theorem_3_margin(constants, alternating(n, x), "dirichlet", k) for k in (1.0, 2.0)]
+            [
+                theorem_3_margin(constants, alternating(n, amplitude), "dirichlet", k)
+                for k in (1.0, 2.0)
+            ]
             for n in sizes
         ]
     )
@@ -61,7 +66,7 @@ def check_theorem_3_constant(constants: Constants, x: float = 0.1, longest: int 
     )
 
 
-def check_theorem_2_case(constants: Constants, pair=(1.0, 0.1), sites: int = 61) -> dict:
+def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair
@@ -85,7 +90,7 @@ def check_theorem_2_case(constants: Constants, pair=(1.0, 0.1), sites: int = 61)
     )
 
 
-def check_negative_depth(constants: Constants, longest: float = 10.0) -> dict:
+def check_negative_depth(constants: Constants, longest: float) -> dict:
     """Find where -H > 0, which Theorem 2's proof takes for granted, fails: one pair (x, 0).
 
     By (25) -H is positive for P < 4 a; beyond, the quartic term wins.
@@ -108,7 +113,7 @@ def check_negative_depth(constants: Constants, longest: float = 10.0) -> dict:
     )
 
 
-def check_energy_drift(solver: dict, end_time: float = 10.0, omegas=(8.0, -4.0, 0.0)) -> dict:
+def check_energy_drift(solver: Mapping, end_time: float, omegas) -> dict:
     """Run the small cases by the paper's solver: is H kept to the order of 1e-6?"""
     drift = []
     for omega in omegas:
@@ -131,7 +136,7 @@ def check_energy_drift(solver: dict, end_time: float = 10.0, omegas=(8.0, -4.0, 
     )
 
 
-def check_opposite(constants: Constants, sites: int, end_time: float, seed: int = 11) -> dict:
+def check_opposite(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
     """Show that A = -B is invariant too: the drive acts there as -2 gamma conj(A).
 
     The paper mentions A = B alone, where the drive is silent.
@@ -147,7 +152,7 @@ def check_opposite(constants: Constants, sites: int, end_time: float, seed: int 
 
 
 def check_not_shown(
-    half_widths, window=(10.0, 50.0), omega: float = 8.0, solver: dict | None = None
+    half_widths, window: tuple[float, float], omega: float, solver: Mapping
 ) -> dict:
     """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
     peaks = []
@@ -160,7 +165,7 @@ def check_not_shown(
                 initial=on_sites({0: (1.0, 0.1)}),
                 end_time=window[1],
                 output_step=0.025,
-                solver=solver or TIGHT | {"rtol": 1e-9},
+                solver=solver,
             )
         )
         inside = trajectory.tau >= window[0]

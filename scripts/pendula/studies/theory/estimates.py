@@ -65,7 +65,7 @@ def integrated_balance(
 
 
 def check_balance(
-    constants: Constants, sites: int, end_time: float, panels: int = 12, seed: int = 7
+    constants: Constants, sites: int, end_time: float, panels: int, seed: int
 ) -> dict:
     """Test the balance equation at random states and integrated along a trajectory."""
     rng = np.random.default_rng(seed)
@@ -90,7 +90,7 @@ def check_balance(
 
 
 def check_growth(
-    constants: Constants, sites: int, end_time: float, samples: int, seed: int = 8
+    constants: Constants, sites: int, end_time: float, samples: int, seed: int
 ) -> dict:
     """Test (19) forwards and backwards on random data, and that 4 |gamma| cannot be lowered.
 
@@ -175,7 +175,7 @@ def energy_ratios(rng: np.random.Generator, amplitudes: np.ndarray, boundary: st
     ]
 
 
-def check_inequalities(count: int, seed: int = 12) -> dict:
+def check_inequalities(count: int, seed: int) -> dict:
     """Test every inequality of Section 4 on random states, and on those that make them sharp."""
     rng = np.random.default_rng(seed)
     ratios, excess = [], []

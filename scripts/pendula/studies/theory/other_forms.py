@@ -83,7 +83,7 @@ def parity_alone(constants: Constants, boundary: str, w: np.ndarray) -> float:
     return float(np.abs(pt_rates(constants, boundary, parity(w)) - parity(rate)).max())
 
 
-def check_pt_form(constants: Constants, sites: int, end_time: float, seed: int = 3) -> dict:
+def check_pt_form(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
     """Compare (10) with (4): rates, trajectories, the energy, and the symmetries (11).
 
     PT is a symmetry; P alone and T alone are not while gamma is not zero: each misses
@@ -206,13 +206,13 @@ def order_in_mu(mus, errors) -> float:
     return float(np.log(errors[-2] / errors[-1]) / np.log(mus[-2] / mus[-1]))
 
 
-def check_expansion(
-    constants: Constants, sites: int, end: float, mus=(0.2, 0.1, 0.05), pair=(1.0, 0.1)
-) -> dict:
+def check_expansion(constants: Constants, sites: int, end_time: float, mus, pair) -> dict:
     """Measure the order in mu of the expansion's error for each reading: only one has order 3."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair
-    errors = np.array([expansion_errors(constants, mu, "dirichlet", amplitudes, end) for mu in mus])
+    errors = np.array(
+        [expansion_errors(constants, mu, "dirichlet", amplitudes, end_time) for mu in mus]
+    )
     orders = [order_in_mu(mus, column) for column in errors.T]
     dims, readings = ("reading",), ["mu^2 t / 2", "mu^2 t", "mu^2 t / 2, opposite drive"]
     return table(

@@ -82,7 +82,7 @@ def draw_case(rng: np.random.Generator, family: str, sites: int):
             return constants, boundary, amplitudes, limit
 
 
-def check_samples(count: int, end_time: float, sizes=(1, 3, 5, 9), seed: int = 9) -> dict:
+def check_samples(count: int, end_time: float, sizes, seed: int) -> dict:
     """Run `count` random cases of each size inside each region; compare the largest P and bound.
 
     The parameters are drawn too, and ends of all kinds.
@@ -165,7 +165,13 @@ def supremum(family: str, constants: Constants, sites: int, boundary: str) -> fl
 
 
 def check_worst(
-    gamma: float, epsilon: float, sites: int, end_time: float, generations: int, seed: int = 10
+    gamma: float,
+    epsilon: float,
+    sites: int,
+    end_time: float,
+    generations: int,
+    population: int,
+    seed: int,
 ) -> dict:
     """Search data on N sites, ends at rest or joined, for the largest P over each bound."""
     found, known, history = [], [], []
@@ -177,7 +183,7 @@ def check_worst(
             start,
             1.0,
             generations,
-            24,
+            population,
             seed,
         )
         found.append(best[1])

@@ -1,0 +1,80 @@
+"""The studies' sections of the configuration: all valid, and their faults in words."""
+
+import copy
+
+import pytest
+import yaml
+from helpers import ROOT, chosen
+from pendula.configuration.messages import ConfigurationError, load
+from pendula.studies import CONFIGURED
+from pendula.studies.theory.settings import GROUPS
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """Return the project's configuration, as it stands in its files."""
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *CONFIGURED)]
+    return {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
+
+
+def changed(whole, place, value):
+    """Return the configuration with another value at a place."""
+    copied = copy.deepcopy(whole)
+    section = copied
+    for key in place[:-1]:
+        section = section[key]
+    section[place[-1]] = value
+    return copied
+
+
+@pytest.mark.parametrize("study", CONFIGURED)
+def test_a_study_has_a_section_of_its_own(study, whole):
+    assert list(yaml.safe_load((ROOT / f"config/{study}.yaml").read_text())) == [study]
+    assert getattr(load(whole), study) is not None
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "words"),
+    [
+        (("theroy",), {}, "theroy: is not a known key; did you mean 'theory'?"),
+        (("theory", "chrat"), {}, "theory.chrat: is not a known key; did you mean 'chart'?"),
+        (
+            ("theory", "chart", "omegas", "lst"), 1,
+            "theory.chart.omegas.lst: is not a known key; did you mean 'last'?",
+        ),
+        (("theory", "chart", "sites"), 0, "theory.chart.sites: is 0; it must be at least 1"),
+        (
+            ("theory", "energy_drift", "solver", "rtoll"), 1,
+            "theory.energy_drift.solver.rtoll: is not a known key; did you mean 'rtol'?",
+        ),
+        (
+            ("chaos", "lyapunov", "spectrum", "half_widht"), 1,
+            "chaos.lyapunov.spectrum.half_widht: is not a known key; did you mean 'half_width'?",
+        ),
+        (("chaos", "ensembles", "seed"), "one", "chaos.ensembles.seed: is 'one', not a whole"),
+        (
+            ("unbounded", "short", "runs", "omegas", "end"), 1,
+            "unbounded.short.runs.omegas.end: is not a known key; did you mean 'end_time'?",
+        ),
+        (
+            ("unbounded", "varied", "omegas", "value"), [1],
+            "unbounded.varied.omegas.value: is not a known key; did you mean 'values'?",
+        ),
+        (("reference", "bits", "fig2_small"), [53, 40], "reference.bits.fig2_small.0: is 53"),
+    ],
+)  # fmt: skip
+def test_a_fault_is_named_with_its_place_and_the_nearest_key(place, value, words, whole):
+    with pytest.raises(ConfigurationError) as caught:
+        load(changed(whole, place, value))
+    assert words in str(caught.value)
+
+
+def test_every_check_of_the_theory_has_arguments_and_a_group():
+    names = [name for group in GROUPS.values() for name in group]
+    assert sorted(names) == sorted(type(chosen("theory")).model_fields)
+
+
+def test_what_the_chains_without_ends_run_is_said_for_the_full_run_and_the_long_study():
+    given = chosen("unbounded")
+    for size in (given.short, given.long):
+        assert set(size.runs) == set(given.names)
