@@ -13,7 +13,7 @@ import tempfile
 from collections import defaultdict
 from pathlib import Path
 
-from pendula.report.tables import markdown
+from pendula.report.words import markdown
 
 from .timing import timed
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from pendula.report.tables import markdown
+from pendula.report.words import markdown
 
 from .cost import TOLERANCE
 from .problems import REGIMES

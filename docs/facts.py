@@ -12,8 +12,7 @@ import numpy as np
 import xarray as xr
 from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
-from pendula.report.numbers import number, percent, span, with_error
-from pendula.report.words import SOLVERS, case_of, symbols
+from pendula.report.words import SOLVERS, case_of, number, percent, span, symbols, with_error
 
 GROWING = 0.3
 """The exponent above which a norm counts as growing."""

@@ -9,6 +9,7 @@ import pytest
 import yaml
 from pendula import sources
 from pendula.configuration.messages import load
+from pendula.studies import STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -33,8 +34,8 @@ def recorded(tmp_path, monkeypatch):
     """Return a function: the files that the record of a script lists, below scripts/pendula."""
     monkeypatch.chdir(tmp_path)
 
-    def files(script: str) -> set[str]:
-        text = Path(code_records.code(script)).read_text()
+    def files(*script: str) -> set[str]:
+        text = Path(code_records.code(*script)).read_text()
         return {line.split()[1].removeprefix("scripts/pendula/") for line in text.splitlines()}
 
     return files
@@ -93,6 +94,14 @@ def test_a_record_lists_the_templates_beside_the_modules(recorded):
     names = ("style.css", "script.js", "templates/base.html.j2")
     assert {f"report/page/{name}" for name in names} <= files
     assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
+
+
+def test_a_record_lists_the_modules_that_are_found_by_the_list_of_studies(recorded):
+    files = recorded("report/write_report.py", "section")
+    for study in STUDIES:
+        assert {f"studies/{study}/section.py", f"studies/{study}/section.html.j2"} <= files
+    alone = recorded("report/write_report.py")
+    assert not any("studies/" in file and "section" in file for file in alone)
 
 
 def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):

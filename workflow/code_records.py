@@ -13,22 +13,33 @@ from pathlib import Path
 
 from pendula.archive.contents import code_files
 from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
+from pendula.studies import STUDIES
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES, KEPT = (Path("results") / name for name in ("code", "truth", "kept"))
 _handed_out: set[str] = set()
 
 
-def code(script: str) -> str:
+def code(script: str, *parts: str) -> str:
     """Return the path of the record for a script, brought up to date.
 
-    Those of the benchmarks are named from the project's folder, all others from scripts/.
+    Those of the benchmarks are named from the project's folder, all others from scripts/. `parts`
+    names modules, such as "section", that the script finds by the list of studies: its imports
+    do not show them.
     """
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
     folder = ROOT if script.startswith("benchmarks/") else SCRIPTS
-    modules = modules_of(folder / script)
+    entries = [folder / script, *(path for part in parts for path in _of_studies(part))]
+    modules = sorted({module for entry in entries for module in modules_of(entry)})
     common = [ROOT / "environment.txt", SCRIPTS / "job.py"]
     return _hand_out(record, _lines([*common, *modules, *attached_to(modules)]))
+
+
+def _of_studies(part: str) -> list[Path]:
+    """Return the modules of this name in the studies, each with its package."""
+    folders = [SCRIPTS / "pendula/studies" / study for study in STUDIES]
+    having = [folder for folder in folders if (folder / f"{part}.py").exists()]
+    return [folder / name for folder in having for name in ("__init__.py", f"{part}.py")]
 
 
 def whole_project() -> str:

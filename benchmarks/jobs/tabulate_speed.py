@@ -1,7 +1,7 @@
 """Write the measurements of speed as tables, from their datasets."""
 
 from pendula.datasets.netcdf import read
-from pendula.report.tables import write_page
+from pendula.report.words import write_markdown
 
 from benchmarks.tables import tabulate_cost, tabulate_work_precision
 
@@ -10,8 +10,8 @@ def tabulate_speed(
     work_precision: str, cost: str, work_precision_table: str, cost_table: str
 ) -> None:
     """Write both pages of Markdown."""
-    write_page(work_precision_table, *tabulate_work_precision(read(work_precision)))
-    write_page(cost_table, *tabulate_cost(read(cost)))
+    write_markdown(work_precision_table, *tabulate_work_precision(read(work_precision)))
+    write_markdown(cost_table, *tabulate_cost(read(cost)))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pendula.datasets.files import complete_or_absent
 from pendula.report.page import render
-from pendula.studies.own.page import gather
+from pendula.studies.own.section import gather
 
 
 def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
@@ -13,7 +13,7 @@ def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: lis
     Their `files` lie below its folder.
     """
     with complete_or_absent(html) as partial:
-        page = render("own.html.j2", **gather(cases, sweeps, Path(html).parent))
+        page = render("own/section.html.j2", **gather(cases, sweeps, Path(html).parent))
         Path(partial).write_text(page, encoding="utf-8")
 
 

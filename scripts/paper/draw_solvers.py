@@ -1,6 +1,4 @@
-"""The paper's two solvers against one of high order: energy, agreement, and both in numbers."""
-
-from itertools import product
+"""The paper's two solvers against one of high order: drift of the energy, and agreement."""
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
@@ -8,9 +6,7 @@ from pendula.studies.paper import solver_figures
 
 
 def draw_solvers(
-    trajectories: list[str],
-    cases: list[str],
-    solvers: list[str],
+    solvers: str,
     energy_png: str,
     energy_pdf: str,
     energy_data: str,
@@ -18,12 +14,11 @@ def draw_solvers(
     pdf: str,
     data: str,
 ) -> None:
-    """Draw the drift of the energy and the differences; `trajectories` run over cases, solvers."""
-    names = product(cases, solvers)
-    runs = dict(zip(names, map(read, trajectories), strict=True))
-    drawn = solver_figures.gather_drift(runs)
+    """Draw the drift of the energy and the differences of the norms, as they were measured."""
+    measured = read(solvers)
+    drawn = solver_figures.gather_drift(measured)
     save(solver_figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data)
-    drawn = solver_figures.gather_agreement(runs)
+    drawn = solver_figures.gather_agreement(measured)
     save(solver_figures.draw_agreement(drawn), drawn, png, pdf, data)
 
 

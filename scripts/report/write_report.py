@@ -1,5 +1,6 @@
 """Write the report of a run: one page of HTML that opens anywhere."""
 
+import json
 from pathlib import Path
 
 from job import TOOK
@@ -17,7 +18,6 @@ def write_report(
     speed_table: str,
     speed_pictures: list[str],
     sources: list[str],
-    checks: list[str],
     speed_is_fresh: bool,
     settings: str,
     logs: str,
@@ -25,11 +25,11 @@ def write_report(
 ) -> None:
     """Write the page `html` on the files of a run, which lie beside it in folders.
 
-    `checks` names the checks of the theory, `sources` are the records of code and the references,
+    `sources` are the records of code and the references,
     `settings` the configuration as text and `logs` the folder of the jobs' logs.
     """
     files = [*datasets, *pictures, ledger, speed_data, speed_table, *speed_pictures, *sources]
-    results = Results(files, html)
+    results = Results(files, html, json.loads(settings))
     (times, table), drawn, made_of = (
         [Path(path).relative_to(Path(html).parent).as_posix() for path in paths]
         for paths in ([speed_data, speed_table], speed_pictures, sources)
@@ -37,7 +37,7 @@ def write_report(
     measured = Measured(times, table, drawn, speed_is_fresh)
     made = {"inputs": made_of, "settings": settings, "logs": logs, "took": TOOK}
     with complete_or_absent(html) as partial:
-        Path(partial).write_text(document.write(results, checks, measured, made), "utf-8")
+        Path(partial).write_text(document.write(results, measured, made), "utf-8")
 
 
 if __name__ == "__main__":

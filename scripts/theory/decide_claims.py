@@ -9,7 +9,7 @@ from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read
 from pendula.ledger.evaluate import evaluate, needed
 from pendula.ledger.verdicts import Verdict
-from pendula.report.tables import markdown, write_page
+from pendula.report.words import markdown, write_markdown
 
 
 def decide_claims(
@@ -26,7 +26,7 @@ def decide_claims(
     rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources)]
     checks = {name: ds.to_dict() for name, ds in sources.items() if name.startswith("checks/")}
     write(ledger, json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False))
-    write_page(table, *claims_section(rows), *checks_section(checks))
+    write_markdown(table, *claims_section(rows), *checks_section(checks))
     print(", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items()))
     for name, check in checks.items():
         if broken(check):

@@ -3,9 +3,8 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
-from pendula.report.pictures import Picture
+from pendula.report.page import Picture
 from pendula.report.results import Results
 
 SMALL, LARGE = '{"0": [1.0, 0.1]}', '{"0": [5.0, 1.0]}'
@@ -58,24 +57,6 @@ def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **chang
 def ledger(*rows: dict) -> str:
     """Return a ledger as the file holds it."""
     return json.dumps(list(rows))
-
-
-def norms(scale: float = 1.0, divergence_time: float = np.inf) -> xr.Dataset:
-    """Return the dataset of Fig 2: norms that fall from `scale`, large data that diverge."""
-    tau = np.linspace(0.0, 4.0, 5)
-    falling = scale * np.array([1.0, 0.8, 0.6, 0.6, 0.6])
-    pair = np.stack([falling, 0.0 * falling])
-    both = np.stack([pair, 5.0 * pair])
-    return xr.Dataset(
-        {
-            "l2": (("amplitude", "component", "tau"), both),
-            "linf": (("amplitude", "component", "tau"), both),
-            "divergence_time": ("amplitude", [np.inf, divergence_time]),
-            "omega": ("amplitude", [8.0, 8.0]),
-            "initial": ("amplitude", [SMALL, LARGE]),
-        },
-        coords={"tau": tau, "component": ["A", "B"], "amplitude": ["small", "large"]},
-    )
 
 
 def text_of(value) -> str:

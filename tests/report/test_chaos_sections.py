@@ -6,9 +6,8 @@ import pytest
 import xarray as xr
 from pendula.ledger import section as claims
 from pendula.studies.chaos import section as chaos
-from pendula.studies.paper import section_solvers as solvers
+from pendula.studies.paper import section as paper
 from pendula.studies.theory import section as theory
-from pendula.studies.theory import section_errata as errata
 from pendula.studies.unbounded import section as growth
 
 TAU = np.linspace(0.0, 10.0, 11)
@@ -20,51 +19,52 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
     growing = made_up.by_case(
         exponent=(by_parity, rates),
         exponent_error=(by_parity, rates / 10),
-        chaotic=("case", [0, 0, 0, int(rate > 1)]),
+        chaotic=("case", [0, 0, 0, int(rate > 1.0)]),
     )
     horizons = np.full((4, 1, 2), np.inf)
     horizons[3, 0] = [lost, 2 * lost]
     coords = {"solver": ["ode45", "taylor"], "level": ["visible"], "tau": TAU}
-    trust = made_up.by_case(horizon=(by_solver, horizons), size=("level", [0.01]))
-    bands = np.stack([np.full(11, 9.0), np.full(11, 10.0), np.full(11, 12.0)])
+    trust = made_up.by_case(
+        horizon=(by_solver, horizons),
+        size=("level", [0.01]),
+        decimal_horizon=("decimal_level", [2.0, 5.0]),
+        decimal_size=("decimal_level", [1e-12, 0.01]),
+    )
+    inside = {"run_inside": 0.875, "band_width": 0.3, "band_middle": 10.0}
     ensembles = made_up.by_case(
         {"fig3_large": (-4.0, made_up.LARGE)},
-        l2=(("case", "quantile", "tau"), bands[None]),
-        run_inside=("case", [0.875]),
-    ).assign_coords(quantile=[0.05, 0.5, 0.95], tau=TAU)
+        **{name: ("case", [value]) for name, value in inside.items()},
+        band_share=0.9,
+    )
     rounded = made_up.by_case(rounded_time=("case", [np.inf, np.inf, np.inf, 6.5]))
-    tenth, double = true_run(0.0), true_run(lost)
+    run = xr.Dataset(attrs={"omega": 0.0})
     members = xr.Dataset(attrs={"members": 32, "perturbation": 1e-7})
     return made_up.MadeUp(
         folder,
         {
             "checks/lyapunov": growing.assign_coords(parity=["even", "odd"]),
-            "figures/trust_horizons": trust.assign_coords(coords),
-            "figures/ensembles": ensembles,
+            "checks/trust": trust.assign_coords(coords),
+            "checks/ensemble_runs": ensembles,
             "checks/ensembles": members,
             "checks/symmetry": rounded,
-            "truth/fig4_small": tenth,
-            "truth/fig4_small.double": double,
+            "trajectories/fig4_small": run,
         },
     )
 
 
-def true_run(divergence_time: float) -> xr.Dataset:
-    """Return norms of one, off by 1e-9 from tau = 2 on, by a half after `divergence_time`."""
-    off = np.where(TAU >= 2.0, 1e-9, 0.0) + np.where(divergence_time < TAU, 0.5, 0.0)
-    norm = ("component", "tau"), np.stack([1.0 + off * (divergence_time > 0.0)] * 2)
-    return xr.Dataset({"l2": norm, "linf": norm}, {"tau": TAU}, {"omega": 0.0})
+def gathered(results: made_up.MadeUp) -> dict:
+    return chaos.gather(results, None)
 
 
 def test_a_double_is_no_tenth(tmp_path):
-    found = chaos.gather(chaotic_results(tmp_path, 2.5, 4.5))["decimal"]
+    found = gathered(chaotic_results(tmp_path, 2.5, 4.5))["decimal"]
     assert (str(found["first"]), str(found["seen"]), found["omega"]) == ("2", "5", "0")
-    assert found["first"].link == "truth/fig4_small.double.nc"
+    assert found["first"].link == "checks/trust.nc"
 
 
 @pytest.mark.parametrize(("rate", "lost", "count"), [(2.5, 4.5, "1"), (0.05, 8.25, "0")])
-def test_chaos_is_read_from_its_dataset(tmp_path, rate, lost, count):
-    found = chaos.gather(chaotic_results(tmp_path, rate, lost))
+def test_chaos_is_told_from_the_rates(tmp_path, rate, lost, count):
+    found = gathered(chaotic_results(tmp_path, rate, lost))
     assert str(found["count"]) == count and str(found["cases"]) == "4"
     assert len(found["chaotic"]) == int(count)
     assert str(found["lost"]["ode45"]["times"]) == f"{lost:.3f}"
@@ -74,7 +74,7 @@ def test_chaos_is_read_from_its_dataset(tmp_path, rate, lost, count):
 
 
 def test_a_band_is_as_wide_as_its_quantiles(tmp_path):
-    (band,) = chaos.gather(chaotic_results(tmp_path, 2.5, 4.5))["ensembles"]
+    (band,) = gathered(chaotic_results(tmp_path, 2.5, 4.5))["ensembles"]
     assert (str(band["width"]), str(band["middle"])) == ("30 %", "10")
     assert (str(band["share"]), str(band["inside"])) == ("90 %", "88 %")
 
@@ -91,7 +91,8 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
     powers = {"power": 18.0, "expected_power": 20.0}
     front = {name: ("omega", [value]) for name, value in (speeds | powers).items()}
     window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0]})
-    run = xr.Dataset({"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])})
+    width = {"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])}
+    run = xr.Dataset(width, attrs={"omega": 0.0})
     names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
              "fig6_diverges", "unbounded_window")  # fmt: skip
     rows = [made_up.claim(n, decided_by=["unbounded/fig4_small"], measured=measured) for n in names]
@@ -127,20 +128,18 @@ def test_runs_that_are_too_short_tell_no_power(tmp_path):
 
 
 def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
-    drift = np.array([[[0.0, 1.5e-6], [0.0, 1e-9]]] * 3 + [[[0.0, 3e-6], [0.0, 1e-9]]])
-    divergence_time = np.array([[np.inf]] * 3 + [[7.5]])
-    results = made_up.MadeUp(
-        tmp_path,
-        {
-            "figures/energy_drift": made_up.by_case(
-                drift=(("case", "solver", "tau"), drift), claim=("case", [1e-6] * 4)
-            ).assign_coords(solver=["ode45", "crank_nicolson"], tau=[0.0, 50.0]),
-            "figures/solver_agreement": made_up.by_case(
-                divergence_time=(("case", "pair"), divergence_time), visible=0.01
-            ).assign_coords(pair=["ode45 - crank_nicolson"]),
-        },
+    drifts = np.array([[1.5e-6, 1e-9]] * 3 + [[3e-6, 1e-9]])[:, :, None]
+    solvers = made_up.by_case(
+        largest_drift=(("case", "solver", "span"), drifts),
+        kept=(("case", "solver", "span"), (drifts < 2e-6).astype(int)),
+        stated_drift=("case", [1e-6] * 4),
+        until=(("case", "span"), [[50.0]] * 4),
+        divergence_time=(("case", "pair"), [[np.inf]] * 3 + [[7.5]]),
+        visible=0.01,
+    ).assign_coords(
+        solver=["ode45", "crank_nicolson"], span=["whole"], pair=["ode45 - crank_nicolson"]
     )
-    found = solvers.gather(results)
+    found = paper.gather_solvers(made_up.MadeUp(tmp_path, {"checks/solvers": solvers}), None)
     assert [str(found[name]) for name in ("kept", "cases", "apart", "first")] == [
         *("3", "4", "1", "7.5")
     ]
@@ -182,7 +181,7 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
         },
         **{"claims.json": made_up.ledger(*rows)},
     )
-    found = errata.gather(results, claims.Ledger(results))
+    found = theory.gather_errata(results, claims.Ledger(results))
     assert found["constant"]["fails"] is fails and str(found["constant"]["sites"]) == "3"
     assert not found["case"]["covered"] and found["case"]["covered_widened"]
     assert str(found["depth"]) == "5.3" and not found["case"]["shallow"]

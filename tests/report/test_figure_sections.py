@@ -7,15 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.ledger import section as claims
-from pendula.studies.paper import (
-    section_motion as motion,
-)
-from pendula.studies.paper import (
-    section_norms as norms,
-)
-from pendula.studies.paper import (
-    section_sweeps as sweeps,
-)
+from pendula.studies.paper import section as paper
 
 
 def observed(**changes) -> xr.Dataset:
@@ -24,8 +16,18 @@ def observed(**changes) -> xr.Dataset:
     return made_up.by_case(region=("case", regions), ratio=("case", ratios))
 
 
-def run_of(steps: int) -> xr.Dataset:
-    return xr.Dataset(attrs={"steps": steps})
+def run_of(size: str, scale: float) -> xr.Dataset:
+    """Return a run whose norms fall from `scale`, for large data from five times that."""
+    falling = scale * np.array([1.0, 0.8, 0.6, 0.6, 0.6]) * (5.0 if size == "large" else 1.0)
+    norm = (("component", "tau"), np.stack([falling, 0.0 * falling]))
+    attributes = {"omega": 8.0, "initial": made_up.SMALL, "solver": "ode45", "steps": 120}
+    return xr.Dataset({"l2": norm, "linf": norm}, {"tau": np.linspace(0.0, 4.0, 5)}, attributes)
+
+
+def trusted_until(time: float) -> xr.Dataset:
+    horizons = np.array([np.inf, time, np.inf, np.inf])[:, None, None]
+    trust = made_up.by_case(horizon=(("case", "level", "solver"), horizons))
+    return trust.assign_coords(solver=["ode45"], level=["visible"])
 
 
 @pytest.mark.parametrize(("scale", "shown"), [(1.0, "0.600 to 1.00"), (2.0, "1.20 to 2.00")])
@@ -33,44 +35,51 @@ def test_norms_are_read_from_their_datasets(tmp_path, scale, shown):
     results = made_up.MadeUp(
         tmp_path,
         {
-            "figures/fig2": made_up.norms(scale, divergence_time=3.5),
             "checks/cases": observed(),
-            "trajectories/fig2_small": run_of(120),
-            "trajectories/fig2_large": run_of(450),
+            paper.TRUST: trusted_until(3.5),
+            "trajectories/fig2_small": run_of("small", scale),
+            "trajectories/fig2_large": run_of("large", scale),
         },
     )
-    figure = norms._figure(results, 2)
+    figure = paper._norms(results, 2)
     small, large = figure["rows"]
-    assert [str(cell) for cell in small[1:]] == [
-        *(shown, f"{0.6 * scale:#.3g}", "never", "Theorem 1", "0.5", "120")
-    ]  # fmt: skip
-    assert str(large[3]) == "3.5" and large[3].link == "figures/fig2.nc"
+    assert [str(cell) for cell in small[1:3]] == [shown, f"{0.6 * scale:#.3g}"]
+    assert [str(cell) for cell in small[4:]] == ["Theorem 1", "0.5", "120"]
+    assert large[3] == ("3.5", f"{paper.TRUST}.nc")
     assert len(figure["divergences"]) == 1 and shown.split()[0][:3] in figure["picture"].alt
 
 
-def sweep(right: list[float]) -> xr.Dataset:
-    widths = [5, 10, 20, 40, 80, 160]
-    flat = np.full((2, 2, 6), 2.0)
-    flat[1, 0] = right
-    return xr.Dataset(
-        {
-            "l2": (("panel", "reading", "half_width"), flat),
-            "omega": ("panel", [-4.0, 0.0]),
-            "initial": ("panel", [made_up.SMALL, made_up.SMALL]),
-            "statistic": ("reading", ["max", "mean"]),
-            "window": ("reading", ["[10, 50]", "[10, 50]"]),
-        },
-        coords={"panel": ["left", "right"], "reading": ["text", "caption"], "half_width": widths},
-    )
+def sweeps(right: list[float]) -> dict[str, xr.Dataset]:
+    """Return the sweeps of Fig 5: a level one, and one whose maxima are given."""
+    widths, names = [5, 10, 20, 40, 80, 160], ("fig5_left", "fig5_right")
+    made = {}
+    for name, omega, maxima in zip(names, (-4.0, 0.0), ([2.0] * 6, right), strict=True):
+        values = np.stack([maxima, [2.0] * 6], axis=1)[:, None, :, None]
+        dims = ("half_width", "quantity", "statistic", "window")
+        coords = {"half_width": widths, "quantity": ["pair"], "statistic": ["max", "mean"]}
+        made[f"sweeps/{name}"] = xr.Dataset(
+            dict.fromkeys(("l2", "linf"), (dims, values)),
+            {**coords, "window": ["[10, 50]"]},
+            {"omega": omega, "initial": made_up.SMALL},
+        )
+    return made
 
 
 def samples(mean: float) -> dict[str, xr.Dataset]:
-    numbers = {"l2_mean": mean, "l2_deviation": 2.0, "swept_run": 7.0, "swept_omega": 0.0}
+    numbers = {"l2_mean": mean, "l2_deviation": 2.0, "swept_run": 7.0}
+    numbers["deviations"] = (7.0 - mean) / 2.0
     drawn = {name: (("sweep", "half_width"), [[value]]) for name, value in numbers.items()}
     drawn |= {"swept_omega": ("sweep", [0.0]), "swept_initial": ("sweep", [made_up.SMALL])}
     coords = {"sweep": ["fig5_right"], "half_width": [160]}
     members = xr.Dataset(attrs={"swept_members": 8})
-    return {"figures/ensembles": xr.Dataset(drawn, coords=coords), "checks/ensembles": members}
+    return {"checks/ensemble_runs": xr.Dataset(drawn, coords=coords), "checks/ensembles": members}
+
+
+def swept_results(folder, right: list[float], mean: float) -> made_up.MadeUp:
+    results = made_up.MadeUp(folder, {**sweeps(right), **samples(mean)})
+    windows = {"drawn": {"max": [10, 50], "mean": [10, 50]}}
+    results.settings = {"sweeps": dict.fromkeys(("fig5_left", "fig5_right"), windows)}
+    return results
 
 
 def plain(text) -> str:
@@ -80,7 +89,7 @@ def plain(text) -> str:
 @pytest.mark.parametrize(
     ("values", "shape", "level"),
     [
-        ([1, 2, 4, 7, 7, 7], "grows", "level from M = 40"),
+        ([1.0, 2, 4, 7, 7, 7], "grows", "level from M = 40"),
         ([1, 2, 3, 4, 5, 7], "grows", "not level by the end"),
         ([2, 2, 9, 7, 3, 3], "rises to 9.00 at M = 20 and falls again", "not level by the end"),
         ([9, 8, 7, 7, 7, 7], "falls", "level from M = 20"),
@@ -88,18 +97,16 @@ def plain(text) -> str:
     ],
 )
 def test_the_way_of_a_sweep_is_found_from_its_numbers(tmp_path, values, shape, level):
-    results = made_up.MadeUp(tmp_path, {"figures/fig5": sweep(values), **samples(10.0)})
-    figure = sweeps._figure(results, 5)
+    figure = paper._sweeps(swept_results(tmp_path, values, 10.0), 5)
     curve = figure["l2"][2]
     assert str(curve["shape"]) == shape and plain(curve["level"]) == level
-    assert curve["by_text"] and curve["shape"].link == "figures/fig5.nc"
-    assert len(figure["rows"]) == 4 and str(figure["widths"]) == "6"
+    assert curve["by_text"] and curve["shape"].link == "sweeps/fig5_right.nc"
+    assert len(figure["rows"]) == 8 and str(figure["widths"]) == "6"
 
 
 @pytest.mark.parametrize(("mean", "off", "below"), [(10.0, "1.5", True), (5.0, "1", False)])
 def test_a_chaotic_run_is_set_beside_its_ensemble(tmp_path, mean, off, below):
-    results = made_up.MadeUp(tmp_path, {"figures/fig5": sweep([1] * 6), **samples(mean)})
-    (sample,) = sweeps._figure(results, 5)["samples"]
+    (sample,) = paper._sweeps(swept_results(tmp_path, [1] * 6, mean), 5)["samples"]
     assert (str(sample["off"]), sample["below"], str(sample["runs"])) == (off, below, "8")
 
 
@@ -119,7 +126,7 @@ def moving_chain() -> xr.Dataset:
 
 def test_the_run_to_play_is_quantised_time_after_time(tmp_path):
     results = made_up.MadeUp(tmp_path, {"trajectories/a": moving_chain()})
-    shown = motion.played(results, "trajectories/a")
+    shown = paper.played(results, "trajectories/a")
     frames = np.frombuffer(base64.b64decode(shown["frames"]), np.uint8).reshape(4, 2, 3)
     assert shown["count"] == 4 and shown["step"] == 0.5 and str(shown["peak"]) == "2"
     assert frames[:, 0, 1].tolist() == [128, 255, 255, 255]

@@ -3,8 +3,20 @@
 import numpy as np
 import pytest
 from markupsafe import escape
-from pendula.report.numbers import Quote, measured, number, percent, span, with_error
-from pendula.report.words import case_in_words, count, plainly, symbols
+from pendula.report.words import (
+    Quote,
+    case_in_words,
+    count,
+    markdown,
+    measured,
+    number,
+    percent,
+    plainly,
+    span,
+    symbols,
+    with_error,
+    write_markdown,
+)
 
 
 def plain(text: str) -> str:
@@ -66,3 +78,16 @@ def test_cases_in_words():
     assert words == "Ω = 0.5, (A₋₃, B₋₃) = (-0.3+0.4j, 1)"
     assert "data on 2 sites" in case_in_words(0, '{"0": [1, 0], "1": [1, 0]}')
     assert count(1, "case") == "1 case" and count(3, "case") == "3 cases"
+
+
+def test_a_table_keeps_its_texts_and_escapes_bars():
+    lines = markdown(["case", "|A|"], [["fig2", "1.0e-03"], ["nan", 2.50]]).splitlines()
+    assert lines[0] == "| case | \\|A\\| |"
+    assert set(lines[1]) == {"|", "-"} and lines[1].count("|") == 3
+    assert lines[2:] == ["| fig2 | 1.0e-03 |", "| nan | 2.5 |"]
+    assert markdown(["case", "time"], []).splitlines()[0] == "| case | time |"
+
+
+def test_a_page_of_markdown_has_empty_lines_between_its_parts(tmp_path):
+    write_markdown(tmp_path / "page.md", "# Title", "Words.", markdown(["a"], [["1"]]))
+    assert (tmp_path / "page.md").read_text() == "# Title\n\nWords.\n\n| a |\n|-----|\n| 1 |\n"

@@ -71,7 +71,7 @@ def hard(sound: int) -> xr.Dataset:
 
 
 def test_hard_cases_are_counted(tmp_path):
-    found = hard_cases.gather(made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(0)}))
+    found = hard_cases.gather(made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(0)}), None)
     assert [str(found[name]) for name in ("runs", "refused", "unexpected")] == ["3", "1", "1"]
     assert not found["sound"]
     taylor, dop853 = found["by_solver"]
@@ -81,7 +81,8 @@ def test_hard_cases_are_counted(tmp_path):
 
 
 def test_sound_hard_cases_are_told_so(tmp_path):
-    assert hard_cases.gather(made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(1)}))["sound"]
+    results = made_up.MadeUp(tmp_path, {"checks/hard_cases": hard(1)})
+    assert hard_cases.gather(results, None)["sound"]
 
 
 def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):

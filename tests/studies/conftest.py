@@ -90,12 +90,18 @@ def own_checks(second):
 
 
 @pytest.fixture(scope="session")
-def gathered(make_trajectory, trajectories, make_sweep):
+def swept_pairs(make_sweep):
+    """Return a sweep by two solvers that agree."""
+    return {"fig5_left": (make_sweep(-4.0), make_sweep(-4.0))}
+
+
+@pytest.fixture(scope="session")
+def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     """Return what every figure draws, by the name of the figure."""
     from pendula.studies.chaos import figures as chaos
     from pendula.studies.chaos.comparison import compare
     from pendula.studies.own import figures as own
-    from pendula.studies.paper import chain_figure, figures, solver_figures
+    from pendula.studies.paper import chain_figure, figures, solver_figures, solvers
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
@@ -108,6 +114,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
     panels = (make_sweep(-4.0), make_sweep(0.0))
     long, short = chart(), short_chart()
     references = {"fig2_small": true, "fig2_large": true}
+    by_solvers = solvers.compare(trajectories, swept_pairs)
     maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
     of_cases = dict(zip(made_up_chaos.CASES, pair, strict=True))
     of_sweeps = dict(zip(made_up_chaos.SWEEPS, panels, strict=True))
@@ -118,9 +125,9 @@ def gathered(make_trajectory, trajectories, make_sweep):
     large = spread(0.5, omegas=(-4.0,))
     points = [(8, 1), (-4, 1), (0, 1)]
     return {
-        "agreement": solver_figures.gather_agreement(trajectories),
+        "agreement": solver_figures.gather_agreement(by_solvers),
         "chain": chain_figure.gather(),
-        "drift": solver_figures.gather_drift(trajectories),
+        "drift": solver_figures.gather_drift(by_solvers),
         "norms": figures.gather_norms(pair, [true, true]),
         "spacetime": figures.gather_spacetime(*pair),
         "own_norms": own.gather_norms(pair[0], own_checks(true)),
@@ -129,7 +136,7 @@ def gathered(make_trajectory, trajectories, make_sweep):
         "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]"),
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
-        "trust": solver_figures.gather_trust(trajectories, references),
+        "trust": solver_figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": bounds_figure.gather_bounds(cases(), sweeps(), samples(), worst()),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),

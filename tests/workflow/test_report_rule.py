@@ -5,7 +5,7 @@ import re
 import xarray as xr
 from helpers import planned, snakemake
 
-FOLDER = "scripts/pendula/report/page"
+FOLDER = "scripts/pendula"
 
 
 def page_of(project) -> str:
@@ -18,7 +18,9 @@ def without_times(page: str) -> str:
 
 
 def test_a_template_the_style_or_the_script_reruns_the_report_alone(finished, clone):
-    for name in ("templates/sections/chaos.html.j2", "style.css", "script.js"):
+    folder = "report/page"
+    of_page = ("templates/base.html.j2", "style.css", "script.js")
+    for name in ("studies/chaos/section.html.j2", *(f"{folder}/{name}" for name in of_page)):
         path = clone / FOLDER / name
         text = path.read_text()
         path.write_text(text + "\n")

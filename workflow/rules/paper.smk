@@ -134,9 +134,7 @@ rule solver_figures:
     "How well each solver conserves the energy, and until when they draw the same curves"
     input:
         code=code("paper/draw_solvers.py"),
-        trajectories=expand(
-            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=COMPARED
-        ),
+        solvers="results/checks/solvers.nc",
     output:
         **figure("energy_drift", "energy_"),
         **figure("solver_agreement"),
@@ -144,35 +142,10 @@ rule solver_figures:
         "results/logs/figures/solvers.log",
     conda:
         "../envs/pinned.yaml"
-    params:
-        cases=PAPER_CASES,
-        solvers=COMPARED,
     message:
         "Drawing how the solvers conserve the energy, and until when they agree"
     script:
         "../../scripts/paper/draw_solvers.py"
-
-
-rule solver_table:
-    "The same in numbers, with the sweeps: results/tables/solvers.md"
-    input:
-        code=code("paper/tabulate_solvers.py"),
-        energy="results/figures/energy_drift.nc",
-        agreement="results/figures/solver_agreement.nc",
-        first=expand("results/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS),
-        second=expand("results/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
-    output:
-        table="results/tables/solvers.md",
-    log:
-        "results/logs/tables/solvers.log",
-    conda:
-        "../envs/pinned.yaml"
-    params:
-        sweeps=PAPER_SWEEPS,
-    message:
-        "Tabling energy drift and agreement of the solvers"
-    script:
-        "../../scripts/paper/tabulate_solvers.py"
 
 
 rule measure_trust:
@@ -203,21 +176,33 @@ rule trust_horizons:
     "When each solver's norms leave the multiprecision reference"
     input:
         code=code("paper/draw_trust.py"),
-        trajectories=expand(
-            "results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
-        ),
-        references=references(*PAPER_CASES),
+        trust="results/checks/trust.nc",
     output:
         **figure("trust_horizons"),
-        table="results/tables/trust.md",
     log:
-        "results/logs/trust/horizons.log",
+        "results/logs/figures/trust_horizons.log",
     conda:
         "../envs/pinned.yaml"
-    params:
-        cases=PAPER_CASES,
-        solvers=ALL_SOLVERS,
     message:
-        "Judging until when each solver's trajectories can be trusted"
+        "Drawing until when each solver's trajectories can be trusted"
     script:
         "../../scripts/paper/draw_trust.py"
+
+
+rule solver_table:
+    "All that is measured of the solvers as tables to read: solvers.md, trust.md"
+    input:
+        code=code("paper/tabulate_solvers.py"),
+        solvers="results/checks/solvers.nc",
+        trust="results/checks/trust.nc",
+    output:
+        table="results/tables/solvers.md",
+        trust_table="results/tables/trust.md",
+    log:
+        "results/logs/tables/solvers.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Tabling energy drift, agreement and errors of the solvers"
+    script:
+        "../../scripts/paper/tabulate_solvers.py"

@@ -6,7 +6,7 @@ SPEED_IS_FRESH, SPEED_DATA, SPEED_TABLE, SPEED_PICTURES = speed_measured()
 rule report:
     "results/report.html: what the run found, figure by figure and claim by claim, on one page"
     input:
-        code=code("report/write_report.py"),
+        code=code("report/write_report.py", "section"),
         datasets=reported_datasets(),
         pictures=expand("results/figures/{name}.png", name=FIGURES),
         ledger="results/claims.json",
@@ -21,7 +21,6 @@ rule report:
     conda:
         "../envs/pinned.yaml"
     params:
-        checks=CHECKS,
         speed_is_fresh=SPEED_IS_FRESH,
         settings=settings_in_words(),
         logs="results/logs",

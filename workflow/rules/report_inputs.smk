@@ -38,7 +38,11 @@ def speed_measured():
 def settings_in_words():
     """Return the configuration of the paper's cases and sweeps as text."""
     cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
-    swept = {sweep: SETTINGS.sweeps[sweep].model_dump() for sweep in PAPER_SWEEPS}
+    sweeps = {sweep: SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS}
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in sweeps.items()
+    }
     studies = {name: getattr(SETTINGS, name).model_dump() for name in CONFIGURED}
     told = {"cases": cases, "sweeps": swept, **studies}
     return json.dumps(told, sort_keys=True, default=str)

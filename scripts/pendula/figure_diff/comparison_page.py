@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 from pendula.report import page
-from pendula.report.pictures import address_of
+from pendula.report.page import address_of
 
 from .compare_images import DamagedImageError, read
 from .findings import IDENTICAL, NEARLY, STATUSES, Finding

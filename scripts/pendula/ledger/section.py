@@ -4,9 +4,8 @@ import json
 from collections import Counter
 from typing import Any
 
-from pendula.report.numbers import Quote, number
 from pendula.report.results import Results
-from pendula.report.words import criterion, plainly, symbols
+from pendula.report.words import Quote, criterion, number, plainly, symbols
 
 from .verdicts import Verdict
 

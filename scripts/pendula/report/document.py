@@ -1,64 +1,53 @@
-"""The whole report: every section gathered from the results, put into the template."""
+"""The report of a run: the sections of all studies, then those of the ledger and of the run."""
 
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from pendula import studies
 from pendula.ledger import section as claims
-from pendula.studies.chaos import section as chaos
-from pendula.studies.chaos import section_pictures as chaos_pictures
-from pendula.studies.hard_cases import section as hard_cases
-from pendula.studies.paper import (
-    section_motion as motion,
-)
-from pendula.studies.paper import (
-    section_norms as norms,
-)
-from pendula.studies.paper import (
-    section_solvers as solvers,
-)
-from pendula.studies.paper import (
-    section_sweeps as sweeps,
-)
-from pendula.studies.theory import section as theory
-from pendula.studies.theory import section_errata as errata
-from pendula.studies.unbounded import section as growth
+from pendula.ledger.section import Ledger
 
-from . import page, provenance, speed
+from . import provenance, speed
+from .page import render
 from .results import Results
 
-CONTENTS = {
-    "figures": "The figures",
-    "motion": "The chain in motion",
-    "claims": "What the paper says",
-    "errata": "Errata",
-    "theory": "Stability and bounds",
-    "chaos": "What can be trusted",
-    "growth": "Growth without bound",
-    "solvers": "The paper's solvers",
-    "speed": "Speed against error",
-    "hard_cases": "Hard cases",
-    "provenance": "How it was run",
-}
-"""The sections in their order: the names of their templates, and their titles."""
+
+class Section(NamedTuple):
+    """A part of the report under a heading of its own.
+
+    The template beside the module that declares it (section.html.j2) writes it by a macro of this
+    `name`, which takes what `gather` returns. Two more macros are looked for: `<name>_summary`
+    writes its lines at the top of the page, `<name>_opening` what follows all of these.
+    """
+
+    name: str
+    title: str
+    gather: Callable[[Results, Ledger], Any]
 
 
-def write(results: Results, checks: list[str], measured: speed.Measured, made: dict) -> str:
+def write(results: Results, measured: speed.Measured, made: dict) -> str:
     """Return the report as HTML.
 
-    `checks` names the checks of the theory, `measured` where speed was measured, and `made` holds
-    what `provenance.gather` takes.
+    `measured` says where speed was measured, `made` holds what `provenance.gather` takes.
     """
-    ledger = claims.Ledger(results)
-    values = {
-        "chain": norms.chain(results),
-        "norms": norms.gather(results),
-        "sweeps": sweeps.gather(results),
-        "motion": motion.gather(results),
-        "claims": claims.gather(results),
-        "errata": errata.gather(results, ledger),
-        "theory": theory.gather(results, ledger, checks),
-        "chaos": chaos.gather(results) | {"pictures": chaos_pictures.gather(results)},
-        "growth": growth.gather(results, ledger),
-        "solvers": solvers.gather(results),
-        "speed": speed.gather(results, measured),
-        "hard_cases": hard_cases.gather(results),
-        "provenance": provenance.gather(results, **made),
-    }
-    return page.render("report.html.j2", contents=CONTENTS, **values)
+    ledger = Ledger(results)
+    of_studies = [
+        (section, f"{study}/section.html.j2")
+        for study, module in studies.modules("section").items()
+        for section in module.SECTIONS
+    ]
+    own = (
+        Section("claims", "What the paper says", lambda *_: claims.gather(results)),
+        Section("speed", "Speed against error", lambda *_: speed.gather(results, measured)),
+        Section("provenance", "How it was run", lambda *_: provenance.gather(results, **made)),
+    )
+    sections = [
+        {
+            "name": section.name,
+            "title": section.title,
+            "template": template,
+            "found": section.gather(results, ledger),
+        }
+        for section, template in [*of_studies, *((one, "sections.html.j2") for one in own)]
+    ]
+    return render("report.html.j2", sections=sections)

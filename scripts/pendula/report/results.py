@@ -1,14 +1,14 @@
 """What a run made, by name: datasets read once, pictures, and links from the page to both."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from pendula.datasets.netcdf import read
 
-from .numbers import Quote, number, with_error
-from .pictures import Picture, picture
+from .page import Picture, picture
+from .words import Quote, number, with_error
 
 
 class ReportError(RuntimeError):
@@ -16,9 +16,13 @@ class ReportError(RuntimeError):
 
 
 class Results:
-    """The files of a run; names are paths seen from the page, without the ending .nc or .png."""
+    """The files of a run; names are paths seen from the page, without the ending .nc or .png.
 
-    def __init__(self, files: Iterable[str], page: str):
+    `settings` is the configuration of the run's cases and sweeps.
+    """
+
+    def __init__(self, files: Iterable[str], page: str, settings: Mapping | None = None):
+        self.settings = settings or {}
         home = Path(page).parent
         self._paths = {Path(path).relative_to(home).as_posix(): Path(path) for path in files}
         self._read = {}

@@ -5,10 +5,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from .numbers import number
-from .pictures import picture
+from .page import picture
 from .results import ReportError, Results
-from .words import SOLVERS, case_of
+from .words import SOLVERS, case_of, number
 
 
 class Measured(NamedTuple):

@@ -1,11 +1,22 @@
-"""How cases, solvers and symbols are written on a page."""
+"""How pages write numbers, cases, solvers, symbols and tables; a number links to its dataset."""
 
 import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
 
+import numpy as np
+from markupsafe import Markup
+from tabulate import tabulate
+
+from pendula.datasets.files import complete_or_absent
 from pendula.problem import read_initial
 
-from .numbers import FIRM, MINUS, number, raised
-
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MINUS, TIMES = "−", "×"
+FIRM = "\N{NO-BREAK SPACE}"
+SMALL = 1e-3
+"""Numbers below are written with a power of ten."""
 SOLVERS = {
     "ode45": "ode45",
     "crank_nicolson": "Crank\N{EN DASH}Nicolson",
@@ -13,6 +24,8 @@ SOLVERS = {
     "taylor": "Taylor",
     "splitting": "BM6 splitting",
 }
+NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}
+STATISTICS = {"max": "maximum", "mean": "average"}
 SYMBOLS = {
     "Omega": "Ω",
     "gamma_0": "γ₀",
@@ -33,6 +46,72 @@ _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
 _MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
 _EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
 _NAMES = re.compile(r"(?<![A-Za-z])(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
+
+
+class Quote(NamedTuple):
+    """A text made from a dataset, and where that is, seen from the page; a link in templates."""
+
+    text: str
+    link: str
+
+    def __html__(self) -> str:
+        return Markup('<a class="n" href="{}">{}</a>').format(self.link, self.text)
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Return a number to so many digits, small and large ones with a raised power of ten."""
+    value = float(value)
+    if not np.isfinite(value):
+        return "none" if np.isnan(value) else "infinite" if value > 0 else f"{MINUS}infinite"
+    small = 0 < abs(value) < SMALL
+    plain = f"{value:.{digits - 1}e}" if small else f"{value:.{digits}g}"
+    mantissa, _, exponent = plain.partition("e")
+    if not exponent:
+        return plain.replace("-", MINUS)
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    start = "" if mantissa == "1" else f"{mantissa}{FIRM}{TIMES}{FIRM}"
+    return f"{start}10{raised(exponent)}".replace("-", MINUS)
+
+
+def raised(exponent: str) -> str:
+    """Return a whole number as an exponent."""
+    return str(int(exponent)).translate(RAISED)
+
+
+def with_error(value: float, error: float) -> str:
+    """Return a number and its standard error to the first digit of that, to the second of a 1."""
+    if not (np.isfinite(error) and error > 0):
+        return number(value)
+    first = int(np.floor(np.log10(error)))
+    places = max(0, -first + (error < 2.0 * 10.0**first))
+    return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
+
+
+def percent(part: float, digits: int = 2) -> str:
+    """Return a part of one in per cent: 13 %."""
+    value = 100.0 * float(part)
+    return (
+        f"{value:.0f} %".replace("-", MINUS) if abs(value) >= 10 else f"{number(value, digits)} %"
+    )
+
+
+def span(values, digits: int = 3) -> str:
+    """Return the least and the largest of measured numbers: 0.51 to 0.54; one if they are alike."""
+    if not np.isfinite(values).any():
+        return "none"
+    least, largest = (measured(edge(values), digits) for edge in (np.nanmin, np.nanmax))
+    return least if least == largest else f"{least} to {largest}"
+
+
+def measured(value: float, digits: int = 3) -> str:
+    """Return a number with zeros at its end where they were measured: 1.00, not 1."""
+    value = float(value)
+    if not np.isfinite(value) or not SMALL <= abs(value) < 10**digits:
+        return number(value, digits)
+    return f"{value:#.{digits}g}".rstrip(".").replace("-", MINUS)
 
 
 def symbols(text: str) -> str:
@@ -79,3 +158,16 @@ def _amplitude(z: complex) -> str:
 def count(number_of: int, word: str) -> str:
     """Return a number of things: 1 case, 3 cases."""
     return f"{number_of} {word}" if number_of == 1 else f"{number_of} {word}s"
+
+
+def markdown(head: Sequence[str], rows: Iterable[Sequence]) -> str:
+    """Return a table in Markdown; a cell is shown as `str` writes it."""
+    titles, *cells = ([str(cell).replace("|", "\\|") for cell in row] for row in (head, *rows))
+    # cells are texts already, and keep their own width: one long cell would widen every row
+    return tabulate(cells, titles, "github", stralign=None, disable_numparse=True)
+
+
+def write_markdown(path: str | Path, *parts: str) -> None:
+    """Write a page of Markdown: titles, paragraphs and tables with an empty line between them."""
+    with complete_or_absent(path) as partial:
+        Path(partial).write_text("\n\n".join(parts) + "\n", encoding="utf-8")

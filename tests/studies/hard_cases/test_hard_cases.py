@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from hard_cases.tabulate_hard_cases import page
 from pendula.datasets.netcdf import as_xarray
-from pendula.studies.hard_cases import against_exact, against_runs, rows, section, table
+from pendula.studies.hard_cases import against_exact, against_runs, rows, table
 from pendula.studies.hard_cases.row import Row, evaluate
 
 
@@ -34,7 +35,7 @@ def test_a_row_without_the_expected_outcome_is_marked():
     row = Row("made up", "nothing", off, ({"name": "taylor", "rtol": 1e-9, "atol": 1e-9},), 1e-6)
     result = evaluate(row, row.solvers[0])
     assert not result.sound
-    assert section.page(dataset([result]))[-1].endswith("| NO |")
+    assert page(dataset([result]))[-1].endswith("| NO |")
     assert not evaluate(row._replace(expected="refused"), row.solvers[0]).sound
     assert not evaluate(row._replace(decide=lambda solver: np.nan), row.solvers[0]).sound
     assert evaluate(row._replace(expected=1e-2), row.solvers[0]).sound
@@ -53,5 +54,5 @@ def test_the_page_and_the_dataset_say_what_came_of_every_run():
     assert list(columns["sound"].values) == [1, 1, 1, 1]
     assert np.isnan(columns["error"].values[:2]).all()
     assert "1e+12 steps" in columns["refusal"].values[0]
-    _, words, lines = section.page(dataset(results))
+    _, words, lines = page(dataset(results))
     assert "4 runs, 0 with an outcome" in words and lines.count("\n|") == 5

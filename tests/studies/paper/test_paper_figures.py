@@ -47,7 +47,7 @@ def test_true_curves_lie_below_and_a_mark_shows_where_they_part(make_trajectory)
     run, true = make_trajectory(), make_trajectory()
     true["l2"][0, 4:] *= 1.5
     figure = figures.draw_norms(figures.gather_norms([run, run], [true, run]))
-    for axes, expected in zip(figure.axes, [2.0, 2.0, np.nan, np.nan], strict=True):
+    for axes, expected in zip(figure.axes, [2.0, 2.0, np.inf, np.inf], strict=True):
         assert np.array_equal(axes.get_lines()[4].get_xdata(), [expected], equal_nan=True)
     lines = figure.axes[1].get_lines()
     assert np.array_equal(lines[0].get_ydata(), true["l2"].sel(component="A"))

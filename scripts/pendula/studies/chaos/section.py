@@ -1,23 +1,21 @@
-"""What can be trusted, until when: growth of small changes, evenness, ensembles."""
+"""The report's part on chaos: growth of small changes, evenness, ensembles, until when to trust."""
 
 from typing import Any
 
 import numpy as np
 
-from pendula.measures.difference import VISIBLE, difference, divergence_time
+from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
-from pendula.report.numbers import number, percent, span
+from pendula.report.document import Section
+from pendula.report.page import Picture
 from pendula.report.results import Results
-from pendula.report.words import SOLVERS, case_of
+from pendula.report.words import SOLVERS, case_of, number, percent, span, with_error
 
-LYAPUNOV, TRUST = "checks/lyapunov", "figures/trust_horizons"
-ENSEMBLES = "figures/ensembles"
-TENTH, DOUBLE = "truth/fig4_small", "truth/fig4_small.double"
-DIGITS = 1e-12
-"""Where the doubles next to two solutions begin to tell them apart."""
+LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"
+ENSEMBLES = "checks/ensemble_runs"
 
 
-def gather(results: Results) -> dict[str, Any]:
+def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return a row for each case, what each solver loses, and the ensembles in words."""
     growth, trust = results[LYAPUNOV], results[TRUST]
     rates = growth["exponent"].max("parity")
@@ -38,6 +36,7 @@ def gather(results: Results) -> dict[str, Any]:
             ensemble_of(results, str(case)) for case in results[ENSEMBLES]["case"].values
         ],
         "decimal": not_a_tenth(results),
+        "pictures": _pictures(results),
         "members": results.quote("checks/ensembles", results["checks/ensembles"].attrs["members"]),
         "size": results.quote(
             "checks/ensembles", results["checks/ensembles"].attrs["perturbation"]
@@ -70,33 +69,71 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
         "solver": SOLVERS[solver],
         "any": len(known) > 0,
         "count": results.quote(TRUST, len(known)),
-        "kept": results.quote(TRUST, len(horizons) - len(known)),
+        "kept": results.quote(TRUST, int(np.isinf(horizons).sum())),
         "times": results.say(TRUST, span(known, 4) if len(known) else "never"),
     }
 
 
 def not_a_tenth(results: Results) -> dict[str, Any]:
-    """Return when the true run from the double next to 0.1 leaves the one from a tenth."""
-    apart = difference(results[TENTH], results[DOUBLE])
-    first, seen = (float(divergence_time(apart, level)) for level in (DIGITS, VISIBLE))
+    """Return when the reference from the double next to 0.1 leaves the one from a tenth."""
+    digits, seen = results[TRUST]["decimal_horizon"].values
     return {
-        "omega": number(float(results[DOUBLE].attrs["omega"])),
-        "digits": number(DIGITS),
-        "first": results.quote_time(DOUBLE, first),
-        "seen": results.quote_time(DOUBLE, seen),
+        "omega": number(float(results["trajectories/fig4_small"].attrs["omega"])),
+        "digits": number(float(results[TRUST]["decimal_size"][0])),
+        "first": results.quote_time(TRUST, float(digits)),
+        "seen": results.quote_time(TRUST, float(seen)),
     }
 
 
 def ensemble_of(results: Results, name: str) -> dict[str, Any]:
+    """Return how wide the band of an ensemble is, and how long the paper's run is inside it."""
     case = results[ENSEMBLES].sel(case=name)
-    late = case["l2"].sel(tau=slice(float(case["tau"].max()) / 2, None))
-    low, middle, high = late.isel(quantile=0), late.median("quantile"), late.isel(quantile=-1)
-    share = float(high["quantile"] - low["quantile"])
-    width = float(((high - low) / middle).mean())
     return {
         "case": case_of(case),
-        "share": results.say(ENSEMBLES, percent(share)),
-        "width": results.say(ENSEMBLES, percent(width)),
-        "middle": results.quote(ENSEMBLES, float(middle.mean())),
+        "share": results.say(ENSEMBLES, percent(float(case["band_share"]))),
+        "width": results.say(ENSEMBLES, percent(float(case["band_width"]))),
+        "middle": results.quote(ENSEMBLES, float(case["band_middle"])),
         "inside": results.say(ENSEMBLES, percent(float(case["run_inside"]))),
     }
+
+
+def _pictures(results: Results) -> dict[str, Picture]:
+    """Return the four pictures by name."""
+    described = {
+        "trust_horizons": f"Errors of the norms against τ. {_lost(results)}.",
+        "lyapunov": f"Growth of small changes. Rates: {_rates(results)}.",
+        "symmetry": f"The odd part of even solutions against τ. {_broken(results)}.",
+        "ensembles": f"Bands of runs from almost equal data. {_bands(results)}.",
+    }
+    return {name: results.picture(name, alt) for name, alt in described.items()}
+
+
+def _lost(results: Results) -> str:
+    found = [lost_by(results, str(name)) for name in results[TRUST]["solver"].values]
+    return "; ".join(
+        f"{one['solver']} loses {one['count']} cases, at τ = {one['times']}" for one in found
+    )
+
+
+def _rates(results: Results) -> str:
+    growth = results[LYAPUNOV].sel(parity="even")
+    cases = [growth.sel(case=name) for name in growth["case"].values]
+    return "; ".join(
+        f"{case_of(case)}: {with_error(float(case['exponent']), float(case['exponent_error']))}"
+        for case in cases
+    )
+
+
+def _broken(results: Results) -> str:
+    times = results["checks/symmetry"]["rounded_time"].values
+    return (
+        f"By rounding alone it becomes visible in {np.isfinite(times).sum()} of {len(times)} cases"
+    )
+
+
+def _bands(results: Results) -> str:
+    bands = [ensemble_of(results, str(name)) for name in results[ENSEMBLES]["case"].values]
+    return "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands)
+
+
+SECTIONS = (Section("chaos", "What can be trusted", gather),)

@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from pendula.report.numbers import number
+from pendula.ledger.section import Ledger
+from pendula.report.document import Section
 from pendula.report.results import Results
-from pendula.report.tables import markdown
-from pendula.report.words import SOLVERS, symbols
+from pendula.report.words import SOLVERS, number, symbols
 
 SOURCE = "checks/hard_cases"
 
 
-def gather(results: Results) -> dict[str, Any]:
+def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return the outcomes by solver, and every row."""
     data = results[SOURCE]
     names = [str(solver).partition(":")[0] for solver in data["solver"].values]
@@ -58,21 +58,4 @@ def _row(results: Results, index: int) -> list:
             "yes" if int(row["sound"]) else "no"]  # fmt: skip
 
 
-def page(data) -> list[str]:
-    """Return the parts of a page of Markdown on the dataset of the hard cases."""
-    rows = [data.isel(row=index) for index in range(data.sizes["row"])]
-    unsound = int((data["sound"] == 0).sum())
-    words = (
-        f"{len(rows)} runs, {unsound} with an outcome that is not the expected one. An error is "
-        "that of the largest component over the largest, or of what the reference names."
-    )
-    head = ("case", "solver", "outcome", "reference", "as expected")
-    return ["# Hard cases", words, markdown(head, map(_cells, rows))]
-
-
-def _cells(row) -> tuple[str, ...]:
-    case, solver, refusal, reference = (
-        str(row[name].values) for name in ("case", "solver", "refusal", "reference")
-    )
-    said = f"refused: {refusal}" if refusal else f"error {float(row['error']):.1e}"
-    return case, solver, said, reference, "yes" if int(row["sound"]) else "NO"
+SECTIONS = (Section("hard_cases", "Hard cases", gather),)

@@ -1,27 +1,95 @@
-"""Lemma 1 and Theorems 1 to 3: their pictures, and every number that a check is held to."""
+"""The report's part on the theory: errata, Lemma 1, Theorems 1 to 3, and every checked number."""
 
 from typing import Any
 
 import numpy as np
 
 from pendula.datasets.checks import broken, deciding
-from pendula.ledger.section import Ledger
-from pendula.report.numbers import number
+from pendula.ledger.section import Ledger, load
+from pendula.report.document import Section
 from pendula.report.results import Results
-from pendula.report.words import symbols
+from pendula.report.words import case_in_words, number, symbols
+
+from .settings import GROUPS, OBSERVED
+
+CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
+CHARTS = ("checks/chart", "checks/short_chart")
 
 
-def gather(results: Results, ledger: Ledger, checks: list[str]) -> dict[str, Any]:
-    """Return pictures and the table of the checks named in `checks`."""
-    rows = [row for name in checks for row in _rows(results, f"checks/{name}")]
+def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return the errors found by the checks, and all that the ledger could not reproduce."""
+    return {
+        "constant": _constant(results),
+        "time": _time(ledger),
+        "case": _case(results),
+        "depth": results.quote("checks/negative_depth", _first_negative(results)),
+        "captions": [(n, ledger.verdict(f"fig{n}_caption")) for n in (5, 6)],
+        "caption": ledger.because("fig5_caption"),
+        "missed": _missed(results),
+    }
+
+
+def _constant(results: Results) -> dict[str, Any]:
+    source = "checks/theorem_3_constant"
+    check = results[source]
+    return {
+        "sites": results.quote(source, int(check["smallest"])),
+        "printed": results.quote(source, float(check["printed"].min())),
+        "corrected": results.quote(source, float(check["corrected"].min())),
+        "fails": float(check["printed"].min()) < 0 <= float(check["corrected"].min()),
+    }
+
+
+def _time(ledger: Ledger) -> dict[str, Any]:
+    return {
+        "printed": ledger.quote("printed_time", "order", 2),
+        "right": ledger.quote("slow_time", "order", 2),
+        "verdict": ledger.verdict("printed_time"),
+    }
+
+
+def _case(results: Results) -> dict[str, Any]:
+    source = "checks/theorem_2_case"
+    check = results[source]
+    numbers = ("start", "delta_0", "depth", "barrier", "widened_delta_0", "widened_bound")
+    case = results["checks/cases"].sel(case="fig3_small")
+    return {
+        "name": case_in_words(float(case["omega"]), str(case["initial"].values)),
+        "shallow": bool(check["depth"] < check["barrier"]),
+        "covered": bool(check["start"] <= check["delta_0"]),
+        "covered_widened": bool(check["start"] <= check["widened_delta_0"]),
+        **{name: results.quote(source, float(check[name]), 4) for name in numbers},
+    }
+
+
+def _first_negative(results: Results) -> float:
+    return float(results["checks/negative_depth"]["first_negative"])
+
+
+def _missed(results: Results) -> list[dict]:
+    return [
+        {
+            "name": row["name"],
+            "place": row["place"],
+            "says": symbols(row["says"]),
+            "because": symbols(row["because"]),
+            "data": [results.say(name, name) for name in row["decided_by"]],
+        }
+        for row in load(results)
+        if row["verdict"] == "not reproduced"
+    ]
+
+
+def gather_theory(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return the pictures, and the table of the numbers that the checks are held to."""
+    rows = [row for name in CHECKS for row in _rows(results, f"checks/{name}")]
     faults = sum(not row["holds"] for row in rows)
-    chart = "figures/stability_chart"
-    cells = results[chart]["measured"].size + results[chart]["short_measured"].size
+    cells = sum(results[chart]["measured"].size for chart in CHARTS)
     return {
         "rows": [row["cells"] for row in rows],
         "held": len(rows),
         "faults": faults,
-        "cells": results.quote(chart, cells, 6),
+        "cells": results.quote(CHARTS[0], cells, 6),
         "fastest": ledger.quote("stable_below", "fastest"),
         "misclassified": ledger.quote("stable_below", "misclassified"),
         "worst": results.quote("checks/worst", _worst(results)),
@@ -50,11 +118,11 @@ def _rows(results: Results, name: str) -> list[dict]:
 
 
 def _worst(results: Results) -> float:
-    return float(results["figures/bounds"]["worst"].max())
+    return float(results["checks/worst"]["worst"].max())
 
 
 def _chart_alt(results: Results, cells: int) -> str:
-    data = results["figures/stability_chart"]
+    data = results[CHARTS[0]]
     growing = int((data["measured"].values > 0.1 * np.nanmax(data["measured"])).sum())
     return (
         f"Growth rates of tiny data at {cells} pairs of Ω and γ, with the boundaries of the "
@@ -64,17 +132,24 @@ def _chart_alt(results: Results, cells: int) -> str:
 
 
 def _rates_alt(results: Results) -> str:
-    data = results["figures/growth_rates"]
-    apart = float(abs(data["measured"] - data["exact_flow"]).max())
+    charts = [results[name] for name in CHARTS]
+    apart = max(float(abs(one["measured"] - one["exact_flow"]).max()) for one in charts)
+    cells = sum(one["measured"].size for one in charts)
     return (
-        f"Measured growth rates against those of the exact linear flow in {data.sizes['cell']} "
+        f"Measured growth rates against those of the exact linear flow in {cells} "
         f"cells, at most {number(apart)} apart, and the growth at the threshold."
     )
 
 
 def _bounds_alt(results: Results) -> str:
-    ratios = results["figures/bounds"]["ratio"].values
+    ratios = results["checks/cases"]["ratio"].values
     return (
         "Observed norms against the bounds of the theorems: the largest P of the paper's cases is "
         f"{number(ratios.min())} to {number(ratios.max())} of its smallest bound."
     )
+
+
+SECTIONS = (
+    Section("errata", "Errata", gather_errata),
+    Section("theory", "Stability and bounds", gather_theory),
+)

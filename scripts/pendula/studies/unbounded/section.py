@@ -5,13 +5,14 @@ from typing import Any
 import numpy as np
 
 from pendula.ledger.section import Ledger
-from pendula.report.numbers import MINUS, number, span
+from pendula.report.document import Section
 from pendula.report.results import Results
-from pendula.report.words import case_of
+from pendula.report.words import MINUS, case_of, number, span
 
 # ASSUME: "as the square root": the last octave's exponent is within this of one half
 ROOT, NEAR = 0.5, 0.1
 GROWTH, FRONT = "unbounded/growth", "unbounded/front"
+MAIN = "unbounded/fig4_small"
 MAPS = ["unbounded/map_fig5_left", "unbounded/map_fig5_right"]
 MAPS += ["unbounded/map_fig6_left", "unbounded/map_fig6_right"]
 
@@ -44,7 +45,10 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         **quotes,
         "known": bool(np.isfinite(power)),
-        "power": results.quote_error("unbounded/fig4_small", power, error),
+        "omega": results.quote(
+            "unbounded/fig4_small", results["unbounded/fig4_small"].attrs["omega"]
+        ),
+        "power": results.quote_error(MAIN, power, error),
         "near": abs(power - ROOT) < NEAR,
         "half": number(ROOT),
         "measure": number(NEAR),
@@ -114,3 +118,6 @@ def _pictures(results: Results, cases: list[dict], fronts: dict) -> dict[str, An
             f"{len(maps)} sweeps.",
         ),
     }
+
+
+SECTIONS = (Section("growth", "Growth without bound", gather),)

@@ -1,0 +1,245 @@
+"""The report of one's own cases and sweeps: figures, checks and parameters, all from datasets."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pendula import __version__
+from pendula.datasets.netcdf import read
+from pendula.measures.difference import VISIBLE
+from pendula.problem import read_initial
+from pendula.report.page import Picture, picture
+from pendula.report.provenance import versions
+from pendula.report.words import (
+    MINUS,
+    NORMS,
+    SOLVERS,
+    STATISTICS,
+    Quote,
+    number,
+    percent,
+    with_error,
+)
+
+# ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
+# more than this.
+SLACK = 1e-6
+ENDS = {
+    "dirichlet": "A = B = 0 beyond them",
+    "free": "free",
+    "periodic": "joined to a ring",
+}
+FEW = 8
+"""Sites whose data find room in a table."""
+_SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
+
+
+def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, Any]:
+    """Return what the page shows: `cases` by name, `sweeps` with the case that each repeats.
+
+    Links are seen from `folder`, where the page will lie.
+    """
+    shown = [_case(case, folder) for case in cases]
+    trusted = {case["name"]: case["divergence_time"] for case in shown}
+    return {
+        "cases": shown,
+        "sweeps": [_sweep(name, case, folder, trusted) for name, case in sweeps.items()],
+        "versions": {"pendula": __version__, **versions()},
+    }
+
+
+def _case(name: str, folder: Path) -> dict[str, Any]:
+    """Return what the page shows of the case: numbers as quotes, and what they decide."""
+    run, link = read(folder / f"trajectories/{name}.nc"), f"own/cases/{name}.checks.nc"
+    checks = read(folder / link)
+    return {
+        "name": name,
+        "run": f"trajectories/{name}.nc",
+        "checks": link,
+        "parameters": parameters(run.attrs),
+        "norms": _picture_of_norms(name, run, folder),
+        "spacetime": _picture_of_moduli(name, run, folder),
+        "second": solver(checks.attrs, "second"),
+        "refusals": {
+            key: str(checks.attrs.get(f"{key}_refusal", "")) for key in ("second", "sensitivity")
+        },
+        "level": percent(VISIBLE),
+        "rounding_level": percent(VISIBLE),
+        "divergence_time": float(checks["divergence_time"]),
+        "said": _said(checks, link),
+        **_decided(checks),
+    }
+
+
+def _said(checks, link: str) -> dict[str, Quote]:
+    said = quotes(checks, link)
+    if "exponent" in checks:
+        rate = with_error(float(checks["exponent"]), float(checks["exponent_error"]))
+        said["exponent"] = Quote(rate, link)
+    return said | {
+        key: Quote(number(checks.attrs[key]), link)
+        for key in ("end_time", "gamma", "epsilon", "half_width")
+    } | {"sites": Quote(number(2 * checks.attrs["half_width"] + 1, 8), link)}  # fmt: skip
+
+
+def _decided(checks) -> dict[str, Any]:
+    error = np.nan_to_num(float(checks["largest_difference"]))
+    limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
+    return {
+        "at_rest": float(checks["start"]) == 0.0,
+        "parts": bool(np.isfinite(checks["divergence_time"])),
+        "chaotic": bool(checks.get("chaotic", 0)),
+        "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
+        "region": str(checks["region"].values),
+        "growth_holds": bool(checks["from_start"] <= limit),
+        "bound_holds": bool(checks["ratio"] <= limit),
+        "infinite_grows": bool(checks["infinite_rate"] > 0),
+        "finite_grows": bool(checks["finite_rate"] > 0),
+        "other_sign": float(checks.attrs["epsilon"]) < 0,
+    }
+
+
+def _picture_of_norms(name: str, run, folder: Path) -> Picture:
+    parts = []
+    for norm, word in (("linf", "l-infinity"), ("l2", "l2")):
+        for component in ("A", "B"):
+            curve = run[norm].sel(component=component)
+            first, top, last = (number(x) for x in (curve[0], curve.max(), curve[-1]))
+            when = number(curve["tau"][int(np.argmax(curve.values))])
+            parts.append(
+                f"{word} of {component} starts at {first}, has its largest value {top} at {when} "
+                f"and ends at {last}"
+            )
+    end = number(run["tau"][-1])
+    alt = f"Norms of {name} against tau from 0 to {end}: {'; '.join(parts)}."
+    link = f"own/cases/{name}.png"
+    return picture(folder / link, alt, link)
+
+
+def _picture_of_moduli(name: str, run, folder: Path) -> Picture:
+    modulus = run["modulus"].max("component")
+    site, when = (int(i) for i in np.unravel_index(int(np.argmax(modulus.values)), modulus.shape))
+    link = f"own/cases/{name}.spacetime.png"
+    alt = (
+        f"Moduli of A and B of {name} over sites {run['site'].values[0]} to "
+        f"{run['site'].values[-1]} and tau from 0 to {number(run['tau'][-1])}: the largest, "
+        f"{number(modulus.max())}, on site {run['site'].values[site]} at "
+        f"{number(run['snapshot_tau'][when])}."
+    )
+    return picture(folder / link, alt, link)
+
+
+def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dict[str, Any]:
+    """Return what the page shows of the sweep.
+
+    `trusted` holds, by case, the tau at which two runs of it part, NaN if they never do.
+    """
+    link, drawn_link = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
+    swept, drawn, checks = (read(folder / at) for at in (f"sweeps/{name}.nc", drawn_link, link))
+    panel = drawn.isel(panel=0)
+    read_as = list(zip(panel["statistic"].values, panel["window"].values, strict=True))
+    windows = [(STATISTICS[how], window) for how, window in read_as]
+    return {
+        "name": name,
+        "case": case,
+        "is_own": case in trusted,
+        "divergence_time": trusted.get(case, np.nan),
+        "parts": bool(trusted.get(case, np.nan) < swept.attrs["end_time"]),
+        "data": f"sweeps/{name}.nc",
+        "checks": link,
+        "parameters": parameters(swept.attrs),
+        "picture": _picture_of_sweep(name, panel, windows, folder),
+        "windows": windows,
+        "excess": Quote(number(checks["excess"]), link),
+        "bound_holds": bool(checks["excess"] <= 1.0 + 1e-6),
+        "columns": ["M", *_columns(read_as), "P over bound"],
+        "rows": _rows(panel, checks, drawn_link, link),
+    }
+
+
+def _columns(windows: list[tuple[str, str]]) -> list[str]:
+    return [f"{word} {how} {window}" for word in NORMS.values() for how, window in windows]
+
+
+def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
+    rows = []
+    for width in panel["half_width"].values:
+        at = panel.sel(half_width=width)
+        bound = checks.isel(sweep=0).sel(half_width=width)
+        values = [value for norm in NORMS for value in at[norm].values]
+        ratio = Quote(number(bound["observed"] / bound["best"]), link)
+        rows.append([exact(width), *(Quote(number(v), drawn_link) for v in values), ratio])
+    return rows
+
+
+def _picture_of_sweep(name: str, panel, windows: list[tuple[str, str]], folder: Path) -> Picture:
+    widths = panel["half_width"].values
+    parts = [
+        f"the {how} of {norm} on {window} goes from {number(values[0])} to {number(values[-1])}"
+        for norm in NORMS
+        for (how, window), values in zip(windows, panel[norm].values, strict=True)
+    ]
+    link = f"own/sweeps/{name}.png"
+    alt = (
+        f"Norms of {name} against the half-width, {exact(widths[0])} to {exact(widths[-1])}: "
+        f"{'; '.join(parts)}."
+    )
+    return picture(folder / link, alt, link)
+
+
+def exact(value: Any) -> str:
+    """Return a number as a configuration has it, to the digits that a reader needs."""
+    if isinstance(value, complex):
+        return str(value).strip("()") if value.imag else number(value.real, 8)
+    return number(value, 8) if isinstance(value, int | float | np.number) else str(value)
+
+
+def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return what was solved and by which controls, a row each."""
+    rows = [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
+    rows.append(("ends of the chain", ENDS[attributes["boundary"]]))
+    rows += data(attributes)
+    rows.append(("end time τ, output step", f"{exact(attributes['end_time'])}, "
+                 f"{exact(attributes['output_step'])}"))  # fmt: skip
+    rows.append(("solver", solver(attributes, "solver")))
+    return rows
+
+
+def data(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the sites that are not at rest at the start, each with its amplitudes, if few."""
+    sites = read_initial(attributes["initial"])
+    if len(sites) > FEW:
+        return [("A, B at the start", f"on {len(sites)} sites, as the dataset's attributes say")]
+    return [
+        (
+            f"A, B at site {site}".replace("-", MINUS),
+            ", ".join(map(exact, pair)),
+        )
+        for site, pair in sites.items()
+    ]
+
+
+def solver(attributes: Mapping[str, Any], key: str) -> str:
+    """Return a solver and its controls, which the attributes carry as `key`, `key`_rtol and so on.
+
+    For a second run the name itself stands under second_name.
+    """
+    name = str(attributes[key if key in attributes else f"{key}_name"])
+    controls = {
+        at.removeprefix(f"{key}_"): value
+        for at, value in attributes.items()
+        if at.startswith(f"{key}_") and at not in (f"{key}_name", f"{key}_refusal")
+    }
+    said = ", ".join(f"{at.replace('_', ' ')} {exact(value)}" for at, value in controls.items())
+    return f"{SOLVERS.get(name, name)} ({said})" if said else SOLVERS.get(name, name)
+
+
+def quotes(dataset, link: str) -> dict[str, Quote]:
+    """Return every single number of a dataset, linked to it."""
+    return {
+        name: Quote(number(variable), link)
+        for name, variable in dataset.data_vars.items()
+        if variable.ndim == 0 and np.issubdtype(variable.dtype, np.number)
+    }

@@ -1,0 +1,337 @@
+"""The report's part on the paper's figures: norms and sweeps, the chain in motion, the solvers."""
+
+import base64
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from pendula.ledger.readings import CHANGE, CONSTANT
+from pendula.ledger.section import Ledger, load
+from pendula.ledger.verdicts import Verdict
+from pendula.measures.levels import levelling
+from pendula.problem import name_window
+from pendula.report.document import Section
+from pendula.report.page import Picture
+from pendula.report.results import Results
+from pendula.report.words import (
+    FIRM,
+    NORMS,
+    SOLVERS,
+    STATISTICS,
+    case_in_words,
+    case_of,
+    measured,
+    number,
+    percent,
+    span,
+)
+
+SIZES = ("small", "large")
+DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
+"""The norms that the paper's figures of sweeps draw."""
+
+TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
+COMPARED = "checks/solvers"
+
+PLAYED = "fig4_small"
+"""The case that the page plays: small data that fill the chain."""
+STEPS = 255
+MOVING = 0.5
+"""Part of the largest modulus above which a site counts as moving, in the words for a picture."""
+
+
+def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return Figs 1 to 6, each with its picture and what its datasets say in numbers."""
+    rows = load(results)
+    alt = "A drawing of a chain of pendula pairs on strings, coupled along the chain and across "
+    return {
+        "chain": results.picture("fig1", f"{alt}each pair."),
+        "norms": [_norms(results, which) for which in (2, 3, 4)],
+        "sweeps": [_sweeps(results, which) for which in (5, 6)],
+        "verdicts": {which: _verdicts(rows, which) for which in range(1, 7)},
+        "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
+        "visible": _visible(results),
+    }
+
+
+def _visible(results: Results) -> str:
+    return percent(float(results[TRUST]["size"].sel(level="visible")))
+
+
+def _verdicts(rows: list[dict], which: int) -> list[tuple[str, int]]:
+    """Return how many of the claims on a figure have each verdict."""
+    counted = Counter(row["verdict"] for row in rows if f"Fig {which}" in row["place"])
+    return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
+
+
+def _norms(results: Results, which: int) -> dict[str, Any]:
+    names = [f"fig{which}_{size}" for size in SIZES]
+    panels = [_panel(results, name) for name in names]
+    runs = [f"trajectories/{name}" for name in names]
+    last = max(runs, key=lambda run: float(results[run]["tau"][-1]))
+    end = float(results[last]["tau"][-1])
+    told = "; ".join(panel["alt"] for panel in panels)
+    alt = f"Norms of A and B against τ, 0 to {number(end)}. {told}."
+    return {
+        "number": which,
+        "picture": results.picture(f"fig{which}", alt),
+        "omega": results.quote(runs[0], float(results[runs[0]].attrs["omega"])),
+        "end": results.quote(last, end),
+        "rows": [panel["row"] for panel in panels],
+        "divergences": [(panel["case"], panel["time"]) for panel in panels if panel["diverges"]],
+    }
+
+
+def _panel(results: Results, name: str) -> dict[str, Any]:
+    run = f"trajectories/{name}"
+    data = results[run]
+    l2 = np.sqrt((data["l2"].values ** 2).sum(axis=0))
+    late = l2[len(l2) // 2 :]
+    case = case_in_words(data.attrs["omega"], data.attrs["initial"])
+    time = _trusted_until(results, name, data.attrs["solver"])
+    row = [
+        case,
+        results.say(run, span(l2)),
+        results.say(run, measured(late.mean())),
+        results.quote_time(TRUST, time),
+        *_bound(results, name),
+        results.quote(run, data.attrs["steps"], 6),
+    ]
+    peak = number(float(data["linf"].max()))
+    alt = f"{case}: l2 of the pair between {number(l2.min())} and {number(l2.max())}, largest "
+    return {
+        "row": row,
+        "alt": f"{alt}amplitude {peak}",
+        "case": case,
+        "time": results.quote_time(TRUST, time),
+        "diverges": bool(np.isfinite(time)),
+    }
+
+
+def _trusted_until(results: Results, case: str, solver: str) -> float:
+    """Return when a solver leaves the reference, NaN of a solver that was not judged."""
+    horizons = results[TRUST]["horizon"].sel(case=case, level="visible")
+    known = solver in horizons["solver"].values
+    return float(horizons.sel(solver=solver)) if known else float("nan")
+
+
+def _bound(results: Results, case: str) -> list:
+    source = "checks/cases"
+    found = results[source].sel(case=case)
+    region = str(found["region"].values)
+    covered = "Theorem 3 only" if region == "none" else region.capitalize()
+    return [results.say(source, covered), results.quote(source, float(found["ratio"]))]
+
+
+def _sweeps(results: Results, which: int) -> dict[str, Any]:
+    names = [f"fig{which}_{side}" for side in ("left", "right")]
+    readings = [(statistic, norm) for norm in DRAWN[which] for statistic in STATISTICS]
+    found = [_curve(results, name, *reading) for name in names for reading in readings]
+    told = "; ".join(curve["alt"] for curve in found if curve["norm"] == "l2" and curve["by_text"])
+    source = f"sweeps/{names[0]}"
+    widths = results[source]["half_width"].values
+    alt = f"Norms of the pair against the half-width M, {widths[0]} to {widths[-1]}. {told}."
+    return {
+        "number": which,
+        "picture": results.picture(f"fig{which}", alt),
+        "widths": results.quote(source, len(widths), 6),
+        "longest": results.quote(source, int(widths[-1]), 6),
+        "rows": [curve["row"] for curve in found],
+        "samples": _samples(results, which),
+        "l2": [curve for curve in found if curve["norm"] == "l2"],
+    }
+
+
+def _curve(results: Results, name: str, statistic: str, norm: str) -> dict[str, Any]:
+    """Return one curve of a sweep: the text speaks of the maximum, the caption of the average."""
+    source = f"sweeps/{name}"
+    sweep = results[source]
+    window = name_window(results.settings["sweeps"][name]["drawn"][statistic])
+    at = {"quantity": "pair", "statistic": statistic, "window": window}
+    widths, values = sweep["half_width"].values, sweep[norm].sel(at).values
+    case = case_in_words(sweep.attrs["omega"], sweep.attrs["initial"])
+    level, way = levelled(levelling(widths, values)), shape(widths, values)
+    told = f"{STATISTICS[statistic]} on {window.replace(' ', FIRM)}"
+    row = [
+        f"{case}: {NORMS[norm]}, {told}",
+        *(results.say(source, measured(value)) for value in (values[0], values.max(), values[-1])),
+        results.say(source, f"{way}, {percent(values[-1] / values[0] - 1.0)}"),
+        results.say(source, level),
+    ]
+    return {
+        "row": row,
+        "alt": f"{case}: {told} goes from {measured(values[0])} to {measured(values[-1])}",
+        "norm": norm,
+        "by_text": statistic == "max",
+        "case": case,
+        "told": told,
+        "shape": results.say(source, way),
+        "grows": values.max() > (1.0 + CHANGE) * values[0],
+        "level": results.say(source, level),
+    }
+
+
+def shape(widths: np.ndarray, values: np.ndarray) -> str:
+    """Return in words how a curve goes, by the measures of the claims."""
+    peak = int(values.argmax())
+    if values[peak] > (1.0 + CHANGE) * max(values[0], values[-1]):
+        return f"rises to {measured(values[peak])} at M = {widths[peak]} and falls again"
+    change = values[-1] / values[0] - 1.0
+    if abs(change) < CONSTANT:
+        return "stays as it is"
+    return "grows" if change > 0 else "falls"
+
+
+def levelled(level: float) -> str:
+    """Return from which half-width a curve is level."""
+    if not np.isfinite(level):
+        return "not level by the end"
+    return f"level from M{FIRM}={FIRM}{number(level)}"
+
+
+def _samples(results: Results, which: int) -> list[dict[str, Any]]:
+    """Return what runs from almost equal data give on the longest chain, of chaotic sweeps."""
+    data = results[SAMPLES]
+    names = [str(name) for name in data["sweep"].values if str(name).startswith(f"fig{which}_")]
+    return [_sample(results, data.sel(sweep=name).isel(half_width=-1)) for name in names]
+
+
+def _sample(results: Results, last) -> dict[str, Any]:
+    off, members = float(last["deviations"]), results["checks/ensembles"].attrs["swept_members"]
+    return {
+        "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
+        "width": results.quote(SAMPLES, int(last["half_width"]), 6),
+        "runs": results.quote("checks/ensembles", int(members)),
+        "mean": results.say(SAMPLES, measured(float(last["l2_mean"]))),
+        "deviation": results.quote(SAMPLES, float(last["l2_deviation"]), 2),
+        "run": results.say(SAMPLES, measured(float(last["swept_run"]))),
+        "off": results.quote(SAMPLES, abs(off), 2),
+        "below": off < 0,
+    }
+
+
+def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return the pictures beside Figs 2 to 4 and the run to play."""
+    return {
+        "pictures": [_spacetime(results, which) for which in (2, 3, 4)],
+        "played": played(results, f"trajectories/{PLAYED}"),
+    }
+
+
+def _spacetime(results: Results, which: int) -> dict[str, Any]:
+    told, alts = [], []
+    for source in (f"trajectories/fig{which}_{size}" for size in SIZES):
+        run = results[source]
+        case = case_in_words(run.attrs["omega"], run.attrs["initial"])
+        last = run["modulus"].isel(snapshot=-1).max("component").values
+        numbers = (
+            str(int((last > MOVING * last.max()).sum())),
+            str(len(last)),
+            measured(float(last.max())),
+        )
+        told.append((case, *(results.say(source, text) for text in numbers)))
+        moving, sites, largest = numbers
+        alts.append(
+            f"{case}: at the end {moving} of {sites} sites move at over half the largest size "
+            f"{largest}"
+        )
+    alt = f"Moduli of A and B over sites and time. {'; '.join(alts)}."
+    return {
+        "number": which,
+        "picture": results.picture(f"fig{which}_spacetime", alt),
+        "omega": results.quote(source, float(run.attrs["omega"])),
+        "told": told,
+    }
+
+
+def played(results: Results, source: str) -> dict[str, Any]:
+    """Return a run with its moduli in 256 steps, time after time, as the page's script reads it."""
+    run = results[source]
+    modulus = run["modulus"].transpose("snapshot", "component", "site").values
+    peak = float(modulus.max())
+    steps = np.rint(modulus * (STEPS / peak)).astype(np.uint8)
+    tau = run["snapshot_tau"].values
+    still = half_way(modulus)
+    return {
+        "case": case_in_words(run.attrs["omega"], run.attrs["initial"]),
+        "source": results.say(source, source),
+        "frames": base64.b64encode(steps.tobytes()).decode(),
+        "count": len(steps),
+        "sites": [int(site) for site in run["site"].values],
+        "first": number(int(run["site"][0])),
+        "peak": results.quote(source, peak),
+        "step": float(tau[1] - tau[0]),
+        "end": results.quote(source, float(tau[-1])),
+        "still": still,
+        "still_tau": results.quote(source, float(tau[still])),
+        "bars": [[round(float(v) / STEPS, 3) for v in row] for row in steps[still]],
+    }
+
+
+def half_way(modulus: np.ndarray) -> int:
+    """Return the first time at which half of the sites move, the last if there is none.
+
+    `modulus` is (time, component, site); the picture of that time shows where the front is.
+    """
+    moving = (modulus.max(axis=1) > MOVING * modulus.max(axis=(1, 2))[:, None]).mean(axis=1)
+    found = np.flatnonzero(moving >= 0.5)
+    return int(found[0]) if found.size else len(modulus) - 1
+
+
+def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return how well the solvers keep the energy, and until when pairs of them agree."""
+    data = results[COMPARED].sel(span="whole")
+    cases = [data.sel(case=case) for case in data["case"].values]
+    ode45 = data.sel(solver="ode45")
+    papers = data["divergence_time"].isel(pair=0)
+    apart = int(np.isfinite(papers).sum())
+    solvers = [SOLVERS[str(solver)] for solver in data["solver"].values]
+    return {
+        "drift_head": ["case", "as stated", *solvers, "kept by ode45"],
+        "drift": [_drift(results, case) for case in cases],
+        "kept": results.quote(COMPARED, int(ode45["kept"].sum())),
+        "cases": results.quote(COMPARED, len(cases)),
+        "end": results.quote(COMPARED, float(data["until"].max())),
+        "agreement_head": ["case", *(_pair(str(pair)) for pair in data["pair"].values)],
+        "agreement": [_agreement(results, case) for case in cases],
+        "apart": results.quote(COMPARED, apart),
+        "first": results.quote_time(COMPARED, float(papers.min())),
+        "visible": percent(float(data["visible"])),
+        "pictures": _solver_pictures(results, ode45["largest_drift"].values, apart),
+    }
+
+
+def _drift(results: Results, case) -> list:
+    return [
+        case_of(case),
+        results.quote(COMPARED, float(case["stated_drift"])),
+        *(results.quote(COMPARED, float(value), 2) for value in case["largest_drift"]),
+        results.say(COMPARED, "yes" if int(case["kept"].sel(solver="ode45")) else "no"),
+    ]
+
+
+def _agreement(results: Results, case) -> list:
+    times = case["divergence_time"].values
+    return [case_of(case), *(results.quote_time(COMPARED, float(time)) for time in times)]
+
+
+def _pair(names: str) -> str:
+    return " and ".join(SOLVERS[name] for name in names.split(" - "))
+
+
+def _solver_pictures(results: Results, drifts: np.ndarray, apart: int) -> dict[str, Picture]:
+    told = {
+        "energy_drift": "Drift of the energy against τ by each solver; by ode45 it ends between "
+        f"{number(drifts.min(), 2)} and {number(drifts.max(), 2)}.",
+        "solver_agreement": "Differences of the norms between pairs of solvers against τ; the "
+        f"paper's two diverge in {apart} of {len(drifts)} cases.",
+    }
+    return {name: results.picture(name, alt) for name, alt in told.items()}
+
+
+SECTIONS = (
+    Section("figures", "The figures", gather_figures),
+    Section("motion", "The chain in motion", gather_motion),
+    Section("solvers", "The paper's solvers", gather_solvers),
+)
