@@ -1,4 +1,4 @@
-// The Taylor method of integrators/taylor.py and chain_series.py on half a chain, by hand.
+// The Taylor method of integrators/taylor.py and models/amplitudes_series.py on half a chain, by hand.
 //
 // The sites 0..M go in blocks of four, and all that a block holds lies together, so that every
 // coefficient is at a distance from the block's start that the compiler knows. Orders go in pairs:
