@@ -129,7 +129,8 @@ def _drift(case: xr.Dataset) -> dict[str, str]:
 
 
 def _time(tau) -> str:
-    return number(tau) if np.isfinite(tau) else "never"
+    """Return a time of an output, whose step of 0.025 five digits tell in single precision too."""
+    return number(tau, 5) if np.isfinite(tau) else "never"
 
 
 def _with_error(data: xr.Dataset, name: str) -> str:
