@@ -1,0 +1,42 @@
+"""Every dataset of a full run keeps the CF conventions, by a checker that other people maintain."""
+
+import json
+
+import pytest
+
+runner = pytest.importorskip("compliance_checker.runner")
+
+CONVENTIONS = "cf:1.11"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def checkers():
+    runner.CheckSuite.load_all_available_checkers()
+
+
+def faults_of(path, folder):
+    """Return what the checker finds wrong with one file, errors and warnings alike."""
+    report = folder / "report.json"
+    runner.ComplianceChecker.run_checker(
+        str(path), [CONVENTIONS], 0, "normal", output_filename=str(report), output_format="json"
+    )
+    groups = json.loads(report.read_text())[CONVENTIONS]["all_priorities"]
+    return [message for group in groups for message in group["msgs"]]
+
+
+def test_every_dataset_of_a_full_run_keeps_the_conventions(full_run, tmp_path):
+    paths = sorted((full_run / "results").rglob("*.nc"))
+    faults = {path.relative_to(full_run).as_posix(): faults_of(path, tmp_path) for path in paths}
+    assert len(paths) > 100
+    assert {name: found for name, found in faults.items() if found} == {}
+
+
+def test_the_checker_finds_units_that_nobody_parses(full_run, tmp_path):
+    """The control: the same file with the units that rates once had is refused."""
+    import netCDF4
+
+    path = tmp_path / "wrong.nc"
+    path.write_bytes((full_run / "results/trajectories/fig2_small.nc").read_bytes())
+    with netCDF4.Dataset(path, "a") as data:
+        data["energy"].units = "1/tau"
+    assert any("UDUNITS" in message for message in faults_of(path, tmp_path))
