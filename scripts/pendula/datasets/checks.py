@@ -2,10 +2,18 @@
 
 import numpy as np
 
+from .registry import NAMES
+
 
 def table(title: str, coords: dict, **variables: dict) -> dict:
-    """Return a check's numbers in the form that `xarray.Dataset.from_dict` takes."""
-    described = {name: variable(values, (name,), name) for name, values in coords.items()}
+    """Return a check's numbers in the form that `xarray.Dataset.from_dict` takes.
+
+    Coordinates have the long names of the registry, or are called what they are named.
+    """
+    described = {
+        name: variable(values, (name,), NAMES.get(name, name.replace("_", " ")))
+        for name, values in coords.items()
+    }
     return {"coords": described, "data_vars": variables, "attrs": {"title": title}}
 
 

@@ -32,7 +32,10 @@ def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return what is drawn: rates on their way, the spectra, and divergence times."""
     later = lyapunov.isel(tau=slice(1, None))
     running = later["stretch"] / later["tau"]
-    running.attrs = {"long_name": "mean rate of growth since the start", "units": "tau-1"}
+    running.attrs = {
+        "long_name": "mean rate of growth since the start, per unit of tau",
+        "units": "1",
+    }
     data = later.assign(running=running)[DRAWN]
     return data.assign_attrs(spectrum_half_width=lyapunov.attrs["spectrum_half_width"])
 

@@ -168,7 +168,9 @@ def check_dispersion(points, epsilon: float, sites: int) -> dict:
         {"boundary": list(BOUNDARIES), "point": np.arange(len(points))},
         omega=variable(points[:, 0], ("point",), "detuning Omega"),
         gamma=variable(points[:, 1], ("point",), "drive gamma"),
-        largest_real_part=variable(largest, dims, "largest real part of an eigenvalue", "1/tau"),
+        largest_real_part=variable(
+            largest, dims, "largest real part of an eigenvalue, per unit of tau"
+        ),
         error=variable(error, dims, "relative error of the squared eigenvalues", tolerance=1e-12),
         factorisation=variable(
             factorisation_error(), (), "printed determinant minus (15)", tolerance=1e-11

@@ -85,11 +85,13 @@ def check_chart(
     return table(
         f"Growth rates on {sites} sites, {boundary} ends, measured and predicted",
         {"omega": omegas, "gamma": gammas, "curve_omega": fine},
-        measured=variable(measured, dims, "growth rate of tiny data", "1/tau"),
-        exact_flow=variable(exact, dims, "the same by the exact linear flow", "1/tau"),
-        finite_rate=variable(finite, dims, "largest rate of the finite chain", "1/tau"),
+        measured=variable(measured, dims, "growth rate of tiny data, per unit of tau"),
+        exact_flow=variable(exact, dims, "the same by the exact linear flow, per unit of tau"),
+        finite_rate=variable(finite, dims, "largest rate of the finite chain, per unit of tau"),
         infinite_rate=variable(
-            infinite_rate(*grid, epsilon), dims, "largest rate of the infinite chain", "1/tau"
+            infinite_rate(*grid, epsilon),
+            dims,
+            "largest rate of the infinite chain, per unit of tau",
         ),
         infinite_threshold=variable(gamma_0(omegas, epsilon), ("omega",), "gamma_0 of (12)"),
         finite_threshold=variable(
@@ -105,7 +107,10 @@ def check_chart(
         ),
         sites=variable(sites, (), "number of sites N"),
         error=variable(
-            np.abs(measured - exact), dims, "measured minus exact flow", "1/tau", tolerance=1e-6
+            np.abs(measured - exact),
+            dims,
+            "measured minus exact flow, per unit of tau",
+            tolerance=1e-6,
         ),
         misclassified=variable(
             misclassified(measured, finite, times),
@@ -145,8 +150,10 @@ def check_measured_windows(
     return table(
         f"Growth inside and between the windows of stability of {sites} sites",
         {"omega": omegas},
-        measured=variable(measured, ("omega",), "growth rate of tiny data", "1/tau"),
-        finite_rate=variable(finite, ("omega",), "largest rate of the finite chain", "1/tau"),
+        measured=variable(measured, ("omega",), "growth rate of tiny data, per unit of tau"),
+        finite_rate=variable(
+            finite, ("omega",), "largest rate of the finite chain, per unit of tau"
+        ),
         misclassified=variable(
             misclassified(measured, finite, end_time), (), "contradictions", tolerance=0
         ),
