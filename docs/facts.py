@@ -44,18 +44,24 @@ class Baseline:
         return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
 
 
-def gather(baseline: Baseline, configuration: dict) -> dict[str, dict]:
-    """Return the facts of every topic."""
+def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[str, dict]:
+    """Return the facts of every topic; the last two are config.yaml and chaos.yaml as read."""
     topics = (ledger, solvers, chaos, ensembles, unbounded, theory, references, speed, hard_cases)
     return {topic.__name__: topic(baseline) for topic in topics} | {
-        "configured": configured(configuration)
+        "configured": configured(configuration, chaos_study)
     }
 
 
-def configured(configuration: dict) -> dict:
-    """Return parameters of solvers in the configuration."""
-    given = load(configuration).solvers
-    return {"own_rtol": number(given.taylor.rtol), "step": number(given.crank_nicolson.step)}
+def configured(configuration: dict, chaos_study: dict) -> dict:
+    """Return parameters of solvers and of ensembles in the configuration."""
+    given, drawn = load(configuration).solvers, chaos_study["chaos"]["ensembles"]
+    return {
+        "own_rtol": number(given.taylor.rtol),
+        "step": number(given.crank_nicolson.step),
+        "members": number(drawn["members"]),
+        "swept_members": number(drawn["swept_members"]),
+        "size": number(drawn["size"]),
+    }
 
 
 def ledger(baseline: Baseline) -> dict:

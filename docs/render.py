@@ -32,8 +32,9 @@ def pages() -> dict[Path, Path]:
 
 def known(baseline: facts.Baseline) -> dict[str, dict]:
     """Return all facts, from the datasets of a baseline and from the project's configuration."""
-    text = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
-    return facts.gather(baseline, yaml.safe_load(text))
+    names = ("config", "chaos")
+    texts = ((ROOT / f"config/{name}.yaml").read_text(encoding="utf-8") for name in names)
+    return facts.gather(baseline, *map(yaml.safe_load, texts))
 
 
 def render() -> dict[Path, str]:
