@@ -73,20 +73,17 @@ rule chaos:
         expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=["png", "pdf", "nc"]),
 
 
+include: "workflow/rules/inputs.smk"
 include: "workflow/rules/trajectories.smk"
 include: "workflow/rules/sweeps.smk"
-include: "workflow/rules/own_inputs.smk"
 include: "workflow/rules/own.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/unbounded.smk"
-include: "workflow/rules/theory_inputs.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
-include: "workflow/rules/chaos_inputs.smk"
 include: "workflow/rules/chaos.smk"
 include: "benchmarks/benchmarks.smk"
 include: "workflow/rules/figure_diff.smk"
-include: "workflow/rules/report_inputs.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/archive.smk"

@@ -5,54 +5,6 @@ GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
 UNBOUNDED_FIGURES = ["growth_law", "front", "window_map"]
 
 
-def map_names():
-    return [f"map_{sweep}" for sweep in PAPER_SWEEPS]
-
-
-def run_params(size):
-    given, extents = SETTINGS.unbounded, size.runs
-
-    def problems(wildcards):
-        case = SETTINGS.problem(given.case_of(wildcards.study))
-        return given.problems(case, wildcards.study, extents[wildcards.study].end_time)
-
-    return {
-        "name": "{study}",
-        "problems": problems,
-        "rest": size.rest,
-        "members": lambda wildcards: extents[wildcards.study].members,
-    }
-
-
-def map_params(maps):
-    def problem(wildcards):
-        case = SETTINGS.problem(SETTINGS.sweeps[wildcards.sweep].case)
-        return SETTINGS.unbounded.problem(case, maps.end_time, maps.output_step)
-
-    return {
-        "name": "{sweep}",
-        "problem": problem,
-        "rest": maps.rest,
-        "half_widths": maps.half_widths,
-        "members": lambda wildcards: maps.members[wildcards.sweep],
-    }
-
-
-def long_figure(name):
-    kinds = {"png": "png", "pdf": "pdf", "data": "figure.nc"}
-    return {key: f"results/unbounded/long/{name}.{kind}" for key, kind in kinds.items()}
-
-
-def growth_inputs(folder):
-    """Return the runs that are measured, of the full run or of the long study in `folder`."""
-    runs = {"omegas": "omegas", "bulk": "fig4_small", "large": "fig3_large"}
-    return {
-        "runs": expand(f"{folder}/{{case}}.nc", case=GROWTH_CASES),
-        **{name: f"{folder}/{run}.nc" for name, run in runs.items()},
-        "thermal": "results/unbounded/thermal.nc",
-    }
-
-
 rule unbounded:
     "The long study of the chain without ends (takes about ten minutes)"
     input:

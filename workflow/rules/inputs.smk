@@ -1,0 +1,227 @@
+# What the rules take in, study by study: paths, and plain values of the configuration. The functions
+# stand apart from the rules, so that a file of rules reads as a list of them.
+import json
+
+# Cases and sweeps of one's own: their names are free, so all lies in results/own.
+OWN_CASE_FILES = ["png", "pdf", "nc", "checks.nc", "spacetime.png", "spacetime.pdf", "spacetime.nc"]
+OWN_SWEEP_FILES = ["png", "pdf", "nc", "checks.nc"]
+
+
+def own_files():
+    """Return every figure and dataset of one's own cases and sweeps."""
+    return [
+        *expand("results/trajectories/{case}.nc", case=OWN_CASES),
+        *expand("results/own/cases/{case}.{kind}", case=OWN_CASES, kind=OWN_CASE_FILES),
+        *expand("results/sweeps/{sweep}.nc", sweep=OWN_SWEEPS),
+        *expand("results/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=OWN_SWEEP_FILES),
+    ]
+
+
+def some_own_files(wildcards):
+    if not own_files():
+        raise WorkflowError(
+            "the configuration has no case and no sweep of your own: give some by "
+            "--configfile, as docs/own_cases.md shows"
+        )
+    return own_files()
+
+
+def own_figure(folder, prefix="", part=""):
+    kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
+    stem = f"results/own/{folder}{part}"
+    return {f"{prefix}{key}": f"{stem}.{kind}" for key, kind in kinds.items()}
+
+
+# The theory, and the ledger of all claims.
+def checks(*names):
+    return [f"results/checks/{name}.nc" for name in names]
+
+
+def trajectories(solver=""):
+    return [f"results/trajectories/{case}{solver}.nc" for case in PAPER_CASES]
+
+
+def sweeps(solver=""):
+    return [f"results/sweeps/{sweep}{solver}.nc" for sweep in PAPER_SWEEPS]
+
+
+def makers():
+    """Return the rule that makes each dataset below results/, by its name without the ending."""
+    made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
+        "check_observed": checks(*OBSERVED),
+        "measure_ensembles": checks("ensembles"),
+        "measure_solvers": checks("solvers"),
+        "measure_trust": checks("trust"),
+        "trajectory": trajectories() + trajectories(".crank_nicolson"),
+        "sweep": sweeps() + sweeps(".crank_nicolson"),
+        "spread": [f"results/unbounded/{study}.nc" for study in SETTINGS.unbounded.names],
+        "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
+        "thermal": ["results/unbounded/thermal.nc"],
+        "measure_growth": ["results/unbounded/growth.nc", "results/unbounded/front.nc"],
+    }
+    return {
+        path.removeprefix("results/").removesuffix(".nc"): rule
+        for rule, paths in made_by.items()
+        for path in paths
+    }
+
+
+def points_of_paper():
+    """Return (Omega, gamma) of the paper's cases in units of epsilon, once each."""
+    problems = [SETTINGS.problem(case) for case in PAPER_CASES]
+    problems = [problem for problem in problems if problem["epsilon"]]
+    return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
+
+
+# The chain without ends, for the study of the full run and for the long one.
+def map_names():
+    return [f"map_{sweep}" for sweep in PAPER_SWEEPS]
+
+
+def run_params(size):
+    given, extents = SETTINGS.unbounded, size.runs
+
+    def problems(wildcards):
+        case = SETTINGS.problem(given.case_of(wildcards.study))
+        return given.problems(case, wildcards.study, extents[wildcards.study].end_time)
+
+    return {
+        "name": "{study}",
+        "problems": problems,
+        "rest": size.rest,
+        "members": lambda wildcards: extents[wildcards.study].members,
+    }
+
+
+def map_params(maps):
+    def problem(wildcards):
+        case = SETTINGS.problem(SETTINGS.sweeps[wildcards.sweep].case)
+        return SETTINGS.unbounded.problem(case, maps.end_time, maps.output_step)
+
+    return {
+        "name": "{sweep}",
+        "problem": problem,
+        "rest": maps.rest,
+        "half_widths": maps.half_widths,
+        "members": lambda wildcards: maps.members[wildcards.sweep],
+    }
+
+
+def long_figure(name):
+    kinds = {"png": "png", "pdf": "pdf", "data": "figure.nc"}
+    return {key: f"results/unbounded/long/{name}.{kind}" for key, kind in kinds.items()}
+
+
+def growth_inputs(folder):
+    """Return the runs that are measured, of the full run or of the long study in `folder`."""
+    runs = {"omegas": "omegas", "bulk": "fig4_small", "large": "fig3_large"}
+    return {
+        "runs": expand(f"{folder}/{{case}}.nc", case=GROWTH_CASES),
+        **{name: f"{folder}/{run}.nc" for name, run in runs.items()},
+        "thermal": "results/unbounded/thermal.nc",
+    }
+
+
+# Chaos: cases and sweeps as plain values of a Problem, and the choices of config/chaos.yaml.
+def followed(cases, tolerance, **changes):
+    solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+    plain = {"solver": solver, "snapshot_every": 0, **changes}
+    return {case: {**SETTINGS.problem(case), **plain} for case in cases}
+
+
+def longest(cases):
+    return max(SETTINGS.cases[case].end_time for case in cases)
+
+
+def in_any(sweeps, key):
+    """Return what the sweeps have under `key`, each once: all are run over all of it."""
+    return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
+
+
+def swept(sweeps, tolerance):
+    cases = {name: SETTINGS.sweeps[name].case for name in sweeps}
+    end_time = max(end for _, end in in_any(sweeps, "windows"))
+    problems = followed(cases.values(), tolerance, end_time=end_time)
+    return {name: problems[case] for name, case in cases.items()}
+
+
+def lyapunov_params(given):
+    short = given.spectrum
+    return {
+        "problems": followed(PAPER_CASES, given.tolerance),
+        "end_time": given.lengths * longest(PAPER_CASES),
+        "tolerances": given.diverging_tolerances,
+        "short_problems": followed(short.cases, given.tolerance, half_width=short.half_width),
+        "short_end_time": short.lengths * longest(short.cases),
+    }
+
+
+def symmetry_params(given):
+    end_time = longest(PAPER_CASES)
+    return {
+        "problems": followed(PAPER_CASES, given.tolerance, end_time=end_time),
+        "size": given.size,
+        "members": given.members,
+        "seed": given.seed,
+    }
+
+
+def ensemble_params(given):
+    end_time = longest(given.cases)
+    return {
+        "problems": followed(given.cases, given.tolerance, end_time=end_time),
+        "members": given.members,
+        "swept_problems": swept(given.sweeps, given.tolerance),
+        "half_widths": in_any(given.sweeps, "half_widths")[:: given.every],
+        "windows": in_any(given.sweeps, "windows"),
+        "swept_members": given.swept_members,
+        "size": given.size,
+        "seed": given.seed,
+    }
+
+
+# The report.
+# The code that makes the numbers; the report shows the hashes of their records.
+NUMBERS_BY = [
+    *("trajectories/simulate_case.py", "sweeps/sweep_case.py", "theory/run_checks.py"),
+    *("theory/check_observed.py", "theory/decide_claims.py", "hard_cases/run_hard_cases.py"),
+    *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
+    *("chaos/compare_ensembles.py", "paper/measure_solvers.py", "paper/measure_trust.py"),
+    *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/sample_thermal.py"),
+    "unbounded/measure_growth.py",
+]
+
+
+def reported_datasets():
+    made = [f"results/{name}.nc" for name in makers()]
+    checks = expand("results/checks/{name}.nc", name=[*CHAOS_CHECKS, "hard_cases"])
+    return list(dict.fromkeys([*made, *checks]))
+
+
+def speed_measured():
+    """Return whether this machine timed the solvers, the dataset, its table and its pictures.
+
+    They are copied, not taken as inputs: else an edit would start the timing anew, which is no part
+    of a full run.
+    """
+    here = [f"results/speed/work_precision.{kind}" for kind in ("nc", "md")]
+    here += [f"results/figures/{name}.png" for name in SPEED_FIGURES]
+    if all(was_made(path) for path in here):
+        data, table, *pictures = (kept(path) for path in here)
+        return True, data, table, pictures
+    names = ("work_precision.nc", "work_precision.md", "speed_regular.png")
+    data, table, picture = (committed(f"tests/baseline/speed/{name}") for name in names)
+    return False, data, table, [picture]
+
+
+def settings_in_words():
+    """Return the configuration of the paper's cases and sweeps as text."""
+    cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
+    sweeps = {sweep: SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS}
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in sweeps.items()
+    }
+    studies = {name: getattr(SETTINGS, name).model_dump() for name in CONFIGURED}
+    told = {"cases": cases, "sweeps": swept, **studies}
+    return json.dumps(told, sort_keys=True, default=str)
