@@ -28,7 +28,7 @@ def lyapunov() -> xr.Dataset:
     made = dataset(
         coordinates,
         **LABELS,
-        stretch=(("case", "parity", "tau"), RATES[:, :, None] * tau),
+        log_growth=(("case", "parity", "tau"), RATES[:, :, None] * tau),
         size=(("case", "tau"), np.full((2, tau.size), 3.0)),
         exponent=(("case", "parity"), RATES),
         divergence_predicted=(("case", "rtol"), divergence_time),

@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import write
 from pendula.problem import by_name
-from pendula.studies.chaos.ensemble_table import case_bands, sweep_moments
+from pendula.studies.chaos.ensembles import case_bands, sweep_moments
 
 
 def measure_ensembles(

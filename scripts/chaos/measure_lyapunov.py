@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import write
 from pendula.problem import by_name
-from pendula.studies.chaos.tables import divergence_times, largest_exponents, spectra
+from pendula.studies.chaos.lyapunov import divergence_times, largest_exponents, spectra
 
 
 def measure_lyapunov(

@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import write
 from pendula.problem import by_name
-from pendula.studies.chaos.symmetry_table import odd_parts
+from pendula.studies.chaos.symmetry import odd_parts
 
 
 def measure_symmetry(

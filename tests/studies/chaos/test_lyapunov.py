@@ -8,8 +8,7 @@ from pendula.models.amplitudes import Chain
 from pendula.models.tangent import ROWS
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.studies.chaos import lyapunov
-from pendula.studies.chaos.changes import PARITIES
-from pendula.studies.chaos.orthonormal import inner, orthonormalise
+from pendula.studies.chaos.tangent_dynamics import PARITIES, inner, orthonormalise
 from problems import problem_of
 
 WHOLE = Reduction(even=False, synchronised=False)
@@ -17,22 +16,22 @@ HALF = Reduction(even=True, synchronised=False)
 
 
 @pytest.fixture(scope="module")
-def all_changes():
+def whole_spectrum():
     return lyapunov.follow_all(problem_of("fig3_large", half_width=1), 200.0)
 
 
-def test_the_sum_of_all_exponents_is_zero_at_every_time(all_changes):
-    np.testing.assert_allclose(all_changes.stretch.sum(axis=0), 0.0, atol=1e-5)
+def test_the_sum_of_all_exponents_is_zero_at_every_time(whole_spectrum):
+    np.testing.assert_allclose(whole_spectrum.log_growth.sum(axis=0), 0.0, atol=1e-5)
 
 
-def test_exponents_come_in_pairs_of_opposite_sign(all_changes):
-    rates = mean_rate(all_changes.tau, all_changes.stretch, 50.0)
+def test_exponents_come_in_pairs_of_opposite_sign(whole_spectrum):
+    rates = mean_rate(whole_spectrum.tau, whole_spectrum.log_growth, 50.0)
     assert rates[0] > 0.3
     np.testing.assert_allclose(rates, -rates[::-1], atol=0.05)
 
 
-def test_two_exponents_vanish(all_changes):
-    rates = mean_rate(all_changes.tau, all_changes.stretch, 50.0)
+def test_two_exponents_vanish(whole_spectrum):
+    rates = mean_rate(whole_spectrum.tau, whole_spectrum.log_growth, 50.0)
     np.testing.assert_allclose(rates[5:7], 0.0, atol=0.05)
 
 
@@ -61,15 +60,15 @@ def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
 @pytest.mark.parametrize("parity", PARITIES)
 def test_the_chain_is_chaotic_at_omega_zero(parity):
     growth = lyapunov.follow_parity(problem_of("fig4_small", half_width=15), parity, 60.0)
-    assert mean_rate(growth.tau, growth.stretch, 20.0)[0] == pytest.approx(1.7, abs=0.35)
-    assert is_chaotic(growth.tau, growth.stretch[0], growth.size)
+    assert mean_rate(growth.tau, growth.log_growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
+    assert is_chaotic(growth.tau, growth.log_growth[0], growth.size)
 
 
 @pytest.mark.parametrize("parity", PARITIES)
 def test_small_data_at_omega_minus_4_are_regular(parity):
     growth = lyapunov.follow_parity(problem_of("fig3_small", half_width=15), parity, 60.0)
-    assert abs(mean_rate(growth.tau, growth.stretch, 20.0)[0]) < 0.02
-    assert not is_chaotic(growth.tau, growth.stretch[0], growth.size)
+    assert abs(mean_rate(growth.tau, growth.log_growth, 20.0)[0]) < 0.02
+    assert not is_chaotic(growth.tau, growth.log_growth[0], growth.size)
 
 
 def test_data_that_are_not_even_have_no_parities():

@@ -6,8 +6,7 @@ from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.studies.chaos import symmetry
-from pendula.studies.chaos.changes import random_change
-from pendula.studies.chaos.tangents import grow
+from pendula.studies.chaos.tangent_dynamics import grow, random_tangent
 from problems import problem_of
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -49,11 +48,11 @@ def test_the_odd_part_is_measured_relative_to_the_whole():
 
 def test_an_odd_perturbation_grows_as_the_tangent_dynamics_says():
     case, size = problem("fig4_small"), 1e-7
-    change = random_change(21, "odd", np.random.default_rng(0))
-    change *= size / np.linalg.norm(change)
-    odd = symmetry.follow_odd_part(case, case.amplitudes + change)
-    growth = grow(case, change[None], 6.0)
-    expected = size * np.exp(growth.stretch[0]) / growth.size
+    vector = random_tangent(21, "odd", np.random.default_rng(0))
+    vector *= size / np.linalg.norm(vector)
+    odd = symmetry.follow_odd_part(case, case.amplitudes + vector)
+    growth = grow(case, vector[None], 6.0)
+    expected = size * np.exp(growth.log_growth[0]) / growth.size
     np.testing.assert_allclose(odd, expected, rtol=2e-3)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pendula import Case, check, simulate
 from pendula.problem import Problem
-from pendula.studies.own import second_run, sensitivity, statements
+from pendula.studies.own import checks
 from pendula.studies.theory.bounds import best_bound, extent, theorem_1_bound, widened_bound
 from pendula.studies.theory.equations import total_energy
 from pendula.studies.theory.linear_stability import gamma_0, infinite_rate
@@ -58,7 +58,7 @@ def test_a_coarse_run_diverges_though_nothing_is_chaotic():
 def test_a_refused_second_run_leaves_its_reason_and_no_numbers():
     run = simulate(STILL)
     problem = Problem.of(STILL.shown_problem() | {"initial": {0: (1e-160, 0)}})
-    again = second_run.run_again(problem, run)
+    again = checks.run_again(problem, run)
     assert "squares vanish" in again.attrs["second_refusal"]
     assert np.isnan(again["largest_difference"]) and np.isnan(again["difference"]).all()
 
@@ -66,7 +66,7 @@ def test_a_refused_second_run_leaves_its_reason_and_no_numbers():
 def test_a_wrong_run_breaks_lemma_2_and_its_bound():
     run = simulate(STILL)
     run["l2"] = run["l2"] * np.exp(5.0 * run["tau"])
-    found = statements.beside_bounds(run)
+    found = checks.beside_bounds(run)
     assert found["from_start"]["data"] > 1 and found["ratio"]["data"] > 1
 
 
@@ -86,8 +86,8 @@ def test_chains_that_hardly_move_are_no_error(initial):
 def test_changes_keep_to_what_the_run_keeps():
     changed = SEA.changed(initial={1: (1, 0.1)})
     cases = (Problem.of(case.problem(end_time=4)) for case in (SEA, changed))
-    even, odd = map(sensitivity.follow, cases)
-    assert even.stretch[0, -1] > 1 and odd.stretch[0, -1] > 1
+    even, odd = map(checks.follow, cases)
+    assert even.log_growth[0, -1] > 1 and odd.log_growth[0, -1] > 1
     assert even.tau[-1] == odd.tau[-1] == 4
 
 

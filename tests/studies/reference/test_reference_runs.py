@@ -122,7 +122,7 @@ def test_the_start_is_the_lattice_of_the_other_solvers():
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
-def test_a_short_stretch_made_again_gives_the_same_doubles(case, tmp_path):
+def test_a_short_run_made_again_gives_the_same_doubles(case, tmp_path):
     pytest.importorskip("heyoka")
     path = tmp_path / "again.nc"
     plain = problem_of(case).plain()

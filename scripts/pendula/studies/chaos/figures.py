@@ -31,7 +31,7 @@ NORM = r"$\ell^2$ norm"
 def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return what is drawn: rates on their way, the spectra, and divergence times."""
     later = lyapunov.isel(tau=slice(1, None))
-    running = later["stretch"] / later["tau"]
+    running = later["log_growth"] / later["tau"]
     running.attrs = {
         "long_name": "mean rate of growth since the start, per unit of tau",
         "units": "1",
@@ -141,9 +141,9 @@ def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
 
 def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
     """Return the odd parts, and what the odd tangent dynamics makes of the same perturbation."""
-    stretch = lyapunov["stretch"].sel(parity="odd", drop=True)
+    log_growth = lyapunov["log_growth"].sel(parity="odd", drop=True)
     size = lyapunov["size"]
-    log = stretch + np.log(symmetry.attrs["perturbation"] * size.isel(tau=0, drop=True) / size)
+    log = log_growth + np.log(symmetry.attrs["perturbation"] * size.isel(tau=0, drop=True) / size)
     predicted = np.exp(log.clip(max=0.0)).sel(tau=log["tau"] <= float(symmetry["tau"].max()))
     predicted.attrs = {"long_name": "odd part predicted by tangent dynamics", "units": "1"}
     names = ["rounded", "perturbed", "omega", "initial"]

@@ -10,14 +10,17 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.datasets.netcdf import Variable
 from pendula.integrators import dop853
 from pendula.integrators.outcome import DONE, FAULTS
+from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
-from .changes import random_change
+from .lyapunov import describe_cases
+from .tangent_dynamics import random_tangent
 
 BROKEN = 0.01
 """Relative size of the odd part from which on a solution no longer counts as even."""
@@ -26,25 +29,27 @@ GROWING = (1e-9, 1e-4)
 
 
 @inlined_by_llvm
-def lopsided_field(chain, drive, left, u, right, partner, density):
+def lopsided_field(chain, drive, left, u, right, partner, squared_modulus):
     """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
     coupling = chain.epsilon * ((right - 2.0 * u) + left)
-    return coupling + field(chain, drive, u, u, u, partner, density)  # which has no coupling left
+    return coupling + field(
+        chain, drive, u, u, u, partner, squared_modulus
+    )  # which has no coupling left
 
 
 @inlined_by_llvm
-def lopsided_part(chain, drive, y, row, other, j, density):
+def lopsided_part(chain, drive, y, row, other, j, squared_modulus):
     """Return the right-hand side from one row at column `j`; `other` is that of the partner."""
     before, here, after = y[row, j - 1], y[row, j], y[row, j + 1]
-    return lopsided_field(chain, drive, before, here, after, y[other, j], density)
+    return lopsided_field(chain, drive, before, here, after, y[other, j], squared_modulus)
 
 
 @inlined_by_llvm
 def lopsided_at(chain, states, re, j, dy):
     y, im, other = states[0], re + 1, dy.shape[0] - 2 - re
-    density = modulus2(y, re, j)
-    dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, density)
-    dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, density)
+    squared_modulus = modulus2(y, re, j)
+    dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, squared_modulus)
+    dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, squared_modulus)
 
 
 write_lopsided = at_every_site(lopsided_at)
@@ -107,9 +112,9 @@ def break_symmetry(problem: Problem, size: float, members: int, seed: int = 0) -
     rng = np.random.default_rng(seed)
     perturbed = []
     for _ in range(members):
-        change = random_change(amplitudes.shape[1], "odd", rng)
-        change *= size * np.linalg.norm(amplitudes) / np.linalg.norm(change)
-        perturbed.append(follow_odd_part(problem, amplitudes + change))
+        odd = random_tangent(amplitudes.shape[1], "odd", rng)
+        odd *= size * np.linalg.norm(amplitudes) / np.linalg.norm(odd)
+        perturbed.append(follow_odd_part(problem, amplitudes + odd))
     return OddPart(follow_odd_part(problem, amplitudes), np.array(perturbed))
 
 
@@ -124,3 +129,32 @@ def growth_between(tau: np.ndarray, odd: np.ndarray, low: float, high: float) ->
         return np.nan
     first, last = below[-1], reached[0]
     return float(np.log(odd[last] / odd[first]) / (tau[last] - tau[first]))
+
+
+def odd_parts(
+    problems: dict[str, Problem], size: float, members: int, seed: int
+) -> dict[str, Variable]:
+    """Return the odd part of each case against time, when it passes BROKEN, how fast it grows.
+
+    `problems` are given by case, all of one end time.
+    """
+    runs = [break_symmetry(problem, size, members, seed) for problem in problems.values()]
+    first = next(iter(problems.values()))
+    tau = first.times
+    variables = {
+        **describe_cases(problems),
+        "tau": Variable(("tau",), tau, "slow time"),
+    }
+    for name, title, dims in (
+        ("rounded", "by rounding alone", ("case",)),
+        ("perturbed", "from an odd perturbation", ("case", "member")),
+    ):
+        odd = np.array([getattr(run, name) for run in runs])
+        broken = first_above(tau, odd, BROKEN)
+        rates = np.apply_along_axis(lambda one: growth_between(tau, one, *GROWING), -1, odd)
+        variables |= {
+            name: Variable((*dims, "tau"), odd, f"relative l2 norm of the odd part {title}"),
+            f"{name}_time": Variable(dims, broken, f"odd part above {BROKEN:g} {title}", "tau"),
+            f"{name}_rate": Variable(dims, rates, f"growth rate of the odd part {title}", "tau-1"),
+        }
+    return variables

@@ -1,22 +1,209 @@
-"""All checks of one case in one dataset."""
+"""Checks of a case of one's own: how far its run is true, and what the paper states of it.
 
+First the same case is run by another method at tight tolerances. The difference of two runs is the
+error of the worse one, made by steps and rounding of its own; where a case was run by the default
+solver at its default tolerances, it is that of double precision. Then a random tangent vector is
+carried along, whose growth says whether the case is chaotic and when the digits of double precision
+end. Last stand Lemma 1 at rest, Lemma 2 and Theorems 1 to 3 on the way.
+"""
+
+from dataclasses import astuple
+
+import numpy as np
 import xarray as xr
 
+from pendula.datasets.checks import table, variable
+from pendula.datasets.netcdf import as_xarray
+from pendula.datasets.trajectories import trajectory_contents
+from pendula.measures.difference import at_times, difference, divergence_time
+from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.problem import Problem
+from pendula.simulation.lattice import find_reduction
+from pendula.simulation.simulate import IntegrationError, simulate
+from pendula.studies.chaos.lyapunov import ROUNDING, SEED, amplification, predict
+from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow, random_tangent
+from pendula.studies.theory.bounds import NUMBERS, case_numbers
+from pendula.studies.theory.estimates import integrated_balance
+from pendula.studies.theory.linear_stability import (
+    finite_rate,
+    finite_threshold,
+    gamma_0,
+    infinite_rate,
+)
 
-from . import second_run, sensitivity, statements
+TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
 
 
-def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return every number that is known of a case besides its run, with the case's attributes.
+def choose_solver(name: str, peak: float) -> dict:
+    """Return the controls of another method than `name`, for data whose largest part is `peak`.
+
+    Data below one need a smaller absolute tolerance.
+    """
+    other = "dop853" if name == "taylor" else "taylor"
+    rtol = TIGHTEST[other]
+    return {"name": other, "rtol": rtol, "atol": rtol * (peak if 0 < peak < 1 else 1.0)}
+
+
+def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return the second run's norms and its difference from `run`, NaN where it was refused.
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
-    again = second_run.run_again(problem, run)
+    peak = float(np.abs(problem.initial).max())
+    solver = choose_solver(str(run.attrs["solver"]), peak)
+    again = problem.changed(solver=solver, snapshot_every=0)
+    said = {f"second_{key}": value for key, value in solver.items()}
+    try:
+        second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
+        apart = difference(run, second).reindex(tau=run["tau"])
+    except IntegrationError as error:
+        second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)
+        said["second_refusal"] = str(error)
+    return _compared(run, second, apart).assign_attrs(said)
+
+
+def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
+    norms = at_times(second, run["tau"])
+    data = xr.Dataset(
+        {
+            f"second_{norm}": norms[norm].assign_attrs(
+                long_name=f"{run[norm].attrs['long_name']}, by another method", units="1"
+            )
+            for norm in ("linf", "l2")
+        }
+    )
+    data["difference"] = apart.assign_attrs(
+        long_name="largest difference of the norms of two runs, of full scale", units="1"
+    )
+    data["largest_difference"] = apart.max().assign_attrs(
+        long_name="its largest value: the error of the worse run", units="1"
+    )
+    data["divergence_time"] = divergence_time(apart)
+    return data
+
+
+# --- Sensitivity ----------------------------------------------------------------------------------
+
+FEWEST_STEPS = 64
+
+
+def follow(problem: Problem) -> Growth:
+    """Return the growth of a random tangent vector along a case."""
+    even = bool(find_reduction(problem.amplitudes).even)
+    rng = np.random.default_rng(SEED)
+    tangent = random_tangent(problem.sites, "even" if even else None, rng)
+    step = min(STEP, problem.end_time / FEWEST_STEPS)
+    return grow(problem, tangent[None], problem.end_time, even, step)
+
+
+def measure_sensitivity(problem: Problem) -> xr.Dataset:
+    """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
+    try:
+        growth = follow(problem)
+    except IntegrationError as error:
+        return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
+    middle = growth.tau[-1] / 2
+    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
+        relative = growth.log_growth[0] - np.log(growth.size)
+        late = relative[-1] - relative[np.searchsorted(growth.tau, middle)]
+        amplified = amplification(growth.tau, growth.log_growth[0], growth.size)
+    rate = mean_rate(growth.tau, growth.log_growth[0], middle)
+    error = mean_rate_error(growth.tau, growth.log_growth[0], middle)
+    chaotic = is_chaotic(growth.tau, growth.log_growth[0], growth.size)
+    times = {"long_name": "slow time", "units": "1"}
+    named = {
+        "log_growth": (
+            ("growth_tau", growth.log_growth[0]), "logarithm of the growth of a tangent vector", "1"
+        ),
+        "exponent": (rate, "rate of that growth, second half", "tau-1"),
+        "exponent_error": (error, "standard error of the rate", "tau-1"),
+        "late_growth": (late, "growth relative to the solution's, second half, logarithm", "1"),
+        "chaotic": (int(chaotic), "one where that growth is exponential", "1"),
+        "divergence_rounding": (
+            predict(growth.tau, amplified, ROUNDING),
+            "tau at which one rounding a unit of tau has grown to 1 %", "1",
+        ),
+    }  # fmt: skip
+    data = xr.Dataset(coords={"growth_tau": ("growth_tau", growth.tau, times)})
+    for name, (value, long_name, units) in named.items():
+        dims, values = value if isinstance(value, tuple) else ((), value)
+        data[name] = (dims, values, {"long_name": long_name, "units": units})
+    return data
+
+
+# --- The paper's statements -----------------------------------------------------------------------
+
+RADIANS, PANELS = 40.0, 24
+"""The balance of Lemma 2 is integrated while the data turn by so much, on so many panels."""
+
+
+def beside_bounds(run: xr.Dataset) -> dict:
+    """Return the numbers of theory.bounds for a trajectory, and the theorem that covers it."""
+    with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
+        numbers, region = case_numbers(run)
+        ratio = np.float64(numbers["observed"]) / numbers["best"]
+    described = {name: variable(numbers[name], (), text) for name, text in NUMBERS.items()}
+    described["region"] = variable(region, (), "theorem that covers the case")
+    described["ratio"] = variable(ratio, (), "largest P over its smallest bound")
+    drift = float(np.abs(run["energy"] - run["energy"][0]).max())
+    return described | {"energy_drift": variable(drift, (), "largest |H - H(0)|")}
+
+
+def at_rest(problem: Problem) -> dict:
+    """Return thresholds and growth rates of the chain at rest: infinite, and as long as it is."""
+    epsilon, gamma, omega = astuple(problem.constants)
+    chain = (epsilon, problem.sites, problem.boundary)
+    return {
+        "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),
+        "finite_threshold": variable(finite_threshold(omega, *chain), (), "threshold on N sites"),
+        "infinite_rate": variable(
+            infinite_rate(omega, gamma, epsilon), (), "growth rate of the infinite chain", "tau-1"
+        ),
+        "finite_rate": variable(
+            finite_rate(omega, gamma, *chain), (), "growth rate on N sites", "tau-1"
+        ),
+    }
+
+
+def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
+    """Return how well the balance of P in Lemma 2 holds from the initial data on.
+
+    The state is carried by `solver` from node to node, and the balance integrated over them.
+    """
+    constants, amplitudes = problem.constants, problem.amplitudes
+    start, largest = float(np.sum(np.abs(amplitudes) ** 2)), float(run["linf"].max()) ** 2
+    linear = 4 * abs(constants.epsilon) + 2 * abs(constants.gamma) + abs(constants.omega)
+    rate = linear + largest
+    span = min(problem.end_time, RADIANS / rate) if rate else problem.end_time
+    change, integral = integrated_balance(
+        constants, problem.boundary, amplitudes, span, PANELS, solver
+    )
+    error = abs(change - integral) / max(start, start + change) if start else np.nan
+    return {
+        "balance_error": variable(error, (), "change of P minus its balance (Lemma 2), over P"),
+        "balance_span": variable(span, (), "tau to which the balance is followed"),
+    }
+
+
+def beside_statements(problem: Problem, run: xr.Dataset, solver: dict) -> xr.Dataset:
+    """Return all of it for a case and its trajectory."""
+    numbers = beside_bounds(run) | at_rest(problem) | balance(problem, run, solver)
+    return xr.Dataset.from_dict(table("A case beside the paper's statements", {}, **numbers))
+
+
+# --- All of it ------------------------------------------------------------------------------------
+
+
+def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return every number that is known of a case beside its run, with the case's attributes.
+
+    `run` is the trajectory that `simulate` made of `problem`.
+    """
+    again = run_again(problem, run)
     solver = {
         key.removeprefix("second_"): again.attrs[key]
         for key in ("second_name", "second_rtol", "second_atol")
     }
-    parts = [again, sensitivity.measure(problem), statements.gather(problem, run, solver)]
+    parts = [again, measure_sensitivity(problem), beside_statements(problem, run, solver)]
     data = xr.merge(parts, combine_attrs="drop_conflicts")
     return data.assign_attrs({**run.attrs, **data.attrs})

@@ -7,7 +7,7 @@ from pendula.models.amplitudes import Chain
 from pendula.models.tangent import bundle_rates, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos.tangents import grow
+from pendula.studies.chaos.tangent_dynamics import grow
 from pendula.studies.theory.linear_stability import finite_rate
 from problems import problem_from
 
@@ -17,18 +17,18 @@ HALF = Reduction(even=True, synchronised=False)
 DOP853 = {"name": "dop853", "rtol": 1e-12, "atol": 1e-14}
 
 
-def tangent(z, change, boundary, reduction=WHOLE):
-    """Return the rate of `change` at `z` as the library computes it."""
+def tangent_rate(z, vector, boundary, reduction=WHOLE):
+    """Return the rate of `vector` at `z` as the library computes it."""
     chain = Chain(*CONSTANTS, *choose_ends(boundary, reduction))
-    y, w = pack(z, reduction), pack(change, reduction)
+    y, w = pack(z, reduction), pack(vector, reduction)
     dw = np.zeros_like(w)
     tangent_rates(chain, y, w, dw)
     return unpack(dw, reduction)
 
 
-def derivative(z, change, boundary, h=1e-5):
-    """Return the derivative of equation (4) along `change` by a central difference."""
-    ahead, behind = (slope(z + s * change, CONSTANTS, boundary) for s in (h, -h))
+def derivative(z, vector, boundary, h=1e-5):
+    """Return the derivative of equation (4) along `vector` by a central difference."""
+    ahead, behind = (slope(z + s * vector, CONSTANTS, boundary) for s in (h, -h))
     return (ahead - behind) / (2 * h)
 
 
@@ -37,45 +37,45 @@ def derivative(z, change, boundary, h=1e-5):
 @pytest.mark.parametrize("half_width", [1, 4])
 def test_tangent_rates_are_differences_of_equation_4(half_width, boundary, reduction):
     z = 2 * random_chain(half_width, even=reduction.even, seed=1)
-    change = random_chain(half_width, even=reduction.even, seed=2)
-    expected = derivative(z, change, boundary)
-    actual = tangent(z, change, boundary, reduction)
+    vector = random_chain(half_width, even=reduction.even, seed=2)
+    expected = derivative(z, vector, boundary)
+    actual = tangent_rate(z, vector, boundary, reduction)
     np.testing.assert_allclose(actual, expected, rtol=1e-8, atol=1e-8)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_an_odd_change_of_an_even_state_stays_odd_to_the_last_bit(boundary):
-    z, change = random_chain(5, even=True), random_chain(5, seed=3)
-    rate = tangent(z, change - change[:, ::-1], boundary)
+def test_an_odd_vector_of_an_even_state_stays_odd_to_the_last_bit(boundary):
+    z, vector = random_chain(5, even=True), random_chain(5, seed=3)
+    rate = tangent_rate(z, vector - vector[:, ::-1], boundary)
     np.testing.assert_array_equal(rate, -rate[:, ::-1])
 
 
-def test_a_bundle_carries_the_state_and_each_change():
-    z, changes = random_chain(3), [random_chain(3, seed=seed) for seed in (1, 2)]
+def test_a_bundle_carries_the_state_and_each_vector():
+    z, vectors = random_chain(3), [random_chain(3, seed=seed) for seed in (1, 2)]
     chain = Chain(*CONSTANTS, *choose_ends("dirichlet", WHOLE))
-    bundle = np.concatenate([pack(state, WHOLE) for state in (z, *changes)])
+    bundle = np.concatenate([pack(state, WHOLE) for state in (z, *vectors)])
     slopes = np.zeros_like(bundle)
     bundle_rates(chain, bundle, slopes)
-    states = [slope(z, CONSTANTS, "dirichlet"), *(tangent(z, c, "dirichlet") for c in changes)]
+    states = [slope(z, CONSTANTS, "dirichlet"), *(tangent_rate(z, c, "dirichlet") for c in vectors)]
     actual = np.array([unpack(part, WHOLE) for part in np.split(slopes, 3)])
     np.testing.assert_allclose(actual, states, rtol=1e-13, atol=1e-13)
 
 
 @pytest.mark.parametrize("omega", [-1.0, 0.0, 2.5])
-def test_at_rest_a_change_grows_as_lemma_1_says(omega):
-    rest, change = np.zeros((2, 7), complex), random_chain(3)[None]
-    growth = grow(problem_from(rest, (1.0, 1.0, omega)), change, 60.0)
-    rate = (growth.stretch[0, -1] - growth.stretch[0, 160]) / 20.0
+def test_at_rest_a_vector_grows_as_lemma_1_says(omega):
+    rest, vector = np.zeros((2, 7), complex), random_chain(3)[None]
+    growth = grow(problem_from(rest, (1.0, 1.0, omega)), vector, 60.0)
+    rate = (growth.log_growth[0, -1] - growth.log_growth[0, 160]) / 20.0
     assert rate == pytest.approx(finite_rate(omega, 1.0, 1.0, 7, "dirichlet"), rel=2e-3)
 
 
-def test_a_change_grows_like_the_distance_of_two_solutions():
-    z, change, h = random_chain(3), random_chain(3, seed=4), 1e-6
-    change /= np.linalg.norm(change)
+def test_a_vector_grows_like_the_distance_of_two_solutions():
+    z, vector, h = random_chain(3), random_chain(3, seed=4), 1e-6
+    vector /= np.linalg.norm(vector)
     problem = problem_from(z, CONSTANTS, end_time=2.0, output_step=2.0, solver=DOP853)
-    ends = [simulate(problem.changed(initial=z + s * change)).final for s in (h, -h)]
+    ends = [simulate(problem.changed(initial=z + s * vector)).final for s in (h, -h)]
     distance = np.linalg.norm(ends[0] - ends[1]) / (2 * h)
-    growth = grow(problem, change[None], 2.0, tolerance=1e-11)
-    assert growth.stretch[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
+    growth = grow(problem, vector[None], 2.0, tolerance=1e-11)
+    assert growth.log_growth[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
     both = np.linalg.norm((ends[0] + ends[1]) / 2)
     assert growth.size[-1] == pytest.approx(both, rel=1e-9)

@@ -1,0 +1,144 @@
+"""Tangent vectors of a solution carried along with it, and how much they have grown by each time.
+
+A tangent vector is a small perturbation of the data, to first order. Solution and tangent vectors
+are integrated together, and the vectors made orthonormal again at equal steps of time (Benettin,
+Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9).
+"""
+
+from math import log, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.compiled import kernel
+from pendula.integrators import dop853
+from pendula.integrators.outcome import DONE, FAULTS
+from pendula.models.amplitudes import MIRROR
+from pendula.models.tangent import ROWS, bundle_rates
+from pendula.problem import Problem, output_times
+from pendula.simulation.lattice import Reduction, pack
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain
+
+PARITIES = ("even", "odd")
+
+
+def random_tangent(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
+    z = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
+    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]
+
+
+@kernel
+def inner(chain, u, v):
+    """Return the scalar product of two states over the whole chain, also where half is kept."""
+    total = 0.0
+    for row in range(u.shape[0]):
+        for j in range(1, u.shape[1] - 1):
+            total += u[row, j] * v[row, j]
+    if chain.left == MIRROR:
+        centre = 0.0
+        for row in range(u.shape[0]):
+            centre += u[row, 1] * v[row, 1]
+        total = 2.0 * total - centre
+    return total
+
+
+@kernel
+def subtract(u, factor, v):
+    """Take `factor` times `v` from `u`."""
+    for row in range(u.shape[0]):
+        for j in range(1, u.shape[1] - 1):
+            u[row, j] -= factor * v[row, j]
+
+
+@kernel
+def scale(u, factor):
+    """Multiply `u` by `factor`."""
+    for row in range(u.shape[0]):
+        for j in range(1, u.shape[1] - 1):
+            u[row, j] *= factor
+
+
+@kernel
+def orthonormalise(chain, bundle, log_lengths):
+    """Make the tangent vectors in `bundle` orthonormal; write the logarithms of their lengths.
+
+    This is the modified Gram-Schmidt method: the first vector keeps its direction, and each other
+    one loses its components along those before it. `log_lengths` is (vector,).
+    """
+    for k in range(log_lengths.size):
+        first = (k + 1) * ROWS
+        u = bundle[first : first + ROWS]
+        for before in range(ROWS, first, ROWS):
+            v = bundle[before : before + ROWS]
+            subtract(u, inner(chain, u, v), v)
+        length = sqrt(inner(chain, u, u))
+        log_lengths[k] = log(length)
+        scale(u, 1.0 / length)
+
+
+STEP = 0.25
+"""Units of tau between orthonormalisations: nothing grows by more than a factor of e in one."""
+TOLERANCE = 1e-9
+
+
+class Growth(NamedTuple):
+    """How tangent vectors have grown; logarithms are natural ones."""
+
+    tau: np.ndarray  # (time,)
+    log_growth: np.ndarray  # (vector, time), logarithm of the growth since tau = 0
+    size: np.ndarray  # (time,), l2 norm of the solution itself
+
+
+@kernel
+def observe_nothing(chain, bundle, i, record):
+    """Keep nothing: the bundle at the end of each span of time has all that is wanted."""
+
+
+solve = dop853.build(bundle_rates, observe_nothing)
+
+
+@kernel
+def carry(chain, bundle, span, controls, work, record, log_lengths, sizes):
+    """Carry the bundle over as many spans of time as `log_lengths` (span, vector) has rows.
+
+    Return the status of the solver.
+    """
+    for i in range(log_lengths.shape[0]):
+        outcome = solve(chain, bundle, span, controls, work, record)
+        if outcome.status != DONE:
+            return outcome.status
+        orthonormalise(chain, bundle, log_lengths[i])
+        sizes[i] = sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
+    return DONE
+
+
+def grow(
+    problem: Problem,
+    tangents: np.ndarray,
+    end_time: float,
+    even: bool = False,
+    step: float = STEP,
+    tolerance: float = TOLERANCE,
+) -> Growth:
+    """Carry `tangents` (vector, 2, N), perturbations of a problem's data, along with its solution.
+
+    They must be linearly independent; `even` integrates half of a chain on which all are even.
+    Raises IntegrationError where dop853 gives up.
+    """
+    reduction = Reduction(even, synchronised=False)
+    chain = make_chain(problem.constants, problem.boundary, reduction)
+    bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *tangents)])
+    tau = output_times(end_time, step)
+    log_lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
+    orthonormalise(chain, bundle, log_lengths[0])
+    log_lengths[0] = 0.0
+    sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
+    span, record = tau[:2], np.empty(0)
+    work = aligned((dop853.WORK, *bundle.shape))
+    status = carry(
+        chain, bundle, span, (tolerance, tolerance), work, record, log_lengths[1:], sizes[1:]
+    )
+    if status != DONE:
+        raise IntegrationError(f"the tangent vectors could not be followed: {FAULTS[status]}")
+    return Growth(tau, log_lengths.cumsum(axis=0).T, sizes)
