@@ -68,8 +68,8 @@ def case_bands(problems: dict[str, Problem], size: float, members: int, seed: in
     variables = {
         **describe_cases(problems),
         "quantile": Variable(("quantile",), np.array(QUANTILES), "quantile over the ensemble"),
-        "quantity": Variable(("quantity",), list(QUANTITIES), "pendulum of each pair, or both"),
-        "tau": Variable(("tau",), tau, "slow time"),
+        "quantity": Variable(("quantity",), list(QUANTITIES)),
+        "tau": Variable(("tau",), tau),
     }
     for (name, title), norms in zip(NORMS.items(), zip(*results, strict=True), strict=True):
         values = np.array([bands(norm, QUANTILES) for norm in norms])
@@ -87,10 +87,10 @@ def sweep_moments(
     ]
     names = [name_window(window) for window in windows]
     variables = {
-        "sweep": Variable(("sweep",), list(problems), "sweep"),
-        "half_width": Variable(("half_width",), np.array(half_widths), "half-width M"),
-        "statistic": Variable(("statistic",), list(STATISTICS), "statistic over the window"),
-        "window": Variable(("window",), names, "window of tau"),
+        "sweep": Variable(("sweep",), list(problems)),
+        "half_width": Variable(("half_width",), np.array(half_widths)),
+        "statistic": Variable(("statistic",), list(STATISTICS)),
+        "window": Variable(("window",), names),
     }
     grid = ("sweep", "half_width", "quantity", "statistic", "window")
     for (name, title), norms in zip(NORMS.items(), zip(*results, strict=True), strict=True):

@@ -107,13 +107,12 @@ def describe_cases(problems: dict[str, Problem]) -> dict[str, Variable]:
     omegas = [float(problem.constants.omega) for problem in problems.values()]
     initials = [write_initial(by_site(problem.initial)) for problem in problems.values()]
     return {
-        "case": Variable(("case",), list(problems), "case"),
-        "omega": Variable(("case",), omegas, "detuning Omega"),
-        "initial": Variable(("case",), initials, "initial {site: [A, B]}"),
+        "case": Variable(("case",), list(problems)),
+        "omega": Variable(("case",), omegas),
+        "initial": Variable(("case",), initials),
     }
 
 
-RATE = "tau-1"
 SAMPLED = 4  # every so many orthonormalisations the spectrum on its way is kept
 
 
@@ -150,8 +149,8 @@ def largest_exponents(problems: dict[str, Problem], end_time: float) -> dict[str
         "amplification": Variable(
             ("case", "tau"), amplified, "logarithm of relative error per error made a unit of tau"
         ),
-        "exponent": Variable(by_parity, rates, "largest Lyapunov exponent", RATE),
-        "exponent_error": Variable(by_parity, errors, "standard error of the exponent", RATE),
+        "exponent": Variable(by_parity, rates, "largest Lyapunov exponent, per unit of tau"),
+        "exponent_error": Variable(by_parity, errors, "standard error of the exponent"),
         "chaotic": Variable(
             ("case",), np.array(chaotic, int), "one where tangent vectors grow exponentially"
         ),
@@ -178,16 +177,14 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     return {
         **_coordinates(rtol=(np.asarray(tolerances), "tolerance of dop853")),
         "divergence_bound": Variable(
-            grid, bound, "divergence time with the tolerance made at each step", "tau"
+            grid, bound, "divergence time with the tolerance made at each step"
         ),
         "divergence_predicted": Variable(
-            grid, seen, "divergence time predicted from errors made early", "tau"
+            grid, seen, "divergence time predicted from errors made early"
         ),
-        "divergence_measured": Variable(
-            grid, measured, "divergence time from a run at 1e-15", "tau"
-        ),
+        "divergence_measured": Variable(grid, measured, "divergence time from a run at 1e-15"),
         "divergence_rounding": Variable(
-            ("case",), rounding, "divergence time by one rounding a unit of tau", "tau"
+            ("case",), rounding, "divergence time by one rounding a unit of tau"
         ),
     }
 
@@ -207,8 +204,10 @@ def spectra(problems: dict[str, Problem], end_time: float) -> dict[str, Variable
             spectrum_tau=(tau, "slow time"),
         ),
         "running_spectrum": Variable(
-            (*grid, "spectrum_tau"), running, "mean rates of growth since the start", RATE
+            (*grid, "spectrum_tau"),
+            running,
+            "mean rates of growth since the start, per unit of tau",
         ),
-        "spectrum": Variable(grid, rates, "Lyapunov exponents of a short chain", RATE),
-        "spectrum_error": Variable(grid, errors, "standard error of these exponents", RATE),
+        "spectrum": Variable(grid, rates, "Lyapunov exponents of a short chain, per unit of tau"),
+        "spectrum_error": Variable(grid, errors, "standard error of these exponents"),
     }

@@ -32,9 +32,8 @@ GROWING = (1e-9, 1e-4)
 def lopsided_field(chain, drive, left, u, right, partner, squared_modulus):
     """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
     coupling = chain.epsilon * ((right - 2.0 * u) + left)
-    return coupling + field(
-        chain, drive, u, u, u, partner, squared_modulus
-    )  # which has no coupling left
+    # where a site and its neighbours are alike, the field has no coupling of its own
+    return coupling + field(chain, drive, u, u, u, partner, squared_modulus)
 
 
 @inlined_by_llvm
@@ -143,7 +142,7 @@ def odd_parts(
     tau = first.times
     variables = {
         **describe_cases(problems),
-        "tau": Variable(("tau",), tau, "slow time"),
+        "tau": Variable(("tau",), tau),
     }
     for name, title, dims in (
         ("rounded", "by rounding alone", ("case",)),
@@ -154,7 +153,9 @@ def odd_parts(
         rates = np.apply_along_axis(lambda one: growth_between(tau, one, *GROWING), -1, odd)
         variables |= {
             name: Variable((*dims, "tau"), odd, f"relative l2 norm of the odd part {title}"),
-            f"{name}_time": Variable(dims, broken, f"odd part above {BROKEN:g} {title}", "tau"),
-            f"{name}_rate": Variable(dims, rates, f"growth rate of the odd part {title}", "tau-1"),
+            f"{name}_time": Variable(dims, broken, f"odd part above {BROKEN:g} {title}"),
+            f"{name}_rate": Variable(
+                dims, rates, f"growth rate of the odd part {title}, per unit of tau"
+            ),
         }
     return variables

@@ -115,8 +115,8 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         "log_growth": (
             ("growth_tau", growth.log_growth[0]), "logarithm of the growth of a tangent vector", "1"
         ),
-        "exponent": (rate, "rate of that growth, second half", "tau-1"),
-        "exponent_error": (error, "standard error of the rate", "tau-1"),
+        "exponent": (rate, "rate of that growth, second half, per unit of tau", "1"),
+        "exponent_error": (error, "standard error of the rate", "1"),
         "late_growth": (late, "growth relative to the solution's, second half, logarithm", "1"),
         "chaotic": (int(chaotic), "one where that growth is exponential", "1"),
         "divergence_rounding": (
@@ -157,10 +157,12 @@ def at_rest(problem: Problem) -> dict:
         "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),
         "finite_threshold": variable(finite_threshold(omega, *chain), (), "threshold on N sites"),
         "infinite_rate": variable(
-            infinite_rate(omega, gamma, epsilon), (), "growth rate of the infinite chain", "tau-1"
+            infinite_rate(omega, gamma, epsilon),
+            (),
+            "growth rate of the infinite chain, per unit of tau",
         ),
         "finite_rate": variable(
-            finite_rate(omega, gamma, *chain), (), "growth rate on N sites", "tau-1"
+            finite_rate(omega, gamma, *chain), (), "growth rate per unit of tau, N sites"
         ),
     }
 
