@@ -16,7 +16,7 @@ ENSEMBLES = "checks/ensemble_runs"
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return a row for each case, what each solver loses, and the ensembles in words."""
+    """Return a row for each case, what each solver leaves, and the ensembles in words."""
     growth, trust = results[LYAPUNOV], results[TRUST]
     rates = growth["exponent"].max("parity")
     chaotic = [str(case) for case in growth["case"].values[growth["chaotic"].values == 1]]
@@ -45,7 +45,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 
 def _title(solver: str) -> str:
-    return f"{SOLVERS[solver]} lost"
+    return f"{SOLVERS[solver]} leaves"
 
 
 def _row(results: Results, case: str, solvers: list[str]) -> list:
@@ -62,7 +62,7 @@ def _row(results: Results, case: str, solvers: list[str]) -> list:
 
 
 def lost_by(results: Results, solver: str) -> dict[str, Any]:
-    """Return how many cases a solver loses sight of, and when."""
+    """Return in how many cases a solver leaves the reference, and when."""
     horizons = results[TRUST]["horizon"].sel(solver=solver, level="visible").values
     known = horizons[np.isfinite(horizons)]
     return {
@@ -111,7 +111,7 @@ def _pictures(results: Results) -> dict[str, Picture]:
 def _lost(results: Results) -> str:
     found = [lost_by(results, str(name)) for name in results[TRUST]["solver"].values]
     return "; ".join(
-        f"{one['solver']} loses {one['count']} cases, at τ = {one['times']}" for one in found
+        f"{one['solver']} leaves {one['count']} cases, at τ = {one['times']}" for one in found
     )
 
 
