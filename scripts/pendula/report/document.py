@@ -1,28 +1,12 @@
 """The report of a run: the sections of all studies, then those of the ledger and of the run."""
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
-
 from pendula import studies
 from pendula.ledger import section as claims
 from pendula.ledger.section import Ledger
 
 from . import provenance, speed
 from .page import render
-from .results import Results
-
-
-class Section(NamedTuple):
-    """A part of the report under a heading of its own.
-
-    The template beside the module that declares it (section.html.j2) writes it by a macro of this
-    `name`, which takes what `gather` returns. Two more macros are looked for: `<name>_summary`
-    writes its lines at the top of the page, `<name>_opening` what follows all of these.
-    """
-
-    name: str
-    title: str
-    gather: Callable[[Results, Ledger], Any]
+from .results import Results, Section
 
 
 def write(results: Results, measured: speed.Measured, made: dict) -> str:

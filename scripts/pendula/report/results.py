@@ -1,7 +1,8 @@
-"""What a run made, by name: datasets read once, pictures, and links from the page to both."""
+"""What a run made, by name: datasets, pictures and links to both; the sections that show it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -67,3 +68,17 @@ class Results:
         link = f"{name}.nc" if name in self else name
         self.path(link)
         return Quote(text, link)
+
+
+class Section(NamedTuple):
+    """A part of the report under a heading of its own.
+
+    `gather` takes the results and the ledger. The template beside the module that declares the
+    section (section.html.j2) writes what it returns, by a macro of this `name`. A second macro,
+    `<name>_summary`, writes lines at the top of the page, and `<name>_opening` what follows them;
+    a section may do without either.
+    """
+
+    name: str
+    title: str
+    gather: Callable[[Results, Any], Any]

@@ -6,9 +6,8 @@ import numpy as np
 
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
-from pendula.report.document import Section
 from pendula.report.page import Picture
-from pendula.report.results import Results
+from pendula.report.results import Results, Section
 from pendula.report.words import SOLVERS, case_of, number, percent, span, with_error
 
 LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from pendula.ledger.section import Ledger
-from pendula.report.document import Section
-from pendula.report.results import Results
+from pendula.report.results import Results, Section
 from pendula.report.words import SOLVERS, number, symbols
 
 SOURCE = "checks/hard_cases"

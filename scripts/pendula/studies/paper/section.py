@@ -11,9 +11,8 @@ from pendula.ledger.section import Ledger, load
 from pendula.ledger.verdicts import Verdict
 from pendula.measures.levels import levelling
 from pendula.problem import name_window
-from pendula.report.document import Section
 from pendula.report.page import Picture
-from pendula.report.results import Results
+from pendula.report.results import Results, Section
 from pendula.report.words import (
     FIRM,
     NORMS,

@@ -6,8 +6,7 @@ import numpy as np
 
 from pendula.datasets.checks import broken, deciding
 from pendula.ledger.section import Ledger, load
-from pendula.report.document import Section
-from pendula.report.results import Results
+from pendula.report.results import Results, Section
 from pendula.report.words import case_in_words, number, symbols
 
 from .settings import GROUPS, OBSERVED

@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 
 from pendula.ledger.section import Ledger
-from pendula.report.document import Section
-from pendula.report.results import Results
+from pendula.report.results import Results, Section
 from pendula.report.words import MINUS, case_of, number, span
 
 # ASSUME: "as the square root": the last octave's exponent is within this of one half
