@@ -36,10 +36,10 @@ def code(script: str, *parts: str) -> str:
 
 
 def _of_studies(part: str) -> list[Path]:
-    """Return the modules of this name in the studies, each with its package."""
+    """Return the modules in the studies whose names start with this, each with its package."""
     folders = [SCRIPTS / "pendula/studies" / study for study in STUDIES]
-    having = [folder for folder in folders if (folder / f"{part}.py").exists()]
-    return [folder / name for folder in having for name in ("__init__.py", f"{part}.py")]
+    found = [path for folder in folders for path in sorted(folder.glob(f"{part}*.py"))]
+    return [path for module in found for path in (module.with_name("__init__.py"), module)]
 
 
 def whole_project() -> str:

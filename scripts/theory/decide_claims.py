@@ -7,8 +7,8 @@ from pathlib import Path
 from pendula.datasets.checks import broken, deciding, describe
 from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read
-from pendula.ledger.evaluate import evaluate, needed
-from pendula.ledger.verdicts import Verdict
+from pendula.ledger.claim import evaluate, needed
+from pendula.ledger.criterion import Verdict
 from pendula.report.words import markdown, write_markdown
 
 
@@ -57,7 +57,7 @@ def claims_section(rows: list[dict]) -> list[str]:
         (
             *(row[key] for key in ("place", "says", "verdict")),
             ", ".join(f"{key} = {shown(value)}" for key, value in row["measured"].items()),
-            *(row[key] for key in ("tolerance", "because")),
+            *(row[key] for key in ("criterion", "because")),
             ", ".join(row["decided_by"]),
         )
         for row in rows

@@ -47,7 +47,7 @@ def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **chang
         "says": "The l2 norm is bounded for Omega > 2 gamma.",
         "decided_by": ["checks/chart"],
         "measured": {"largest_rate": 0.25},
-        "tolerance": "largest_rate <= 1e-3",
+        "criterion": "largest rate <= 0.001",
         "verdict": verdict,
         "because": "",
         **changes,

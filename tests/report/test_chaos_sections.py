@@ -110,7 +110,7 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
 
 @pytest.mark.parametrize(("power", "grows"), [(0.5, True), (0.01, False)])
 def test_growth_is_told_from_the_last_octave(tmp_path, power, grows):
-    results = growing_results(tmp_path, power, power=power, error=0.002, end=400.0, sites=2329.0)
+    results = growing_results(tmp_path, power, exponent=power, error=0.002, end=400.0, sites=2329.0)
     found = growth.gather(results, claims.Ledger(results))
     (case,) = found["cases"]
     assert case["grows"] is grows and found["main"]["near"] is grows

@@ -76,7 +76,7 @@ def test_every_link_leads_to_a_file_of_the_run_or_to_a_part_of_the_page(tags, fu
     ids = {attributes.get("id") for _, attributes in tags.tags}
     links = {link["href"] for link in tags.all("a") if "//" not in link["href"]}
     datasets = {link for link in links if link.endswith(".nc")}
-    assert len(datasets) > 60
+    assert len(datasets) > 50
     for link in links:
         known = link[1:] in ids if link.startswith("#") else (full_run / "results" / link).is_file()
         assert known, link

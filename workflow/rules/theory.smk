@@ -69,7 +69,7 @@ rule check_observed:
 rule claims:
     "results/claims.json: every sentence of the paper that numbers can decide, with its verdict"
     input:
-        code=code("theory/decide_claims.py"),
+        code=code("theory/decide_claims.py", "claims"),
         datasets=expand("results/{name}.nc", name=makers()),
     output:
         ledger="results/claims.json",

@@ -1,0 +1,8 @@
+"""The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
+
+`claim`      a claim, as a study declares it above the function that decides it; all their verdicts
+`criterion`  what decides, and prints itself
+`section`    the ledger's part of the report
+
+Each study keeps its claims in its own folder, in modules whose names start with `claims`.
+"""

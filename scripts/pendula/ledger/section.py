@@ -5,9 +5,9 @@ from collections import Counter
 from typing import Any
 
 from pendula.report.results import Results
-from pendula.report.words import Quote, criterion, number, plainly, symbols
+from pendula.report.words import Quote, number, plainly, symbols
 
-from .verdicts import Verdict
+from .criterion import Verdict
 
 LEDGER = "claims.json"
 
@@ -43,7 +43,7 @@ def _shown(row: dict, results: Results) -> dict:
         "says": symbols(row["says"]),
         "verdict": row["verdict"],
         "measured": measured,
-        "criterion": criterion(row["tolerance"]),
+        "criterion": symbols(row["criterion"]),
         "because": symbols(row["because"]),
         "data": [results.say(name, name) for name in row["decided_by"]],
     }

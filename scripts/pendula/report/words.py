@@ -130,11 +130,6 @@ def plainly(name: str) -> str:
     return re.sub(r"_(?!\d)", " ", symbols(name.replace("_over_", " / ")))
 
 
-def criterion(text: str) -> str:
-    """Return a criterion of the ledger, names of numbers in it as words."""
-    return re.sub(r"(?<=[a-z])_(?=[a-z])", " ", symbols(text))
-
-
 def case_of(dataset) -> str:
     """Return a case, of `omega` and `initial` as datasets keep them: Ω = 8, (A₀, B₀) = (5, 1)."""
     return case_in_words(float(dataset["omega"]), str(dataset["initial"].values))

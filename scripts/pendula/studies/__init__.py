@@ -1,7 +1,9 @@
 """The studies: each has a folder here, rules in workflow/rules, and a configuration of its own."""
 
+from collections.abc import Iterator
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from types import ModuleType
 
 STUDIES = ("paper", "theory", "chaos", "unbounded", "hard_cases")
@@ -16,3 +18,11 @@ def modules(part: str) -> dict[str, ModuleType]:
     """Return the module of this name, such as "section", of each of STUDIES that has one."""
     names = {study: f"pendula.studies.{study}.{part}" for study in STUDIES}
     return {study: import_module(name) for study, name in names.items() if find_spec(name)}
+
+
+def all_modules(part: str) -> Iterator[ModuleType]:
+    """Yield the modules of STUDIES whose names start with this, such as "claims"."""
+    here = Path(__file__).parent
+    for study in STUDIES:
+        for path in sorted((here / study).glob(f"{part}*.py")):
+            yield import_module(f"{__name__}.{study}.{path.stem}")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from pendula.studies.paper.solvers import compare
 
 HALF_WIDTHS = np.array([5, 10, 20, 30, 40, 60, 80, 100])
 WINDOWS = ["[10, 40]", "[10, 50]", "[10, 70]"]
@@ -100,8 +101,7 @@ def paper_trajectories() -> dict[str, xr.Dataset]:
             "fig4_large", 0.0, (settling(5.0, 4.8), settling(1.0, 4.8)), growing, 88.5, 1e-4
         ),
     }  # fmt: skip
-    others = {f"{name}.crank_nicolson": ds.copy(deep=True) for name, ds in made.items()}
-    return {f"trajectories/{name}": ds for name, ds in (made | others).items()}
+    return {f"trajectories/{name}": ds for name, ds in made.items()}
 
 
 def paper_sweeps() -> dict[str, xr.Dataset]:
@@ -114,8 +114,7 @@ def paper_sweeps() -> dict[str, xr.Dataset]:
         "fig6_left": sweep("fig6_left", 8.0, 5.2),
         "fig6_right": sweep("fig6_right", -4.0, growing),
     }
-    others = {f"{name}.crank_nicolson": ds.copy(deep=True) for name, ds in made.items()}
-    return {f"sweeps/{name}": ds for name, ds in (made | others).items()}
+    return {f"sweeps/{name}": ds for name, ds in made.items()}
 
 
 def ensembles() -> xr.Dataset:
@@ -143,3 +142,15 @@ def ensembles() -> xr.Dataset:
             "half_width": HALF_WIDTHS, "statistic": ["max"], "window": WINDOWS,
         },
     )  # fmt: skip
+
+
+def compared_solvers() -> xr.Dataset:
+    """Return the comparison of solvers that all give the same, with drifts of the stated orders."""
+    trajectories, sweeps = paper_trajectories(), paper_sweeps()
+    runs = {
+        (name.removeprefix("trajectories/"), solver): run
+        for name, run in trajectories.items()
+        for solver in ("ode45", "crank_nicolson", "dop853")
+    }
+    pairs = {name.removeprefix("sweeps/"): (sweep, sweep) for name, sweep in sweeps.items()}
+    return compare(runs, pairs)

@@ -6,12 +6,21 @@ same measures, are put to runs from data that differ in their last digits.
 
 import numpy as np
 
-from pendula.ledger.readings import CHANGE, FACTOR, NEARLY_ALL, halves, late, spread
-from pendula.ledger.row import checks, claim
-from pendula.ledger.verdicts import Finding, UndecidableError, judge, undecided
+from pendula.ledger.claim import CHANGE, FACTOR, FEWEST, NEARLY_ALL, checks, claim, halves, late
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    Below,
+    Finding,
+    NeverLevels,
+    UndecidableError,
+    judge,
+    undecided,
+)
+from pendula.measures.levels import APART, levelling_of_means, relative_range
 
-# ASSUME: what differs by less than two standard errors is not told apart.
-APART = 2.0
+SECTION = 5
+
 NEEDS = checks("ensembles")
 
 
@@ -24,22 +33,11 @@ def followed(ensembles, case: str, norm: str, quantile: float = 0.5):
 
 def swept(ensembles, sweep: str, norm: str, window: str):
     """Return (half-widths, means, standard errors) of the maxima of a sweep over a window."""
-    if ensembles.sizes["half_width"] < 6 or window not in ensembles["window"].values:
+    if ensembles.sizes["half_width"] < FEWEST or window not in ensembles["window"].values:
         raise UndecidableError("the ensemble has fewer than six half-widths, or not the window")
     chosen = {"sweep": sweep, "quantity": "pair", "statistic": "max", "window": window}
     kept = ensembles.sel(chosen)
     return kept["half_width"].values, kept[f"{norm}_mean"].values, kept[f"{norm}_error"].values
-
-
-def level_from(half_widths, means, errors, least: int = 3) -> float:
-    """Return the half-width from which no mean differs from the last by more than the noise.
-
-    At least so many must agree, or it is infinite.
-    """
-    noise = APART * np.hypot(errors, errors[-1])
-    near = np.abs(means - means[-1]) <= noise
-    first = len(means) - int(np.argmin(near[::-1])) if not near.all() else 0
-    return float(half_widths[first]) if first <= len(means) - least else np.inf
 
 
 @claim(
@@ -49,11 +47,11 @@ def level_from(half_widths, means, errors, least: int = 3) -> float:
     NEEDS,
 )
 def nearly_all_grow(ensembles) -> Finding:
-    """Fig 3, lower: l2 grows, of nineteen runs in twenty."""
     start = float(ensembles["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0])
     first, second = halves(followed(ensembles, "fig3_large", "l2", 0.05))
     measured = {"first_half": first.mean() / start, "second_half": second.mean() / start}
-    return judge(measured, "lower band of l2 over the start > 2", measured["second_half"] > FACTOR)
+    says = "lower band of l2 over the start"
+    return judge(measured, Above(FACTOR, "second_half", says=says))
 
 
 @claim(
@@ -63,12 +61,11 @@ def nearly_all_grow(ensembles) -> Finding:
     NEEDS,
 )
 def medians_settle(ensembles) -> Finding:
-    """Fig 4: growth stops at a certain l-infinity norm, of the median run."""
     changes = {}
     for size in ("small", "large"):
         first, second = halves(followed(ensembles, f"fig4_{size}", "linf"))
         changes[f"change_{size}"] = abs(float(second.mean() / first.mean()) - 1.0)
-    return judge(changes, "change between halves < 25 %", max(changes.values()) < CHANGE)
+    return judge(changes, Below(CHANGE, *changes, says="change between halves"))
 
 
 @claim(
@@ -78,21 +75,16 @@ def medians_settle(ensembles) -> Finding:
     NEEDS,
 )
 def bands_alike(ensembles) -> Finding:
-    """Fig 4: no visible differences between the bands of the upper and lower panels."""
     small, large = (
         [followed(ensembles, f"fig4_{size}", "l2", q) for q in (0.05, 0.5, 0.95)]
         for size in ("small", "large")
     )
     overlap = float(((small[0] <= large[2]) & (large[0] <= small[2])).mean())
     change = abs(float(large[1].mean() / small[1].mean()) - 1.0)
-    return judge(
-        {"l2": change, "overlap_of_bands": overlap},
-        "late medians within 25 %",
-        change < CHANGE,
-        ""
-        if overlap == 1.0
-        else f"the bands of nine runs in ten overlap {overlap:.0%} of the time",
-    )
+    measured = {"l2": change, "overlap_of_bands": overlap}
+    caveat = f"the bands of nine runs in ten overlap {overlap:.0%} of the time"
+    criterion = Below(CHANGE, "l2", says="difference of the late medians of l2")
+    return judge(measured, criterion, caveat if overlap < 1.0 else "")
 
 
 @claim(
@@ -102,20 +94,22 @@ def bands_alike(ensembles) -> Finding:
     NEEDS,
 )
 def mean_grows_with_m(ensembles) -> Finding:
-    """Fig 5, right: growth of the mean maximal l2 in M, each step beyond its error."""
     m, l2, error = swept(ensembles, "fig5_right", "l2", "[10, 50]")
     steps = np.diff(l2) / np.hypot(error[1:], error[:-1])
-    level = level_from(m, l2, error, least=2)
+    level = levelling_of_means(m, l2, error, least=2)
     measured = {
         "growth": l2[-1] / l2[0],
         "rising": np.mean(steps > APART),
         "least_step": steps.min(),
         "level_from": level,
     }
-    holds = measured["growth"] > FACTOR and measured["rising"] > NEARLY_ALL
     caveat = f"up to M = {level:.0f}, where it levels off" if np.isfinite(level) else ""
-    criterion = "growth > 2, 3 of 4 steps up by > 2 standard errors, none down"
-    return judge(measured, criterion, holds and steps.min() > -APART, caveat)
+    criterion = AllOf(
+        Above(FACTOR, "growth"),
+        Above(NEARLY_ALL, "rising", says=f"share of steps up by > {APART:g} standard errors"),
+        Above(-APART, "least_step", says="least step over its standard error"),
+    )
+    return judge(measured, criterion, caveat)
 
 
 @claim(
@@ -125,10 +119,13 @@ def mean_grows_with_m(ensembles) -> Finding:
     NEEDS,
 )
 def mean_maximum_independent_of_m(ensembles) -> Finding:
-    """Fig 5, right: the mean l-infinity saturates to the same level whatever M."""
     _, linf, error = swept(ensembles, "fig5_right", "linf", "[10, 50]")
-    measured = {"spread": spread(linf), "mean": linf.mean(), "largest_error": error.max()}
-    return judge(measured, "spread below 25 %", measured["spread"] < CHANGE)
+    measured = {
+        "relative_range": relative_range(linf),
+        "mean": linf.mean(),
+        "largest_error": error.max(),
+    }
+    return judge(measured, Below(CHANGE, "relative_range", says="range over mean"))
 
 
 @claim(
@@ -138,7 +135,6 @@ def mean_maximum_independent_of_m(ensembles) -> Finding:
     NEEDS,
 )
 def mean_of_large_data_grows(ensembles) -> Finding:
-    """Fig 6, right: the mean maximal l2 grows with M at Omega = -4, large data."""
     m, l2, error = swept(ensembles, "fig6_right", "l2", "[10, 70]")
     peak = int(np.argmax(l2))
     ratio = l2[peak] / l2[0]
@@ -146,7 +142,7 @@ def mean_of_large_data_grows(ensembles) -> Finding:
     measured = {"peak_over_first": ratio, "two_errors": noise, "peak_at": m[peak]}
     if abs(ratio - FACTOR) <= noise:
         return undecided(measured, f"{ratio:.2f} is told from {FACTOR:g} by less than its error")
-    return judge(measured, "peak over first > 2", ratio > FACTOR)
+    return judge(measured, Above(FACTOR, "peak_over_first"))
 
 
 @claim(
@@ -156,9 +152,8 @@ def mean_of_large_data_grows(ensembles) -> Finding:
     NEEDS,
 )
 def mean_of_large_data_diverges(ensembles) -> Finding:
-    """Fig 6, right: the mean apparently diverges as N goes to infinity."""
     m, l2, error = swept(ensembles, "fig6_right", "l2", "[10, 70]")
-    level = level_from(m, l2, error)
+    level = levelling_of_means(m, l2, error)
     measured = {"level_from": level, "last": l2[-1], "error": error[-1], "largest": l2.max()}
     fails = f"from M = {level:.0f} on all means are the same to two standard errors"
-    return judge(measured, "no level", not np.isfinite(level), fails=fails)
+    return judge(measured, NeverLevels("level_from"), fails=fails)

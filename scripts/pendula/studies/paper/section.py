@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from pendula.ledger.readings import CHANGE, CONSTANT
+from pendula.ledger.claim import CHANGE, CONSTANT
+from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import Ledger, load
-from pendula.ledger.verdicts import Verdict
 from pendula.measures.levels import levelling
 from pendula.problem import name_window
 from pendula.report.page import Picture

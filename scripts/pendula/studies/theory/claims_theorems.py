@@ -2,11 +2,24 @@
 
 import numpy as np
 
-from pendula.ledger.row import checks, claim
-from pendula.ledger.verdicts import Finding, judge, number, within_tolerance
+from pendula.ledger.claim import checks, claim, number
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    judge,
+    within_tolerance,
+)
+
+SECTION = 4
 
 # ASSUME: a bound is "sharp" if it is reached to 90 %; where it is attained, to 99.9 %.
 SHARP, ATTAINED = 0.9, 0.999
+# ASSUME: bounds that are reached exactly may be exceeded by rounding: of P, and of H - bound.
+ROUNDING, ROUNDING_OF_H = 1e-7, 1e-12
 
 
 @claim(
@@ -16,7 +29,6 @@ SHARP, ATTAINED = 0.9, 0.999
     checks("inequalities"),
 )
 def inequalities(check) -> Finding:
-    """(17), (18), (21), (22), (25), (27)."""
     return within_tolerance(check, "ratio", "excess")
 
 
@@ -25,8 +37,8 @@ def theorem(samples, worst, families: list[str], caveat: str = "") -> Finding:
     sampled = samples["worst"].sel(family=families)
     searched = worst["worst"].values[np.isin(worst["family"].values, families)]
     measured = {"worst_sample": sampled.max(), "worst_searched": searched.max()}
-    holds = max(float(value) for value in measured.values()) <= 1.0 + 1e-7
-    return judge(measured, "largest P over its bound <= 1", holds, caveat)
+    criterion = AtMost(1.0 + ROUNDING, *measured, says="largest P over its bound")
+    return judge(measured, criterion, caveat)
 
 
 @claim(
@@ -36,7 +48,6 @@ def theorem(samples, worst, families: list[str], caveat: str = "") -> Finding:
     checks("samples", "worst"),
 )
 def theorem_1(samples, worst) -> Finding:
-    """Theorem 1 with C = H / (Omega - 2 gamma - 4 epsilon)."""
     return theorem(samples, worst, ["theorem_1"])
 
 
@@ -47,7 +58,6 @@ def theorem_1(samples, worst) -> Finding:
     checks("samples", "worst"),
 )
 def theorem_2(samples, worst) -> Finding:
-    """Theorem 2 with delta_0 = a^2 / c and C_0 = 2 c / a."""
     return theorem(samples, worst, ["theorem_2_ball", "theorem_2_energy", "theorem_2_widened"])
 
 
@@ -58,13 +68,11 @@ def theorem_2(samples, worst) -> Finding:
     checks("negative_depth"),
 )
 def positive_depth(depth) -> Finding:
-    """The proof of Theorem 2: -H > 0."""
     first = number(depth, "first_negative")
     measured = {"first_negative": first, "assured": number(depth, "assured")}
     caveat = f"only for small data: the pair (x, 0) has -H <= 0 from x = {first:.3g}"
-    return judge(
-        measured, "-H > 0 for P < 4 a", measured["assured"] < 0, caveat if first < np.inf else ""
-    )
+    criterion = Below(0.0, "assured", says="largest H of data with P below 4 a")
+    return judge(measured, criterion, caveat if first < np.inf else "")
 
 
 @claim(
@@ -74,7 +82,6 @@ def positive_depth(depth) -> Finding:
     checks("samples", "worst"),
 )
 def theorem_3(samples, worst) -> Finding:
-    """Theorem 3 with C_N from the corrected constant."""
     return theorem(samples, worst, ["theorem_3"])
 
 
@@ -85,11 +92,10 @@ def theorem_3(samples, worst) -> Finding:
     checks("theorem_3_constant"),
 )
 def theorem_3_proof(constant) -> Finding:
-    """The lower bound of H in the proof of Theorem 3, with |Omega| + gamma + 4 epsilon."""
     measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
     measured["smallest_chain"] = smallest = number(constant, "smallest")
     fails = f"A = -B = x (-1)^n breaks it from {smallest:.0f} sites on; it needs 2 gamma"
-    return judge(measured, "H - bound >= 0", measured["printed"] >= -1e-12, fails=fails)
+    return judge(measured, AtLeast(-ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
 
 
 @claim(
@@ -99,12 +105,12 @@ def theorem_3_proof(constant) -> Finding:
     checks("worst"),
 )
 def sharp_bounds(worst) -> Finding:
-    """Section 6: the bounds on l2 are sharp."""
     measured = {str(q): worst["worst"].sel(question=q) for q in worst["question"].values}
     measured["attained_theorem_3"] = number(worst, "attained")
     families = worst["family"].values
     ball = float(worst["worst"].values[families == "theorem_2_ball"].max())
     reached = (worst["worst"] / worst["small_data"]).values[families != "theorem_3"]
     caveat = f"the constant C_0 of Theorem 2 is reached to {ball:.2f} only" if ball < SHARP else ""
-    holds = reached.min() > SHARP and measured["attained_theorem_3"] > ATTAINED
-    return judge(measured, "within 10 % of the value for tiny data", holds, caveat)
+    measured["least_over_tiny_data"] = reached.min()
+    sharp = Above(SHARP, "least_over_tiny_data", says="least of them over its value for tiny data")
+    return judge(measured, AllOf(sharp, Above(ATTAINED, "attained_theorem_3")), caveat)

@@ -40,7 +40,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
 def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
     names = ("end", "sites", "over_its_law")
     quotes = {name: ledger.quote("unbounded_in_time", name, 5) for name in names}
-    power, error = (ledger.value("unbounded_in_time", name) for name in ("power", "error"))
+    power, error = (ledger.value("unbounded_in_time", name) for name in ("exponent", "error"))
     return {
         **quotes,
         "known": bool(np.isfinite(power)),
@@ -51,7 +51,7 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
         "near": abs(power - ROOT) < NEAR,
         "half": number(ROOT),
         "measure": number(NEAR),
-        "linf_power": ledger.quote("unbounded_maximum", "power", 2),
+        "linf_power": ledger.quote("unbounded_maximum", "exponent", 2),
         "linf_last": ledger.quote("unbounded_maximum", "last"),
     }
 

@@ -1,0 +1,260 @@
+"""Criteria that decide and print themselves, and the verdicts that follow from them.
+
+A criterion is an object: `holds` decides by its limit, and `str` writes the same limit, so that the
+text in the ledger can never differ from the constant that decides. What is not a number satisfies
+no criterion. A verdict is computed from a criterion and numbers, never typed.
+"""
+
+import math
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+Measured = Mapping[str, float]
+
+
+class Criterion:
+    """A limit on measured numbers; all of `names` must keep it.
+
+    `says` are the words for them in print, where the names alone do not tell what they are.
+    """
+
+    def __init__(self, limit: float, *names: str, says: str = ""):
+        self.limit, self.names, self.says = float(limit), names, says
+
+    def keeps(self, value: float) -> bool:
+        """Return whether one number keeps the limit."""
+        raise NotImplementedError
+
+    def wrong(self) -> float:
+        """Return a number that does not keep it."""
+        raise NotImplementedError
+
+    def failing(self, measured: Measured) -> list[str]:
+        """Return the names whose numbers do not keep the limit."""
+        return [name for name in self.names if not self.keeps(measured[name])]
+
+    def holds(self, measured: Measured) -> bool:
+        """Return whether all numbers keep the limit."""
+        return not self.failing(measured)
+
+    def refuted_by(self) -> list[dict[str, float]]:
+        """Return measured numbers, each of which the criterion must refuse."""
+        return [{name: self.wrong()} for name in self.names]
+
+    @property
+    def words(self) -> str:
+        """What is held to the limit."""
+        return self.says or ", ".join(map(in_words, self.names))
+
+
+class Below(Criterion):
+    """Each number is less than the limit."""
+
+    def keeps(self, value: float) -> bool:
+        return value < self.limit
+
+    def wrong(self) -> float:
+        return self.limit
+
+    def __str__(self) -> str:
+        return f"{self.words} < {plain(self.limit)}"
+
+
+class AtMost(Below):
+    """No number is above the limit."""
+
+    def keeps(self, value: float) -> bool:
+        return value <= self.limit
+
+    def wrong(self) -> float:
+        return float(np.nextafter(self.limit, math.inf))
+
+    def __str__(self) -> str:
+        return f"{self.words} <= {plain(self.limit)}"
+
+
+class Above(Criterion):
+    """Each number is greater than the limit."""
+
+    def keeps(self, value: float) -> bool:
+        return value > self.limit
+
+    def wrong(self) -> float:
+        return self.limit
+
+    def __str__(self) -> str:
+        return f"{self.words} > {plain(self.limit)}"
+
+
+class AtLeast(Above):
+    """No number is below the limit."""
+
+    def keeps(self, value: float) -> bool:
+        return value >= self.limit
+
+    def wrong(self) -> float:
+        return float(np.nextafter(self.limit, -math.inf))
+
+    def __str__(self) -> str:
+        return f"{self.words} >= {plain(self.limit)}"
+
+
+class WithinFactor(Criterion):
+    """Each number lies between one over the limit and the limit, which is a factor above one."""
+
+    def keeps(self, value: float) -> bool:
+        return 1.0 / self.limit < value < self.limit
+
+    def wrong(self) -> float:
+        return self.limit
+
+    def __str__(self) -> str:
+        return f"{plain(1.0 / self.limit)} < {self.words} < {plain(self.limit)}"
+
+
+class Near(Criterion):
+    """Each number differs from `target` by no more than the limit."""
+
+    def __init__(self, target: float, limit: float, *names: str, says: str = ""):
+        super().__init__(limit, *names, says=says)
+        self.target = float(target)
+
+    def keeps(self, value: float) -> bool:
+        return abs(value - self.target) <= self.limit
+
+    def wrong(self) -> float:
+        return self.target + 2.0 * self.limit + 1.0
+
+    def __str__(self) -> str:
+        if self.target == 0.0:
+            return f"|{self.words}| <= {plain(self.limit)}"
+        return f"{self.words} within {plain(self.limit)} of {plain(self.target)}"
+
+
+class Levels(Criterion):
+    """Each half-width from which a curve is level is finite: it does level off."""
+
+    def __init__(self, *names: str, says: str = "the half-width where it levels off"):
+        super().__init__(math.inf, *names, says=says)
+
+    def keeps(self, value: float) -> bool:
+        return math.isfinite(value)
+
+    def wrong(self) -> float:
+        return math.inf
+
+    def __str__(self) -> str:
+        return f"{self.words} is finite"
+
+
+class NeverLevels(Levels):
+    """No curve levels off."""
+
+    def keeps(self, value: float) -> bool:
+        return value == math.inf
+
+    def wrong(self) -> float:
+        return 0.0
+
+    def __str__(self) -> str:
+        return f"{self.words} is infinite"
+
+
+class AboveByErrors(Above):
+    """A number is greater than the limit by so many of its standard errors."""
+
+    def __init__(self, limit: float, name: str, error: str, errors: float):
+        super().__init__(limit, name)
+        self.error, self.errors = error, float(errors)
+
+    def failing(self, measured: Measured) -> list[str]:
+        (name,) = self.names
+        least = measured[name] - self.errors * measured[self.error]
+        return [] if self.keeps(least) else [name]
+
+    def refuted_by(self) -> list[dict[str, float]]:
+        (name,) = self.names
+        return [{name: self.limit, self.error: 0.0}, {name: self.limit + 1.0, self.error: math.inf}]
+
+    def __str__(self) -> str:
+        return f"{self.words} less {plain(self.errors)} errors > {plain(self.limit)}"
+
+
+class AllOf(Criterion):
+    """Several criteria, all of which must hold."""
+
+    def __init__(self, *criteria: Criterion):
+        super().__init__(math.nan, *dict.fromkeys(name for one in criteria for name in one.names))
+        self.criteria = criteria
+
+    def failing(self, measured: Measured) -> list[str]:
+        return [name for one in self.criteria for name in one.failing(measured)]
+
+    def refuted_by(self) -> list[dict[str, float]]:
+        """Return numbers that one part refuses; the names of the other parts stay open."""
+        return [numbers for one in self.criteria for numbers in one.refuted_by()]
+
+    def __str__(self) -> str:
+        return ", ".join(map(str, self.criteria))
+
+
+def plain(number: float) -> str:
+    """Return a limit: as it is where eight digits suffice, else rounded to four."""
+    texts = (f"{number:.{digits}g}" for digits in range(4, 9))
+    return next((text for text in texts if float(text) == number), f"{number:.4g}")
+
+
+def in_words(name: str) -> str:
+    """Return the name of a number as words."""
+    return name.replace("_over_", " / ").replace("_", " ")
+
+
+class Verdict(StrEnum):
+    """All that can be said of a sentence of the paper."""
+
+    CONFIRMED = "confirmed"
+    CAVEAT = "confirmed with a caveat"
+    NOT_REPRODUCED = "not reproduced"
+    UNDECIDED = "cannot be decided"
+
+
+class UndecidableError(Exception):
+    """Raised by a deciding function whose data do not suffice; the message says why."""
+
+
+class Finding(NamedTuple):
+    """What was measured for a claim, by which criterion it is judged, and what follows."""
+
+    measured: dict[str, float]
+    criterion: Criterion | None
+    verdict: Verdict
+    because: str
+
+
+def judge(
+    measured: Measured, criterion: Criterion, caveat: str = "", fails: str = "not within its limit"
+) -> Finding:
+    """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
+
+    A `caveat` that is not empty stays with what holds.
+    """
+    numbers = {name: float(value) for name, value in measured.items()}
+    if not criterion.holds(numbers):
+        return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails)
+    verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED
+    return Finding(numbers, criterion, verdict, caveat)
+
+
+def undecided(measured: Measured, because: str) -> Finding:
+    """Return a finding that no number at hand can settle."""
+    numbers = {name: float(value) for name, value in measured.items()}
+    return Finding(numbers, None, Verdict.UNDECIDED, because)
+
+
+def within_tolerance(check, *names: str) -> Finding:
+    """Return the finding of a check that holds when these variables keep their tolerances."""
+    measured = {name: float(np.max(check[name].values)) for name in names}
+    return judge(measured, AllOf(*(AtMost(check[name].attrs["tolerance"], name) for name in names)))

@@ -1,0 +1,343 @@
+"""Section 5, Figs 2 to 4: the energy and the norms against time."""
+
+import numpy as np
+
+from pendula.ledger.claim import (
+    CHANGE,
+    FACTOR,
+    LARGE,
+    MUCH,
+    SMALL,
+    checks,
+    claim,
+    halves,
+    late,
+    runs,
+)
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Near,
+    UndecidableError,
+    WithinFactor,
+    judge,
+)
+from pendula.measures.norms import constants, largest, mean, total_power
+from pendula.studies.theory.bounds import theorem_1_bound, theorem_3_bound
+
+SECTION = 5
+
+# ASSUME: "decreases": to less than half; "oscillates between": squares of norms correlated below
+# -0.8; "effectively separated": three quarters of A are kept.
+HALF, ANTICORRELATED, KEPT = 0.5, -0.8, 0.75
+# ASSUME: a rise of 10 % is worth a caveat.
+RISE = 0.1
+# ASSUME: "is unstable": grows by e within 3; "many": a quarter; a pendulum is "excited" at a fifth
+# of the largest amplitude; curves are apart at 30 % of scale.
+UNSTABLE, MANY, EXCITED, APART = 3.0, 0.25, 0.2, 0.3
+
+
+def drifts(solvers, size: str) -> Finding:
+    """Return the finding of a claim on the energy over the cases with data of this size."""
+    cases = [str(case) for case in solvers["case"].values if str(case).endswith(size)]
+    if not cases:
+        raise UndecidableError(f"no case has {size} data")
+    chosen = solvers.sel(case=cases, solver="ode45")
+    largest_drifts = chosen["largest_drift"].sel(span="whole").values
+    measured = dict(zip(cases, largest_drifts, strict=True))
+    limit = float(chosen["allowed_drift"].values.max())
+    criterion = AtMost(limit, *cases, says="largest |H - H(0)|")
+    failing = ", ".join(criterion.failing(measured))
+    fails = f"not for {failing}, by a solver whose tolerances the paper does not give"
+    return judge(measured, criterion, fails=fails)
+
+
+@claim(
+    "energy_small",
+    "Section 5",
+    "H is conserved to the order of 1e-6 for the smaller data.",
+    checks("solvers"),
+)
+def drifts_of_small_data(solvers) -> Finding:
+    return drifts(solvers, "small")
+
+
+@claim(
+    "energy_large",
+    "Section 5",
+    "H is conserved to the order of 1e-4 for the larger data.",
+    checks("solvers"),
+)
+def drifts_of_large_data(solvers) -> Finding:
+    return drifts(solvers, "large")
+
+
+@claim(
+    "fig2_bounded",
+    "Section 5, Fig 2",
+    "The simulation confirms the global bound of Theorem 1 at Omega = 8.",
+    runs("fig2_small", "fig2_large"),
+)
+def bounded_by_theorem_1(small, large) -> Finding:
+    ratios = [
+        total_power(ds).max() / theorem_1_bound(float(ds["energy"][0]), constants(ds))
+        for ds in (small, large)
+    ]
+    measured = dict(zip(("small", "large"), ratios, strict=True))
+    return judge(measured, AtMost(1.0, "small", "large", says="largest P over C"))
+
+
+@claim(
+    "fig2_centre",
+    "Section 5, Fig 2 upper",
+    "The oscillation of the central pendulum decreases.",
+    runs("fig2_small"),
+)
+def centre_decreases(small) -> Finding:
+    a = late(small)["linf"].sel(component="A").max() / small["linf"].sel(component="A")[0]
+    says = "largest late amplitude over the initial one"
+    return judge({"largest_late_amplitude": a}, Below(HALF, "largest_late_amplitude", says=says))
+
+
+@claim(
+    "fig2_exchange",
+    "Section 5, Fig 2 upper",
+    "The l2 norm oscillates between A and B.",
+    runs("fig2_small"),
+)
+def modes_exchange(small) -> Finding:
+    a, b = late(small)["l2"].values ** 2
+    with np.errstate(invalid="ignore"):  # constant norms have no correlation
+        correlation, swing = np.corrcoef(a, b)[0, 1], float(np.ptp(a) / np.mean(a))
+    measured = {"correlation": correlation, "swing_of_A": swing}
+    against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
+    return judge(measured, AllOf(against, Above(CHANGE, "swing_of_A")))
+
+
+@claim(
+    "fig2_maxima",
+    "Section 5, Fig 2 upper",
+    "The l-infinity norms of A and B are comparable and change little.",
+    runs("fig2_small"),
+)
+def maxima_comparable(small) -> Finding:
+    first, second = halves(small)
+    ratio = mean(late(small), "linf", "A") / mean(late(small), "linf", "B")
+    change = max(abs(mean(second, "linf", k) / mean(first, "linf", k) - 1.0) for k in "AB")
+    measured = {"ratio": ratio, "change": change}
+    little = Below(CHANGE, "change", says="change between halves")
+    return judge(measured, AllOf(WithinFactor(FACTOR, "ratio"), little))
+
+
+@claim(
+    "fig2_separate",
+    "Section 5, Fig 2 lower",
+    "The motion of A is effectively separated from that of B.",
+    runs("fig2_large"),
+)
+def modes_separate(large) -> Finding:
+    settled = late(large)
+    share = settled["linf"].sel(component="A") / large["linf"].sel(component="A")[0]
+    ratio = settled["l2"].sel(component="B").max() / settled["l2"].sel(component="A").min()
+    measured = {"smallest_A_kept": share.min(), "B_over_A": ratio}
+    kept = Above(KEPT, "smallest_A_kept", says="smallest part of its maximum that A keeps")
+    small = Below(1.0 / MUCH, "B_over_A", says="l2 of B over that of A")
+    return judge(measured, AllOf(kept, small))
+
+
+@claim(
+    "fig2_alone",
+    "Section 5, Fig 2 lower",
+    "The central pendulum does not excite large oscillations of others.",
+    runs("fig2_large"),
+)
+def centre_alone(large) -> Finding:
+    start = float(large["linf"].sel(component="A")[0])
+    a = large.sel(component="A")
+    others = np.sqrt(np.maximum(0.0, a["l2"] ** 2 - a["linf"] ** 2)).max() / start
+    partner = large["linf"].sel(component="B").max() / start
+    measured = {"all_other_A": others, "largest_B": partner}
+    says = "all other A, largest B over A_0"
+    return judge(measured, Below(1.0 / MUCH, "all_other_A", "largest_B", says=says))
+
+
+@claim(
+    "fig3_alike",
+    "Section 5, Fig 3 upper",
+    "For small data Omega = -4 shows no drastic difference to Omega = 8.",
+    runs("fig2_small", "fig3_small"),
+)
+def like_omega_8(eight, four) -> Finding:
+    l2 = np.sqrt(total_power(late(four)).mean() / total_power(late(eight)).mean())
+    linf = largest(late(four)).mean() / largest(late(eight)).mean()
+    measured = {"l2_ratio": l2, "linf_ratio": linf}
+    return judge(measured, WithinFactor(FACTOR, "l2_ratio", "linf_ratio"))
+
+
+@claim(
+    "fig3_mix",
+    "Section 5, Fig 3 lower",
+    "A and B mix up.",
+    runs("fig3_large"),
+)
+def modes_mix(large) -> Finding:
+    _, second = halves(large)
+    ratio = mean(second, "l2", "A") / mean(second, "l2", "B")
+    initial = float(large["l2"].sel(component="A")[0] / large["l2"].sel(component="B")[0])
+    measured = {"l2_ratio": ratio, "initial_ratio": initial}
+    return judge(measured, WithinFactor(FACTOR, "l2_ratio", says="late ratio of l2"))
+
+
+@claim(
+    "fig3_excited",
+    "Section 5, Fig 3 lower",
+    "The central pendulum excites large oscillations of others and l2 grows.",
+    runs("fig3_large"),
+)
+def others_excited(large) -> Finding:
+    _, second = halves(large)
+    growth = np.sqrt(total_power(second).mean() / total_power(large)[0])
+    sites = total_power(second).mean() / np.mean(largest(second) ** 2)
+    measured = {"l2_growth": growth, "pendula_in_motion": sites}
+    return judge(measured, AllOf(Above(FACTOR, "l2_growth"), Above(MUCH, "pendula_in_motion")))
+
+
+@claim(
+    "fig3_maximum",
+    "Section 5, Fig 3 lower",
+    "The l-infinity norm stays at the level of the initial data.",
+    runs("fig3_large"),
+)
+def maximum_stays(large) -> Finding:
+    ratio = largest(late(large)) / largest(large)[0]
+    measured = {"mean": ratio.mean(), "largest": ratio.max()}
+    grown = measured["mean"] > 1.0 + RISE
+    caveat = f"it rises by {100 * (measured['mean'] - 1):.0f} % on average" if grown else ""
+    return judge(measured, Below(FACTOR, "largest", says="largest over the initial value"), caveat)
+
+
+@claim(
+    "fig4_unstable",
+    "Section 5, Fig 4",
+    "Zero is linearly unstable at Omega = 0.",
+    runs("fig4_small", "fig4_large"),
+)
+def unstable_at_zero(small, large) -> Finding:
+    rates = [
+        0.5
+        * np.log(total_power(ds.sel(tau=slice(0, UNSTABLE))).max() / total_power(ds)[0])
+        / UNSTABLE
+        for ds in (small, large)
+    ]
+    measured = {"mean_rate_small": rates[0], "mean_rate_large": rates[1]}
+    return judge(
+        measured, Above(1.0 / UNSTABLE, "mean_rate_small", says="mean rate of the small data")
+    )
+
+
+@claim(
+    "fig4_settles",
+    "Section 5, Fig 4",
+    "Growth stabilises at a certain level of the l-infinity norm.",
+    runs("fig4_small", "fig4_large"),
+)
+def maximum_settles(small, large) -> Finding:
+    changes = []
+    for ds in (small, large):
+        first, second = halves(ds)
+        changes.append(abs(largest(second).mean() / largest(first).mean() - 1.0))
+    measured = {"change_small": changes[0], "change_large": changes[1]}
+    says = "change between halves"
+    return judge(measured, Below(CHANGE, "change_small", "change_large", says=says))
+
+
+@claim(
+    "fig4_l2_larger",
+    "Section 5, Fig 4",
+    "The l2 norm is significantly larger than the l-infinity norm.",
+    runs("fig4_small", "fig4_large"),
+)
+def sum_exceeds_maximum(small, large) -> Finding:
+    ratios = [np.mean(np.sqrt(total_power(late(ds))) / largest(late(ds))) for ds in (small, large)]
+    measured = {"small": ratios[0], "large": ratios[1]}
+    return judge(measured, Above(MUCH, "small", "large", says="l2 over l-infinity"))
+
+
+@claim(
+    "fig4_many",
+    "Section 5, Fig 4",
+    "Many pendula oscillate with amplitudes comparable to the central one's.",
+    runs("fig4_small", "fig4_large"),
+)
+def many_in_motion(small, large) -> Finding:
+    shares = []
+    for ds in (small, large):
+        settled = late(ds)
+        pendula = 2.0 * (2 * int(ds.attrs["half_width"]) + 1)
+        shares.append(np.mean(total_power(settled) / largest(settled) ** 2) / pendula)
+    measured = {"share_small": shares[0], "share_large": shares[1]}
+    says = "P over l-infinity^2 and 2N"
+    return judge(measured, Above(MANY, "share_small", "share_large", says=says))
+
+
+@claim(
+    "fig4_alike",
+    "Section 5, Fig 4",
+    "There are no visible differences between the upper and lower panels.",
+    runs("fig4_small", "fig4_large"),
+)
+def panels_alike(small, large) -> Finding:
+    a, b = late(small), late(large)
+    l2 = np.sqrt(total_power(b).mean() / total_power(a).mean()) - 1.0
+    linf = largest(b).mean() / largest(a).mean() - 1.0
+    early = np.abs(np.sqrt(total_power(large)) - np.sqrt(total_power(small)))
+    scale = np.sqrt(total_power(a).mean())
+    apart = small["tau"].values[early > APART * scale]
+    until = apart[-1] if len(apart) else 0.0
+    measured = {"l2": l2, "linf": linf, "curves_apart_until": until, "initially": early[0]}
+    caveat = ""
+    if early[0] > RISE * largest(a).mean():
+        caveat = "in the mean after tau = 10; before, and in detail, the curves differ"
+    says = "difference of the late means of l2, linf"
+    return judge(measured, Near(0.0, CHANGE, "l2", "linf", says=says), caveat)
+
+
+@claim(
+    "equilibrium",
+    "Abstract; Section 6",
+    "Excitation spreads until every pendulum oscillates at a finite amplitude.",
+    runs("fig4_small"),
+)
+def equilibrium(small) -> Finding:
+    if "modulus" not in small:
+        raise UndecidableError("the trajectory holds no amplitudes of single pendula")
+    modulus = small["modulus"].max("component").values
+    level = EXCITED * modulus.max()
+    reached = [modulus[edge].max() > level for edge in (0, -1)]
+    arrival = np.flatnonzero(np.maximum(modulus[0], modulus[-1]) > level)
+    when = float(small["snapshot_tau"][arrival[0]]) if len(arrival) else np.inf
+    first, second = halves(small)
+    change = abs(total_power(second).mean() / total_power(first).mean() - 1.0)
+    measured = {"arrival_at_the_ends": when, "ends_reached": sum(reached), "change_of_P": change}
+    caveat = f"the spreading stops at tau = {when:.0f} since the chain ends there"
+    both = AtLeast(2, "ends_reached")
+    return judge(measured, AllOf(both, Below(CHANGE, "change_of_P")), caveat)
+
+
+@claim(
+    "finite_bound",
+    "Section 5, before Fig 5",
+    "By Theorem 3 the solution in the finite chain stays bounded.",
+    (*SMALL, *LARGE),
+)
+def finite_bound(*trajectories) -> Finding:
+    ratios = []
+    for ds in trajectories:
+        sites = 2 * int(ds.attrs["half_width"]) + 1
+        bound = theorem_3_bound(float(ds["energy"][0]), sites, constants(ds))
+        ratios.append(total_power(ds).max() / bound)
+    return judge({"largest": max(ratios)}, AtMost(1.0, "largest", says="largest P over C_N"))

@@ -1,0 +1,325 @@
+"""Section 5, Figs 5 and 6: norms over time windows against the half-width M; the second solver.
+
+On a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
+and once the front does not reach the ends, a longer chain changes nothing.
+"""
+
+import numpy as np
+
+from pendula.ledger.claim import (
+    CHANGE,
+    CONSTANT,
+    FACTOR,
+    FEWEST,
+    NEARLY_ALL,
+    checks,
+    claim,
+    runs,
+    sweeps,
+    swept,
+)
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Levels,
+    NeverLevels,
+    UndecidableError,
+    judge,
+    undecided,
+)
+from pendula.measures.levels import levelling, relative_range, rising_share
+from pendula.measures.norms import constants, total_power
+from pendula.studies.theory.bounds import (
+    proven_region,
+    theorem_1_bound,
+    theorem_2_constants,
+    widened_bound,
+)
+
+SECTION = 5
+
+# ASSUME: "whatever M" leaves out M < 10, where the ends are everywhere.
+SHORTEST = 10
+WINDOW = "[10, 50]"
+"""Of Fig 5, by the text and by the caption."""
+# ASSUME: a maximum that falls to 90 % of the peak has fallen back.
+FALLEN = 0.9
+TEXT_6, CAPTION_6 = "[10, 70]", "[10, 40]"
+"""Of Fig 6, by the text and by the caption."""
+PAIR = "ode45 - crank_nicolson"
+"""The paper's two solvers."""
+
+
+@claim(
+    "fig5_grows",
+    "Section 5, Fig 5 right",
+    "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
+    sweeps("fig5_right"),
+)
+def l2_grows_with_m(sweep) -> Finding:
+    m, l2 = swept(sweep, "l2", "max", WINDOW)
+    level = levelling(m, l2)
+    rising = l2[: np.searchsorted(m, level) + 1] if np.isfinite(level) else l2
+    measured = {"growth": l2[-1] / l2[0], "rising": rising_share(rising), "level_from": level}
+    caveat = f"up to M = {level:.0f}, where it levels off" if np.isfinite(level) else ""
+    up = Above(NEARLY_ALL, "rising", says="share of steps up")
+    return judge(measured, AllOf(Above(FACTOR, "growth"), up), caveat)
+
+
+@claim(
+    "fig5_conjecture",
+    "Section 5, Fig 5 right",
+    "This confirms growth on the unbounded lattice as time goes to infinity.",
+    sweeps("fig5_right"),
+)
+def conjecture(sweep) -> Finding:
+    m, l2 = swept(sweep, "l2", "max", WINDOW)
+    level = levelling(m, l2)
+    measured = {"growth": l2[-1] / l2[0], "level_from": level, "level": l2[-1]}
+    grows = Above(1.0, "growth")
+    if not grows.holds(measured):
+        return judge(measured, grows)
+    if np.isfinite(level):
+        return undecided(
+            measured,
+            f"on a fixed window l2 levels off (from M = {level:.0f}); growth in time needs windows"
+            " that grow with M",
+        )
+    return undecided(measured, "the chains are too short to see the level of a fixed window")
+
+
+@claim(
+    "fig5_maximum",
+    "Section 5, Fig 5 right",
+    "The l-infinity norm saturates to the same level whatever M.",
+    sweeps("fig5_right"),
+)
+def maximum_independent_of_m(sweep) -> Finding:
+    m, linf = swept(sweep, "linf", "max", WINDOW)
+    kept = linf[m >= SHORTEST] if np.any(m >= SHORTEST) else linf
+    measured = {"relative_range": relative_range(kept), "mean": np.mean(kept)}
+    says = f"range over mean from M = {SHORTEST} on"
+    return judge(measured, Below(CHANGE, "relative_range", says=says))
+
+
+@claim(
+    "fig5_decreases",
+    "Section 5, Fig 5 left",
+    "At Omega = -4 the l2 norm decreases in M towards a level.",
+    sweeps("fig5_left"),
+)
+def l2_decreases_with_m(sweep) -> Finding:
+    m, highest = swept(sweep, "l2", "max", WINDOW)
+    _, average = swept(sweep, "l2", "mean", WINDOW)
+    measured = {
+        "fall_of_maximum": 1.0 - highest[-1] / highest[0],
+        "fall_of_mean": 1.0 - average[-1] / average[0],
+        "level_from": levelling(m, highest),
+    }
+    caveat = ""
+    if measured["fall_of_mean"] <= CONSTANT:
+        caveat = "for the maximum that the text names, not for the average of the caption"
+    return judge(measured, AllOf(Above(CONSTANT, "fall_of_maximum"), Levels("level_from")), caveat)
+
+
+@claim(
+    "fig5_theorem_2",
+    "Section 5, Fig 5 left",
+    "The absence of growth agrees with Theorem 2.",
+    (*runs("fig3_small"), *sweeps("fig5_left")),
+)
+def agrees_with_theorem_2(case, sweep) -> Finding:
+    start, energy = float(total_power(case)[0]), float(case["energy"][0])
+    parameters, boundary = constants(case), str(case.attrs["boundary"])
+    region = proven_region(energy, start, parameters, boundary)
+    observed = max(float(sweep["l2"].sel(quantity="pair").max()) ** 2, total_power(case).max())
+    delta_0, c_0 = theorem_2_constants(parameters)
+    widened = widened_bound(energy, start, parameters)
+    measured = {
+        "delta": start,
+        "delta_0": delta_0,
+        "P_over_C0_delta": observed / (c_0 * start),
+        "P_over_widened_bound": observed / widened,
+    }
+    caveat = ""
+    if region == "theorem 2 widened":
+        caveat = "outside delta_0 of the theorem as proved; inside once the bonds are kept"
+    elif region == "none":
+        caveat = "the data lie outside every proven region"
+    return judge(measured, AtMost(1.0, "P_over_C0_delta", says="P over C_0 delta"), caveat)
+
+
+@claim(
+    "fig5_caption",
+    "Fig 5, caption",
+    "The norms shown are averages over [10, 50].",
+    sweeps("fig5_left"),
+)
+def caption_of_fig_5(sweep) -> Finding:
+    _, average = swept(sweep, "l2", "mean", WINDOW)
+    fall = 1.0 - average[-1] / average[0]
+    fails = "the average does not decrease in M as the text says of this figure"
+    return judge({"fall_of_mean": fall}, Above(CONSTANT, "fall_of_mean"), fails=fails)
+
+
+@claim(
+    "fig5_not_shown",
+    "Section 5, Fig 5",
+    "A similar dependence (not shown) exists for Omega = 8.",
+    checks("not_shown"),
+)
+def not_shown(check) -> Finding:
+    l2 = check["l2"].values
+    level = levelling(check["half_width"].values, l2, CONSTANT)
+    measured = {"fall": 1.0 - l2[-1] / l2[0], "level_from": level}
+    return judge(measured, AllOf(AtLeast(0.0, "fall"), Levels("level_from")))
+
+
+@claim(
+    "fig6_constant",
+    "Section 5, Fig 6 left",
+    "At Omega = 8 the maximal l2 norm does not change with N.",
+    sweeps("fig6_left"),
+)
+def independent_of_m(sweep) -> Finding:
+    _, l2 = swept(sweep, "l2", "max", TEXT_6)
+    criterion = Below(CONSTANT, "relative_range", says="range over mean")
+    return judge({"relative_range": relative_range(l2)}, criterion)
+
+
+@claim(
+    "fig6_theorem_1",
+    "Section 5, Fig 6 left",
+    "This agrees with Theorem 1.",
+    (*runs("fig2_large"), *sweeps("fig6_left")),
+)
+def bounded_by_theorem_1(case, sweep) -> Finding:
+    bound = float(theorem_1_bound(float(case["energy"][0]), constants(case)))
+    ratio = float(sweep["l2"].sel(quantity="pair").max()) ** 2 / bound
+    return judge({"ratio": ratio}, AtMost(1.0, "ratio", says="largest P over C"))
+
+
+@claim(
+    "fig6_grows",
+    "Section 5, Fig 6 right",
+    "At Omega = -4, large data, the maximal l2 norm grows with M.",
+    sweeps("fig6_right"),
+)
+def large_data_grow_with_m(sweep) -> Finding:
+    m, l2 = swept(sweep, "l2", "max", TEXT_6)
+    peak = int(np.argmax(l2))
+    measured = {"peak_over_first": l2[peak] / l2[0], "peak_at": m[peak], "last": l2[-1] / l2[peak]}
+    caveat = ""
+    if measured["last"] < FALLEN:
+        caveat = f"up to M = {m[peak]}; beyond it falls back to {measured['last']:.2f} of the peak"
+    return judge(measured, Above(FACTOR, "peak_over_first"), caveat)
+
+
+@claim(
+    "fig6_diverges",
+    "Section 5, Fig 6 right",
+    "It apparently diverges as N goes to infinity.",
+    sweeps("fig6_right"),
+)
+def large_data_diverge(sweep) -> Finding:
+    m, l2 = swept(sweep, "l2", "max", TEXT_6)
+    level = levelling(m, l2)
+    measured = {"level_from": level, "last": l2[-1], "largest": l2.max()}
+    fails = f"it is level from M = {level:.0f} on, as it must be on a fixed window"
+    return judge(measured, NeverLevels("level_from"), fails=fails)
+
+
+@claim(
+    "fig6_not_technical",
+    "Section 5, Fig 6 right",
+    "That Theorem 2 is limited to small data is not a technical shortfall.",
+    (*runs("fig3_large"), *sweeps("fig6_right")),
+)
+def not_technical(case, sweep) -> Finding:
+    m, l2 = swept(sweep, "l2", "max", TEXT_6)
+    c_0 = theorem_2_constants(constants(case))[1]
+    start = float(total_power(case)[0])
+    measured = {"P_over_delta": l2[-1] ** 2 / start, "C_0": c_0, "longest_chain": m[-1]}
+    caveat = "growth without bound in time is not decided by a fixed window"
+    return judge(measured, Above(c_0, "P_over_delta"), caveat)
+
+
+@claim(
+    "fig6_caption",
+    "Fig 6, caption",
+    "The norms shown are averages over [10, 40].",
+    sweeps("fig6_left", "fig6_right"),
+)
+def caption_of_fig_6(left, right) -> Finding:
+    readings = (("max", TEXT_6), ("mean", CAPTION_6))
+    flat = [relative_range(swept(left, "l2", *reading)[1]) < CONSTANT for reading in readings]
+    grows = []
+    for reading in readings:
+        values = swept(right, "l2", *reading)[1]
+        grows.append(values.max() / values[0] > FACTOR)
+    measured = {"flat_by_text": flat[0], "flat_by_caption": flat[1]}
+    measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}
+    if flat[0] == flat[1] and grows[0] == grows[1]:
+        return undecided(measured, "both readings fit what the text says of the figure")
+    return judge(measured, AtLeast(1.0, "flat_by_caption", "grows_by_caption"))
+
+
+@claim(
+    "second_solver",
+    "Section 5, end",
+    "Figs 2 to 4 come out of the second solver without significant differences.",
+    checks("solvers"),
+)
+def differences_of_solvers(solvers) -> Finding:
+    pair = solvers.sel(pair=PAIR)
+    times = {
+        str(case): float(pair["divergence_time"].sel(case=case)) for case in pair["case"].values
+    }
+    measured = {f"divergence_{case}": time for case, time in times.items()}
+    measured["largest_late_difference"] = pair["late_difference"].max()
+    apart = {case: time for case, time in times.items() if np.isfinite(time)}
+    caveat = ""
+    if apart:
+        level, first = 100 * float(solvers["visible"]), min(apart.values())
+        caveat = (
+            f"{', '.join(apart)} differ by {level:g} % from tau = {first:.3g} on; their means agree"
+        )
+    says = "difference of the mean norms of the second half"
+    return judge(measured, Below(CHANGE, "largest_late_difference", says=says), caveat)
+
+
+@claim(
+    "second_solver_sweeps",
+    "Section 5, end",
+    "So do Figs 5 and 6.",
+    checks("solvers"),
+)
+def differences_of_sweeps(solvers) -> Finding:
+    measured = {}
+    for name in map(str, solvers["sweep"].values):
+        difference = solvers["sweep_difference"].sel(sweep=name, statistic="max")
+        known = difference.dropna("half_width", how="all")
+        if known.sizes["half_width"] < FEWEST:
+            raise UndecidableError("the sweeps have fewer than six half-widths")
+        measured[f"largest_{name}"] = known.max()
+        measured[f"median_{name}"] = known.median()
+    largest = [name for name in measured if name.startswith("largest_")]
+    criterion = Below(CHANGE, *largest, says="largest difference of a point")
+    visible = [name for name in largest if measured[name] > float(solvers["visible"])]
+    apart = criterion.failing(measured)
+    typical = max((measured[_median(name)] for name in apart), default=0.0)
+    fails = f"points of {_sweeps(apart)} differ by more, half of them below {100 * typical:.2g} %"
+    caveat = f"points of {_sweeps(visible)} differ visibly: the motion is chaotic there"
+    return judge(measured, criterion, caveat if visible else "", fails)
+
+
+def _median(name: str) -> str:
+    return f"median_{name.removeprefix('largest_')}"
+
+
+def _sweeps(names: list[str]) -> str:
+    return ", ".join(name.removeprefix("largest_") for name in names)
