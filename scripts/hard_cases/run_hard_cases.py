@@ -1,12 +1,15 @@
 """Run the hard cases: a dataset of what each solver made of them."""
 
 from pendula.datasets.netcdf import write
-from pendula.studies.hard_cases.table import outcomes, variables
+from pendula.studies.hard_cases.outcomes import outcomes, variables
 
 
-def run_hard_cases(data: str, kernels: list[str] | tuple = ()) -> None:
-    """Write the dataset; a row that does not end as expected is said here and marked in it."""
-    results = outcomes()
+def run_hard_cases(data: str, cases: list[dict], kernels: list[str] | tuple = ()) -> None:
+    """Write the dataset of `cases` (plain values, as the configuration has them).
+
+    A row that does not end as expected is said here and marked in it.
+    """
+    results = outcomes(cases)
     write(data, variables(results), {"title": "Hard cases for the solvers"})
     for result in results:
         if not result.sound:

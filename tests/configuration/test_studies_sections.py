@@ -5,15 +5,14 @@ import copy
 import pytest
 import yaml
 from helpers import ROOT, chosen
-from pendula.configuration.messages import ConfigurationError, load
-from pendula.studies import CONFIGURED
+from pendula.configuration.messages import STUDIES, ConfigurationError, load
 from pendula.studies.theory.settings import GROUPS
 
 
 @pytest.fixture(scope="module")
 def whole():
     """Return the project's configuration, as it stands in its files."""
-    files = [ROOT / f"config/{name}.yaml" for name in ("config", *CONFIGURED)]
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     return {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
 
 
@@ -27,7 +26,7 @@ def changed(whole, place, value):
     return copied
 
 
-@pytest.mark.parametrize("study", CONFIGURED)
+@pytest.mark.parametrize("study", STUDIES)
 def test_a_study_has_a_section_of_its_own(study, whole):
     assert list(yaml.safe_load((ROOT / f"config/{study}.yaml").read_text())) == [study]
     assert getattr(load(whole), study) is not None
@@ -60,6 +59,11 @@ def test_a_study_has_a_section_of_its_own(study, whole):
             ("unbounded", "varied", "omegas", "value"), [1],
             "unbounded.varied.omegas.value: is not a known key; did you mean 'values'?",
         ),
+        (
+            ("hard_cases", "cases", 3, "arguments", "omga"), 1,
+            "hard_cases.cases.3.arguments.omga: is not a known key; did you mean 'omega'?",
+        ),
+        (("hard_cases", "cases", 0, "solvers"), "tinny", "there are no solvers 'tinny'"),
         (("reference", "bits", "fig2_small"), [53, 40], "reference.bits.fig2_small.0: is 53"),
     ],
 )  # fmt: skip

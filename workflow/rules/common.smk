@@ -9,9 +9,8 @@ sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts",
 from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
-from pendula.configuration.messages import ConfigurationError, load
+from pendula.configuration.messages import STUDIES, ConfigurationError, load
 from pendula.problem import name_window
-from pendula.studies import CONFIGURED
 from pendula.studies.theory.settings import GROUPS, OBSERVED
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
@@ -22,7 +21,7 @@ os.environ.update(
     MKL_NUM_THREADS="1",
 )
 
-for study in CONFIGURED:
+for study in STUDIES:
 
     configfile: f"{workflow.basedir}/config/{study}.yaml"
 

@@ -12,6 +12,8 @@ rule hard_cases:
         "results/logs/checks/hard_cases.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        cases=SETTINGS.hard_cases.plain(),
     message:
         "Running the solvers on hard cases"
     script:

@@ -222,6 +222,6 @@ def settings_in_words():
         name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
         for name, sweep in sweeps.items()
     }
-    studies = {name: getattr(SETTINGS, name).model_dump() for name in CONFIGURED}
+    studies = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
     told = {"cases": cases, "sweeps": swept, **studies}
     return json.dumps(told, sort_keys=True, default=str)

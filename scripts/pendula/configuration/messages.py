@@ -1,12 +1,11 @@
 """Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
 
 import difflib
-from importlib import import_module
 from typing import get_args
 
 from pydantic import BaseModel, ValidationError, create_model
 
-from pendula.studies import CONFIGURED
+from pendula.studies import modules
 
 from .schema import (
     Auto,
@@ -55,7 +54,7 @@ WORDS = {
 }
 
 
-STUDIES = {name: import_module(f"pendula.studies.{name}.settings").Settings for name in CONFIGURED}
+STUDIES = {name: module.Settings for name, module in modules("settings").items()}
 Whole = create_model(
     "Whole", __base__=Configuration, **{name: (kind | None, None) for name, kind in STUDIES.items()}
 )

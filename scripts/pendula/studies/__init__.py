@@ -6,12 +6,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 
-STUDIES = ("paper", "theory", "chaos", "unbounded", "hard_cases")
-"""The studies whose claims and sections are collected, in the order in which they are told."""
-
-CONFIGURED = ("theory", "chaos", "unbounded", "reference")
-"""Studies with choices of their own: config/<name>.yaml holds them, <name>/settings.py says what
-may stand in it."""
+STUDIES = ("paper", "theory", "chaos", "unbounded", "hard_cases", "reference")
+"""The studies whose claims, sections and settings are collected, in the order in which they are
+told. A study with a module `settings` has its choices in config/<name>.yaml."""
 
 
 def modules(part: str) -> dict[str, ModuleType]:

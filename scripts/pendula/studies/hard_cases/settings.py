@@ -1,0 +1,88 @@
+"""What the configuration says of the hard cases: each with its solvers and what is expected.
+
+Numbers may be anything, not finite ones too, since solvers must refuse what makes no sense.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from pendula.configuration.schema import Model, Name, Whole
+
+MEASURES = (
+    *("miss_of_linear_flow", "miss_near_threshold", "miss_of_rotation", "drift_of_norms"),
+    *("drift_of_energy", "motion_of_rest", "miss_of_other", "miss_of_scaled"),
+    *("miss_of_single_pairs", "miss_of_short_chain", "run_anyway"),
+)
+"""The functions of `errors` by name."""
+
+
+class AnySolver(Model):
+    """A solver and its controls, sound or not."""
+
+    name: Literal["ode45", "crank_nicolson", "dop853", "taylor", "splitting"]
+    rtol: float | None = None
+    atol: float | None = None
+    step: float | None = None
+    tolerance: float | None = None
+    iterations: Whole | None = None
+
+
+class Arguments(Model):
+    """What the functions of `errors` take; each takes some of them."""
+
+    omega: float | None = None
+    gamma: float | None = None
+    factor: float | None = None
+    size: float | None = None
+    turns: float | None = None
+    tau: float | None = None
+    amplitude: float | None = None
+    power: Whole | None = None
+    sites: Whole | None = None
+    half_width: Whole | None = None
+
+
+class HardCase(Model):
+    """A case that each of `solvers` must solve to an error of `expected`, or refuse in words."""
+
+    case: str
+    against: str
+    measure: Literal[MEASURES]
+    arguments: Arguments = Arguments()
+    solvers: Name | list[AnySolver]
+    expected: float | str
+
+
+class Settings(Model):
+    """Section `hard_cases` of the configuration."""
+
+    solvers: dict[Name, Annotated[list[AnySolver], Field(min_length=1)]]
+    cases: Annotated[list[HardCase], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _solvers_are_known(self) -> "Settings":
+        for case in self.cases:
+            if isinstance(case.solvers, str) and case.solvers not in self.solvers:
+                raise PydanticCustomError(
+                    "solvers",
+                    "{case}: there are no solvers {name}; known are {known}",
+                    {
+                        "case": repr(case.case),
+                        "name": repr(case.solvers),
+                        "known": ", ".join(self.solvers),
+                    },
+                )
+        return self
+
+    def plain(self) -> list[dict[str, Any]]:
+        """Return the cases as plain values, every one with its own list of solvers."""
+        return [
+            case.model_dump(exclude_none=True)
+            | {"solvers": [one.model_dump(exclude_none=True) for one in self._solvers_of(case)]}
+            for case in self.cases
+        ]
+
+    def _solvers_of(self, case: HardCase) -> list[AnySolver]:
+        return self.solvers[case.solvers] if isinstance(case.solvers, str) else case.solvers
