@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 from pendula import notebook
 from pendula.datasets.netcdf import read
-from pendula.studies.own import figures
+from pendula.own_cases import figures
 from simulate_own import as_the_workflow_writes
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -1,8 +1,8 @@
 """Set one case beside the paper's statements, and measure how far its run can be trusted."""
 
 from pendula.datasets.netcdf import read, save
+from pendula.own_cases.checks import check_run
 from pendula.problem import Problem
-from pendula.studies.own.checks import check_run
 
 
 def check_case(run: str, problem: dict, checks: str, kernels: list[str] | tuple = ()) -> None:

@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.own import figures
+from pendula.own_cases import figures
 
 
 def draw_case(

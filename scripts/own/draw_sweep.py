@@ -3,7 +3,7 @@
 import xarray
 from pendula.datasets.netcdf import read, save
 from pendula.drawing.style import save as save_figure
-from pendula.studies.own import figures
+from pendula.own_cases import figures
 from pendula.studies.theory.bounds import check_sweeps
 
 

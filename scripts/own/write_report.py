@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from pendula.datasets.files import complete_or_absent
+from pendula.own_cases.section import gather
 from pendula.report.page import render
-from pendula.studies.own.section import gather
 
 
 def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:

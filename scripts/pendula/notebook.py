@@ -14,10 +14,10 @@ from pydantic import ValidationError
 from pendula.configuration.messages import in_words, load
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
-from pendula.problem import Problem
-from pendula.studies.own.checks import check_run
+from pendula.own_cases.checks import check_run
 
 from .configuration import schema
+from .problem import Problem
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
@@ -151,7 +151,7 @@ def draw_norms(run, checks=None):
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
     2
     """
-    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here, so that who draws nothing does without it
 
     return figures.draw_norms(figures.gather_norms(run, checks))
 
@@ -163,7 +163,7 @@ def draw_spacetime(run):
     >>> len(draw_spacetime(simulate(Case(omega=8, end_time=10))).axes)
     3
     """
-    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here, so that who draws nothing does without it
 
     return figures.draw_spacetime(figures.gather_spacetime(run))
 
@@ -178,6 +178,6 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)
     2
     """
-    from pendula.studies.own import figures  # here, so that who draws nothing does without it
+    from .own_cases import figures  # here, so that who draws nothing does without it
 
     return figures.draw_sweep(figures.gather_sweep(sweep, max_window, mean_window))

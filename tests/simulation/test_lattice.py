@@ -6,14 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
 from pendula.models.amplitudes import DIRICHLET, FREE, MIRROR, PERIODIC
-from pendula.simulation.lattice import (
-    Reduction,
-    choose_ends,
-    find_reduction,
-    pack,
-    spread,
-    unpack,
-)
+from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, spread, unpack
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 

@@ -98,9 +98,9 @@ def swept_pairs(make_sweep):
 @pytest.fixture(scope="session")
 def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     """Return what every figure draws, by the name of the figure."""
+    from pendula.own_cases import figures as own
     from pendula.studies.chaos import figures as chaos
     from pendula.studies.chaos.comparison import compare
-    from pendula.studies.own import figures as own
     from pendula.studies.paper import chain_figure, figures, solver_figures, solvers
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from matplotlib.text import Text
 from pendula.drawing import style
+from pendula.own_cases import figures as own
 from pendula.studies.chaos import figures as chaos
-from pendula.studies.own import figures as own
 from pendula.studies.paper import chain_figure, figures, solver_figures
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory

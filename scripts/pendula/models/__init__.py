@@ -1,6 +1,6 @@
 """The equations, once each: what a solver, an observable or a check needs of a model.
 
 `amplitudes` holds the paper's equations (4) and their energy (8), `amplitudes_series` the same
-equations for the Taylor method, `tangent` their linearisation along a solution, and `linear_flow`
-the exact solution without the cubic terms.
+equations for the Taylor method, `tangent` their linearisation along a solution, `linear_chain` the
+exact solution without the cubic terms and Lemma 1, `bounds` the constants of Theorems 1 to 3.
 """

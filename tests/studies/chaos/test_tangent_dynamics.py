@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
+from pendula.models.linear_chain import finite_rate
 from pendula.models.tangent import bundle_rates, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
 from pendula.studies.chaos.tangent_dynamics import grow
-from pendula.studies.theory.linear_stability import finite_rate
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)

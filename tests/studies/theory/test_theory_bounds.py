@@ -4,7 +4,7 @@ from dataclasses import astuple
 
 import numpy as np
 import pytest
-from pendula.studies.theory.bounds import (
+from pendula.models.bounds import (
     coercivity,
     extent,
     proven_region,

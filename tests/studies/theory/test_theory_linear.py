@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from pendula.studies.theory.linear_stability import (
+from pendula.models.linear_chain import (
     finite_rate,
     finite_threshold,
     gamma_0,
     growth_rate,
     infinite_rate,
-    stable_windows,
-    widest_gamma,
 )
+from pendula.studies.theory.linear_stability import stable_windows, widest_gamma
 
 
 @pytest.mark.parametrize(("omega", "expected"), [(8, 2), (-4, 2), (0, 0), (2, 0), (4, 0), (5, 0.5)])

@@ -10,7 +10,7 @@ import numpy as np
 
 from pendula.datasets.checks import table, variable
 from pendula.models.amplitudes import ENDS, energy, rates
-from pendula.models.linear_flow import curvatures, modes
+from pendula.models.linear_chain import curvatures, modes
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
 from pendula.simulation.simulate import IntegrationError, Trajectory, make_chain, simulate

@@ -5,16 +5,16 @@ from collections.abc import Mapping
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.problem import Constants, Problem, on_sites
-from pendula.simulation.simulate import simulate
-
-from .bounds import (
+from pendula.models.bounds import (
     theorem_2_constants,
     theorem_2_gap,
     widened_barrier,
     widened_bound,
     widened_delta_0,
 )
+from pendula.problem import Constants, Problem, on_sites
+from pendula.simulation.simulate import simulate
+
 from .equations import run, squared_norm, total_energy
 
 

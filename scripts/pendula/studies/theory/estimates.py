@@ -12,9 +12,9 @@ import numpy as np
 
 from pendula.datasets.checks import table, variable
 from pendula.measures.norms import growth_margin
+from pendula.models.bounds import coercivity, extent, theorem_2_gap
 from pendula.problem import Constants
 
-from .bounds import coercivity, extent, theorem_2_gap
 from .equations import (
     BOUNDARIES,
     TIGHT,

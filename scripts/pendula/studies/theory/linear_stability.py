@@ -9,7 +9,7 @@ import numpy as np
 
 from pendula.datasets.checks import table, variable
 from pendula.models.amplitudes import rates
-from pendula.models.linear_flow import curvatures
+from pendula.models.linear_chain import curvatures, squared_frequencies
 from pendula.problem import Constants
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import make_chain
@@ -18,42 +18,6 @@ from .equations import BOUNDARIES
 
 TINY = 2.0**-200
 """A power of two so small that the cubic terms vanish below rounding: scaling by it is exact."""
-
-
-def squared_frequencies(kappa, gamma: float):
-    """Return (omega_1^2, omega_2^2) = (kappa^2, kappa^2 - 4 gamma^2) of (15)."""
-    kappa = np.asarray(kappa, dtype=float)
-    return kappa**2, (kappa - 2.0 * gamma) * (kappa + 2.0 * gamma)
-
-
-def growth_rate(kappa, gamma):
-    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 where it is stable."""
-    return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))
-
-
-def gamma_0(omega, epsilon: float):
-    """Return the threshold (12) of the infinite chain; inside [0, 4 epsilon] it is zero.
-
-    With epsilon < 0, which the paper leaves out, the band is [4 epsilon, 0].
-    """
-    low, high = min(0.0, 4.0 * epsilon), max(0.0, 4.0 * epsilon)
-    return 0.5 * np.maximum(0.0, np.maximum(low - np.asarray(omega), omega - high))
-
-
-def infinite_rate(omega, gamma, epsilon: float):
-    """Return the largest growth rate over all wave numbers of the infinite chain."""
-    return growth_rate(2.0 * gamma_0(omega, epsilon), gamma)
-
-
-def finite_threshold(omega, epsilon: float, sites: int, boundary: str):
-    """Return the threshold min_k |kappa_k| / 2 of a chain of N sites, of the shape of `omega`."""
-    kappa = epsilon * curvatures(sites, boundary) - np.asarray(omega)[..., None]
-    return 0.5 * np.abs(kappa).min(axis=-1)
-
-
-def finite_rate(omega, gamma, epsilon: float, sites: int, boundary: str):
-    """Return the largest growth rate of a chain of N sites."""
-    return growth_rate(2.0 * finite_threshold(omega, epsilon, sites, boundary), gamma)
 
 
 def stable_windows(gamma: float, epsilon: float, sites: int, boundary: str) -> np.ndarray:

@@ -5,11 +5,19 @@ from dataclasses import astuple
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.models.linear_flow import driven, flow, modes
+from pendula.models.linear_chain import (
+    driven,
+    finite_rate,
+    finite_threshold,
+    flow,
+    gamma_0,
+    infinite_rate,
+    modes,
+)
 from pendula.problem import Constants
 
 from .equations import random_amplitudes, run, run_powers
-from .linear_stability import finite_rate, finite_threshold, gamma_0, infinite_rate, stable_windows
+from .linear_stability import stable_windows
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""

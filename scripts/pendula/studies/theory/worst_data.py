@@ -15,10 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.models.linear_flow import curvatures
-from pendula.problem import Constants
-
-from .bounds import (
+from pendula.models.bounds import (
     extent,
     theorem_1_bound,
     theorem_2_bound,
@@ -28,6 +25,9 @@ from .bounds import (
     widened_barrier,
     widened_bound,
 )
+from pendula.models.linear_chain import curvatures
+from pendula.problem import Constants
+
 from .equations import BOUNDARIES, draw_shape, run_powers, total_energy
 
 FAMILIES = ("theorem_1", "theorem_2_ball", "theorem_2_energy", "theorem_2_widened", "theorem_3")

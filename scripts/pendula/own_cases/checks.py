@@ -17,6 +17,7 @@ from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
 from pendula.measures.difference import at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
+from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
@@ -24,12 +25,6 @@ from pendula.studies.chaos.lyapunov import ROUNDING, SEED, amplification, predic
 from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow, random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
-from pendula.studies.theory.linear_stability import (
-    finite_rate,
-    finite_threshold,
-    gamma_0,
-    infinite_rate,
-)
 
 TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
 
@@ -138,7 +133,7 @@ RADIANS, PANELS = 40.0, 24
 
 
 def beside_bounds(run: xr.Dataset) -> dict:
-    """Return the numbers of theory.bounds for a trajectory, and the theorem that covers it."""
+    """Return the trajectory's numbers beside its bounds, and the theorem that covers it."""
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no ratios
         numbers, region = case_numbers(run)
         ratio = np.float64(numbers["observed"]) / numbers["best"]

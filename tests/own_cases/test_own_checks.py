@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from pendula import Case, check, simulate
+from pendula.models.bounds import best_bound, extent, theorem_1_bound, widened_bound
+from pendula.models.linear_chain import gamma_0, infinite_rate
+from pendula.own_cases import checks
 from pendula.problem import Problem
-from pendula.studies.own import checks
-from pendula.studies.theory.bounds import best_bound, extent, theorem_1_bound, widened_bound
 from pendula.studies.theory.equations import total_energy
-from pendula.studies.theory.linear_stability import gamma_0, infinite_rate
 from problems import constants_of
 
 STILL = Case(omega=8, half_width=8, end_time=10)

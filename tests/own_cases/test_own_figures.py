@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.drawing import style
-from pendula.studies.own import figures
+from pendula.own_cases import figures
 
 
 def test_norms_stand_in_one_row_above_the_second_run(gathered, make_trajectory):

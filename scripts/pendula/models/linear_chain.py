@@ -1,8 +1,10 @@
-"""The exact solution of the equations (4) without their cubic terms, for any kind of ends.
+"""The chain without the cubic terms of (4): its modes, its exact flow, and Lemma 1.
 
 The lattice Laplacian has real orthonormal modes with the eigenvalues -lambda_k, and each mode
 moves alone: the sum S = A + B obeys i S' = -kappa S, the difference D = A - B obeys
-i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14).
+i D' = -kappa D - 2 gamma conj(D), where kappa = epsilon lambda_k - Omega as in (14). Lemma 1
+follows: the dispersion relation (15), the threshold gamma_0 (12), and those of finite chains.
+Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N sites it takes N values.
 """
 
 import numpy as np
@@ -74,3 +76,39 @@ def flow(
     difference = difference + 1j * (even * q + (2 * gamma + kappa) * odd * p)
     total, difference = basis.T @ total, basis.T @ difference
     return 0.5 * np.stack([total + difference, total - difference])
+
+
+def squared_frequencies(kappa, gamma: float):
+    """Return (omega_1^2, omega_2^2) = (kappa^2, kappa^2 - 4 gamma^2) of (15)."""
+    kappa = np.asarray(kappa, dtype=float)
+    return kappa**2, (kappa - 2.0 * gamma) * (kappa + 2.0 * gamma)
+
+
+def growth_rate(kappa, gamma):
+    """Return the growth rate sqrt(4 gamma^2 - kappa^2) of a mode, 0 where it is stable."""
+    return np.sqrt(np.maximum(0.0, (2.0 * np.abs(gamma) - kappa) * (2.0 * np.abs(gamma) + kappa)))
+
+
+def gamma_0(omega, epsilon: float):
+    """Return the threshold (12) of the infinite chain; inside [0, 4 epsilon] it is zero.
+
+    With epsilon < 0, which the paper leaves out, the band is [4 epsilon, 0].
+    """
+    low, high = min(0.0, 4.0 * epsilon), max(0.0, 4.0 * epsilon)
+    return 0.5 * np.maximum(0.0, np.maximum(low - np.asarray(omega), omega - high))
+
+
+def infinite_rate(omega, gamma, epsilon: float):
+    """Return the largest growth rate over all wave numbers of the infinite chain."""
+    return growth_rate(2.0 * gamma_0(omega, epsilon), gamma)
+
+
+def finite_threshold(omega, epsilon: float, sites: int, boundary: str):
+    """Return the threshold min_k |kappa_k| / 2 of a chain of N sites, of the shape of `omega`."""
+    kappa = epsilon * curvatures(sites, boundary) - np.asarray(omega)[..., None]
+    return 0.5 * np.abs(kappa).min(axis=-1)
+
+
+def finite_rate(omega, gamma, epsilon: float, sites: int, boundary: str):
+    """Return the largest growth rate of a chain of N sites."""
+    return growth_rate(2.0 * finite_threshold(omega, epsilon, sites, boundary), gamma)

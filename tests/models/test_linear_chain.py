@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from oracle import BOUNDARIES, SOLVERS, laplacian, random_chain
-from pendula.models.linear_flow import flow
+from pendula.models.linear_chain import flow
 from pendula.simulation.simulate import simulate
 from problems import make_problem
 from scipy.linalg import expm
