@@ -12,6 +12,8 @@ from hypothesis import settings
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
 
+pytest_plugins = ["figure_fixtures"]
+
 settings.register_profile("project", deadline=None, derandomize=True, database=None)
 settings.load_profile("project")
 
