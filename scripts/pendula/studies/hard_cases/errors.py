@@ -8,10 +8,9 @@ relative to the largest.
 import numpy as np
 
 from pendula.measures.difference import state_error
-from pendula.models.linear_flow import flow
+from pendula.models.linear_chain import flow, gamma_0
 from pendula.problem import Constants, Problem, on_sites, place
 from pendula.simulation.simulate import Trajectory, simulate
-from pendula.studies.theory.linear_stability import gamma_0
 
 FINE = {
     "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},

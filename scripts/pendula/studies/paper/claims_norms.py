@@ -27,7 +27,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.measures.norms import constants, largest, mean, total_power
-from pendula.studies.theory.bounds import theorem_1_bound, theorem_3_bound
+from pendula.models.bounds import theorem_1_bound, theorem_3_bound
 
 SECTION = 5
 

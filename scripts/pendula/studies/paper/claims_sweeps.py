@@ -33,12 +33,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.measures.levels import levelling, relative_range, rising_share
 from pendula.measures.norms import constants, total_power
-from pendula.studies.theory.bounds import (
-    proven_region,
-    theorem_1_bound,
-    theorem_2_constants,
-    widened_bound,
-)
+from pendula.models.bounds import proven_region, theorem_1_bound, theorem_2_constants, widened_bound
 
 SECTION = 5
 
