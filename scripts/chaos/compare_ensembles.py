@@ -1,11 +1,13 @@
 """Compare ensembles of the chaotic cases and sweeps with the paper's own runs among them."""
 
+from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import read, save
-from pendula.studies.chaos.comparison import compare
+from pendula.studies.chaos.comparison import compare, mismatched
 
 
 def compare_ensembles(
     ensembles: str,
+    lyapunov: str,
     runs: list[str],
     references: list[str],
     cases: list[str],
@@ -17,7 +19,11 @@ def compare_ensembles(
     own = dict(zip(cases, map(read, runs), strict=True))
     known = dict(zip(cases, map(read, references), strict=True))
     swept = dict(zip(windows, map(read, sweeps), strict=True))
-    save(data, compare(read(ensembles), own, known, swept, windows))
+    drawn = read(ensembles)
+    found = compare(drawn, own, known, swept, windows)
+    found["mismatched"] = mismatched(drawn["case"].values, read(lyapunov))
+    print(describe("ensembles of the chaotic cases", found.to_dict()))
+    save(data, found)
 
 
 if __name__ == "__main__":

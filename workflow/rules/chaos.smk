@@ -85,9 +85,10 @@ rule compare_ensembles:
     input:
         code=code("chaos/compare_ensembles.py"),
         ensembles="results/checks/ensembles.nc",
-        runs=expand("results/trajectories/{case}.nc", case=CHAOTIC_CASES),
-        references=references(*CHAOTIC_CASES),
-        sweeps=expand("results/sweeps/{sweep}.nc", sweep=CHAOTIC_SWEEPS),
+        lyapunov="results/checks/lyapunov.nc",
+        runs=expand("results/trajectories/{case}.nc", case=ENSEMBLE_CASES),
+        references=references(*ENSEMBLE_CASES),
+        sweeps=expand("results/sweeps/{sweep}.nc", sweep=ENSEMBLE_SWEEPS),
     output:
         data="results/checks/ensemble_runs.nc",
     log:
@@ -95,8 +96,8 @@ rule compare_ensembles:
     conda:
         "../envs/pinned.yaml"
     params:
-        cases=CHAOTIC_CASES,
-        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in CHAOTIC_SWEEPS},
+        cases=ENSEMBLE_CASES,
+        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in ENSEMBLE_SWEEPS},
     message:
         "Comparing the paper's runs with ensembles"
     script:

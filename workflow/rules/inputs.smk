@@ -50,6 +50,7 @@ def makers():
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
         "measure_ensembles": checks("ensembles"),
+        "compare_ensembles": checks("ensemble_runs"),
         "measure_solvers": checks("solvers"),
         "measure_trust": checks("trust"),
         "trajectory": trajectories() + trajectories(".crank_nicolson"),

@@ -94,3 +94,14 @@ def _compare_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) ->
     data["swept_omega"] = (), float(own.attrs["omega"]), _words("detuning Omega")
     data["swept_initial"] = (), str(own.attrs["initial"]), _words("initial {site: [A, B]}")
     return data
+
+
+def mismatched(cases, lyapunov: xr.Dataset) -> xr.Variable:
+    """Return how many cases are chaotic without an ensemble, or have one without being chaotic.
+
+    Which cases get ensembles must be configured before any run; what is chaotic is measured. None
+    may differ.
+    """
+    chaotic = {str(case) for case in lyapunov["case"].values[lyapunov["chaotic"].values == 1]}
+    about = {"long_name": "cases that have an ensemble or are chaotic, but not both", "units": "1"}
+    return xr.Variable((), len(chaotic ^ set(map(str, cases))), {**about, "tolerance": 0.0})
