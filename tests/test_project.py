@@ -98,10 +98,20 @@ def test_a_record_lists_the_templates_beside_the_modules(recorded):
 
 def test_a_record_lists_the_modules_that_are_found_by_the_list_of_studies(recorded):
     files = recorded("report/write_report.py", "section")
-    for study in STUDIES:
-        assert {f"studies/{study}/section.py", f"studies/{study}/section.html.j2"} <= files
-    alone = recorded("report/write_report.py")
-    assert not any("studies/" in file and "section" in file for file in alone)
+    of_studies = {file for file in files if re.match("studies/.*/section", file)}
+    told = [
+        one for one in STUDIES if (sources.SCRIPTS / f"pendula/studies/{one}/section.py").exists()
+    ]
+    names = ("section.py", "section.html.j2")
+    assert of_studies == {f"studies/{study}/{name}" for study in told for name in names}
+    claims = {file for file in recorded("theory/decide_claims.py", "claims") if "/claims" in file}
+    assert {"studies/paper/claims_norms.py", "studies/chaos/claims.py"} <= claims
+
+
+def test_a_script_has_one_record_whoever_asks_for_it(recorded):
+    recorded("theory/decide_claims.py", "claims")
+    with pytest.raises(ValueError, match="is recorded with"):
+        recorded("theory/decide_claims.py")
 
 
 def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):

@@ -18,6 +18,7 @@ from pendula.studies import STUDIES
 ROOT = SCRIPTS.parent
 RECORDS, COPIES, KEPT = (Path("results") / name for name in ("code", "truth", "kept"))
 _handed_out: set[str] = set()
+_parts: dict[Path, tuple[str, ...]] = {}
 
 
 def code(script: str, *parts: str) -> str:
@@ -25,9 +26,11 @@ def code(script: str, *parts: str) -> str:
 
     Those of the benchmarks are named from the project's folder, all others from scripts/. `parts`
     names modules, such as "section", that the script finds by the list of studies: its imports
-    do not show them.
+    do not show them. Raises ValueError where two rules want different records of one script.
     """
     record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
+    if _parts.setdefault(record.absolute(), parts) != parts:
+        raise ValueError(f"{script} is recorded with {_parts[record.absolute()]} and {parts}")
     folder = ROOT if script.startswith("benchmarks/") else SCRIPTS
     entries = [folder / script, *(path for part in parts for path in _of_studies(part))]
     modules = sorted({module for entry in entries for module in modules_of(entry)})

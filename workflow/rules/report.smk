@@ -13,7 +13,11 @@ rule report:
         speed_data=SPEED_DATA,
         speed_table=SPEED_TABLE,
         speed_pictures=SPEED_PICTURES,
-        sources=[*map(code, NUMBERS_BY), *references(*PAPER_CASES, "fig4_small.double")],
+        sources=[
+            *map(code, NUMBERS_BY),
+            code("theory/decide_claims.py", "claims"),
+            *references(*PAPER_CASES, "fig4_small.double"),
+        ],
     output:
         html="results/report.html",
     log:
