@@ -105,14 +105,16 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
             waiting.extend(getattr(node, part, ()))
 
 
-@cache
 def _files_of(name: str) -> tuple[Path, ...]:
     """Return the files that importing `name` executes: the module and its packages."""
-    parts = name.split(".")
-    if parts[0] not in OURS:
-        return ()
-    packages = _files_of(".".join(parts[:-1])) if parts[1:] else ()
-    place = os.path.join(_folder_of(parts[0]), *parts)  # pathlib is slower
+    ours, *inner = name.split(".")
+    return _files_in(_folder_of(ours), (ours, *inner)) if ours in OURS else ()
+
+
+@cache
+def _files_in(folder: Path, parts: tuple[str, ...]) -> tuple[Path, ...]:
+    packages = _files_in(folder, parts[:-1]) if parts[1:] else ()
+    place = os.path.join(folder, *parts)  # pathlib is slower
     own = (f"{place}/__init__.py", f"{place}.py")
     return (*packages, *(Path(path) for path in own if os.path.isfile(path)))
 
