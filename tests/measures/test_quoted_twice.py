@@ -1,0 +1,75 @@
+"""What is published in two places is the same number in both: every place reads one dataset."""
+
+import json
+import re
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from pendula.datasets.netcdf import read
+
+FOLDERS = ("checks", "figures", "unbounded")
+KEYS = {"case", "sweep"}
+"""Along these coordinates a variable says what it is of; others mean another thing in each file."""
+
+
+def shared(datasets: dict[str, xr.Dataset]):
+    """Yield (name, file, values, file, values) of each quantity that two datasets hold.
+
+    Two variables are one quantity where they have the same name, long name and dimensions, among
+    them one of KEYS; they are aligned over the coordinates that both have.
+    """
+    for (one, first), (other, second) in combinations(datasets.items(), 2):
+        for name in first.data_vars.keys() & second.data_vars.keys():
+            a, b = first[name], second[name]
+            alike = set(a.dims) == set(b.dims) and KEYS & set(a.dims)
+            if alike and a.attrs.get("long_name") == b.attrs.get("long_name"):
+                a, b = xr.align(a, b.transpose(*a.dims), join="inner")
+                if a.size:
+                    yield name, one, a.values, other, b.values
+
+
+def differing(datasets: dict[str, xr.Dataset]) -> list[str]:
+    """Return the quantities that differ between two datasets, named with both."""
+    return [
+        f"{name}: {one} and {other}"
+        for name, one, a, other, b in shared(datasets)
+        if not np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+    ]
+
+
+def test_a_quantity_that_differs_between_two_datasets_is_found():
+    about = {"long_name": "divergence time"}
+    first = xr.Dataset({"time": ("case", [7.4, np.inf], about)}, {"case": ["a", "b"]})
+    second = xr.Dataset({"time": ("case", [np.inf, 7.4], about)}, {"case": ["b", "a"]})
+    assert differing({"one": first, "other": second.sel(case=["a", "b"])}) == []
+    second["time"][1] = 7.5
+    assert differing({"one": first, "other": second.sel(case=["a", "b"])}) == [
+        "time: one and other"
+    ]
+
+
+def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
+    paths = [path for folder in FOLDERS for path in (full_run / "results" / folder).glob("*.nc")]
+    datasets = {path.relative_to(full_run).as_posix(): read(path) for path in sorted(paths)}
+    assert {"drift", "difference", "horizon", "exponent"} <= {name for name, *_ in shared(datasets)}
+    assert differing(datasets) == []
+
+
+def test_ledger_and_table_quote_the_dataset_of_the_solvers(full_run):
+    results: Path = full_run / "results"
+    solvers = read(results / "checks/solvers.nc")
+    rows = json.loads((results / "claims.json").read_text())
+    measured = {row["name"]: row["measured"] for row in rows}
+    table = (results / "tables/solvers.md").read_text()
+    papers = solvers.sel(pair="ode45 - crank_nicolson", solver="ode45", span="whole")
+    for case in map(str, solvers["case"].values):
+        one = papers.sel(case=case)
+        time, drift = float(one["divergence_time"]), float(one["largest_drift"])
+        quoted = measured["second_solver"][f"divergence_{case}"]
+        assert quoted == ("infinite" if time == np.inf else float(f"{time:.6g}"))
+        assert measured[f"energy_{case.rpartition('_')[2]}"][case] == float(f"{drift:.6g}")
+        drifts, times = re.findall(rf"^\| {case} .*$", table, re.MULTILINE)
+        assert f"{drift:.1e}" in drifts
+        assert ("never" if time == np.inf else f"{time:.1f}") in times.split("|")[2]
