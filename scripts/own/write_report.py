@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from pendula.datasets.files import complete_or_absent
-from pendula.own_cases.section import gather
-from pendula.report.page import render
+from pendula.own_cases.section import write
 
 
 def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
@@ -13,8 +12,7 @@ def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: lis
     Their `files` lie below its folder.
     """
     with complete_or_absent(html) as partial:
-        page = render("own/section.html.j2", **gather(cases, sweeps, Path(html).parent))
-        Path(partial).write_text(page, encoding="utf-8")
+        Path(partial).write_text(write(cases, sweeps, Path(html).parent), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -17,9 +17,7 @@ NAMES = (
 )
 
 
-# the page on cases of one's own is left out: it quotes the paper's formulas
-SECTIONS = [path for path in page.STUDIES.glob("*/section.html.j2") if path.parent.name != "own"]
-TEMPLATES = [HERE / "templates/sections.html.j2", *SECTIONS]
+TEMPLATES = [HERE / "templates/sections.html.j2", *page.STUDIES.glob("*/section.html.j2")]
 
 
 @pytest.mark.parametrize("template", TEMPLATES, ids=lambda path: path.parent.name)

@@ -10,7 +10,7 @@ from pendula import __version__
 from pendula.datasets.netcdf import read
 from pendula.measures.difference import VISIBLE
 from pendula.problem import read_initial
-from pendula.report.page import Picture, picture
+from pendula.report.page import Picture, picture, render
 from pendula.report.provenance import versions
 from pendula.report.words import (
     MINUS,
@@ -34,6 +34,11 @@ ENDS = {
 FEW = 8
 """Sites whose data find room in a table."""
 _SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
+
+
+def write(cases: list[str], sweeps: dict[str, str], folder: Path) -> str:
+    """Return the page on `cases`, and on `sweeps` with their cases; `folder` holds the files."""
+    return render("section.html.j2", Path(__file__).parent, **gather(cases, sweeps, folder))
 
 
 def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, Any]:
