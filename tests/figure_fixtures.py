@@ -100,7 +100,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     """Return what every figure draws, by the name of the figure."""
     from pendula.own_cases import figures as own
     from pendula.studies.chaos import figures as chaos
-    from pendula.studies.chaos.comparison import compare
+    from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solver_figures, solvers
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory

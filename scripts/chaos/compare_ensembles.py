@@ -2,7 +2,7 @@
 
 from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import read, save
-from pendula.studies.chaos.comparison import compare, mismatched
+from pendula.studies.chaos.ensembles import compare, mismatched
 
 
 def compare_ensembles(

@@ -3,7 +3,7 @@
 import pytest
 import xarray as xr
 from pendula.datasets.checks import broken
-from pendula.studies.chaos.comparison import mismatched
+from pendula.studies.chaos.ensembles import mismatched
 
 CASES = ["fig2_small", "fig4_small", "fig4_large"]
 MEASURED = xr.Dataset({"chaotic": ("case", [0, 1, 1])}, {"case": CASES})
