@@ -16,11 +16,11 @@ STOREYS = (
     ("studies",),
     ("report", "figure_diff", "archive", "ledger"),
     ("drawing",),
-    ("measures",),
     ("datasets",),
     ("simulation",),
     ("models",),
     ("integrators",),
+    ("measures",),
     ("simd", "compiled", "sources", "configuration", "problem"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pendula.integrators.outcome import DONE, FAULTS, Outcome
+from pendula.measures.difference import norm_difference
 from pendula.models.amplitudes import Chain
 from pendula.problem import Constants, Problem
 
@@ -117,7 +118,7 @@ def _simulate_to_error(problem: Problem, reduction: Reduction | None) -> Traject
     while tolerance > FINEST:
         tolerance = max(REFINEMENT * tolerance, FINEST)
         fine = simulate(problem.changed(solver=_taylor(tolerance)), reduction)
-        differences = difference(coarse, fine)
+        differences = norm_difference(coarse.linf, coarse.l2, fine.linf, fine.l2)
         if differences.max() <= error:
             estimate = float(differences.max())
             asked = {"requested_error": error, "estimated_error": estimate}
@@ -132,14 +133,3 @@ def _simulate_to_error(problem: Problem, reduction: Reduction | None) -> Traject
 
 def _taylor(tolerance: float) -> dict[str, Any]:
     return {"name": "taylor", "rtol": tolerance, "atol": tolerance}
-
-
-def difference(one: Trajectory, other: Trajectory) -> np.ndarray:
-    """Return by how much two trajectories differ in any norm at each time, of its largest value.
-
-    Where both are at rest all the time they differ by nothing.
-    """
-    pairs = ((one.linf, other.linf), (one.l2, other.l2))
-    scales = [np.max(b) or 1.0 for _, b in pairs]
-    parts = [np.max(np.abs(a - b), axis=0) for a, b in pairs]
-    return np.max([part / scale for part, scale in zip(parts, scales, strict=True)], axis=0)
