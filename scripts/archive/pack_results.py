@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from pendula.archive import codemeta, contents, ro_crate
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.sources import SCRIPTS
 
 PROJECT = SCRIPTS.parent

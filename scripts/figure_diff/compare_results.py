@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from pendula.datasets.files import complete_or_absent
-from pendula.figure_diff import comparison_page, findings
+from pendula.datasets import complete_or_absent
+from pendula.figure_diff import comparison_page, dump
 from pendula.figure_diff.baseline import compare, environment, recorded
 
 
@@ -21,7 +21,7 @@ def compare_results(
     with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
         page = comparison_page.render(found, Path(made), folder, _note(folder))
         new_html.write_text(page, "utf-8")
-        findings.dump(found, new_verdict)
+        dump(found, new_verdict)
 
 
 def _note(folder: Path) -> str:

@@ -3,7 +3,7 @@
 import sys
 from collections import Counter
 
-from pendula.figure_diff.findings import STATUSES, load
+from pendula.figure_diff import STATUSES, load
 
 
 def tell_faults(verdict: str, html: str) -> None:

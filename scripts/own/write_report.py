@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.own_cases.section import write
 
 

@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 from job import TOOK
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.report import document
 from pendula.report.results import Results
-from pendula.report.speed import Measured
+from pendula.report.sections import Measured
 
 
 def write_report(

@@ -4,8 +4,8 @@ import json
 from collections import Counter
 from pathlib import Path
 
+from pendula.datasets import complete_or_absent
 from pendula.datasets.checks import broken, deciding, describe
-from pendula.datasets.files import complete_or_absent
 from pendula.datasets.netcdf import read
 from pendula.ledger.claim import evaluate, needed
 from pendula.ledger.criterion import Verdict

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import made_up_results as made_up
 import pytest
-from pendula.figure_diff import baseline, compare_data
-from pendula.figure_diff.findings import Finding
+from pendula.figure_diff import Finding, baseline, compare_data
 
 TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / compare_data.TOLERANCES
 

@@ -6,8 +6,8 @@ import pytest
 import xarray as xr
 from made_up_results import CHAOTIC, REGULAR, change_a, chaotic, regular
 from pendula.datasets.netcdf import read, save
+from pendula.figure_diff import IDENTICAL, NEARLY
 from pendula.figure_diff.baseline import MOST_NUMBERS, thin
-from pendula.figure_diff.findings import IDENTICAL, NEARLY
 
 
 def test_an_identical_run_is_clean(any_environment):

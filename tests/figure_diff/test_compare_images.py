@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.drawing import style
-from pendula.figure_diff import compare_images
+from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, compare_images
 from pendula.figure_diff.compare_images import EXACT, LOOK, Pixels
-from pendula.figure_diff.findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY
 from PIL import Image
 
 FAULTS = {

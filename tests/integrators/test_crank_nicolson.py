@@ -7,7 +7,7 @@ import pytest
 import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, SOLVERS, random_chain, slope
-from pendula.integrators.outcome import DONE
+from pendula.integrators import DONE
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 

@@ -6,9 +6,8 @@ import pytest
 import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import CASES, random_chain, slope
-from pendula.integrators import dop853
+from pendula.integrators import DONE, dop853
 from pendula.integrators import dop853_coefficients as coefficients
-from pendula.integrators.outcome import DONE
 from pendula.simulation.lattice import find_reduction
 from scipy.integrate._ivp import dop853_coefficients as published
 from trees import defect

@@ -6,8 +6,7 @@ import pytest
 import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import CASES, SOLVERS, random_chain, slope
-from pendula.integrators import ode45
-from pendula.integrators.outcome import DONE
+from pendula.integrators import DONE, ode45
 from pendula.simulation.lattice import find_reduction
 from trees import defect
 

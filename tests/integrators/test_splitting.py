@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from on_chains import WHOLE, data_of, integrate, numbers_of
 from oracle import laplacian, random_chain, slope
-from pendula.integrators import splitting
-from pendula.integrators.outcome import DONE
+from pendula.integrators import DONE, splitting
 from pendula.models.amplitudes import Chain, linear_radius, linear_rates, nonlinear_flow
 from pendula.simulation.lattice import choose_ends, pack, unpack
 from pendula.simulation.simulate import IntegrationError

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, CASES, power_series, random_chain
 from pendula.compiled import uncached
-from pendula.integrators import taylor
-from pendula.integrators.outcome import DONE
+from pendula.integrators import DONE, taylor
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.simd import LANES
 

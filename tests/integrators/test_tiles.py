@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pendula.compiled import uncached
-from pendula.integrators import dop853, tiles
-from pendula.integrators.outcome import DONE
+from pendula.integrators import DONE, dop853, tiles
 from pendula.models.amplitudes import Chain, rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.simulation.observables import blank_record, observe

@@ -4,7 +4,7 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.report import provenance, speed
+from pendula.report import sections
 from pendula.report.results import ReportError
 from pendula.studies.hard_cases import section as hard_cases
 
@@ -32,7 +32,7 @@ def times(taylor: float) -> xr.Dataset:
 def gathered(folder, measured: xr.Dataset) -> dict:
     """Return what the section shows of measurements in the dataset speed.nc."""
     results = made_up.MadeUp(folder, {"checks/cases": made_up.by_case(), "speed": measured})
-    return speed.gather(results, speed.Measured("speed.nc", "table.md", [], False))
+    return sections.gather_speed(results, sections.Measured("speed.nc", "table.md", [], False))
 
 
 @pytest.mark.parametrize(("taylor", "fastest"), [(3.25e-3, "Taylor"), (7.5e-3, "DOP853")])
@@ -91,14 +91,14 @@ def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
     (tmp_path / "b.log").write_text("wall time: 12.0 s\n")
     (tmp_path / "old.log").write_text("nothing\n")
     (tmp_path / "empty.log").write_text("")
-    assert provenance.run_times(tmp_path, "wall time: ") == [("b", 12.0), ("checks/a", 1.5)]
-    assert provenance.run_times(tmp_path / "absent", "wall time: ") == []
+    assert sections.run_times(tmp_path, "wall time: ") == [("b", 12.0), ("checks/a", 1.5)]
+    assert sections.run_times(tmp_path / "absent", "wall time: ") == []
 
 
 def test_hashes_follow_the_content(tmp_path):
     made = {"inputs": ["code.txt"], "settings": "{}", "logs": str(tmp_path), "took": "t"}
-    one = provenance.gather(made_up.MadeUp(tmp_path, {}, **{"code.txt": "a"}), **made)
-    other = provenance.gather(made_up.MadeUp(tmp_path, {}, **{"code.txt": "b"}), **made)
+    one = sections.gather_provenance(made_up.MadeUp(tmp_path, {}, **{"code.txt": "a"}), **made)
+    other = sections.gather_provenance(made_up.MadeUp(tmp_path, {}, **{"code.txt": "b"}), **made)
     assert one["hashes"] != other["hashes"] and one["settings"] == other["settings"]
     assert one["hashes"][0][0].link == "code.txt" and len(one["hashes"][0][1]) == 16
     assert dict(one["versions"])["numpy"] == np.__version__ and one["times"] == []

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import netCDF4
 import numpy as np
 
-from .files import complete_or_absent
+from . import complete_or_absent
 from .registry import complete, describe
 
 

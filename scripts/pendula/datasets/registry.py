@@ -14,7 +14,7 @@ from typing import Any
 from pendula import __version__
 
 CONVENTIONS = "CF-1.11"
-UNITS = ("1", "rad", "s", "s-1", "byte", "byte s-1", "1/tau", "tau-1", "tau")
+UNITS = ("1", "rad", "s", "s-1", "byte", "byte s-1")
 """All units in use; each is one that UDUNITS parses."""
 
 NAMES = {

@@ -11,7 +11,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
 

@@ -12,12 +12,11 @@ import numpy as np
 import xarray as xr
 from matplotlib import ft2font
 
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import DatasetError, read, save
 
-from . import compare_data, compare_images
+from . import DAMAGED, EXTRA, MISSING, STATUSES, Finding, compare_data, compare_images
 from .compare_data import Rule, read_rules
-from .findings import DAMAGED, EXTRA, MISSING, STATUSES, Finding
 
 RECORD = "accepted.json"
 """The file that names every file of the baseline, and what drew it."""

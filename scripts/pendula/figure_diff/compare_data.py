@@ -19,7 +19,7 @@ import xarray as xr
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from .findings import DIFFERENT, IDENTICAL, NEARLY, Finding
+from . import DIFFERENT, IDENTICAL, NEARLY, Finding
 
 TOLERANCES = "tolerances.yaml"
 

@@ -22,7 +22,7 @@ import numpy as np
 from PIL import Image
 from scipy.ndimage import gaussian_filter, uniform_filter
 
-from .findings import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
 
 EXACT, LOOK = "exact", "look"
 

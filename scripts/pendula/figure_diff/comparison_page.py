@@ -12,8 +12,8 @@ from PIL import Image
 from pendula.report import page
 from pendula.report.page import address_of
 
+from . import IDENTICAL, NEARLY, STATUSES, Finding
 from .compare_images import DamagedImageError, read
-from .findings import IDENTICAL, NEARLY, STATUSES, Finding
 
 THUMBNAIL = 320
 """Width in pixels of images that are identical; the others are shown whole."""

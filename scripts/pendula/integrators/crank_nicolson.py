@@ -17,7 +17,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_in_rows
 
-from .outcome import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
+from . import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
 
 PAST = 6
 """Increments that the first guess is extrapolated from."""

@@ -22,6 +22,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_magnitude
 
+from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .dop853_coefficients import (
     A2,
     A3,
@@ -45,7 +46,6 @@ from .dop853_coefficients import (
     E3,
     E5,
 )
-from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .tiles import count_tiles, give, take, tile_length, tile_place
 
 WORK, TILE_WORK = 11, 27

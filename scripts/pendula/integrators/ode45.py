@@ -24,7 +24,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel
 from pendula.simd import largest_in_rows
 
-from .outcome import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 WORK = 9
 """Work arrays of the size of a state."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 
-from .outcome import DONE, STEP_TOO_LONG, Outcome
+from . import DONE, STEP_TOO_LONG, Outcome
 
 WORK = 2
 """Work arrays of the size of a state."""

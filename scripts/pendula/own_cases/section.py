@@ -11,7 +11,7 @@ from pendula.datasets.netcdf import read
 from pendula.measures.difference import VISIBLE
 from pendula.problem import read_initial
 from pendula.report.page import Picture, picture, render
-from pendula.report.provenance import versions
+from pendula.report.sections import versions
 from pendula.report.words import (
     MINUS,
     NORMS,

@@ -4,15 +4,15 @@ from pendula import studies
 from pendula.ledger import section as claims
 from pendula.ledger.section import Ledger
 
-from . import provenance, speed
 from .page import render
 from .results import Results, Section
+from .sections import Measured, gather_provenance, gather_speed
 
 
-def write(results: Results, measured: speed.Measured, made: dict) -> str:
+def write(results: Results, measured: Measured, made: dict) -> str:
     """Return the report as HTML.
 
-    `measured` says where speed was measured, `made` holds what `provenance.gather` takes.
+    `measured` says where speed was measured, `made` holds what `gather_provenance` takes.
     """
     ledger = Ledger(results)
     of_studies = [
@@ -22,8 +22,8 @@ def write(results: Results, measured: speed.Measured, made: dict) -> str:
     ]
     own = (
         Section("claims", "What the paper says", lambda *_: claims.gather(results)),
-        Section("speed", "Speed against error", lambda *_: speed.gather(results, measured)),
-        Section("provenance", "How it was run", lambda *_: provenance.gather(results, **made)),
+        Section("speed", "Speed against error", lambda *_: gather_speed(results, measured)),
+        Section("provenance", "How it was run", lambda *_: gather_provenance(results, **made)),
     )
     sections = [
         {

@@ -9,7 +9,7 @@ import numpy as np
 from markupsafe import Markup
 from tabulate import tabulate
 
-from pendula.datasets.files import complete_or_absent
+from pendula.datasets import complete_or_absent
 from pendula.problem import read_initial
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

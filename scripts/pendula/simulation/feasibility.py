@@ -9,7 +9,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from pendula.integrators.outcome import MOST_STEPS
+from pendula.integrators import MOST_STEPS
 from pendula.integrators.taylor import ORDER
 from pendula.problem import Constants, Problem
 

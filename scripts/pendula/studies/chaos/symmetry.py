@@ -11,8 +11,7 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.datasets.netcdf import Variable
-from pendula.integrators import dop853
-from pendula.integrators.outcome import DONE, FAULTS
+from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
 from pendula.problem import Problem

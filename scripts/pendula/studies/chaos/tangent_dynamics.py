@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.integrators import dop853
-from pendula.integrators.outcome import DONE, FAULTS
+from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.amplitudes import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
 from pendula.problem import Problem, output_times

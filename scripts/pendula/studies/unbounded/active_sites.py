@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.datasets.files import complete_or_absent
-from pendula.integrators.outcome import DONE, FAULTS, Outcome
+from pendula.datasets import complete_or_absent
+from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.problem import Constants, Problem, place
 from pendula.simulation.lattice import Reduction, find_reduction, pack
 from pendula.simulation.observables import Record, blank_record

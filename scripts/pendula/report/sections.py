@@ -1,9 +1,20 @@
-"""Speed against error, read from the dataset that `snakemake speed` makes."""
+"""The sections of the report that belong to no study: speed against error, and how it was run.
 
+Speed is read from the dataset that `snakemake speed` makes. How the run was made is told by
+versions, processor, hashes of what went in, and times of the rules.
+"""
+
+import hashlib
+import platform
+from importlib.metadata import version
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from llvmlite import binding
+
+from pendula.sources import describe_machine
 
 from .page import picture
 from .results import ReportError, Results
@@ -19,7 +30,7 @@ class Measured(NamedTuple):
     fresh: bool
 
 
-def gather(results: Results, measured: Measured) -> dict[str, Any]:
+def gather_speed(results: Results, measured: Measured) -> dict[str, Any]:
     """Return the peers' times over ours and our solvers' least times at the error asked for."""
     source = measured.data.removesuffix(".nc")
     data = results[source]
@@ -73,3 +84,56 @@ def _alt(times: xr.DataArray) -> str:
         for name in times["solver"].values
     )
     return f"Time against error, a line a solver. Least times in ms at the error asked for: {told}."
+
+
+# --- How the report was run -----------------------------------------------------------------------
+
+PACKAGES = ("snakemake", "xarray", "netCDF4", "matplotlib", "pydantic", "Jinja2", "pillow")
+VECTORS = ("sse", "avx", "fma", "neon", "sve")
+SHOWN = 16
+"""Digits of a hash that the page shows."""
+
+
+def gather_provenance(
+    results: Results, inputs: list[str], settings: str, logs: str, took: str
+) -> dict[str, Any]:
+    """Return what a reader needs to repeat the run.
+
+    `inputs` are links to the files that went in, `settings` is the configuration as text. Each log
+    below the folder `logs` ends with a line that begins with `took`. Only `times` differ between
+    two runs.
+    """
+    times = run_times(Path(logs), took)
+    features = binding.get_host_cpu_features()  # the instructions that compiled kernels can use
+    found = (name for name, there in features.items() if there and name.startswith(VECTORS))
+    return {
+        "versions": list(versions().items()),
+        "features": ", ".join(sorted(found)),
+        "system": platform.system(),
+        "hashes": [
+            (results.say(link, link), _digest(results.path(link).read_bytes())) for link in inputs
+        ],
+        "settings": _digest(settings.encode()),
+        "times": [(name, f"{seconds:.1f}") for name, seconds in times],
+        "total": f"{sum(seconds for _, seconds in times):.0f}",
+    }
+
+
+def versions() -> dict[str, str]:
+    """Return the processor and the versions of the packages that the numbers pass through."""
+    return describe_machine() | {name: version(name) for name in PACKAGES}
+
+
+def run_times(logs: Path, took: str) -> list[tuple[str, float]]:
+    """Return the wall time of each job whose log tells it, the longest first."""
+    found = []
+    for log in sorted(logs.rglob("*.log")):
+        last = log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
+        if last.startswith(took):
+            name = log.relative_to(logs).with_suffix("").as_posix()
+            found.append((name, float(last.removeprefix(took).split()[0])))
+    return sorted(found, key=lambda job: (-job[1], job[0]))
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:SHOWN]
