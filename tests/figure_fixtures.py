@@ -102,7 +102,6 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.studies.chaos import figures as chaos
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solver_figures, solvers
-    from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
     from pendula.studies.unbounded import front_figure
@@ -137,7 +136,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
         "trust": solver_figures.gather_trust(solvers.trust(trajectories, references)),
-        "bounds": bounds_figure.gather_bounds(cases(), sweeps(), samples(), worst()),
+        "bounds": theory.gather_bounds(cases(), sweeps(), samples(), worst()),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
         "ensembles": chaos.gather_ensembles(made_up_chaos.ensembles(), compared),

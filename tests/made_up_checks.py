@@ -88,16 +88,16 @@ def sweeps():
         {"sweep": SWEEPS, "half_width": m},
         omega=(one, [-4.0, 8.0]),
         initial=(one, ['{"0": [1.0, 0.1]}', '{"0": [5.0, 1.0]}']),
-        observed=(dims, bound / 400),
+        swept_observed=(dims, bound / 400),
         theorem_3=(dims, bound),
         best=(dims, np.minimum(bound, 30.0)),
     )
 
 
 def samples():
-    ratio = np.linspace(0.1, 0.9, 3 * 2 * 4).reshape(3, 2, 4)
+    sampled = np.linspace(0.1, 0.9, 3 * 2 * 4).reshape(3, 2, 4)
     coordinates = {"family": FAMILIES, "sites": np.array([1, 3]), "sample": np.arange(4)}
-    return dataset(coordinates, ratio=(("family", "sites", "sample"), ratio))
+    return dataset(coordinates, sampled=(("family", "sites", "sample"), sampled))
 
 
 def worst():
@@ -106,7 +106,7 @@ def worst():
         {"question": [f"{name}, dirichlet" for name in FAMILIES] + ["theorem_1, periodic"]},
         worst=(one, [0.7, 0.3, 0.95, 0.6]),
         small_data=(one, [0.75, 0.3, 1.0, 0.65]),
-        family=(one, [*FAMILIES, FAMILIES[0]]),
+        searched_family=(one, [*FAMILIES, FAMILIES[0]]),
         boundary=(one, ["dirichlet"] * 3 + ["periodic"]),
         sites=((), 3),
     )

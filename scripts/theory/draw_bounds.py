@@ -2,15 +2,15 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.theory import bounds_figure
+from pendula.studies.theory import figures
 
 
 def draw_bounds(
     cases: str, sweeps: str, samples: str, worst: str, png: str, pdf: str, data: str
 ) -> None:
     """Draw the cases, the sweeps and the data drawn at random, and write what was drawn."""
-    drawn = bounds_figure.gather_bounds(read(cases), read(sweeps), read(samples), read(worst))
-    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_bounds(read(cases), read(sweeps), read(samples), read(worst))
+    save(figures.draw_bounds(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

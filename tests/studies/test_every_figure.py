@@ -10,7 +10,6 @@ from pendula.drawing import style
 from pendula.own_cases import figures as own
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.paper import chain_figure, figures, solver_figures
-from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
 from pendula.studies.unbounded import front_figure
@@ -25,7 +24,7 @@ DRAWN_BY = {
     "trust": solver_figures.draw_trust,
     "stability_chart": theory.draw_chart,
     "growth_rates": theory.draw_rates,
-    "bounds": bounds_figure.draw_bounds,
+    "bounds": theory.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,
     "ensembles": chaos.draw_ensembles,

@@ -90,13 +90,13 @@ def test_a_violated_check_is_written_and_named(tmp_path, monkeypatch, capsys):
 def test_a_violated_check_turns_its_claim(finished):
     path = finished / "results/checks/gradient.nc"
     check = xr.load_dataset(path)
-    check["error"] = xr.full_like(check["error"], np.nan)
+    check["gradient_error"] = xr.full_like(check["gradient_error"], np.nan)
     check.to_netcdf(path)
     result = snakemake(ROOT, finished, "results/claims.json")
     log = (finished / "results/logs/claims.log").read_text()
     assert result.returncode == 0, result.stderr
     for text in (result.stderr, log):
-        assert "CHECK VIOLATED: gradient: error is nan" in text
+        assert "CHECK VIOLATED: gradient: gradient_error is nan" in text
     (row,) = [row for row in ledger_of(finished) if row["name"] == "hamiltonian"]
     assert row["verdict"] == Verdict.NOT_REPRODUCED
     assert "| NO |" in (finished / "results/tables/claims.md").read_text()
@@ -121,6 +121,6 @@ def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
     assert set(planned(clone, finished)) == {"claims", "report", "all"}
 
 
-def test_an_edit_of_a_figure_of_the_theory_reruns_its_job_alone(finished, clone):
+def test_an_edit_of_a_figure_of_the_theory_reruns_its_jobs_alone(finished, clone):
     change(clone / "scripts/pendula/studies/theory/figures.py")
-    assert set(planned(clone, finished)) == {"stability_figures", "report", "all"}
+    assert set(planned(clone, finished)) == {*FIGURE_RULES, "report", "all"}

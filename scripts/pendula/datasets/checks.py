@@ -1,5 +1,7 @@
 """The shape of what a check returns: coordinates, variables, and which of them decide."""
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
 
 from .registry import NAMES
@@ -17,12 +19,37 @@ def table(title: str, coords: dict, **variables: dict) -> dict:
     return {"coords": described, "data_vars": variables, "attrs": {"title": title}}
 
 
-def variable(values, dims: tuple, long_name: str, units: str = "1", tolerance=None) -> dict:
+def variable(values, dims: Iterable[str], long_name: str, units: str = "1", tolerance=None) -> dict:
     """Return one variable; with a `tolerance` it is an error that a sound check keeps below."""
     attrs = {"long_name": long_name, "units": units}
     if tolerance is not None:
         attrs["tolerance"] = float(tolerance)
     return {"dims": tuple(dims), "data": np.asarray(values), "attrs": attrs}
+
+
+def columns(dims: Iterable[str], about: Mapping[str, tuple], numbers: Mapping) -> dict[str, dict]:
+    """Return variables of the same dimensions: the `numbers` by their names.
+
+    `about` has the long name of each and its tolerance, or None.
+    """
+    described = {name: (values, *about[name]) for name, values in numbers.items()}
+    return {
+        name: variable(values, dims, long_name, tolerance=tolerance)
+        for name, (values, long_name, tolerance) in described.items()
+    }
+
+
+def tabulate(
+    title: str, coords: dict, rows: Iterable[Mapping], about: Mapping[str, tuple], **others: dict
+) -> dict:
+    """Return the table of `rows`: the numbers at each point of `coords`, whose last one runs first.
+
+    Of a row the numbers are kept that `about` describes, as for `columns`; `others` are variables
+    of other dimensions.
+    """
+    rows, shape = list(rows), tuple(len(points) for points in coords.values())
+    numbers = {name: np.reshape([row[name] for row in rows], shape) for name in about}
+    return table(title, coords, **columns(coords, about, numbers), **others)
 
 
 def deciding(check: dict) -> dict[str, tuple[float, float]]:

@@ -34,6 +34,7 @@ NAMES = {
     "boundary": "ends of the chain",
     "member": "member of the ensemble",
     "sample": "number of the sample",
+    "reading": "reading of the paper",
     "curve_omega": "detuning Omega, on a finer grid",
     # the problem
     "omega": "detuning Omega",

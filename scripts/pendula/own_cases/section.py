@@ -157,8 +157,8 @@ def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "parameters": parameters(swept.attrs),
         "picture": _picture_of_sweep(name, panel, windows, folder),
         "windows": windows,
-        "excess": Quote(number(checks["excess"]), link),
-        "bound_holds": bool(checks["excess"] <= 1.0 + 1e-6),
+        "excess": Quote(number(checks["swept_ratio"]), link),
+        "bound_holds": bool(checks["swept_ratio"] <= 1.0 + 1e-6),
         "columns": ["M", *_columns(read_as), "P over bound"],
         "rows": _rows(panel, checks, drawn_link, link),
     }
@@ -174,7 +174,7 @@ def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
         at = panel.sel(half_width=width)
         bound = checks.isel(sweep=0).sel(half_width=width)
         values = [value for norm in NORMS for value in at[norm].values]
-        ratio = Quote(number(bound["observed"] / bound["best"]), link)
+        ratio = Quote(number(bound["swept_observed"] / bound["best"]), link)
         rows.append([exact(width), *(Quote(number(v), drawn_link) for v in values), ratio])
     return rows
 

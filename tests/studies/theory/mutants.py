@@ -2,10 +2,13 @@
 
 from pendula.datasets.checks import broken
 from pendula.problem import Constants
-from pendula.studies.theory.equations import check_conservation, check_gradient, check_symmetries
+from pendula.studies.theory.equations import (
+    check_conservation,
+    check_dispersion,
+    check_gradient,
+)
 from pendula.studies.theory.estimates import check_balance
-from pendula.studies.theory.linear_stability import check_dispersion
-from pendula.studies.theory.other_forms import check_pt_form
+from pendula.studies.theory.other_forms import check_pt_form, check_symmetries
 
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 

@@ -140,7 +140,7 @@ def test_search_finds_the_top_of_a_narrow_hill():
 
 def test_searches_come_near_to_the_value_of_tiny_data(numbers):
     ratio = numbers("worst", "worst") / numbers("worst", "small_data")
-    assert (ratio[numbers("worst", "family") != "theorem_3"] > 0.98).all()
+    assert (ratio[numbers("worst", "searched_family") != "theorem_3"] > 0.98).all()
 
 
 def test_energy_bounds_are_below_the_energy():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from made_up_checks import chart, short_chart, threshold
-from pendula.studies.theory import bounds_figure, figures
+from pendula.studies.theory import figures
 
 
 def labelled(axes):
@@ -66,7 +66,7 @@ def test_growth_at_the_threshold_lies_on_its_line(gathered):
 
 
 def test_bounds_say_where_each_case_stands(gathered):
-    cases = bounds_figure.draw_bounds(gathered["bounds"]).axes[0]
+    cases = figures.draw_bounds(gathered["bounds"]).axes[0]
     assert [text.get_text() for text in cases.texts] == [
         "inside; 0.25 of\nTheorem 1",
         "outside; 0.4\nof Theorem 3",
@@ -78,7 +78,7 @@ def test_bounds_say_where_each_case_stands(gathered):
 
 
 def test_bounds_draw_all_samples_and_the_worst(gathered):
-    samples = bounds_figure.draw_bounds(gathered["bounds"]).axes[1]
+    samples = figures.draw_bounds(gathered["bounds"]).axes[1]
     clouds = [line for line in samples.get_lines() if line.get_marker() == "."]
     assert sum(len(cloud.get_xdata()) for cloud in clouds) == 24
     lines = labelled(samples)
@@ -87,7 +87,7 @@ def test_bounds_draw_all_samples_and_the_worst(gathered):
 
 
 def test_bounds_draw_each_sweep_in_its_panel(gathered):
-    panels = bounds_figure.draw_bounds(gathered["bounds"]).axes[2:]
+    panels = figures.draw_bounds(gathered["bounds"]).axes[2:]
     assert len(panels) == 2
     for axes, title in zip(panels, (r"$\Omega = -4$", r"$\Omega = 8$"), strict=True):
         assert axes.get_title(loc="left").startswith(title)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import table, tabulate, variable
 from pendula.measures.norms import growth_margin, total_power
 from pendula.models.bounds import (
     best_bound,
@@ -21,37 +21,38 @@ from pendula.problem import Constants, on_sites, place, read_initial
 from .equations import total_energy
 
 NUMBERS = {
-    "energy": "H at the start",
-    "start": "P at the start, delta",
-    "observed": "largest P",
-    "theorem_1": "C of Theorem 1",
-    "theorem_2": "bound on P from the barrier of (25)",
-    "widened": "the same with the bonds kept",
-    "theorem_3": "C_N of Theorem 3",
-    "best": "smallest bound that holds",
-    "delta_0": "radius of Theorem 2",
-    "c_0": "constant C_0 of Theorem 2",
-    "from_start": "largest P over its bound (19)",
-    "backwards": "the same seen from the end",
-    "steepest": "steepest log P over 4 gamma",
+    "region": ("theorem that covers the case", None),
+    "ratio": ("largest P over its smallest bound", 1.0),
+    "energy": ("conserved energy H of equation (8), at the start", None),
+    "start": ("P at the start, delta", None),
+    "observed": ("largest P", None),
+    "theorem_1": ("C of Theorem 1", None),
+    "theorem_2": ("bound on P from the barrier of (25)", None),
+    "widened": ("the same with the bonds kept", None),
+    "theorem_3": ("C_N of Theorem 3", None),
+    "best": ("smallest bound that holds", None),
+    "delta_0": ("radius of Theorem 2", None),
+    "c_0": ("constant C_0 of Theorem 2", None),
+    "from_start": ("largest P over its bound (19)", None),
+    "steepest": ("steepest log P over 4 gamma", 1.0 + 1e-6),
 }
+"""The numbers of a trajectory, each with its long name and its tolerance."""
 
 
-def case_numbers(trajectory: xr.Dataset) -> tuple[dict[str, float], str]:
-    """Return the numbers of one trajectory named in NUMBERS, and the theorem that covers it."""
+def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
+    """Return the numbers of one trajectory that NUMBERS describes."""
     constants, boundary = Constants.of(trajectory.attrs), str(trajectory.attrs["boundary"])
     sites = 2 * int(trajectory.attrs["half_width"]) + 1
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
-    start = float(power[0])
-    widened = widened_bound(energy, start, constants) if boundary == "dirichlet" else np.inf
+    start, observed = float(power[0]), np.float64(power.max())
     delta_0, c_0 = theorem_2_constants(constants)
     numbers = {
         "energy": energy,
         "start": start,
-        "observed": power.max(),
+        "observed": observed,
         "theorem_1": theorem_1_bound(energy, constants),
         "theorem_2": theorem_2_bound(energy, start, constants),
-        "widened": widened,
+        "widened": widened_bound(energy, start, constants) if boundary == "dirichlet" else np.inf,
         "theorem_3": theorem_3_bound(energy, sites, constants),
         "best": best_bound(energy, start, sites, constants, boundary),
         "delta_0": delta_0,
@@ -59,8 +60,9 @@ def case_numbers(trajectory: xr.Dataset) -> tuple[dict[str, float], str]:
     }
     tau, l2 = trajectory["tau"].values, trajectory["l2"].values
     numbers |= growth_margin(tau, l2, constants.gamma)
+    numbers["ratio"] = observed / numbers["best"]
     region = proven_region(energy, start, constants, boundary)
-    return {name: float(value) for name, value in numbers.items()}, region
+    return {"region": region, **{name: float(value) for name, value in numbers.items()}}
 
 
 def labels(datasets, dims: tuple) -> dict:
@@ -75,19 +77,12 @@ def labels(datasets, dims: tuple) -> dict:
 
 def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
     """Set each of the paper's trajectories (by the name of its case) beside its bounds."""
-    found = [case_numbers(trajectory) for trajectory in trajectories.values()]
-    columns = {name: [numbers[name] for numbers, _ in found] for name in NUMBERS}
-    dims = ("case",)
-    ratio = np.array(columns["observed"]) / np.array(columns["best"])
-    described = {name: variable(columns[name], dims, text) for name, text in NUMBERS.items()}
-    return table(
+    return tabulate(
         "The paper's cases beside the bounds of its theorems",
         {"case": list(trajectories)},
-        region=variable([region for _, region in found], dims, "theorem that covers the case"),
-        ratio=variable(ratio, dims, "largest P over its smallest bound", tolerance=1.0),
-        margin=variable(columns["steepest"], dims, "growth over that of (19)", tolerance=1 + 1e-6),
-        **labels(trajectories.values(), dims),
-        **described,
+        map(case_numbers, trajectories.values()),
+        NUMBERS,
+        **labels(trajectories.values(), ("case",)),
     )
 
 
@@ -110,11 +105,14 @@ def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
     return table(
         "The paper's sweeps beside the bounds of its theorems",
         {"sweep": list(sweeps), "half_width": half_widths},
-        observed=variable(observed, dims, "largest P in the windows"),
+        swept_observed=variable(observed, dims, "largest P in the windows"),
         theorem_3=variable(finite, dims, "C_N of Theorem 3"),
         best=variable(best, dims, "smallest bound that holds"),
         **labels(sweeps.values(), ("sweep",)),
-        excess=variable(
-            np.nanmax(observed / best), (), "largest P over its smallest bound", tolerance=1.0
+        swept_ratio=variable(
+            np.nanmax(observed / best),
+            (),
+            "largest P of all over its smallest bound",
+            tolerance=1.0,
         ),
     )

@@ -7,7 +7,7 @@ import numpy as np
 
 from pendula.problem import Constants
 
-from .equations import check_conservation, check_gradient, check_symmetries
+from .equations import check_conservation, check_dispersion, check_gradient
 from .errata import (
     check_energy_drift,
     check_negative_depth,
@@ -17,9 +17,8 @@ from .errata import (
     check_theorem_3_constant,
 )
 from .estimates import check_balance, check_growth, check_inequalities
-from .linear_stability import check_dispersion, check_windows
-from .other_forms import check_expansion, check_pt_form
-from .stability_chart import check_chart, check_measured_windows, check_threshold
+from .other_forms import check_expansion, check_pt_form, check_symmetries
+from .stability_chart import check_chart, check_measured_windows, check_threshold, check_windows
 from .worst_data import check_samples, check_worst
 
 CHECKS = {
@@ -49,12 +48,8 @@ CHECKS = {
 
 
 def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
-    """Return the numbers of one check; `arguments` are plain values as the configuration has them.
-
-    What is None there is left out.
-    """
-    given = {key: _read(key, value) for key, value in arguments.items() if value is not None}
-    return CHECKS[name](**given)
+    """Return the numbers of one check; `arguments` are plain values as in the configuration."""
+    return CHECKS[name](**{key: _read(key, value) for key, value in arguments.items()})
 
 
 def _read(key: str, value: Any) -> Any:

@@ -1,16 +1,17 @@
-"""Equations (4) on complex amplitudes: as the Hamiltonian system (7), reduced to A = B, conserved.
+"""Equations (4) on amplitudes: as the Hamiltonian system (7), what they conserve, linearised (15).
 
 Short runs of the checks start here too. Their solver is dop853 at tolerances so tight that no
 check measures it instead of the paper.
 """
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 
 import numpy as np
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import tabulate, variable
 from pendula.models.amplitudes import ENDS, energy, rates
-from pendula.models.linear_chain import curvatures, modes
+from pendula.models.linear_chain import curvatures, squared_frequencies
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
 from pendula.simulation.simulate import IntegrationError, Trajectory, make_chain, simulate
@@ -118,16 +119,19 @@ def slope(function, point: np.ndarray, direction: np.ndarray) -> float:
     return (8.0 * (f[2] - f[1]) - (f[3] - f[0])) / 12.0
 
 
+def gradient(function, point: np.ndarray) -> np.ndarray:
+    """Return d/d(conj z) of a real quartic polynomial in the real and imaginary parts of z."""
+    out = np.zeros_like(point)
+    for index in np.ndindex(point.shape):
+        unit = np.zeros_like(point)
+        unit[index] = 1.0
+        out[index] = 0.5 * (slope(function, point, unit) + 1j * slope(function, point, 1j * unit))
+    return out
+
+
 def hamiltonian_rates(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
     """Return -i dH/d(conj A), -i dH/d(conj B) of (7) from values of the energy alone, (2, N)."""
-    out = np.zeros_like(amplitudes)
-    for index in np.ndindex(amplitudes.shape):
-        unit = np.zeros_like(amplitudes)
-        unit[index] = 1.0
-        by_re = slope(lambda z: total_energy(constants, boundary, z), amplitudes, unit)
-        by_im = slope(lambda z: total_energy(constants, boundary, z), amplitudes, 1j * unit)
-        out[index] = -0.5j * (by_re + 1j * by_im)
-    return out
+    return -1j * gradient(lambda z: total_energy(constants, boundary, z), amplitudes)
 
 
 def check_gradient(constants: Constants, sites: int, samples: int, seed: int) -> dict:
@@ -136,70 +140,18 @@ def check_gradient(constants: Constants, sites: int, samples: int, seed: int) ->
     The tolerance is what rounding in the energy allows: some tens of units in its last place.
     """
     rng = np.random.default_rng(seed)
-    errors = np.zeros((len(BOUNDARIES), samples))
-    for row, boundary in enumerate(BOUNDARIES):
-        for sample in range(samples):
-            amplitudes = random_amplitudes(rng, sites, np.sqrt(2.0 * sites))
-            expected = hamiltonian_rates(constants, boundary, amplitudes)
-            found = right_hand_side(constants, boundary, amplitudes)
-            energy = abs(total_energy(constants, boundary, amplitudes)) + np.abs(found).max()
-            errors[row, sample] = np.abs(found - expected).max() / energy
-    dims = ("boundary", "sample")
-    return table(
+    rows = []
+    for boundary, _ in product(BOUNDARIES, range(samples)):
+        amplitudes = random_amplitudes(rng, sites, np.sqrt(2.0 * sites))
+        found = right_hand_side(constants, boundary, amplitudes)
+        missed = np.abs(found - hamiltonian_rates(constants, boundary, amplitudes)).max()
+        size = abs(total_energy(constants, boundary, amplitudes)) + np.abs(found).max()
+        rows.append({"gradient_error": missed / size})
+    return tabulate(
         "Right-hand side of (4) against the gradient (7) of the energy (8)",
-        {"boundary": list(BOUNDARIES), "sample": np.arange(samples)},
-        error=variable(errors, dims, "largest difference over the energy", tolerance=50 * EPS),
-    )
-
-
-def scalar_run(epsilon: float, omega: float, boundary: str, a: np.ndarray, end_time: float):
-    """Integrate the scalar dNLS i a' = epsilon Lap a + Omega a + |a|^2 a / 2, written apart.
-
-    Fourth-order Strang composition (Suzuki): the exact linear flow of every mode and the exact
-    rotation of the phase, so that the l2 norm is kept but for rounding.
-    """
-    basis = modes(len(a), boundary)
-    kappa = epsilon * curvatures(len(a), boundary) - omega
-    outer = 1.0 / (4.0 - 4.0 ** (1.0 / 3.0))
-    count = 100 * max(1, int(np.ceil(end_time)))
-    for _ in range(count):
-        for part in (outer, outer, 1.0 - 4.0 * outer, outer, outer):
-            h = part * end_time / count
-            a = a * np.exp(-0.25j * h * np.abs(a) ** 2)
-            a = basis.T @ (np.exp(1j * kappa * h) * (basis @ a))
-            a = a * np.exp(-0.25j * h * np.abs(a) ** 2)
-    return a
-
-
-def check_symmetries(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
-    """Test the exchange of A and B, the reduction A = B (5), its conserved norm, and its equation.
-
-    All four along trajectories: exchange must hold to the last bit, A = B as well.
-    """
-    rng = np.random.default_rng(seed)
-    found = {name: [] for name in ("exchange", "synchrony", "norm_drift", "scalar")}
-    for boundary in BOUNDARIES:
-        pair = random_amplitudes(rng, sites, 2.0)
-        forth = run(constants, boundary, pair, end_time, 8).final
-        back = run(constants, boundary, pair[::-1].copy(), end_time, 8).final
-        alike = np.stack([pair[0], pair[0]])
-        both = run(constants, boundary, alike, end_time, 8)
-        norms = squared_norm(both.l2)
-        scalar = scalar_run(constants.epsilon, constants.omega, boundary, pair[0], end_time)
-        found["exchange"].append(np.abs(forth - back[::-1]).max())
-        found["synchrony"].append(np.abs(both.final[0] - both.final[1]).max())
-        found["norm_drift"].append(np.abs(norms / norms[0] - 1.0).max())
-        found["scalar"].append(np.abs(both.final[0] - scalar).max())
-    dims = ("boundary",)
-    return table(
-        "Exchange of A and B, and the invariant reduction A = B (5)",
-        {"boundary": list(BOUNDARIES)},
-        exchange=variable(found["exchange"], dims, "change under A <-> B", tolerance=0.0),
-        synchrony=variable(found["synchrony"], dims, "|A - B| from A = B", tolerance=0.0),
-        norm_drift=variable(
-            found["norm_drift"], dims, "relative drift of l2 on A = B", tolerance=1e-10
-        ),
-        scalar=variable(found["scalar"], dims, "distance to the scalar dNLS", tolerance=1e-7),
+        {"boundary": BOUNDARIES, "sample": np.arange(samples)},
+        rows,
+        {"gradient_error": ("largest difference over the energy", 50 * EPS)},
     )
 
 
@@ -219,22 +171,107 @@ def check_conservation(
 ) -> dict:
     """Follow H and the l2 norm from random data, and turn the phase, for each kind of ends."""
     rng = np.random.default_rng(seed)
-    shape = (len(BOUNDARIES), len(omegas))
-    drift, change, defect = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-    for i, boundary in enumerate(BOUNDARIES):
-        for j, omega in enumerate(omegas):
-            constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-            start = random_amplitudes(rng, sites, 2.0)
-            trajectory = run(constants, boundary, start, end_time, 50)
-            power = squared_norm(trajectory.l2)
-            drift[i, j] = np.abs(trajectory.energy - trajectory.energy[0]).max()
-            change[i, j] = np.abs(power / power[0] - 1.0).max()
-            defect[i, j] = gauge_defect(constants, boundary, start)
-    dims = ("boundary", "omega")
-    return table(
+    rows = []
+    for boundary, omega in product(BOUNDARIES, omegas):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        start = random_amplitudes(rng, sites, 2.0)
+        trajectory = run(constants, boundary, start, end_time, 50)
+        power = squared_norm(trajectory.l2)
+        rows.append(
+            {
+                "energy_drift": np.abs(trajectory.energy - trajectory.energy[0]).max(),
+                "l2_change": np.abs(power / power[0] - 1.0).max(),
+                "gauge_defect": gauge_defect(constants, boundary, start),
+            }
+        )
+    return tabulate(
         "What is conserved along the flow",
-        {"boundary": list(BOUNDARIES), "omega": np.asarray(omegas, float)},
-        energy_drift=variable(drift, dims, "largest |H - H(0)|", tolerance=1e-7),
-        l2_change=variable(change, dims, "largest relative change of the squared l2 norm"),
-        gauge_defect=variable(defect, dims, "defect of turning all phases"),
+        {"boundary": BOUNDARIES, "point": np.arange(len(omegas))},
+        rows,
+        {
+            "energy_drift": ("largest |H - H(0)|", 1e-7),
+            "l2_change": ("largest relative change of the squared l2 norm", None),
+            "gauge_defect": ("defect of turning all phases", None),
+        },
+        omega=variable(omegas, ("point",), "detuning Omega"),
+    )
+
+
+TINY = 2.0**-200
+"""A power of two so small that the cubic terms vanish below rounding: scaling by it is exact."""
+
+
+def jacobian(constants: Constants, sites: int, boundary: str) -> np.ndarray:
+    """Return the real matrix (4N, 4N) of the right-hand side linearised at zero."""
+    chain = make_chain(constants, boundary, WHOLE)
+    y = pack(np.zeros((2, sites), complex), WHOLE)
+    dy = np.zeros_like(y)
+    columns = []
+    for row in range(4):
+        for site in range(sites):
+            y[:] = 0.0
+            y[row, 1 + site] = TINY
+            rates(chain, y, dy)
+            columns.append(dy[:, 1:-1].ravel() / TINY)
+    return np.array(columns).T
+
+
+def predicted_squares(constants: Constants, sites: int, boundary: str) -> np.ndarray:
+    """Return the squares -omega_1^2, -omega_2^2 of the eigenvalues, each twice, in order."""
+    kappa = constants.epsilon * curvatures(sites, boundary) - constants.omega
+    return np.sort(-np.concatenate(2 * squared_frequencies(kappa, constants.gamma)))
+
+
+def printed_determinant(kappa: float, gamma: float, omega: float) -> float:
+    """Return the determinant of the matrix printed above (15)."""
+    g = gamma
+    matrix = [
+        [kappa - omega, g, 0.0, -g],
+        [g, kappa + omega, -g, 0.0],
+        [0.0, -g, kappa - omega, g],
+        [-g, 0.0, g, kappa + omega],
+    ]
+    return float(np.linalg.det(np.array(matrix)))
+
+
+def factorisation_error(samples: int = 200, seed: int = 4) -> float:
+    """Return the largest error of the factorised form (15) of that determinant."""
+    rng = np.random.default_rng(seed)
+    worst = 0.0
+    for kappa, gamma, omega in rng.uniform(-3.0, 3.0, (samples, 3)):
+        factors = (omega**2 - kappa**2) * (omega**2 - kappa**2 + 4.0 * gamma**2)
+        worst = max(worst, abs(printed_determinant(kappa, gamma, omega) - factors))
+    return worst
+
+
+def check_dispersion(points, epsilon: float, sites: int) -> dict:
+    """Compare the eigenvalues at `points` of (Omega, gamma) with (15) for each kind of ends.
+
+    The linearised operator is assembled from the library's right-hand side. Squares of eigenvalues
+    are compared: they are real, so that sorting pairs them safely, and where two eigenvalues merge
+    their squares keep all digits.
+    """
+    rows = []
+    for boundary, (omega, gamma) in product(BOUNDARIES, points):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        found = np.linalg.eigvals(jacobian(constants, sites, boundary))
+        squares = predicted_squares(constants, sites, boundary)
+        scale = np.abs(squares).max() + 4.0 * gamma**2
+        missed = np.abs(np.sort((found**2).real) - squares).max()
+        error = max(missed, np.abs((found**2).imag).max()) / scale
+        rows.append({"eigenvalue_error": error, "largest_real_part": found.real.max()})
+    omegas, gammas = zip(*points, strict=True)
+    return tabulate(
+        "Eigenvalues of the linearised right-hand side against the dispersion relation (15)",
+        {"boundary": BOUNDARIES, "point": np.arange(len(points))},
+        rows,
+        {
+            "largest_real_part": ("largest real part of an eigenvalue, per unit of tau", None),
+            "eigenvalue_error": ("relative error of the squared eigenvalues", 1e-12),
+        },
+        omega=variable(omegas, ("point",), "detuning Omega"),
+        gamma=variable(gammas, ("point",), "strength of the drive, gamma"),
+        factorisation=variable(
+            factorisation_error(), (), "printed determinant minus (15)", tolerance=1e-11
+        ),
     )

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import table, tabulate, variable
 from pendula.models.bounds import (
     theorem_2_constants,
     theorem_2_gap,
@@ -13,9 +13,12 @@ from pendula.models.bounds import (
     widened_delta_0,
 )
 from pendula.problem import Constants, Problem, on_sites
-from pendula.simulation.simulate import simulate
+from pendula.simulation.simulate import Trajectory, simulate
 
+from .bounds import NUMBERS
 from .equations import run, squared_norm, total_energy
+
+DEPTH = "-H, which Theorem 2 takes for positive"
 
 
 def alternating(sites: int, x: float) -> np.ndarray:
@@ -44,25 +47,23 @@ def check_theorem_3_constant(constants: Constants, amplitude: float, longest: in
     sizes = np.arange(1, longest + 1, 2)
     margins = np.array(
         [
-            [
-                theorem_3_margin(constants, alternating(n, amplitude), "dirichlet", k)
-                for k in (1.0, 2.0)
-            ]
+            theorem_3_margin(constants, alternating(n, amplitude), "dirichlet", drive)
+            for drive in (1.0, 2.0)
             for n in sizes
         ]
     )
-    failing = sizes[margins[:, 0] < 0]
+    printed, corrected = margins.reshape(2, -1)
+    failing = sizes[printed < 0]
+    smallest = failing.min() if len(failing) else 0
     return table(
         "The lower bound in the proof of Theorem 3 on A = -B = x (-1)^n",
         {"sites": sizes},
-        printed=variable(margins[:, 0], ("sites",), "H minus the bound with gamma, as printed"),
-        corrected=variable(margins[:, 1], ("sites",), "H minus the bound with 2 gamma"),
+        printed=variable(printed, ("sites",), "H minus the bound with gamma, as printed"),
+        corrected=variable(corrected, ("sites",), "H minus the bound with 2 gamma"),
         violation=variable(
-            -margins[:, 1], ("sites",), "excess of the corrected bound over H", tolerance=1e-12
+            -corrected, ("sites",), "excess of the corrected bound over H", tolerance=1e-12
         ),
-        smallest=variable(
-            failing.min() if len(failing) else 0, (), "smallest chain that breaks the printed bound"
-        ),
+        smallest=variable(smallest, (), "smallest chain that breaks the printed bound"),
     )
 
 
@@ -74,20 +75,25 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     energy = total_energy(constants, "dirichlet", amplitudes)
     delta_0, c_0 = theorem_2_constants(constants)
     numbers = {
-        "start": (start, "P(0) of the case"),
-        "depth": (-energy, "-H of the case"),
-        "barrier": (theorem_2_gap(constants) ** 2, "barrier of -H in (25)"),
-        "delta_0": (delta_0, "radius of Theorem 2"),
-        "c_0": (c_0, "constant of Theorem 2"),
-        "widened_barrier": (widened_barrier(constants)[1], "barrier of -H with the bonds kept"),
-        "widened_delta_0": (widened_delta_0(constants), "radius of the widened theorem"),
-        "widened_bound": (float(widened_bound(energy, start, constants)), "its bound on P"),
+        "start": start,
+        "depth": -energy,
+        "barrier": theorem_2_gap(constants) ** 2,
+        "delta_0": delta_0,
+        "c_0": c_0,
+        "widened_barrier": widened_barrier(constants)[1],
+        "widened_delta_0": widened_delta_0(constants),
+        "widened_bound": float(widened_bound(energy, start, constants)),
     }
-    return table(
-        "The small case at Omega = -4 and the region that Theorem 2 covers",
-        {},
-        **{name: variable(value, (), text) for name, (value, text) in numbers.items()},
-    )
+    about = {
+        **{name: NUMBERS[name] for name in ("start", "delta_0", "c_0")},
+        "depth": (DEPTH, None),
+        "barrier": ("barrier of -H in (25)", None),
+        "widened_barrier": ("barrier of -H with the bonds kept", None),
+        "widened_delta_0": ("radius of the widened theorem", None),
+        "widened_bound": ("its bound on P", None),
+    }
+    title = "The small case at Omega = -4 and the region that Theorem 2 covers"
+    return tabulate(title, {}, [numbers], about)
 
 
 def check_negative_depth(constants: Constants, longest: float) -> dict:
@@ -101,9 +107,9 @@ def check_negative_depth(constants: Constants, longest: float) -> dict:
     negative = sizes[depth <= 0]
     assured = depth[sizes**2 < 4.0 * theorem_2_gap(constants)]
     return table(
-        "The sign of -H for Omega < -2 gamma",
+        "The sign of -H of a pair (x, 0) for Omega < -2 gamma",
         {"x": sizes},
-        depth=variable(depth, ("x",), "-H of the pair (x, 0)"),
+        depth=variable(depth, ("x",), DEPTH),
         first_negative=variable(
             negative.min() if len(negative) else np.inf, (), "smallest x with -H <= 0"
         ),
@@ -113,26 +119,29 @@ def check_negative_depth(constants: Constants, longest: float) -> dict:
     )
 
 
+def run_small_data(omega: float, half_width: int, end_time: float, solver: Mapping) -> Trajectory:
+    """Run the paper's small data, (A_0, B_0) = (1, 0.1), as the paper's figures have it."""
+    problem = Problem(
+        constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
+        half_width=half_width,
+        boundary="dirichlet",
+        initial=on_sites({0: (1.0, 0.1)}),
+        end_time=end_time,
+        output_step=0.025,
+        solver=solver,
+    )
+    return simulate(problem)
+
+
 def check_energy_drift(solver: Mapping, end_time: float, omegas) -> dict:
     """Run the small cases by the paper's solver: is H kept to the order of 1e-6?"""
-    drift = []
-    for omega in omegas:
-        trajectory = simulate(
-            Problem(
-                constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
-                half_width=30,
-                boundary="dirichlet",
-                initial=on_sites({0: (1.0, 0.1)}),
-                end_time=end_time,
-                output_step=0.025,
-                solver=solver,
-            )
-        )
-        drift.append(np.abs(trajectory.energy - trajectory.energy[0]).max())
+    energies = [run_small_data(omega, 30, end_time, solver).energy for omega in omegas]
+    drift = [np.abs(energy - energy[0]).max() for energy in energies]
     return table(
         f"Drift of the energy by tau = {end_time:g}, (A0, B0) = (1, 0.1), {solver['name']}",
-        {"omega": np.asarray(omegas)},
-        drift=variable(drift, ("omega",), "largest |H - H(0)|"),
+        {"point": np.arange(len(omegas))},
+        omega=variable(omegas, ("point",), "detuning Omega"),
+        energy_drift=variable(drift, ("point",), "largest |H - H(0)|"),
     )
 
 
@@ -157,21 +166,11 @@ def check_not_shown(
     """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
     peaks = []
     for half_width in half_widths:
-        trajectory = simulate(
-            Problem(
-                constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
-                half_width=int(half_width),
-                boundary="dirichlet",
-                initial=on_sites({0: (1.0, 0.1)}),
-                end_time=window[1],
-                output_step=0.025,
-                solver=solver,
-            )
-        )
+        trajectory = run_small_data(omega, half_width, window[1], solver)
         inside = trajectory.tau >= window[0]
         peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
     return table(
         f"Largest l2 on [{window[0]:g}, {window[1]:g}] at Omega = {omega:g}, small data",
-        {"half_width": np.asarray(half_widths)},
-        l2=variable(peaks, ("half_width",), "largest l2 norm of the pair"),
+        {"half_width": half_widths},
+        l2=variable(peaks, ("half_width",), "l2 norm over the chain, largest in the window"),
     )

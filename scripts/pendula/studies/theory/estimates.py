@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import table, tabulate, variable
 from pendula.measures.norms import growth_margin
 from pendula.models.bounds import coercivity, extent, theorem_2_gap
 from pendula.problem import Constants
@@ -69,23 +69,24 @@ def check_balance(
 ) -> dict:
     """Test the balance equation at random states and integrated along a trajectory."""
     rng = np.random.default_rng(seed)
-    pointwise, integrated = [], []
+    rows = []
     for boundary in BOUNDARIES:
         errors = []
         for _ in range(10):
             state = random_amplitudes(rng, sites, 3.0)
             rate = norm_rate(constants, boundary, state)
             errors.append(abs(rate - norm_balance(state, constants.gamma)))
-        pointwise.append(max(errors))
         start = random_amplitudes(rng, sites, 1.5)
         change, integral = integrated_balance(constants, boundary, start, end_time, panels)
-        integrated.append(abs(change - integral))
-    dims = ("boundary",)
-    return table(
+        rows.append({"pointwise": max(errors), "integrated": abs(change - integral)})
+    return tabulate(
         "The balance equation of the l2 norm (Lemma 2)",
-        {"boundary": list(BOUNDARIES)},
-        pointwise=variable(pointwise, dims, "dP/dtau minus its balance", tolerance=1e-12),
-        integrated=variable(integrated, dims, "change of P minus its integral", tolerance=1e-9),
+        {"boundary": BOUNDARIES},
+        rows,
+        {
+            "pointwise": ("dP/dtau minus its balance", 1e-12),
+            "integrated": ("change of P minus its integral", 1e-9),
+        },
     )
 
 
@@ -99,8 +100,7 @@ def check_growth(
     zero and A = -B = x e^{i pi / 4} grows by e^{2 gamma tau} for as long as it is small.
     """
     rng = np.random.default_rng(seed)
-    margins = {"forwards": [], "backwards": [], "steepest": []}
-    returns = []
+    rows = []
     for sample in range(samples):
         boundary = BOUNDARIES[sample % len(BOUNDARIES)]
         start = random_amplitudes(rng, sites, 10.0 ** rng.uniform(-2.0, 0.7))
@@ -108,23 +108,27 @@ def check_growth(
         back = run(constants, boundary, start.conj(), end_time, 100)
         forwards = growth_margin(forth.tau, forth.l2, constants.gamma)
         backwards = growth_margin(back.tau, back.l2, constants.gamma)
-        margins["forwards"].append(forwards["from_start"])
-        margins["backwards"].append(backwards["from_start"])
-        margins["steepest"].append(max(forwards["steepest"], backwards["steepest"]))
         short = run(constants, boundary, start, 1.0).final
         again = run(constants, boundary, short.conj(), 1.0).final.conj()
-        returns.append(np.abs(again - start).max() / np.abs(start).max())
-    dims = ("sample",)
+        rows.append(
+            {
+                "forwards": forwards["from_start"],
+                "backwards": backwards["from_start"],
+                "steepest": max(forwards["steepest"], backwards["steepest"]),
+                "reversal": np.abs(again - start).max() / np.abs(start).max(),
+            }
+        )
     limit = 1.0 + 1e-9
-    return table(
+    return tabulate(
         "The bound (19) on the growth of l2, forwards and backwards",
         {"sample": np.arange(samples)},
-        forwards=variable(margins["forwards"], dims, "largest P over its bound", tolerance=limit),
-        backwards=variable(margins["backwards"], dims, "the same backwards", tolerance=limit),
-        steepest=variable(
-            margins["steepest"], dims, "steepest log P over 4 gamma", tolerance=limit
-        ),
-        reversal=variable(returns, dims, "miss after there and back", tolerance=1e-8),
+        rows,
+        {
+            "forwards": ("largest P over its bound, forwards", limit),
+            "backwards": ("largest P over its bound, backwards", limit),
+            "steepest": ("steepest log P over 4 gamma", limit),
+            "reversal": ("miss after there and back", 1e-8),
+        },
         sharpest=variable(sharpest_growth(), (), "the sharp case over its bound"),
     )
 
@@ -197,11 +201,11 @@ def check_inequalities(count: int, seed: int) -> dict:
     return table(
         "The inequalities behind the theorems",
         {"inequality": names, "bound": bounds},
-        ratio=variable(
+        left_over_right=variable(
             np.max(ratios, axis=0), ("inequality",), "largest left over right", tolerance=1 + 1e-12
         ),
         sharp=variable(sharp, ("inequality",), "the same for the sharpest sequence"),
-        excess=variable(
+        bound_excess=variable(
             np.max(excess, axis=0), ("bound",), "largest bound minus energy", tolerance=1e-10
         ),
     )

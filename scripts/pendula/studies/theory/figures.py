@@ -1,13 +1,18 @@
-"""Lemma 1 in pictures: the stability chart, measured growth rates, growth at the threshold."""
+"""The theory in pictures: Lemma 1's chart and growth rates, and the bounds of Theorems 1 to 3.
+
+The bounds are on P = |A|^2 + |B|^2 in l2.
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
+from pendula.drawing.panels import half_width_axis
 
 HEAT = "YlOrRd"  # from light to dark: the boundaries, where growth is slow, lie on light ground
 SHADES = ["#9ecae1", "#6baed6", "#3182bd", "#08519c", "#041f42"]
@@ -20,6 +25,15 @@ CHARTS = {
 ERRORS = {
     "exact_flow": ("s", "#16876b", "linear flow of the data"),
     "finite_rate": (".", "0.55", "fastest mode"),
+}
+CURVES = {
+    "finite_curve": {"color": style.BLUE, "lw": 1.1, "label": "threshold of the finite chain"},
+    "infinite_curve": {
+        "color": "black",
+        "lw": 1.4,
+        "dashes": (4, 2),
+        "label": r"$\gamma_0$ of the infinite chain",
+    },
 }
 PREDICTED = "rate of the fastest mode\n(per unit of $\\tau$)"
 COMPARED = ["measured", "exact_flow", "finite_rate"]
@@ -74,56 +88,27 @@ def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
     bar.set_label("measured growth rate\n(per unit of $\\epsilon \\tau$)")
     sites = int(chart["sites"])
     curve = chart["curve_omega"]
-    axes.plot(
-        curve,
-        chart["finite_curve"],
-        color=style.BLUE,
-        lw=1.1,
-        label="threshold of the finite chain",
-    )
-    axes.plot(
-        curve,
-        chart["infinite_curve"],
-        color="black",
-        lw=1.4,
-        dashes=(4, 2),
-        label=r"$\gamma_0$ of the infinite chain",
-    )
+    for name, look in CURVES.items():
+        axes.plot(curve, chart[name], **look)
     axes.set_xlim(float(chart["omega"][0]), float(chart["omega"][-1]))
     axes.set_ylim(0, float(chart["gamma"][-1]))
-    axes.set_xlabel(r"$\Omega / \epsilon$")
-    axes.set_ylabel(r"$\gamma / \epsilon$")
+    axes.set(xlabel=r"$\Omega / \epsilon$", ylabel=r"$\gamma / \epsilon$")
     axes.set_title(f"$N = {sites}$ sites, Dirichlet ends", loc="left")
 
 
 def _mark_points(axes: Axes, data: xr.Dataset) -> None:
-    axes.plot(
-        data["point_omega"],
-        data["point_gamma"],
-        "o",
-        color="white",
-        markeredgecolor="black",
-        markersize=6,
-        label="the paper's figures",
-    )
+    hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
+    axes.plot(data["point_omega"], data["point_gamma"], "o", label="the paper's figures", **hollow)
 
 
 def _draw_share(axes: Axes, data: xr.Dataset) -> None:
     looks = zip(data["half_width"].values, SHADES, DASHES, strict=False)
     for half_width, colour, dashes in looks:
         share = data["share"].sel(half_width=half_width)
-        axes.plot(
-            share["window_gamma"],
-            share,
-            color=colour,
-            dashes=dashes,
-            lw=1.3,
-            label=f"$N = {2 * int(half_width) + 1}$",
-        )
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1)
+        look = {"color": colour, "dashes": dashes, "label": f"$N = {2 * int(half_width) + 1}$"}
+        axes.plot(share["window_gamma"], share, lw=1.3, **look)
+    axes.set(xscale="log", ylim=(0, 1), xlabel=r"$\gamma / \epsilon$")
     axes.set_xlim(float(data["window_gamma"][0]), float(data["window_gamma"][-1]))
-    axes.set_xlabel(r"$\gamma / \epsilon$")
     axes.set_ylabel(r"stable share of $0 \leq \Omega \leq 4 \epsilon$")
     axes.set_title("windows of stability of finite chains", loc="left")
     axes.legend()
@@ -163,8 +148,7 @@ def _draw_measured(axes: Axes, data: xr.Dataset) -> None:
         axes.plot(cells["finite_rate"], cells["measured"], linestyle="none", label=label, **look)
     top = float(data["finite_rate"].max())
     axes.plot([0, top], [0, top], color="black", lw=0.8, label="equal")
-    axes.set_xlabel(PREDICTED)
-    axes.set_ylabel("measured growth rate (per unit of $\\tau$)")
+    axes.set(xlabel=PREDICTED, ylabel="measured growth rate (per unit of $\\tau$)")
     axes.legend(loc="upper left")
 
 
@@ -176,9 +160,7 @@ def _draw_errors(axes: Axes, data: xr.Dataset) -> None:
         shown = error.where(error > 0)
         look = {"marker": marker, "color": colour, "markersize": 2.5}
         axes.plot(growing["finite_rate"], shown, linestyle="none", label=label, **look)
-    axes.set_yscale("log")
-    axes.set_xlabel(PREDICTED)
-    axes.set_ylabel("relative error of the measured rate")
+    axes.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
     axes.set_ylim(top=1e6)  # room for the legend
     axes.legend(loc="upper right", title="against the", handletextpad=0.1)
 
@@ -193,9 +175,7 @@ def _draw_threshold(axes: Axes, data: xr.Dataset) -> None:
         spread = data["spreading"].sel(norm=norm)
         name = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}[norm]
         _draw_both(axes, data["long_tau"], spread, marker, colour, f"{name}, infinite chain")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel(r"$\tau$")
+    axes.set(xscale="log", yscale="log", xlabel=r"$\tau$")
     axes.set_ylabel("growth of $A - B$ at the threshold")
     axes.set_ylim(1, 2e4)  # room for the legend
     axes.legend(loc="upper left")
@@ -205,10 +185,135 @@ def _draw_both(
     axes: Axes, times: xr.DataArray, values: xr.DataArray, marker: str, colour: str, label: str
 ) -> None:
     """Draw the first Omega as hollow marks, and the others, which coincide, as dots within."""
-    for i, omega in enumerate(values["threshold_omega"].values):
-        look = {"color": colour, "marker": marker, "linestyle": "none"}
-        if i == 0:
-            look |= {"markersize": 5, "markerfacecolor": "white", "label": label}
-        else:
-            look["markersize"] = 2
-        axes.plot(times, values.sel(threshold_omega=omega), **look)
+    looks = [{"markersize": 5, "markerfacecolor": "white", "label": label}]
+    looks += [{"markersize": 2}] * (values.sizes["threshold_omega"] - 1)
+    for i, look in enumerate(looks):
+        row = values.isel(threshold_omega=i)
+        axes.plot(times, row, color=colour, marker=marker, linestyle="none", **look)
+
+
+# --- The bounds ----------------------------------------------------------------------------------
+
+BOUNDS = {
+    "theorem_1": (">", "#16876b", "Theorem 1"),
+    "theorem_2": ("s", "#e0a100", "Theorem 2"),
+    "widened": ("D", "#7a4fa3", "Theorem 2 with bonds"),
+    "theorem_3": ("|", style.BLUE, "Theorem 3"),
+}
+FAMILIES = {
+    "theorem_1": "Theorem 1",
+    "theorem_2_ball": "Theorem 2\n" r"($C_0 \delta$)",
+    "theorem_2_energy": "Theorem 2\n(its energy)",
+    "theorem_2_widened": "Theorem 2\nwith bonds",
+    "theorem_3": "Theorem 3",
+}
+SEARCHES = {
+    "dirichlet": {"color": style.RED, "label": "chain"},
+    "periodic": {"color": style.RED, "markerfacecolor": "white", "label": "ring"},
+}
+POWER = r"$P = \|A\|^2 + \|B\|^2$"
+
+
+def gather_bounds(
+    cases: xr.Dataset, sweeps: xr.Dataset, samples: xr.Dataset, worst: xr.Dataset
+) -> xr.Dataset:
+    """Return the cases and sweeps with their bounds, and the ratios that data drawn reach."""
+    seen = cases[["omega", "initial", "observed", "start", "region", "ratio", *BOUNDS]]
+    shared = ["omega", "initial", "theorem_3", "best"]
+    swept = sweeps[[*shared, "swept_observed"]].rename({name: f"swept_{name}" for name in shared})
+    searched = worst[["worst", "small_data", "searched_family", "boundary", "sites"]].rename(
+        boundary="searched_boundary", sites="searched_sites"
+    )
+    drawn = [seen, swept, samples[["sampled"]], searched]
+    return xr.merge(drawn, combine_attrs="drop_conflicts")
+
+
+@style.styled
+def draw_bounds(data: xr.Dataset) -> Figure:
+    """Draw the cases and the data drawn at random above, the four sweeps below."""
+    figure = style.new_figure(style.DOUBLE, 5.8)
+    above, below = figure.subfigures(2, 1, height_ratios=[1.3, 1])
+    left, right = above.subfigures(1, 2, width_ratios=[1.35, 1])
+    _draw_cases(left.subplots(), data)
+    _draw_samples(right.subplots(), data)
+    panels = below.subplots(1, data.sizes["sweep"], sharex=True, sharey=True, squeeze=False)[0]
+    for axes, name in zip(panels, data["sweep"].values, strict=True):
+        _draw_sweep(axes, data.sel(sweep=name))
+    panels[0].set_ylabel(f"largest {POWER}")
+    for part, columns in ((left, 3), (right, 2), (below, 3)):
+        _put_legend(part, columns)
+    return figure
+
+
+def _put_legend(part: SubFigure, columns: int) -> None:
+    look = {"ncols": columns, "columnspacing": 0.8, "handlelength": 1.3, "handletextpad": 0.3}
+    part.legend(*part.axes[0].get_legend_handles_labels(), loc="outside upper center", **look)
+
+
+def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
+    rows = np.arange(data.sizes["case"])
+    hollow = {"color": "white", "markeredgecolor": "black", "label": "at the start"}
+    axes.plot(data["start"], rows, "o", **hollow)
+    for name, (marker, colour, label) in BOUNDS.items():
+        bound = data[name].where(np.isfinite(data[name]))
+        if bound.notnull().any():
+            look = {"color": colour, "label": label, "markersize": 5, "markeredgewidth": 1.5}
+            axes.plot(bound, rows, marker, **look)
+    axes.plot(data["observed"], rows, "o", color=style.RED, markersize=5, label="largest seen")
+    for row in rows:
+        case, edge = data.isel(case=row), axes.get_yaxis_transform()
+        axes.text(1.02, row, _standing(case), transform=edge, va="center")
+    axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
+    axes.set_ylim(rows[-1] + 0.5, -0.5)
+    axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel(POWER)
+
+
+def _standing(case: xr.Dataset) -> str:
+    region, ratio = str(case["region"].values), float(case["ratio"])
+    if region == "none":
+        return f"outside; {ratio:.2g}\nof Theorem 3"
+    covered = region.replace("theorem", "Theorem").replace("widened", "with bonds")
+    return f"inside; {ratio:.2g} of\n{covered}"
+
+
+def _name(omega: xr.DataArray, initial: xr.DataArray) -> str:
+    return rf"$\Omega = {float(omega):g}$" + "\n" + style.name_initial(str(initial.values))
+
+
+def _draw_samples(axes: Axes, data: xr.Dataset) -> None:
+    rows = np.arange(data.sizes["family"])
+    for row, family in zip(rows, data["family"].values, strict=True):
+        ratio = data["sampled"].sel(family=family).values.ravel()
+        height = row + np.linspace(-0.32, 0.32, len(ratio))
+        label = r"random data, any $\epsilon$, $\gamma$" if row == 0 else None
+        axes.plot(ratio, height, ".", color="0.62", markersize=2.5, label=label)
+    searched = list(data["family"].values).index
+    for boundary, look in SEARCHES.items():
+        runs = data.isel(question=data["searched_boundary"].values == boundary)
+        places = [searched(family) for family in runs["searched_family"].values]
+        label = f"worst, {look['label']} of {int(data['searched_sites'])}"
+        tiny = {"markersize": 16, "markeredgewidth": 1.2, "color": "black"}
+        axes.plot(runs["small_data"], places, "|", **tiny)
+        axes.plot(runs["worst"], places, "D", markersize=4, **{**look, "label": label})
+    axes.plot([], [], "|", **{**tiny, "markersize": 9}, label="its limit for tiny data")
+    axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
+    axes.set_yticks(rows, [FAMILIES[name] for name in data["family"].values])
+    axes.invert_yaxis()
+    axes.set_xlim(0, 1.06)
+    axes.set_xlabel("largest $P$ over its bound")
+
+
+def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
+    m = sweep["half_width"]
+    best = {"color": "#f2b824", "lw": 3.5, "label": "smallest bound"}
+    finite = {"color": style.BLUE, "lw": 1.1, "dashes": (4, 2), "label": "Theorem 3"}
+    axes.plot(m, sweep["swept_best"], **best)
+    axes.plot(m, sweep["swept_theorem_3"], **finite)
+    axes.plot(m, sweep["swept_observed"], "o", color=style.RED, markersize=3, label="largest seen")
+    half_width_axis(axes)
+    axes.set_yscale("log")
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("half-width $M$")
+    axes.set_title(_name(sweep["swept_omega"], sweep["swept_initial"]), loc="left")

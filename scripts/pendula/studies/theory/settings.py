@@ -67,7 +67,7 @@ ARGUMENTS = {
 
 
 def check(names: str, **own) -> type[Model]:
-    """Return the model of a check that takes these of ARGUMENTS, and some of a type of its `own`."""
+    """Return the model of what a check takes: some of ARGUMENTS, and what has a type of its own."""
     types = {name: ARGUMENTS[name] for name in names.split()} | own
     return create_model("Check", __base__=Model, **{name: (t, ...) for name, t in types.items()})
 

@@ -1,11 +1,17 @@
-"""Lemma 1 measured: how fast tiny data grow under the full equations, on and off the thresholds."""
+"""Lemma 1: thresholds (12), windows of stability, and how fast tiny data grow under (4).
+
+Rates are per unit of tau. A mode of curvature lambda has kappa = epsilon lambda - Omega; on the
+infinite chain lambda covers [0, 4], on N sites it takes N values of its own.
+"""
 
 from dataclasses import astuple
+from itertools import product
 
 import numpy as np
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import columns, table, tabulate, variable
 from pendula.models.linear_chain import (
+    curvatures,
     driven,
     finite_rate,
     finite_threshold,
@@ -17,11 +23,23 @@ from pendula.models.linear_chain import (
 from pendula.problem import Constants
 
 from .equations import random_amplitudes, run, run_powers
-from .linear_stability import stable_windows
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
 CURVE_POINTS = 1601  # resolves the teeth of the finite chain's threshold
+
+ABOUT = {
+    "measured": ("growth rate of tiny data, per unit of tau", None),
+    "exact_flow": ("the same by the exact linear flow, per unit of tau", None),
+    "finite_rate": ("largest rate of the finite chain, per unit of tau", None),
+    "infinite_rate": ("largest rate of the infinite chain, per unit of tau", None),
+    "infinite_threshold": ("gamma_0 of (12)", None),
+    "finite_threshold": ("threshold of N sites", None),
+    "infinite_curve": ("gamma_0 of (12), finely", None),
+    "finite_curve": ("threshold of N sites, finely", None),
+    "rate_error": ("measured minus exact flow, per unit of tau", 1e-6),
+    "misclassified": ("cells whose measured growth contradicts the finite chain's threshold", 0),
+}
 
 
 def tiny_tolerances(rtol: float = 1e-9) -> dict:
@@ -86,46 +104,33 @@ def check_chart(
         cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
         measured.append(measured_slopes(cells, boundary, data, end))
         exact.append([flow_slope(data, cell, boundary, end) for cell in cells])
-    measured, exact, dims = np.array(measured).T, np.array(exact).T, ("omega", "gamma")
-    grid = omegas[:, None], gammas[None, :]
-    finite = finite_rate(*grid, epsilon, sites, boundary)
+    measured, exact = np.array(measured).T, np.array(exact).T
+    grid, chain = (omegas[:, None], gammas[None, :]), (epsilon, sites, boundary)
+    finite = finite_rate(*grid, *chain)
     fine = np.linspace(omegas[0], omegas[-1], CURVE_POINTS)
+    rates = {
+        "measured": measured,
+        "exact_flow": exact,
+        "finite_rate": finite,
+        "infinite_rate": infinite_rate(*grid, epsilon),
+        "rate_error": np.abs(measured - exact),
+    }
+    thresholds = {
+        "infinite_threshold": gamma_0(omegas, epsilon),
+        "finite_threshold": finite_threshold(omegas, *chain),
+    }
+    curves = {
+        "infinite_curve": gamma_0(fine, epsilon),
+        "finite_curve": finite_threshold(fine, *chain),
+    }
     return table(
         f"Growth rates on {sites} sites, {boundary} ends, measured and predicted",
         {"omega": omegas, "gamma": gammas, "curve_omega": fine},
-        measured=variable(measured, dims, "growth rate of tiny data, per unit of tau"),
-        exact_flow=variable(exact, dims, "the same by the exact linear flow, per unit of tau"),
-        finite_rate=variable(finite, dims, "largest rate of the finite chain, per unit of tau"),
-        infinite_rate=variable(
-            infinite_rate(*grid, epsilon),
-            dims,
-            "largest rate of the infinite chain, per unit of tau",
-        ),
-        infinite_threshold=variable(gamma_0(omegas, epsilon), ("omega",), "gamma_0 of (12)"),
-        finite_threshold=variable(
-            finite_threshold(omegas, epsilon, sites, boundary), ("omega",), "threshold of N sites"
-        ),
-        infinite_curve=variable(
-            gamma_0(fine, epsilon), ("curve_omega",), "gamma_0 of (12), finely"
-        ),
-        finite_curve=variable(
-            finite_threshold(fine, epsilon, sites, boundary),
-            ("curve_omega",),
-            "threshold of N sites, finely",
-        ),
         sites=variable(sites, (), "number of sites N"),
-        error=variable(
-            np.abs(measured - exact),
-            dims,
-            "measured minus exact flow, per unit of tau",
-            tolerance=1e-6,
-        ),
-        misclassified=variable(
-            misclassified(measured, finite, times),
-            (),
-            "cells whose measured growth contradicts the finite chain's threshold",
-            tolerance=0,
-        ),
+        **columns(("omega", "gamma"), ABOUT, rates),
+        **columns(("omega",), ABOUT, thresholds),
+        **columns(("curve_omega",), ABOUT, curves),
+        **columns((), ABOUT, {"misclassified": misclassified(measured, finite, times)}),
     )
 
 
@@ -138,6 +143,51 @@ def misclassified(measured: np.ndarray, finite: np.ndarray, end_time) -> int:
     grows = (finite == 0.0) & (measured > resolution)
     stays = (finite > 2.0 * resolution) & (measured < 0.5 * finite)
     return int(np.sum(grows | stays))
+
+
+def stable_windows(gamma: float, epsilon: float, sites: int, boundary: str) -> np.ndarray:
+    """Return the intervals of Omega in [0, 4 epsilon] where the finite chain is stable, (., 2).
+
+    Between two neighbouring eigenvalues of the Laplacian Omega is stable as long as it keeps a
+    distance of more than 2 |gamma| from both; the band's edges are no eigenvalues of a Dirichlet
+    chain, so that a window may reach them.
+    """
+    levels = np.unique(np.round(epsilon * curvatures(sites, boundary), 14))
+    low = np.concatenate([[0.0], levels + 2.0 * abs(gamma)])
+    high = np.concatenate([levels - 2.0 * abs(gamma), [4.0 * epsilon]])
+    windows = np.stack([np.maximum(low, 0.0), np.minimum(high, 4.0 * epsilon)], axis=1)
+    return windows[windows[:, 1] > windows[:, 0]]
+
+
+def widest_gamma(epsilon: float, sites: int, boundary: str) -> float:
+    """Return the largest |gamma| at which any window of stability is left in [0, 4 epsilon]."""
+    levels = epsilon * np.sort(curvatures(sites, boundary))
+    inner = np.diff(levels).max(initial=0.0) / 4.0
+    return float(max(inner, levels[0] / 2.0, (4.0 * epsilon - levels[-1]) / 2.0))
+
+
+def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:
+    """Tabulate the windows of stability that finite chains keep inside [0, 4 epsilon].
+
+    Lemma 1 says that the infinite chain has none for gamma not zero; the share of the band that
+    is stable on 2M + 1 sites falls as M grows.
+    """
+    rows = []
+    for half_width, gamma in product(half_widths, gammas):
+        windows = stable_windows(gamma, epsilon, 2 * half_width + 1, boundary)
+        share = np.sum(windows[:, 1] - windows[:, 0]) / (4.0 * epsilon)
+        rows.append({"count": len(windows), "share": share})
+    largest = [widest_gamma(epsilon, 2 * m + 1, boundary) for m in half_widths]
+    return tabulate(
+        "Windows of stability of finite chains inside [0, 4 epsilon]",
+        {"half_width": half_widths, "gamma": gammas},
+        rows,
+        {
+            "count": ("number of windows of stability", None),
+            "share": ("stable share of [0, 4 epsilon]", None),
+        },
+        largest_gamma=variable(largest, ("half_width",), "drive at which the last window closes"),
+    )
 
 
 def check_measured_windows(
@@ -158,13 +208,8 @@ def check_measured_windows(
     return table(
         f"Growth inside and between the windows of stability of {sites} sites",
         {"omega": omegas},
-        measured=variable(measured, ("omega",), "growth rate of tiny data, per unit of tau"),
-        finite_rate=variable(
-            finite, ("omega",), "largest rate of the finite chain, per unit of tau"
-        ),
-        misclassified=variable(
-            misclassified(measured, finite, end_time), (), "contradictions", tolerance=0
-        ),
+        **columns(("omega",), ABOUT, {"measured": measured, "finite_rate": finite}),
+        **columns((), ABOUT, {"misclassified": misclassified(measured, finite, end_time)}),
     )
 
 
@@ -212,7 +257,7 @@ def curvature_of_ring(sites: int) -> np.ndarray:
 
 
 def exponent(times, norms) -> float:
-    """Return the power of time that fits the last two of the norms."""
+    """Return the exponent of time that fits the last two of the norms."""
     return float(np.log(norms[-1] / norms[-2]) / np.log(times[-1] / times[-2]))
 
 
@@ -225,40 +270,41 @@ def check_threshold(epsilon: float, sites: int, omegas, times, long_times, ring_
     higher.
     """
     times, long_times = np.asarray(times, float), np.asarray(long_times, float)
-    ratio, thresholds, spreading = [], [], []
+    thresholds, ratios, spreading = [], [], []
     for omega in omegas:
         mode = 0 if omega < 0 else sites - 1
-        gamma, ratios = threshold_run(epsilon, omega, sites, "dirichlet", mode, times)
-        ratio.append(ratios)
+        gamma, ratio = threshold_run(epsilon, omega, sites, "dirichlet", mode, times)
         thresholds.append(gamma)
+        ratios.append(ratio)
         spreading.append(spreading_norms(epsilon, omega, long_times, ring_sites))
-    thresholds, dims = np.array(thresholds), ("omega",)
-    l2, linf = ([exponent(long_times, norms[i]) for norms in spreading] for i in range(2))
-    gap = thresholds - gamma_0(np.asarray(omegas, float), epsilon)
+    thresholds, ratios, dims = np.array(thresholds), np.array(ratios), ("omega",)
+    exponents = [[exponent(long_times, norms) for norms in both] for both in spreading]
     return table(
         "Growth exactly at the threshold of Lemma 1",
-        {
-            "omega": np.asarray(omegas, float),
-            "tau": times,
-            "norm": ["l2", "linf"],
-            "long_tau": long_times,
-        },
-        ratio=variable(ratio, ("omega", "tau"), "growth of the threshold mode over 4 gamma tau"),
-        error=variable(
-            np.abs(np.array(ratio) - 1.0).max(axis=1), dims, "its distance to one", tolerance=1e-8
+        {"omega": omegas, "tau": times, "norm": ["l2", "linf"], "long_tau": long_times},
+        wave_error=variable(
+            np.abs(ratios - 1.0).max(axis=1),
+            dims,
+            "distance to one of the growth of a wave over 4 gamma tau",
+            tolerance=1e-8,
         ),
         grown=variable(
-            4.0 * thresholds[:, None] * times * np.array(ratio),
+            4.0 * thresholds[:, None] * times * ratios,
             ("omega", "tau"),
             "growth of the threshold mode, |Im D| / |D(0)|",
         ),
         threshold=variable(thresholds, dims, "threshold of the finite chain"),
+        finite_gap=variable(
+            thresholds - gamma_0(np.asarray(omegas, float), epsilon),
+            dims,
+            "threshold of the finite chain minus gamma_0",
+        ),
         spreading=variable(
             spreading,
             ("omega", "norm", "long_tau"),
             "norm of D at gamma_0 on the infinite chain from one site D = 1 + i",
         ),
-        finite_gap=variable(gap, dims, "threshold of the finite chain minus gamma_0"),
-        l2_exponent=variable(l2, dims, "power of tau in l2 on the infinite chain at gamma_0"),
-        linf_exponent=variable(linf, dims, "the same in l-infinity"),
+        spreading_exponent=variable(
+            exponents, ("omega", "norm"), "exponent of tau in that norm, at the end"
+        ),
     )

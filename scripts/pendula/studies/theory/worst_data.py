@@ -10,6 +10,7 @@ be one more pin, of 25,000 lines, in place of 70 that one reads beside the tutor
 """
 
 from dataclasses import astuple
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -98,12 +99,11 @@ def check_samples(count: int, end_time: float, sizes, seed: int) -> dict:
             ratio[i, j] = powers.max(axis=1) / limits
     return table(
         "Largest P over its bound for random data inside the proven regions",
-        {"family": list(FAMILIES), "sites": np.asarray(sizes), "sample": np.arange(count)},
-        ratio=variable(
+        {"family": FAMILIES, "sites": sizes, "sample": np.arange(count)},
+        sampled=variable(
             ratio, ("family", "sites", "sample"), "largest P over its bound", tolerance=1 + 1e-7
         ),
-        worst=variable(ratio.max(axis=(1, 2)), ("family",), "the worst of each family"),
-        typical=variable(np.median(ratio, axis=(1, 2)), ("family",), "the median of each family"),
+        worst_sample=variable(ratio.max(axis=(1, 2)), ("family",), "the worst of each family"),
     )
 
 
@@ -131,7 +131,7 @@ def decode(point: np.ndarray, family: str, constants: Constants) -> np.ndarray:
 
 
 def ratios(
-    points: np.ndarray, family: str, constants: Constants, boundary: str, end_time: float
+    family: str, constants: Constants, boundary: str, end_time: float, points: np.ndarray
 ) -> np.ndarray:
     """Return the largest P over its bound for each point; negative outside the region."""
     amplitudes = [decode(point, family, constants) for point in points]
@@ -174,22 +174,15 @@ def check_worst(
     seed: int,
 ) -> dict:
     """Search data on N sites, ends at rest or joined, for the largest P over each bound."""
-    found, known, history = [], [], []
+    searches, known = [], []
     for number, (family, boundary) in enumerate(QUESTIONS):
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[family[:9]])
         start = np.random.default_rng([seed, number]).normal(size=4 * sites + 1)
-        best = maximise(
-            lambda points, f=family, k=constants, b=boundary: ratios(points, f, k, b, end_time),
-            start,
-            1.0,
-            generations,
-            population,
-            seed,
-        )
-        found.append(best[1])
-        history.append(best[2])
+        objective = partial(ratios, family, constants, boundary, end_time)
+        searches.append(maximise(objective, start, 1.0, generations, population, seed))
         known.append(supremum(family, constants, sites, boundary))
     dims = ("question",)
+    _, found, history = zip(*searches, strict=True)
     families, boundaries = zip(*QUESTIONS, strict=True)
     return table(
         f"The worst data found on {sites} sites for the bounds of Theorems 1 to 3",
@@ -198,7 +191,7 @@ def check_worst(
             "generation": np.arange(1, generations + 1),
         },
         sites=variable(sites, (), "number of sites N"),
-        family=variable(families, dims, "which bound"),
+        searched_family=variable(families, dims, "family of the bound"),
         boundary=variable(boundaries, dims, "ends of the chain"),
         worst=variable(found, dims, "largest P over its bound found", tolerance=1.0 + 1e-7),
         small_data=variable(known, dims, "its value for tiny data in the nearest mode"),
