@@ -157,7 +157,7 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
 
 
 def _amplitudes(run: xr.Dataset) -> dict[str, Variable]:
-    along, sizes = ("amplitude",), run["amplitude"].values
+    along, sizes = ("amplitude",), run["central_modulus"].values
     title = "exponent of tau in the l2 norm over the last two octaves"
     return {
         "amplitude": Variable(along, sizes, "initial |A_0| = 5 |B_0| at Omega = -4"),

@@ -101,7 +101,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.own_cases import figures as own
     from pendula.studies.chaos import figures as chaos
     from pendula.studies.chaos.ensembles import compare
-    from pendula.studies.paper import chain_figure, figures, solver_figures, solvers
+    from pendula.studies.paper import chain_figure, figures, solvers
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
     from pendula.studies.unbounded import front_figure
@@ -124,9 +124,9 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     large = spread(0.5, omegas=(-4.0,))
     points = [(8, 1), (-4, 1), (0, 1)]
     return {
-        "agreement": solver_figures.gather_agreement(by_solvers),
+        "agreement": figures.gather_agreement(by_solvers),
         "chain": chain_figure.gather(),
-        "drift": solver_figures.gather_drift(by_solvers),
+        "drift": figures.gather_drift(by_solvers),
         "norms": figures.gather_norms(pair, [true, true]),
         "spacetime": figures.gather_spacetime(*pair),
         "own_norms": own.gather_norms(pair[0], own_checks(true)),
@@ -135,12 +135,12 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]"),
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
-        "trust": solver_figures.gather_trust(solvers.trust(trajectories, references)),
+        "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": theory.gather_bounds(cases(), sweeps(), samples(), worst()),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
         "ensembles": chaos.gather_ensembles(made_up_chaos.ensembles(), compared),
-        "growth_law": unbounded.gather_growth_law(measure_growth(runs, thermal())),
+        "growth_law": measure_growth(runs, thermal()),
         "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
         "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),
     }

@@ -20,25 +20,16 @@ def lyapunov() -> xr.Dataset:
     spectrum = np.array([np.linspace(2.0, -2.0, 12)])
     divergence_time = np.array([[np.inf] * 3, [8.0, 12.0, 16.0]])
     coordinates = {"case": CASES, "parity": ["even", "odd"], "tau": tau, "rtol": rtol}
-    coordinates |= {
-        "spectrum_case": CASES[1:],
-        "index": np.arange(1, 13),
-        "spectrum_tau": tau[4::4],
-    }
+    coordinates |= {"spectrum_case": CASES[1:], "index": np.arange(1, 13)}
     made = dataset(
         coordinates,
         **LABELS,
         log_growth=(("case", "parity", "tau"), RATES[:, :, None] * tau),
-        size=(("case", "tau"), np.full((2, tau.size), 3.0)),
+        l2=(("case", "tau"), np.full((2, tau.size), 3.0)),
         exponent=(("case", "parity"), RATES),
         divergence_predicted=(("case", "rtol"), divergence_time),
         divergence_measured=(("case", "rtol"), divergence_time + 1),
-        spectrum=(("spectrum_case", "index"), spectrum),
-        spectrum_error=(("spectrum_case", "index"), 0.01 + 0 * spectrum),
-        running_spectrum=(
-            ("spectrum_case", "index", "spectrum_tau"),
-            np.repeat(spectrum[:, :, None], 20, axis=2),
-        ),
+        exponents=(("spectrum_case", "index"), spectrum),
     )
     return made.assign_attrs(spectrum_half_width=1)
 

@@ -24,19 +24,18 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
             "l2": ((*run, "tau"), l2),
             "linf": ((*run, "tau"), linf * wobble),
             "energy": ((*run, "tau"), 0.0 * l2),
-            "front": ((*run, "piece_tau", "level"), front),
+            "front": ((*run, "piece_tau", "front_power"), front),
             "width": ((*run, "piece_tau"), front[..., 0] + 64.0),
-            "evaluations": ((*run, "piece_tau"), 0.0 * front[..., 0] + 1000.0),
             "state": (
                 (*run, "row", "site"),
                 rng.normal(scale=2.0, size=(variants, members, 4, SITES)),
             ),
             "omega": ("variant", np.resize(omegas, variants)),
-            "amplitude": ("variant", np.resize(amplitudes, variants)),
+            "central_modulus": ("variant", np.resize(amplitudes, variants)),
             "predicted_speed": ("variant", np.full(variants, speed)),
             "predicted_delay": ("variant", np.full(variants, delay)),
         },
-        {"tau": TAU, "piece_tau": PIECES, "level": LEVELS},
+        {"tau": TAU, "piece_tau": PIECES, "front_power": LEVELS},
         {"epsilon": 1.0, "gamma": 1.0, "omega": omegas[0], "initial": '{"0": [1.0, 0.1]}'},
     )
     return named(data)
@@ -59,7 +58,6 @@ def window_map(omega=0.0, speed=2.9, members=2):
         {
             "l2": (axes, l2),
             "linf": (axes, 0.0 * l2 + 5.0),
-            "arrival": (axes[:2], np.full((members, len(widths)), np.nan)),
             "predicted_speed": ((), speed),
         },
         {"half_width": widths, "end": ends},

@@ -18,10 +18,10 @@ def measure_ensembles(
     kernels: list[str] | tuple = (),
 ) -> None:
     """Run `members` of each case and `swept_members` of each sweep, perturbed by `size`."""
-    cases = case_bands(by_name(problems), size, members, seed)
+    cases, shared = case_bands(by_name(problems), size, members, seed)
     sweeps = sweep_moments(by_name(swept_problems), half_widths, windows, size, swept_members, seed)
     counts = {"members": members, "swept_members": swept_members}
-    write(data, cases | sweeps, {"perturbation": size, "seed": seed, **counts})
+    write(data, cases | sweeps, {**shared, "perturbation": size, "seed": seed, **counts})
 
 
 if __name__ == "__main__":

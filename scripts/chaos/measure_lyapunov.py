@@ -16,10 +16,13 @@ def measure_lyapunov(
 ) -> None:
     """Follow `problems` to `end_time`, and all changes of `short_problems` to their own."""
     cases, short_cases = by_name(problems), by_name(short_problems)
-    growth = largest_exponents(cases, end_time)
+    growth, attributes = largest_exponents(cases, end_time)
     times = divergence_times(cases, tolerances, growth)
-    attributes = {"spectrum_half_width": next(iter(short_cases.values())).half_width}
-    write(data, growth | times | spectra(short_cases, short_end_time), attributes)
+    short = {
+        "spectrum_half_width": next(iter(short_cases.values())).half_width,
+        "spectrum_end_time": short_end_time,
+    }
+    write(data, growth | times | spectra(short_cases, short_end_time), attributes | short)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,7 @@ def measure_symmetry(
     kernels: list[str] | tuple = (),
 ) -> None:
     """Follow the odd part of each case, alone and with perturbations of relative `size`."""
-    attributes = {"perturbation": size, "members": members, "seed": seed}
-    write(data, odd_parts(by_name(problems), size, members, seed), attributes)
+    write(data, *odd_parts(by_name(problems), size, members, seed))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.paper import solver_figures
+from pendula.studies.paper import figures
 
 
 def draw_solvers(
@@ -16,10 +16,10 @@ def draw_solvers(
 ) -> None:
     """Draw the drift of the energy and the differences of the norms, as they were measured."""
     measured = read(solvers)
-    drawn = solver_figures.gather_drift(measured)
-    save(solver_figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data)
-    drawn = solver_figures.gather_agreement(measured)
-    save(solver_figures.draw_agreement(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_drift(measured)
+    save(figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data)
+    drawn = figures.gather_agreement(measured)
+    save(figures.draw_agreement(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

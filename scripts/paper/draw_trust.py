@@ -2,13 +2,13 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.paper import solver_figures
+from pendula.studies.paper import figures
 
 
 def draw_trust(trust: str, png: str, pdf: str, data: str) -> None:
     """Draw the errors of the solvers' norms, as they were measured."""
-    drawn = solver_figures.gather_trust(read(trust))
-    save(solver_figures.draw_trust(drawn), drawn, png, pdf, data)
+    drawn = figures.gather_trust(read(trust))
+    save(figures.draw_trust(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from pendula.studies.unbounded import figures
 
 def draw_growth_law(growth: str, png: str, pdf: str, data: str) -> None:
     """Draw the measured growth, and write what was drawn."""
-    drawn = figures.gather_growth_law(read(growth))
+    drawn = read(growth)
     save(figures.draw_growth_law(drawn), drawn, png, pdf, data)
 
 

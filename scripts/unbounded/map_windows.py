@@ -5,9 +5,13 @@ from functools import partial
 import numpy as np
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
-from pendula.studies.unbounded.front import linear_front
-from pendula.studies.unbounded.long_runs import attributes, member
-from pendula.studies.unbounded.window_map import START, map_variables, window_map
+from pendula.studies.unbounded.long_runs import (
+    START,
+    attributes,
+    map_variables,
+    member,
+    window_map,
+)
 
 
 def map_windows(
@@ -28,8 +32,9 @@ def map_windows(
         label = f"{name}, member {number + 1} of {members}"
         tell = partial(print, f"{label}:")
         maps.append(window_map(started, rest, half_widths, ends, tell))
-    speed = linear_front(whole.constants).speed
-    write(data, map_variables(maps, half_widths, ends, speed), attributes(name, whole, rest))
+    title = f"Maxima of the norms over half-widths and time windows, case of {name}"
+    about = attributes(title, name, [whole], rest, members)
+    write(data, map_variables(maps, half_widths, ends, whole), about)
 
 
 if __name__ == "__main__":

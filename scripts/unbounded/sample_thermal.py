@@ -1,15 +1,16 @@
 """Sample the thermal states without energy, with which the bulk behind the front is compared."""
 
-from pendula import __version__
 from pendula.datasets.netcdf import write
 from pendula.problem import Constants
-from pendula.studies.unbounded.bulk import thermal_variables, zero_energy
+from pendula.studies.unbounded.bulk import KEPT, SEED, SITES, thermal_variables, zero_energy
 
 
 def sample_thermal(data: str, epsilon: float, gamma: float, omegas: list[float]) -> None:
     """Write power, temperature, spectrum and distribution of one state for each Omega."""
     found = [zero_energy(Constants(epsilon=epsilon, gamma=gamma, omega=omega)) for omega in omegas]
-    attributes = {"epsilon": epsilon, "gamma": gamma, "version": __version__}
+    title = "Thermal states without energy, by the algorithm of Metropolis on a ring"
+    ring = {"boundary": "periodic", "sites": SITES, "samples": KEPT, "seed": SEED}
+    attributes = {"title": title, "epsilon": epsilon, "gamma": gamma, **ring}
     write(data, thermal_variables(omegas, found), attributes)
 
 

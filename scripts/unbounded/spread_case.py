@@ -29,7 +29,8 @@ def spread_case(
             started = problem.changed(initial=member(problem.initial, number))
             runs[-1].append(run_long(started, rest, kept[-1] if checkpoints else None))
             print(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
-    write(data, run_variables(varied, runs), attributes(name, varied[0], rest))
+    title = f"Norms, front and final states of {name} on chains without ends"
+    write(data, run_variables(varied, runs), attributes(title, name, varied, rest, members))
     for path in kept:
         path.unlink(missing_ok=True)
 

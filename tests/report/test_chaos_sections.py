@@ -38,14 +38,12 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
     )
     rounded = made_up.by_case(rounded_time=("case", [np.inf, np.inf, np.inf, 6.5]))
     run = xr.Dataset(attrs={"omega": 0.0})
-    members = xr.Dataset(attrs={"members": 32, "perturbation": 1e-7})
     return made_up.MadeUp(
         folder,
         {
             "checks/lyapunov": growing.assign_coords(parity=["even", "odd"]),
             "checks/trust": trust.assign_coords(coords),
-            "checks/ensemble_runs": ensembles,
-            "checks/ensembles": members,
+            "checks/ensemble_runs": ensembles.assign_attrs(members=32, perturbation=1e-7),
             "checks/symmetry": rounded,
             "trajectories/fig4_small": run,
         },
@@ -85,8 +83,8 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
         cases,
         l2_exponent=(("case", "octave"), [[0.6, last]]),
         l2_exponent_error=(("case", "octave"), [[0.01, 0.01]]),
-        l2=(("case", "statistic", "point"), np.full((1, 1, 2), 206.0)),
-    ).assign_coords(statistic=["mean"])
+        l2=(("case", "band", "point"), np.full((1, 1, 2), 206.0)),
+    ).assign_coords(band=["mean"])
     speeds = {"corrected_speed": 3.0, "corrected_speed_error": 0.01, "predicted_speed": 3.0}
     powers = {"power": 18.0, "expected_power": 20.0}
     front = {name: ("omega", [value]) for name, value in (speeds | powers).items()}

@@ -36,6 +36,8 @@ NAMES = {
     "sample": "number of the sample",
     "reading": "reading of the paper",
     "curve_omega": "detuning Omega, on a finer grid",
+    "panel": "panel of the figure",
+    "initial_size": "size of the initial data, small or large",
     # the problem
     "omega": "detuning Omega",
     "gamma": "strength of the drive, gamma",

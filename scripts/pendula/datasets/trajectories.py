@@ -101,12 +101,20 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
         "omega": Variable(("case",), [float(one["omega"]) for one in each]),
         "initial": Variable(("case",), [one["initial"] for one in each]),
     }
-    shared = {
+    return variables, shared_by(each, *variables)
+
+
+def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:
+    """Return the attributes that have one value in all descriptions, but for those `without`.
+
+    Of runs and sweeps that are read again they say what problem all of them solve.
+    """
+    first, *others = descriptions
+    return {
         key: value
-        for key, value in each[0].items()
-        if key not in ("case", "omega", "initial") and all(one.get(key) == value for one in each)
+        for key, value in first.items()
+        if key not in without and all(other.get(key) == value for other in others)
     }
-    return variables, shared
 
 
 def count_work(outcomes: list) -> dict[str, int]:

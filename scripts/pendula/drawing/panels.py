@@ -1,6 +1,6 @@
 """Panels that the figures of several studies share: one a case, norms, space and time, sweeps."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +29,7 @@ def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None],
     drawn = _case_panels(figure, data)
     for axes, case in zip(drawn, data["case"].values, strict=True):
         draw_panel(axes, data.sel(case=case))
+        axes.set_xlim(0, float(data["tau"].max()))
         if axes.get_subplotspec().is_first_col():
             axes.set_ylabel(label)
     style.name_legend(figure, drawn[0])
@@ -128,11 +129,9 @@ def join_sweeps(
     """
     readings = {"text": ("max", text_window), "caption": ("mean", caption_window)}
     panels = [_read(sweep[list(norms)], readings) for sweep in sweeps.values()]
-    data = style.join(panels, list(sweeps), "panel", "panel of the figure")
-    for name, title in (("statistic", "statistic over the window"), ("window", "window of tau")):
-        column = [reading[name == "window"] for reading in readings.values()]
-        data[name] = ("reading", column, {"long_name": title, "units": "1"})
-    return data
+    statistics, windows = zip(*readings.values(), strict=True)
+    data = style.join(panels, list(sweeps), "panel")
+    return data.assign(statistic=("reading", list(statistics)), window=("reading", list(windows)))
 
 
 def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset:
@@ -140,9 +139,7 @@ def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset
         sweep.sel(quantity="pair", statistic=statistic, window=window, drop=True)
         for statistic, window in readings.values()
     ]
-    title = {"long_name": "reading of the paper", "units": "1"}
-    read = xr.concat(chosen, xr.Variable("reading", list(readings), title))
-    return read.assign_attrs(sweep.attrs)
+    return xr.concat(chosen, xr.Variable("reading", list(readings))).assign_attrs(sweep.attrs)
 
 
 def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
@@ -159,10 +156,10 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
     axes.set_title(style.name_case(panel), loc="left")
 
 
-def half_width_axis(axes: Axes) -> None:
-    """Make the horizontal axis logarithmic, with ticks at 1, 2, 5, 10 and so on."""
+def half_width_axis(axes: Axes, ticks: Sequence[float] = TICKS) -> None:
+    """Make the horizontal axis logarithmic, with ticks at 1, 2, 5, 10 and so on, or at others."""
     axes.set_xscale("log")
-    axes.xaxis.set_major_locator(FixedLocator(TICKS))
+    axes.xaxis.set_major_locator(FixedLocator(ticks))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
 

@@ -109,11 +109,11 @@ def _name_number(number: complex) -> str:
     return f"{number:g}" if number.imag else f"{number.real:g}"
 
 
-def join(datasets: list[xr.Dataset], names: list[str], dim: str, title: str) -> xr.Dataset:
+def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
     """Stack datasets along a new dimension, keeping of their attributes Omega and initial data."""
     stacked = xr.concat(
         [data.drop_attrs(deep=False) for data in datasets],
-        xr.Variable(dim, names, {"long_name": title, "units": "1"}),
+        xr.Variable(dim, names),
         join="outer",
         combine_attrs="override",
         coords="minimal",
@@ -121,9 +121,7 @@ def join(datasets: list[xr.Dataset], names: list[str], dim: str, title: str) -> 
     )
     omegas = [float(data.attrs["omega"]) for data in datasets]
     initials = [data.attrs["initial"] for data in datasets]
-    stacked["omega"] = (dim, omegas, {"long_name": "detuning Omega", "units": "1"})
-    stacked["initial"] = (dim, initials, {"long_name": "initial {site: [A, B]}", "units": "1"})
-    return stacked
+    return stacked.assign(omega=(dim, omegas), initial=(dim, initials))
 
 
 @styled

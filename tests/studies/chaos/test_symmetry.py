@@ -70,10 +70,3 @@ def test_members_are_perturbed_by_the_size_asked_for_and_seeded():
     np.testing.assert_array_equal(one.perturbed, same.perturbed)
     assert not np.array_equal(one.perturbed, other.perturbed)
     assert not np.array_equal(*one.perturbed)
-
-
-def test_the_rate_of_growth_is_that_between_two_sizes():
-    tau = np.linspace(0.0, 10.0, 101)
-    odd = np.minimum(1e-12 * np.exp(3.0 * tau), 1.0)
-    assert symmetry.growth_between(tau, odd, 1e-9, 1e-4) == pytest.approx(3.0)
-    assert np.isnan(symmetry.growth_between(tau, 1e-12 + 0 * tau, 1e-9, 1e-4))

@@ -15,18 +15,18 @@ def test_gather_returns_what_the_trajectories_hold(make_trajectory):
     small, large = make_trajectory(), make_trajectory(scale=5.0)
     data = figures.gather_norms([small, large], [small, small])
     for name in ("linf", "l2"):
-        assert (data[name].sel(amplitude="small") == small[name]).all()
-        assert (data[name].sel(amplitude="large") == large[name]).all()
+        assert (data[name].sel(initial_size="small") == small[name]).all()
+        assert (data[name].sel(initial_size="large") == large[name]).all()
 
 
 def test_panels_stand_as_in_the_paper(gathered, panels):
     data = gathered["norms"]
-    for row, amplitude in enumerate(["small", "large"]):
+    for row, size in enumerate(["small", "large"]):
         for column, name in enumerate(["linf", "l2"]):
             lines = panels[row, column].get_lines()[2:4]  # above the true ones
             assert [line.get_color() for line in lines] == [style.RED, style.BLUE]
             for line, component in zip(lines, ["A", "B"], strict=True):
-                expected = data[name].sel(amplitude=amplitude, component=component)
+                expected = data[name].sel(initial_size=size, component=component)
                 assert np.array_equal(line.get_ydata(), expected)
 
 

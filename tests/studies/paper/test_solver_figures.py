@@ -2,11 +2,11 @@
 
 from pendula.drawing import style
 from pendula.measures.difference import VISIBLE
-from pendula.studies.paper import solver_figures
+from pendula.studies.paper import figures
 
 
 def test_energy_panels_draw_each_solver_and_the_claim(gathered):
-    figure = solver_figures.draw_drift(gathered["drift"])
+    figure = figures.draw_drift(gathered["drift"])
     for axes, claim in zip(figure.axes, [1e-6, 1e-4], strict=True):
         *curves, line = axes.get_lines()
         assert axes.get_yscale() == "log"
@@ -16,7 +16,7 @@ def test_energy_panels_draw_each_solver_and_the_claim(gathered):
 
 
 def test_agreement_panels_draw_each_pair_and_what_is_visible(gathered):
-    for axes in solver_figures.draw_agreement(gathered["agreement"]).axes:
+    for axes in figures.draw_agreement(gathered["agreement"]).axes:
         lines = axes.get_lines()
         assert len([line for line in lines if " / " in line.get_label()]) == 3
         assert set(lines[-1].get_ydata()) == {VISIBLE}
@@ -24,7 +24,7 @@ def test_agreement_panels_draw_each_pair_and_what_is_visible(gathered):
 
 def test_a_mark_shows_when_a_solver_leaves_the_reference(gathered):
     data = gathered["trust"].sel(level="visible")
-    panels = solver_figures.draw_trust(gathered["trust"]).axes
+    panels = figures.draw_trust(gathered["trust"]).axes
     for axes, case in zip(panels, data["case"].values, strict=True):
         marks = [line for line in axes.get_lines() if len(line.get_xdata()) == 1]
         assert [mark.get_xdata()[0] for mark in marks] == list(data["horizon"].sel(case=case))

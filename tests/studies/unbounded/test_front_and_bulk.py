@@ -72,10 +72,10 @@ def test_the_speed_of_a_made_up_front():
     way = np.floor(2.5 * tau - 1.4 * np.log(tau))
     run = xr.Dataset(
         {
-            "front": (("variant", "member", "piece_tau", "level"), way[None, None, :, None]),
+            "front": (("variant", "member", "piece_tau", "front_power"), way[None, None, :, None]),
             "predicted_delay": ("variant", [1.4]),
         },
-        {"piece_tau": tau, "level": [1e-2]},
+        {"piece_tau": tau, "front_power": [1e-2]},
     )
     plain, error = speeds(run)
     corrected, _ = speeds(run, corrected=True)

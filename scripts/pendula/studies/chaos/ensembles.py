@@ -10,13 +10,13 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.registry import NAMES
+from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, name_window
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
-
-from .lyapunov import describe_cases
 
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
@@ -55,7 +55,7 @@ def sweep_members(
     return np.array([s.l2 for s in sweeps]), np.array([s.linf for s in sweeps])
 
 
-NORMS = {"l2": "l2", "linf": "l-infinity"}
+NORMS = ("l2", "linf")
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",
@@ -63,22 +63,22 @@ MOMENTS = {
 }
 
 
-def case_bands(problems: dict[str, Problem], size: float, members: int, seed: int):
+def case_bands(problems: dict[str, Problem], size: float, members: int, seed: int) -> Contents:
     """Return quantile bands of the norms of each case by name."""
     results = [run_members(problem, size, members, seed) for problem in problems.values()]
-    first = next(iter(problems.values()))
-    tau = first.times
     grid = ("case", "quantile", "quantity", "tau")
+    described, shared = describe_cases(problems)
     variables = {
-        **describe_cases(problems),
+        **described,
         "quantile": Variable(("quantile",), np.array(QUANTILES), "quantile over the ensemble"),
         "quantity": Variable(("quantity",), list(QUANTITIES)),
-        "tau": Variable(("tau",), tau),
+        "tau": Variable(("tau",), next(iter(problems.values())).times),
     }
-    for (name, title), norms in zip(NORMS.items(), zip(*results, strict=True), strict=True):
+    for name, norms in zip(NORMS, zip(*results, strict=True), strict=True):
         values = np.array([bands(norm, QUANTILES) for norm in norms])
-        variables[name] = Variable(grid, values, f"quantiles of the {title} norm")
-    return variables
+        variables[name] = Variable(grid, values, f"{NAMES[name]}, quantiles over the ensemble")
+    title = "Ensembles of the chaotic cases and sweeps, from almost equal data"
+    return variables, {"title": title, **shared}
 
 
 def sweep_moments(
@@ -89,19 +89,18 @@ def sweep_moments(
         sweep_members(problem, half_widths, windows, size, members, seed)
         for problem in problems.values()
     ]
-    names = [name_window(window) for window in windows]
     variables = {
         "sweep": Variable(("sweep",), list(problems)),
         "half_width": Variable(("half_width",), np.array(half_widths)),
         "statistic": Variable(("statistic",), list(STATISTICS)),
-        "window": Variable(("window",), names),
+        "window": Variable(("window",), [name_window(window) for window in windows]),
     }
     grid = ("sweep", "half_width", "quantity", "statistic", "window")
-    for (name, title), norms in zip(NORMS.items(), zip(*results, strict=True), strict=True):
+    for name, norms in zip(NORMS, zip(*results, strict=True), strict=True):
         reduced = [moments(norm) for norm in norms]
         for key, words in MOMENTS.items():
             values = np.array([one[key] for one in reduced])
-            variables[f"{name}_{key}"] = Variable(grid, values, f"{words} of the {title} norm")
+            variables[f"{name}_{key}"] = Variable(grid, values, f"{words} of the {NAMES[name]}")
     return variables
 
 
@@ -109,6 +108,21 @@ def sweep_moments(
 
 BAND = (0.05, 0.95)
 """The quantiles that bound the band of an ensemble."""
+
+COMPARED = {
+    "run": "l2 norm of the pair in the paper's run",
+    "true": "l2 norm of the pair in the true run",
+    "run_inside": "part of the later half of the time that the paper's run is within the band",
+    "band_width": "mean width of the band from 5 to 95 % over the median, later half",
+    "band_middle": "mean of the ensemble's median, later half",
+    "band_share": "part of the ensemble in the band",
+    "swept_run": "maximum of the l2 norm of the pair in the paper's run",
+    "deviations": "maximum of the paper's run minus the mean, in standard deviations",
+    "swept_window": "time window of the maximum",
+    "swept_omega": "detuning Omega of the sweep",
+    "swept_initial": "initial {site: [A, B]} of the sweep",
+}
+"""What is compared: of the cases the norms over time, of the sweeps the maxima over M."""
 
 
 def compare(
@@ -122,78 +136,46 @@ def compare(
 
     `ensembles` holds what `case_bands` and `sweep_moments` return; the mappings are by case and by
     sweep; `windows` names the time window of each sweep, such as "[10, 50]". All is dimensionless:
-    `run`, `true` (case, tau) are l2 norms of the pair, `run_inside`, `true_inside` (case) the parts
-    of the later half of the time that they are inside BAND, `band_width`, `band_middle` (case) the
-    mean width of that band relative to the median and the mean median, over the same time;
-    `l2_mean`, `l2_deviation`, `swept_run`, `deviations` (sweep, half_width) are the maxima of the
-    ensemble and of the paper's run, and their distance in standard deviations.
+    see COMPARED, and `l2_mean`, `l2_deviation` of the ensembles over the same maxima.
     """
     pair = ensembles.sel(quantity="pair", drop=True)
-    names = xr.Variable("case", list(runs), ensembles["case"].attrs)
     known = [
         references[case].where(is_of_same_case(run, references[case])) for case, run in runs.items()
     ]
-    run, true = (_norms_of(pair, names, data) for data in (runs.values(), known))
-    run.attrs = _words("l2 norm of the paper's run")
-    true.attrs = _words("l2 norm of the true run")
+    run, true = (_norms_of(pair, list(runs), data) for data in (runs.values(), known))
     cases = pair[["omega", "initial"]].assign(run=run, true=true)
-    cases["run_inside"], cases["true_inside"] = (_inside(pair, norm) for norm in (run, true))
-    cases["band_width"], cases["band_middle"] = _band(pair)
-    cases["band_share"] = (), BAND[1] - BAND[0], _words("part of the ensemble in the band")
-    swept = [_compare_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
-    name = xr.Variable("sweep", list(windows), _words("sweep"))
-    title = "The paper's runs among ensembles from almost equal data"
-    both = xr.merge([cases, xr.concat(swept, name)], combine_attrs="drop_conflicts")
-    return both.drop_attrs(deep=False).assign_attrs(title=title)
-
-
-def _words(long_name: str) -> dict[str, str]:
-    return {"long_name": long_name, "units": "1"}
-
-
-def _norms_of(pair: xr.Dataset, names: xr.Variable, runs) -> xr.DataArray:
-    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
-    return xr.concat(norms, names, join="outer").reindex(tau=pair["tau"], method="nearest")
-
-
-def _late(curve):
-    """Return the later half of the time."""
-    return curve.sel(tau=slice(float(curve["tau"].max()) / 2, None))
-
-
-def _inside(pair: xr.Dataset, norm: xr.DataArray) -> xr.DataArray:
-    """Return the part of the later half of the time in which a norm is within the band."""
-    low, high = (pair["l2"].sel(quantile=quantile) for quantile in BAND)
-    inside = ((norm >= low) & (norm <= high)).where(norm.notnull())
-    name = f"part of the later half that {norm.attrs['long_name']} is within 5 to 95 %"
-    found = _late(inside).mean("tau").drop_vars("quantile", errors="ignore")
-    return found.assign_attrs(_words(name))
-
-
-def _band(pair: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return the mean width of the band relative to the median, and the mean median."""
-    late = _late(pair["l2"])
+    late = pair["l2"].sel(tau=slice(float(pair["tau"].max()) / 2, None))
     low, high = (late.sel(quantile=quantile, drop=True) for quantile in BAND)
-    middle = late.median("quantile")
-    width = ((high - low) / middle).mean("tau")
-    words = _words("mean width of the band from 5 to 95 % over the median, later half")
-    return width.assign_attrs(words), middle.mean("tau").assign_attrs(
-        _words("mean of the ensemble's median, later half")
-    )
+    run, middle = run.sel(tau=late["tau"]), late.median("quantile")
+    cases["run_inside"] = ((run >= low) & (run <= high)).where(run.notnull()).mean("tau")
+    cases["band_width"] = ((high - low) / middle).mean("tau")
+    cases["band_middle"] = middle.mean("tau")
+    cases["band_share"] = BAND[1] - BAND[0]
+    swept = [_compare_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
+    found = xr.merge([cases, xr.concat(swept, xr.Variable("sweep", list(windows)))])
+    for name, long_name in COMPARED.items():
+        found[name].attrs = {"long_name": long_name}
+    title = "The paper's runs among ensembles from almost equal data"
+    return found.assign_attrs({**ensembles.attrs, "title": title})
+
+
+def _norms_of(pair: xr.Dataset, cases: list[str], runs) -> xr.DataArray:
+    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
+    along = xr.Variable("case", cases)
+    return xr.concat(norms, along, join="outer").reindex(tau=pair["tau"], method="nearest")
 
 
 def _compare_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:
     at = {"statistic": "max", "window": window, "drop": True}
     data = pair[["l2_mean", "l2_deviation"]].sel(sweep=name, **at)
     run = own["l2"].sel(quantity="pair", **at).reindex(half_width=data["half_width"])
-    data["swept_run"] = run.assign_attrs(_words("maximum of the paper's run"))
-    off = (run - data["l2_mean"]) / data["l2_deviation"]
-    words = "maximum of the paper's run minus the mean, in standard deviations"
-    data["deviations"] = off.assign_attrs(_words(words))
-    data["swept_window"] = (), window, _words("window of the maximum")
-    data["swept_omega"] = (), float(own.attrs["omega"]), _words("detuning Omega")
-    data["swept_initial"] = (), str(own.attrs["initial"]), _words("initial {site: [A, B]}")
-    return data
+    return data.assign(
+        swept_run=run,
+        deviations=(run - data["l2_mean"]) / data["l2_deviation"],
+        swept_window=window,
+        swept_omega=float(own.attrs["omega"]),
+        swept_initial=str(own.attrs["initial"]),
+    )
 
 
 def mismatched(cases, lyapunov: xr.Dataset) -> xr.Variable:

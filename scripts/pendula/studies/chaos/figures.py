@@ -14,16 +14,15 @@ COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 WIDTHS = {"small": 0.7, "large": 1.5}
 DASHES = {"even": (None, None), "odd": (3, 1.5)}
 MARKERS = ["o", "s", "^", "D"]
-DRAWN = ["running", "exponent", "running_spectrum", "spectrum", "spectrum_error"]
-DRAWN += ["divergence_predicted", "divergence_measured", "omega", "initial"]
+DRAWN = ["running", "exponents", "divergence_predicted", "divergence_measured", "omega", "initial"]
 LIGHT = "#f2a15f"
 BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
 MEDIAN = {"color": style.RED, "lw": 1.3}
 MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
 OWN = {"color": style.BLUE, "lw": 0.6}
 TRUE = {"color": "black", "lw": 0.6}
-COMPARED = ["omega", "initial", "run", "true", "run_inside", "true_inside", "l2_mean"]
-COMPARED += ["l2_deviation", "swept_run", "swept_window", "swept_omega", "swept_initial"]
+COMPARED = ["omega", "initial", "run", "true", "run_inside", "l2_mean", "l2_deviation"]
+COMPARED += ["swept_run", "swept_window", "swept_omega", "swept_initial"]
 OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
 NORM = r"$\ell^2$ norm"
 
@@ -32,12 +31,8 @@ def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return what is drawn: rates on their way, the spectra, and divergence times."""
     later = lyapunov.isel(tau=slice(1, None))
     running = later["log_growth"] / later["tau"]
-    running.attrs = {
-        "long_name": "mean rate of growth since the start, per unit of tau",
-        "units": "1",
-    }
-    data = later.assign(running=running)[DRAWN]
-    return data.assign_attrs(spectrum_half_width=lyapunov.attrs["spectrum_half_width"])
+    running.attrs = {"long_name": "mean rate of growth since the start, per unit of tau"}
+    return later.assign(running=running)[DRAWN]
 
 
 @style.styled
@@ -86,7 +81,7 @@ def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
 
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
     for marker, case in zip(MARKERS, data["spectrum_case"].values, strict=False):
-        rates = data["spectrum"].sel(spectrum_case=case)
+        rates = data["exponents"].sel(spectrum_case=case)
         colour = _look(data, case)["color"]
         look = {"color": colour, "marker": marker, "markersize": 2.8, "linestyle": "none"}
         omega = float(data["omega"].sel(case=case))
@@ -113,18 +108,16 @@ def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
     axes.plot([0, top], [0, top], color="black", lw=0.8)
     axes.set_xlim(0, top)
     axes.set_ylim(0, top)
-    axes.set_xlabel(r"divergence time predicted ($\tau$)")
-    axes.set_ylabel(r"divergence time measured ($\tau$)")
+    axes.set_xlabel(r"predicted divergence time $\tau$")
+    axes.set_ylabel(r"measured divergence time $\tau$")
     axes.set_title("runs differ by 1 %", loc="left")
+    look = {"color": "0.3", "linestyle": "none", "markersize": 4}
+    exponents = np.log10(data["rtol"].values).round().astype(int)
     handles = [
-        Line2D([], [], marker=marker, color="0.3", linestyle="none", markersize=4, label=_power(t))
-        for marker, t in zip(MARKERS, data["rtol"].values, strict=False)
+        Line2D([], [], marker=marker, label=rf"$10^{{{exponent}}}$", **look)
+        for marker, exponent in zip(MARKERS, exponents, strict=False)
     ]
     axes.legend(handles=handles, title="tolerance", loc="lower right", handletextpad=0.1)
-
-
-def _power(tolerance: float) -> str:
-    return rf"$10^{{{round(np.log10(tolerance))}}}$"
 
 
 def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
@@ -142,13 +135,15 @@ def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
 def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
     """Return the odd parts, and what the odd tangent dynamics makes of the same perturbation."""
     log_growth = lyapunov["log_growth"].sel(parity="odd", drop=True)
-    size = lyapunov["size"]
-    log = log_growth + np.log(symmetry.attrs["perturbation"] * size.isel(tau=0, drop=True) / size)
+    l2 = lyapunov["l2"]
+    log = log_growth + np.log(symmetry.attrs["perturbation"] * l2.isel(tau=0, drop=True) / l2)
     predicted = np.exp(log.clip(max=0.0)).sel(tau=log["tau"] <= float(symmetry["tau"].max()))
-    predicted.attrs = {"long_name": "odd part predicted by tangent dynamics", "units": "1"}
+    predicted.attrs = {"long_name": "odd part predicted by tangent dynamics"}
+    predicted = predicted.rename(tau="predicted_tau")
+    predicted["predicted_tau"].attrs = {"long_name": "slow time of the prediction"}
     names = ["rounded", "perturbed", "omega", "initial"]
     # on a time of its own, coarser than that of the runs
-    return symmetry[names].assign(predicted=predicted.rename(tau="predicted_tau"))
+    return symmetry[names].assign(predicted=predicted)
 
 
 @style.styled
@@ -166,15 +161,12 @@ def _draw_odd_part(axes: Axes, case: xr.Dataset) -> None:
     axes.plot(curve["tau"], curve, color=style.BLUE, lw=1, label="by rounding alone")
     look = {"color": "black", "lw": 0.9, "dashes": (3, 1.5)}
     axes.plot(case["predicted_tau"], case["predicted"], label="tangent dynamics", **look)
-    axes.set_xlim(0, float(case["tau"].max()))
     axes.set_ylim(1e-17, 10)
 
 
 def gather_ensembles(ensembles: xr.Dataset, comparison: xr.Dataset) -> xr.Dataset:
-    """Return the pair's bands, and all that they are compared with (see `comparison.compare`)."""
-    pair = ensembles.sel(quantity="pair", drop=True)
-    drawn = comparison[COMPARED].drop_attrs(deep=False)
-    return pair[["l2"]].drop_attrs(deep=False).merge(drawn)
+    """Return the pair's bands, and all that they are compared with (see `ensembles.compare`)."""
+    return comparison[COMPARED].assign(l2=ensembles["l2"].sel(quantity="pair", drop=True))
 
 
 @style.styled

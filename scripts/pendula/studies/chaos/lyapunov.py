@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
-from pendula.problem import Problem, by_site, write_initial
+from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import Trajectory, simulate
 
@@ -72,7 +73,6 @@ class Divergence(NamedTuple):
     """How runs at several tolerances differ from a finer one; all are (tolerance,)."""
 
     time: np.ndarray  # divergence time, inf where there is none
-    steps: np.ndarray  # of the solver per unit of tau
     early: np.ndarray  # difference at tau = EARLY
 
 
@@ -84,8 +84,7 @@ def measure_divergence(problem: Problem, tolerances: list[float]) -> Divergence:
     for tolerance in tolerances:
         run = _run(problem, tolerance)
         difference = norm_difference(run.linf, run.l2, finest.linf, finest.l2)
-        steps = (run.outcome.steps + run.outcome.rejected) / run.tau[-1]
-        rows.append((first_above(run.tau, difference, VISIBLE), steps, difference[first]))
+        rows.append((first_above(run.tau, difference, VISIBLE), difference[first]))
     return Divergence(*np.array(rows).T)
 
 
@@ -102,83 +101,63 @@ def _run(problem: Problem, tolerance: float) -> Trajectory:
 # --- Datasets -------------------------------------------------------------------------------------
 
 
-def describe_cases(problems: dict[str, Problem]) -> dict[str, Variable]:
-    """Return names, detunings and initial data of `problems` by case."""
-    omegas = [float(problem.constants.omega) for problem in problems.values()]
-    initials = [write_initial(by_site(problem.initial)) for problem in problems.values()]
-    return {
-        "case": Variable(("case",), list(problems)),
-        "omega": Variable(("case",), omegas),
-        "initial": Variable(("case",), initials),
-    }
-
-
-SAMPLED = 4  # every so many orthonormalisations the spectrum on its way is kept
-
-
-def _coordinates(**names: tuple) -> dict[str, Variable]:
-    return {name: Variable((name,), values, title) for name, (values, title) in names.items()}
-
-
-def largest_exponents(problems: dict[str, Problem], end_time: float) -> dict[str, Variable]:
+def largest_exponents(problems: dict[str, Problem], end_time: float) -> Contents:
     """Return the growth of an even and of an odd tangent vector of each case, and its mean rate.
 
-    `problems` are given by case; rates are over the second half of time.
+    `problems` are given by case, and integrated at the tolerance of their solver; rates are over
+    the second half of time.
     """
-    runs = [[follow_parity(p, parity, end_time) for parity in PARITIES] for p in problems.values()]
-    amplified = [amplification(even.tau, even.log_growth[0], even.size) for even, _ in runs]
-    rates = [[mean_rate(run.tau, run.log_growth[0], end_time / 2) for run in pair] for pair in runs]
-    errors = [
-        [mean_rate_error(run.tau, run.log_growth[0], end_time / 2) for run in pair] for pair in runs
+    runs = [
+        [follow_parity(p, parity, end_time, tolerance=p.solver["rtol"]) for parity in PARITIES]
+        for p in problems.values()
     ]
-    chaotic = [
-        any(is_chaotic(run.tau, run.log_growth[0], run.size) for run in pair) for pair in runs
-    ]
-    by_parity, series = ("case", "parity"), ("case", "parity", "tau")
-    log_growth = [[run.log_growth[0] for run in pair] for pair in runs]
-    return {
-        **describe_cases(problems),
-        **_coordinates(
-            parity=(list(PARITIES), "parity of the tangent vector in n"),
-            tau=(runs[0][0].tau, "slow time"),
+    tau, middle = runs[0][0].tau, end_time / 2
+
+    def each(measure) -> np.ndarray:
+        return np.array([[measure(run.log_growth[0], run.size) for run in pair] for pair in runs])
+
+    log_growth = each(lambda growth, size: growth)
+    rates = each(lambda growth, size: mean_rate(tau, growth, middle))
+    errors = each(lambda growth, size: mean_rate_error(tau, growth, middle))
+    chaotic = each(lambda growth, size: is_chaotic(tau, growth, size)).any(axis=1).astype(int)
+    l2 = each(lambda growth, size: size)[:, PARITIES.index("even")]
+    by_parity = ("case", "parity")
+    described, shared = describe_cases(problems)
+    variables = {
+        **described,
+        "parity": Variable(("parity",), list(PARITIES), "parity of the tangent vector in n"),
+        "tau": Variable(("tau",), tau),
+        "log_growth": Variable(
+            (*by_parity, "tau"), log_growth, "logarithm of the growth of a tangent vector"
         ),
-        "log_growth": Variable(series, log_growth, "logarithm of the growth of a tangent vector"),
-        "size": Variable(
-            ("case", "tau"), [even.size for even, _ in runs], "l2 norm of the solution"
-        ),
-        "amplification": Variable(
-            ("case", "tau"), amplified, "logarithm of relative error per error made a unit of tau"
-        ),
+        "l2": Variable(("case", "tau"), l2, "l2 norm over the chain, of A and B together"),
         "exponent": Variable(by_parity, rates, "largest Lyapunov exponent, per unit of tau"),
         "exponent_error": Variable(by_parity, errors, "standard error of the exponent"),
-        "chaotic": Variable(
-            ("case",), np.array(chaotic, int), "one where tangent vectors grow exponentially"
-        ),
+        "chaotic": Variable(("case",), chaotic, "one where tangent vectors grow exponentially"),
     }
+    title = "Lyapunov exponents of the cases, and when runs leave the solution"
+    return variables, {"title": title, **shared, "end_time": end_time, "seed": SEED}
 
 
 def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
     """Return the divergence times of dop853 at each tolerance, predicted and measured.
 
-    `growth` is what `largest_exponents` returned; predictions use its amplification of errors,
-    of the tolerance at each step or of the errors that the run is seen to make up to EARLY.
+    `growth` holds the variables of `largest_exponents`. Errors are predicted to grow as the even
+    tangent vector does, those that the run is seen to make up to EARLY or those of rounding.
     """
-    tau, amplified = growth["tau"].values, growth["amplification"].values
-    early = early_index(tau)
-    bound, seen, measured, rounding = [], [], [], []
-    for problem, log in zip(problems.values(), amplified, strict=True):
+    tau = growth["tau"].values
+    early, even = early_index(tau), PARITIES.index("even")
+    seen, measured, rounding = [], [], []
+    series = zip(growth["log_growth"].values[:, even], growth["l2"].values, strict=True)
+    for problem, (log_growth, l2) in zip(problems.values(), series, strict=True):
+        log = amplification(tau, log_growth, l2)
         found = measure_divergence(problem, tolerances)
-        made = found.early / np.exp(log[early])
-        bound.append([predict(tau, log, e) for e in tolerances * found.steps])
-        seen.append([predict(tau, log, e) for e in made])
+        seen.append([predict(tau, log, made) for made in found.early / np.exp(log[early])])
         measured.append(found.time)
         rounding.append(predict(tau, log, ROUNDING))
     grid = ("case", "rtol")
     return {
-        **_coordinates(rtol=(np.asarray(tolerances), "tolerance of dop853")),
-        "divergence_bound": Variable(
-            grid, bound, "divergence time with the tolerance made at each step"
-        ),
+        "rtol": Variable(("rtol",), np.asarray(tolerances), "tolerance of dop853"),
         "divergence_predicted": Variable(
             grid, seen, "divergence time predicted from errors made early"
         ),
@@ -190,24 +169,14 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
 
 
 def spectra(problems: dict[str, Problem], end_time: float) -> dict[str, Variable]:
-    """Return all exponents of the cases, on their way and over the last three quarters of time."""
-    runs = [follow_all(problem, end_time) for problem in problems.values()]
-    tau = runs[0].tau[SAMPLED::SAMPLED]
-    running = [run.log_growth[:, SAMPLED::SAMPLED] / tau for run in runs]
+    """Return all exponents of the cases, over the last three quarters of time."""
+    runs = [follow_all(p, end_time, tolerance=p.solver["rtol"]) for p in problems.values()]
     rates = [mean_rate(run.tau, run.log_growth, end_time / 4) for run in runs]
-    errors = [mean_rate_error(run.tau, run.log_growth, end_time / 4) for run in runs]
-    grid = ("spectrum_case", "index")
+    along, index = ("spectrum_case", "index"), np.arange(1, 1 + len(rates[0]))
     return {
-        **_coordinates(
-            spectrum_case=(list(problems), "case whose spectrum is found, on a short chain"),
-            index=(np.arange(1, 1 + len(rates[0])), "number of the exponent"),
-            spectrum_tau=(tau, "slow time"),
+        "spectrum_case": Variable(along[:1], list(problems), "case, on a short chain"),
+        "index": Variable(along[1:], index, "number of the exponent"),
+        "exponents": Variable(
+            along, rates, "all Lyapunov exponents of a short chain, per unit of tau"
         ),
-        "running_spectrum": Variable(
-            (*grid, "spectrum_tau"),
-            running,
-            "mean rates of growth since the start, per unit of tau",
-        ),
-        "spectrum": Variable(grid, rates, "Lyapunov exponents of a short chain, per unit of tau"),
-        "spectrum_error": Variable(grid, errors, "standard error of these exponents"),
     }

@@ -28,23 +28,16 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "limit": number(float(np.exp(MANY))),
         "visible": percent(float(trust["size"].sel(level="visible"))),
         "end": results.quote(TRUST, float(trust["tau"].max())),
-        "head": ["case", "growth, even", "growth, odd", *map(_title, solvers), "uneven from"],
+        "head": ["case", "growth, even", "growth, odd",
+                 *(f"{SOLVERS[name]} leaves" for name in solvers), "uneven from"],
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
         "lost": {name: lost_by(results, name) for name in solvers},
-        "ensembles": [
-            ensemble_of(results, str(case)) for case in results[ENSEMBLES]["case"].values
-        ],
+        "ensembles": [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values],
         "decimal": not_a_tenth(results),
         "pictures": _pictures(results),
-        "members": results.quote("checks/ensembles", results["checks/ensembles"].attrs["members"]),
-        "size": results.quote(
-            "checks/ensembles", results["checks/ensembles"].attrs["perturbation"]
-        ),
-    }
-
-
-def _title(solver: str) -> str:
-    return f"{SOLVERS[solver]} leaves"
+        "members": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["members"]),
+        "size": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["perturbation"]),
+    }  # fmt: skip
 
 
 def _row(results: Results, case: str, solvers: list[str]) -> list:
@@ -98,41 +91,25 @@ def ensemble_of(results: Results, name: str) -> dict[str, Any]:
 
 def _pictures(results: Results) -> dict[str, Picture]:
     """Return the four pictures by name."""
-    described = {
-        "trust_horizons": f"Errors of the norms against τ. {_lost(results)}.",
-        "lyapunov": f"Growth of small changes. Rates: {_rates(results)}.",
-        "symmetry": f"The odd part of even solutions against τ. {_broken(results)}.",
-        "ensembles": f"Bands of runs from almost equal data. {_bands(results)}.",
-    }
-    return {name: results.picture(name, alt) for name, alt in described.items()}
-
-
-def _lost(results: Results) -> str:
-    found = [lost_by(results, str(name)) for name in results[TRUST]["solver"].values]
-    return "; ".join(
-        f"{one['solver']} leaves {one['count']} cases, at τ = {one['times']}" for one in found
-    )
-
-
-def _rates(results: Results) -> str:
-    growth = results[LYAPUNOV].sel(parity="even")
-    cases = [growth.sel(case=name) for name in growth["case"].values]
-    return "; ".join(
+    growth, trust = results[LYAPUNOV].sel(parity="even"), results[TRUST]
+    lost = [lost_by(results, str(name)) for name in trust["solver"].values]
+    rates = [
         f"{case_of(case)}: {with_error(float(case['exponent']), float(case['exponent_error']))}"
-        for case in cases
-    )
-
-
-def _broken(results: Results) -> str:
-    times = results["checks/symmetry"]["rounded_time"].values
-    return (
-        f"By rounding alone it becomes visible in {np.isfinite(times).sum()} of {len(times)} cases"
-    )
-
-
-def _bands(results: Results) -> str:
-    bands = [ensemble_of(results, str(name)) for name in results[ENSEMBLES]["case"].values]
-    return "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands)
+        for case in (growth.sel(case=name) for name in growth["case"].values)
+    ]
+    uneven = results["checks/symmetry"]["rounded_time"].values
+    bands = [ensemble_of(results, name) for name in results[ENSEMBLES]["case"].values]
+    described = {
+        "trust_horizons": "Errors of the norms against τ. "
+        + "; ".join(f"{one['solver']} leaves {one['count']} cases, at τ = {one['times']}"
+                    for one in lost),
+        "lyapunov": f"Growth of small changes. Rates: {'; '.join(rates)}",
+        "symmetry": "The odd part of even solutions against τ. By rounding alone it becomes "
+        f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",
+        "ensembles": "Bands of runs from almost equal data. "
+        + "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands),
+    }  # fmt: skip
+    return {name: results.picture(name, f"{alt}.") for name, alt in described.items()}
 
 
 SECTIONS = (Section("chaos", "What can be trusted", gather),)

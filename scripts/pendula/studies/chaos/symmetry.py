@@ -11,6 +11,7 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
@@ -18,13 +19,10 @@ from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
-from .lyapunov import describe_cases
 from .tangent_dynamics import random_tangent
 
 BROKEN = 0.01
 """Relative size of the odd part from which on a solution no longer counts as even."""
-GROWING = (1e-9, 1e-4)
-"""Sizes of the odd part between which its growth is neither start-up nor saturation."""
 
 
 @inlined_by_llvm
@@ -116,45 +114,28 @@ def break_symmetry(problem: Problem, size: float, members: int, seed: int = 0) -
     return OddPart(follow_odd_part(problem, amplitudes), np.array(perturbed))
 
 
-def growth_between(tau: np.ndarray, odd: np.ndarray, low: float, high: float) -> float:
-    """Return the mean rate of growth of the odd part from `low` to `high`, NaN if it stays below.
+def odd_parts(problems: dict[str, Problem], size: float, members: int, seed: int) -> Contents:
+    """Return the odd part of each case against time, and when rounding alone makes it visible.
 
-    The part counts from the last time that it is below `low` before it first reaches `high`.
-    """
-    reached = np.flatnonzero(odd >= high)
-    below = np.flatnonzero(odd[: reached[0]] <= low) if reached.size else reached
-    if not below.size:
-        return np.nan
-    first, last = below[-1], reached[0]
-    return float(np.log(odd[last] / odd[first]) / (tau[last] - tau[first]))
-
-
-def odd_parts(
-    problems: dict[str, Problem], size: float, members: int, seed: int
-) -> dict[str, Variable]:
-    """Return the odd part of each case against time, when it passes BROKEN, how fast it grows.
-
-    `problems` are given by case, all of one end time.
+    `problems` are given by case, all of one end time; `rounded_time` is when it passes BROKEN.
     """
     runs = [break_symmetry(problem, size, members, seed) for problem in problems.values()]
-    first = next(iter(problems.values()))
-    tau = first.times
+    tau = next(iter(problems.values())).times
+    rounded = np.array([run.rounded for run in runs])
+    perturbed = np.array([run.perturbed for run in runs])
+    described, shared = describe_cases(problems)
+    part = "relative l2 norm of the odd part"
     variables = {
-        **describe_cases(problems),
+        **described,
         "tau": Variable(("tau",), tau),
+        "rounded": Variable(("case", "tau"), rounded, f"{part} by rounding alone"),
+        "rounded_time": Variable(
+            ("case",), first_above(tau, rounded, BROKEN), f"{part} above {BROKEN:g} by rounding"
+        ),
+        "perturbed": Variable(
+            ("case", "member", "tau"), perturbed, f"{part} from an odd perturbation"
+        ),
     }
-    for name, title, dims in (
-        ("rounded", "by rounding alone", ("case",)),
-        ("perturbed", "from an odd perturbation", ("case", "member")),
-    ):
-        odd = np.array([getattr(run, name) for run in runs])
-        broken = first_above(tau, odd, BROKEN)
-        rates = np.apply_along_axis(lambda one: growth_between(tau, one, *GROWING), -1, odd)
-        variables |= {
-            name: Variable((*dims, "tau"), odd, f"relative l2 norm of the odd part {title}"),
-            f"{name}_time": Variable(dims, broken, f"odd part above {BROKEN:g} {title}"),
-            f"{name}_rate": Variable(
-                dims, rates, f"growth rate of the odd part {title}, per unit of tau"
-            ),
-        }
-    return variables
+    title = "How even data lose their evenness: by rounding, and by small odd perturbations"
+    about = {"perturbation": size, "members": members, "seed": seed}
+    return variables, {"title": title, **shared, **about}

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from pendula.datasets.trajectories import shared_by
 from pendula.measures.difference import (
     LEVELS,
     VISIBLE,
@@ -33,24 +34,50 @@ EARLY = 10.0
 DIGITS = 1e-12
 
 
+COMPARED = {
+    "drift": "drift of the energy, |H(tau) - H(0)|",
+    "largest_drift": "largest drift of the energy",
+    "span": "span of slow time from the start",
+    "until": "end of the span of slow time",
+    "stated_drift": "order of the drift that the paper states",
+    "allowed_drift": "largest drift that is of that order",
+    "kept": "one where the drift is of the order that the paper states",
+    "pair": "pair of solvers",
+    "largest_difference": "largest difference of the norms of two solvers",
+    "late_difference": "relative difference of the mean norms over the second half of the time",
+    "sweep_difference": "relative difference of the pair's l2 norm between the paper's two solvers",
+    "largest_sweep_difference": "largest of these differences over the half-widths",
+    "median_sweep_difference": "median of these differences over the half-widths",
+    "visible": "visible part of full scale",
+}
+TRUSTED = {
+    "level": "level of the difference from which on curves are told apart",
+    "size": "size of the level, as a part of full scale",
+    "horizon": "first tau at which a norm is off by the level",
+    "decimal_size": "size of a level, as a part of full scale",
+    "decimal_horizon": "first tau at which data rounded to doubles lead away from data as printed",
+}
+"""What the two datasets hold, beside names of the registry and of `measures.difference`."""
+
+
 def compare(runs: Runs, sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]]) -> xr.Dataset:
-    """Return how each solver keeps the energy, and how far pairs of solvers differ.
+    """Return how each solver keeps the energy, and how far pairs of solvers differ (see COMPARED).
 
     `sweeps` holds each sweep by the first of the paper's solvers and by the second.
     """
     cases = list(dict.fromkeys(case for case, _ in runs))
-    by_case = [_compare_case(runs, case) for case in cases]
-    data = xr.merge(
-        [_stack(by_case, "case", cases, "case"), _compare_sweeps(sweeps)], combine_attrs="override"
-    )
-    data["visible"] = _variable((), VISIBLE, "visible part of full scale")
-    return data.assign_attrs(title="The paper's solvers: drift of the energy, and agreement")
+    by_case = [_compare_case(_by_solver(runs, case), case) for case in cases]
+    data = xr.merge([_stack(by_case, "case", cases), _compare_sweeps(sweeps)])
+    title = "The paper's solvers: drift of the energy, and agreement"
+    return _described(data.assign(visible=VISIBLE), COMPARED, runs, title)
 
 
-def _compare_case(runs: Runs, case: str) -> xr.Dataset:
-    solvers = [solver for name, solver in runs if name == case]
-    chosen = {solver: runs[case, solver] for solver in solvers}
-    return xr.merge([_drifts(chosen, case), _differences(chosen), _problem(chosen[solvers[0]])])
+def _by_solver(runs: Runs, case: str) -> dict[str, xr.Dataset]:
+    return {solver: run for (name, solver), run in runs.items() if name == case}
+
+
+def _compare_case(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
+    return xr.merge([_drifts(runs, case), _differences(runs), _problem(runs)])
 
 
 def _drifts(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
@@ -62,38 +89,26 @@ def _drifts(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
     by_solver = ("solver", "span")
     return xr.Dataset(
         {
-            "drift": _variable(("solver", "tau"), values, "drift of the energy |H(tau) - H(0)|"),
-            "largest_drift": _variable(by_solver, largest, "largest drift of the energy"),
-            "until": _variable(("span",), [early, float(tau[-1])], "end of the span of slow time"),
-            "stated_drift": _variable((), stated, "order of the drift that the paper states"),
-            "allowed_drift": _variable((), ORDER * stated, "largest drift that is of that order"),
-            "kept": _variable(
-                by_solver,
-                (largest <= ORDER * stated).astype(int),
-                "one where the drift is of the order that the paper states",
-            ),
+            "drift": (("solver", "tau"), values),
+            "largest_drift": (by_solver, largest),
+            "until": ("span", [early, float(tau[-1])]),
+            "stated_drift": stated,
+            "allowed_drift": ORDER * stated,
+            "kept": (by_solver, (largest <= ORDER * stated).astype(int)),
         },
-        {
-            "tau": tau,
-            "solver": _variable(("solver",), list(runs), "solver"),
-            "span": _variable(("span",), ["early", "whole"], "span of slow time from the start"),
-        },
+        {"tau": tau, "solver": list(runs), "span": ["early", "whole"]},
     )
 
 
 def _differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    pairs = [tuple(pair.split(" - ")) for pair in PAIRS]
-    curves = [difference(runs[one], runs[other]) for one, other in pairs]
-    name = _variable(("pair",), list(PAIRS), "pair of solvers")
-    data = xr.concat(curves, xr.Variable(*name)).to_dataset()
-    data["divergence_time"] = divergence_time(data["difference"])
-    data["largest_difference"] = data["difference"].max("tau")
-    data["largest_difference"].attrs = _words("largest difference of the norms of two solvers")
-    late = [late_difference(runs[one], runs[other]) for one, other in pairs]
-    data["late_difference"] = _variable(
-        ("pair",), late, "relative difference of the mean norms over the second half of the time"
+    pairs = [[runs[solver] for solver in pair.split(" - ")] for pair in PAIRS]
+    apart = xr.concat([difference(*pair) for pair in pairs], xr.Variable("pair", list(PAIRS)))
+    late = [late_difference(*pair) for pair in pairs]
+    return apart.to_dataset().assign(
+        divergence_time=divergence_time(apart),
+        largest_difference=apart.max("tau"),
+        late_difference=("pair", late),
     )
-    return data
 
 
 def _compare_sweeps(sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]]) -> xr.Dataset:
@@ -103,16 +118,12 @@ def _compare_sweeps(sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]]) -> xr.D
         off = abs(second["l2"] / first["l2"] - 1).sel(quantity="pair", drop=True)
         if off.sizes["half_width"] != first.sizes["half_width"]:
             raise ValueError("the two solvers' sweeps differ in their half-widths")
-        found.append(off.rename("sweep_difference").to_dataset())
-    data = _stack(found, "sweep", list(sweeps), "sweep")
-    title = "relative difference of the pair's l2 norm between the paper's two solvers"
-    data["sweep_difference"].attrs = _words(title)
-    for name in ("max", "median"):
-        reduced = getattr(data["sweep_difference"], name)("half_width")
-        word = {"max": "largest", "median": "median"}[name]
-        about = _words(f"{word} of these differences over the half-widths")
-        data[f"{word}_sweep_difference"] = reduced.assign_attrs(about)
-    return data
+        found.append(off.to_dataset(name="sweep_difference"))
+    data = _stack(found, "sweep", list(sweeps))
+    return data.assign(
+        largest_sweep_difference=data["sweep_difference"].max("half_width"),
+        median_sweep_difference=data["sweep_difference"].median("half_width"),
+    )
 
 
 def trust(
@@ -126,60 +137,45 @@ def trust(
     holds the references from data as printed (a tenth, say) and from the doubles next to them.
     """
     cases = list(dict.fromkeys(case for case, _ in runs))
-    by_case = [_trust_case(runs, case, references[case]) for case in cases]
-    data = _stack(by_case, "case", cases, "case")
+    by_case = [_trust_case(_by_solver(runs, case), references[case]) for case in cases]
+    data = _stack(by_case, "case", cases).assign(size=("level", list(LEVELS.values())))
     if decimal is not None:
         apart = difference(*decimal)
         times = [float(divergence_time(apart, level)) for level in (DIGITS, VISIBLE)]
-        title = "first tau at which data rounded to doubles lead away from data as printed"
-        data["decimal_size"] = _variable(("decimal_level",), [DIGITS, VISIBLE], "size of the level")
-        data["decimal_horizon"] = _variable(("decimal_level",), times, title)
-    return data.assign_attrs(title="Until when each solver's norms are those of the reference")
+        data["decimal_size"] = "decimal_level", [DIGITS, VISIBLE]
+        data["decimal_horizon"] = "decimal_level", times
+    title = "Until when each solver's norms are those of the reference"
+    return _described(data, TRUSTED, runs, title)
 
 
-def _trust_case(runs: Runs, case: str, reference: xr.Dataset) -> xr.Dataset:
-    chosen = {solver: run for (name, solver), run in runs.items() if name == case}
-    curves = [_error(run, reference) for run in chosen.values()]
-    solver = xr.Variable(*_variable(("solver",), list(chosen), "solver"))
-    data = xr.concat(curves, solver).to_dataset()
-    levels = xr.Variable(*_variable(("level",), list(LEVELS), "when curves are told apart"))
-    times = [divergence_time(data["difference"], level) for level in LEVELS.values()]
-    data["horizon"] = xr.concat(times, levels)
-    data["horizon"].attrs = _words("first tau at which a norm is off by the level")
-    data["size"] = _variable(("level",), list(LEVELS.values()), "size of the level")
-    return data.merge(_problem(next(iter(chosen.values()))))
+def _trust_case(runs: Mapping[str, xr.Dataset], reference: xr.Dataset) -> xr.Dataset:
+    errors = [_error(run, reference) for run in runs.values()]
+    apart = xr.concat(errors, xr.Variable("solver", list(runs)))
+    times = [divergence_time(apart, level) for level in LEVELS.values()]
+    horizon = xr.concat(times, xr.Variable("level", list(LEVELS)))
+    return xr.merge([apart.to_dataset().assign(horizon=horizon), _problem(runs)])
 
 
 def _error(run: xr.Dataset, reference: xr.Dataset) -> xr.DataArray:
     if is_of_same_case(run, reference):
         return difference(run, reference)
-    about = _words("largest difference of the norms relative to their scale")
-    unknown = np.full(run.sizes["tau"], np.nan)
-    return xr.DataArray(unknown, {"tau": run["tau"]}, ("tau",), "difference", about)
+    return difference(run, run) * np.nan
 
 
-def _problem(run: xr.Dataset) -> xr.Dataset:
-    return xr.Dataset(
-        {
-            "omega": _variable((), float(run.attrs["omega"]), "detuning Omega"),
-            "initial": _variable((), str(run.attrs["initial"]), "initial {site: [A, B]}"),
-        }
-    )
+def _problem(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    about = next(iter(runs.values())).attrs
+    return xr.Dataset({"omega": float(about["omega"]), "initial": str(about["initial"])})
 
 
-def _stack(parts: list[xr.Dataset], dimension: str, names: list[str], title: str) -> xr.Dataset:
-    """Return the parts along a new dimension; what all have in common stands once."""
-    common = {"span", "level", "size"}
-    kept = [name for name in parts[0].data_vars if name in common]
-    once = parts[0][kept]
-    coordinate = xr.Variable(*_variable((dimension,), names, title))
-    each = [part.drop_vars(kept) for part in parts]
-    return xr.concat(each, coordinate, join="outer", combine_attrs="override").merge(once)
+def _stack(parts: list[xr.Dataset], dimension: str, names: list[str]) -> xr.Dataset:
+    """Return the parts along a new dimension."""
+    return xr.concat(parts, xr.Variable(dimension, names), join="outer")
 
 
-def _variable(dims: tuple, values, long_name: str) -> tuple:
-    return dims, np.asarray(values), _words(long_name)
-
-
-def _words(long_name: str) -> dict[str, str]:
-    return {"long_name": long_name, "units": "1"}
+def _described(data: xr.Dataset, names: Mapping, runs: Runs, title: str) -> xr.Dataset:
+    """Return a dataset with its long names, and with what all runs have in common."""
+    for name, long_name in names.items():
+        if name in data:
+            data[name].attrs = {"long_name": long_name}
+    shared = shared_by([run.attrs for run in runs.values()])
+    return data.assign_attrs({**shared, "title": title})

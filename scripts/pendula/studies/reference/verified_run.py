@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, describe_run
+from pendula.datasets.trajectories import COMPONENTS, describe_run, shared_by
 from pendula.problem import Problem, by_site
 from pendula.simulation.lattice import Reduction, spread
 from pendula.simulation.simulate import IntegrationError
@@ -127,17 +127,17 @@ def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
     series = ("component", "tau")
     reach = run.amplitude.shape[2] - 1
     return {
-        "tau": Variable(("tau",), run.tau, "slow time"),
+        "tau": Variable(("tau",), run.tau),
         "component": COMPONENTS,
-        "linf": Variable(series, run.linf.astype(float), "l-infinity norm over the chain"),
-        "l2": Variable(series, run.l2.astype(float), "l2 norm over the chain"),
-        "energy": Variable(("tau",), run.energy.astype(float), "energy H of equation (8)"),
+        "linf": Variable(series, run.linf.astype(float)),
+        "l2": Variable(series, run.l2.astype(float)),
+        "energy": Variable(("tau",), run.energy.astype(float)),
         "discrepancy": Variable(
             ("tau",), apart.norms, "largest difference of a norm from that of the second run"
         ),
-        "part": Variable(("part",), ["re", "im"], "part of the amplitude"),
-        "site": Variable(("site",), np.arange(-reach, reach + 1), "site of the chain"),
-        "snapshot_tau": Variable(("snapshot",), run.snapshot_tau, "slow time of the snapshots"),
+        "part": Variable(("part",), ["re", "im"]),
+        "site": Variable(("site",), np.arange(-reach, reach + 1)),
+        "snapshot_tau": Variable(("snapshot",), run.snapshot_tau),
         "amplitude": Variable(
             ("part", "component", "site", "snapshot"), _amplitude(run), "amplitude on a site"
         ),
@@ -155,19 +155,17 @@ def _amplitude(run: Run) -> np.ndarray:
 
 def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
     """Return the attributes: the case, the controls of both runs, what they agree on."""
+    about = describe_run(name, problem, {"name": "heyoka", **_controls(run)})
+    numbers = "the printed decimals" if decimal else "the doubles nearest to them"
     return {
-        **describe_run(name, problem, {"name": "heyoka", **_controls(run)}),
+        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {numbers}",
+        **shared_by([about], "snapshot_every"),
         **{f"second_run_{key}": value for key, value in _controls(check).items()},
-        "parameters_mean": "the printed decimals" if decimal else "the doubles nearest to them",
+        "parameters_mean": numbers,
         "energy_drift": apart.energy_drift,
         "largest_discrepancy": float(apart.norms.max()),
     }
 
 
 def _controls(run: Run) -> dict:
-    return {
-        "bits": run.bits,
-        "order": run.order,
-        "tolerance": run.tolerance,
-        "steps": run.steps,
-    }
+    return {name: getattr(run, name) for name in ("bits", "order", "tolerance", "steps")}

@@ -2,6 +2,6 @@
 
 From the bottom: `active_sites` (a long run on the sites in motion), `bulk` (the state behind the
 front, and the thermal states that it is compared with), `front` (the speed of linear spreading, and
-measured speeds), `long_runs` (ensembles as datasets, and how their norms grow), `window_map`
-(maxima over half-widths and time windows); `studies` says what is run.
+measured speeds), `long_runs` (ensembles as datasets, how their norms grow, and maxima over
+half-widths and time windows); `settings` says what is run.
 """

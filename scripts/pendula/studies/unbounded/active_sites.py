@@ -108,7 +108,6 @@ class LongRun(NamedTuple):
     piece_tau: np.ndarray  # (piece,)
     front: np.ndarray  # (piece, level): outermost site above each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
-    evaluations: np.ndarray  # (piece,): right-hand sides taken
     state: np.ndarray  # (row, 1 + site) at the end
 
 
@@ -164,7 +163,6 @@ def _add(series: dict, times: np.ndarray, done: Piece, first: bool) -> None:
     series["piece_tau"].append(times[-1])
     series["front"].append(find_front(done.state))
     series["width"].append(done.state.shape[1] - 3)
-    series["evaluations"].append(done.outcome.evaluations)
 
 
 def _joined(series: dict) -> dict[str, np.ndarray]:

@@ -26,6 +26,8 @@ SHARE = 0.9
 LENGTH = 64
 """Sites of the pieces that a spectrum is averaged over."""
 
+POWER = "mean power P = |A_n|^2 + |B_n|^2 of a site"
+
 
 def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
@@ -101,7 +103,7 @@ def distribution(moduli: np.ndarray, edges: np.ndarray) -> np.ndarray:
 
 def mean_powers(runs, level: float = 1e-2) -> np.ndarray:
     """Return the mean power in the bulk at the end of runs (a dataset), (variant, member)."""
-    fronts = runs["front"].isel(piece_tau=-1).sel(level=level).transpose("variant", "member")
+    fronts = runs["front"].isel(piece_tau=-1).sel(front_power=level).transpose("variant", "member")
     states = runs["state"].transpose("variant", "member", "row", "site").values
     return np.array(
         [
@@ -116,8 +118,8 @@ def mean_powers(runs, level: float = 1e-2) -> np.ndarray:
 
 # --- The thermal states without energy ------------------------------------------------------------
 
-SITES, SETTLING, KEPT = 128, 400, 1200
-"""Sites of the ring, sweeps that are thrown away, and sweeps that are averaged over."""
+SITES, SETTLING, KEPT, SEED = 128, 400, 1200, 2017
+"""Sites of the ring, sweeps that are thrown away, sweeps that are averaged over, and the seed."""
 
 
 class Thermal(NamedTuple):
@@ -188,7 +190,7 @@ def sweep_ring(constants, beta, y, moves, chances):
     return taken
 
 
-def sample(constants: Constants, beta: float, seed: int = 2017) -> Thermal:
+def sample(constants: Constants, beta: float, seed: int = SEED) -> Thermal:
     """Return samples of exp(-beta H) on a ring, one after each kept sweep."""
     rng = np.random.default_rng(seed)
     y = rng.normal(size=(SITES, 4))
@@ -234,29 +236,32 @@ HIGHEST_MODULUS, CELLS = 12.0, 80
 def thermal_variables(omegas: list[float], found: list[Thermal]) -> dict[str, Variable]:
     """Return the statistics of the thermal states without energy, one for each Omega."""
     amplitudes = [thermal.states[:, 0::2] + 1j * thermal.states[:, 1::2] for thermal in found]
-    moduli = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1)
-    energies = [thermal.energies.mean() for thermal in found]
+    cells = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1)
     sampled = [(thermal.states**2).sum(axis=1).mean(axis=1) for thermal in found]
     powers = [thermal.at_zero_energy(p) for thermal, p in zip(found, sampled, strict=True)]
     errors = [thermal.error_at_zero_energy(p) for thermal, p in zip(found, sampled, strict=True)]
+    energies, along = [thermal.energies.mean() for thermal in found], ("omega",)
     return {
-        "omega": Variable(("omega",), np.array(omegas, float), "detuning Omega"),
-        "beta": Variable(("omega",), [t.beta for t in found], "inverse temperature"),
-        "energy": Variable(("omega",), energies, "energy per site of the samples"),
-        "power": Variable(("omega",), powers, "mean of |A_n|^2 + |B_n|^2 at zero energy"),
-        "power_error": Variable(("omega",), errors, "standard error of that mean"),
-        "modulus": Variable(
-            ("modulus",), 0.5 * (moduli[1:] + moduli[:-1]), "modulus |A_n| or |B_n|"
+        "omega": Variable(along, np.array(omegas, float)),
+        "beta": Variable(along, [t.beta for t in found], "inverse temperature"),
+        "mean_energy": Variable(along, energies, "energy per site, mean of the samples"),
+        "power": Variable(along, powers, POWER),
+        "power_error": Variable(along, errors, f"standard error of the {POWER}"),
+        **statistics_of(
+            [spectrum(z.ravel(), LENGTH) for z in amplitudes],
+            [distribution(np.abs(z), cells) for z in amplitudes],
+            cells,
+            along,
         ),
-        "density": Variable(
-            ("omega", "modulus"),
-            [distribution(np.abs(z), moduli) for z in amplitudes],
-            "probability density of the moduli",
-        ),
-        "wave_number": Variable(
-            ("wave",), 2.0 * np.pi * np.arange(LENGTH) / LENGTH, "wave number", "rad"
-        ),
-        "spectrum": Variable(
-            ("omega", "wave"), [spectrum(z.ravel(), LENGTH) for z in amplitudes], "mean |A(k)|^2"
-        ),
+    }
+
+
+def statistics_of(spectra, densities, cells: np.ndarray, along: tuple = ()) -> dict[str, Variable]:
+    """Return as variables spectra (..., wave) and densities of the modulus between `cells`."""
+    waves = 2.0 * np.pi * np.arange(LENGTH) / LENGTH
+    return {
+        "wave_number": Variable(("wave",), waves, "wave number k", "rad"),
+        "spectrum": Variable((*along, "wave"), spectra, "mean |A(k)|^2 over pieces of the chain"),
+        "modulus": Variable(("modulus",), 0.5 * (cells[1:] + cells[:-1])),
+        "density": Variable((*along, "modulus"), densities, "probability density of the modulus"),
     }

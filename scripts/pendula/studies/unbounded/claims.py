@@ -170,7 +170,7 @@ def maximum_grows_slowly(run) -> Finding:
 def large_data_grow(run, amplitudes) -> Finding:
     exponent = exponent_of(run, "l2")
     grown = [exponent_of(amplitudes, "l2", v).value for v in range(amplitudes.sizes["variant"])]
-    sizes = amplitudes["amplitude"].values[np.array(grown) > GROWING]
+    sizes = amplitudes["central_modulus"].values[np.array(grown) > GROWING]
     measured = {"exponent": exponent.value, "error": exponent.error, "end": run["tau"][-1]}
     measured |= {"spreading": len(sizes), "tried": len(grown)}
     which = ", ".join(f"{size:g}" for size in sizes) or "none"

@@ -1,5 +1,7 @@
 """Chains without ends in pictures: norms against time, and maxima over half-widths and windows."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -7,9 +9,10 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
-from pendula.drawing import style
+from pendula.drawing import panels, style
+
+from .long_runs import BAND
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-"},
@@ -17,13 +20,7 @@ LOOKS = {
     "fig2_large": {"color": "#16876b", "ls": "--"},
     "fig3_small": {"color": "#b07800", "ls": ":"},
 }
-NORMS = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}
-STATISTICS = ["lowest", "mean", "highest"]
-
-
-def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn of the norms' growth, as `growth.measure_growth` found it."""
-    return growth.drop_attrs(deep=False)
+NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
 
 
 @style.styled
@@ -46,8 +43,8 @@ def _draw_norm(axes: Axes, data: xr.Dataset, name: str) -> None:
     for case in data["case"].values:
         one = data.sel(case=case)
         look = {"label": style.name_case(one), "lw": 1.1, **LOOKS[str(case)]}
-        axes.plot(one["tau"], one[name].sel(statistic="mean"), **look)
-        low, high = (one[name].sel(statistic=bound) for bound in ("lowest", "highest"))
+        axes.plot(one["tau"], one[name].sel(band="mean"), **look)
+        low, high = (one[name].sel(band=bound) for bound in ("lowest", "highest"))
         axes.fill_between(one["tau"], low, high, color=look["color"], alpha=0.25, lw=0)
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$")
@@ -63,12 +60,9 @@ def _draw_law(axes: Axes, data: xr.Dataset) -> None:
             law = float(one["law"]) * np.sqrt(one["tau"])
             axes.plot(one["tau"], law, color="black", lw=0.9, ls=(0, (4, 2)))
             middle = data.sizes["point"] // 2
+            place = float(one["tau"][middle]), float(law[middle])
             axes.annotate(
-                r"$(2 v^* P\,\tau)^{1/2}$",
-                (float(one["tau"][middle]), float(law[middle])),
-                (-3, 5),
-                textcoords="offset points",
-                ha="right",
+                r"$(2 v^* P\,\tau)^{1/2}$", place, (-3, 5), textcoords="offset points", ha="right"
             )
 
 
@@ -90,45 +84,41 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
 
     `paper_ends` are the ends T of the paper's windows [10, T], one a sweep.
     """
-    panels = []
+    found = []
     for data in maps.values():
         both = data[["l2", "linf"]]
         parts = [both.min("member"), both.mean("member"), both.max("member")]
-        panel = xr.concat(parts, xr.Variable("statistic", STATISTICS))
-        panel["arrival"] = data["arrival"].mean("member").assign_attrs(data["arrival"].attrs)
-        panel["predicted_speed"] = data["predicted_speed"]
-        panels.append(panel.assign_attrs(data.attrs))
-    joined = style.join(panels, list(maps), "sweep", "sweep of Figs 5 and 6")
-    for name in ("l2", "linf"):
-        joined[name].attrs = dict(next(iter(maps.values()))[name].attrs)
-    joined["statistic"].attrs = {"long_name": "over the ensemble", "units": "1"}
-    last = float(joined["end"][-1])
-    ends = [min(end, last) for end in paper_ends]
-    joined["paper_end"] = ("sweep", ends, {"long_name": "end of the paper's window", "units": "1"})
-    return joined
+        words = {"long_name": "value over the members of the ensemble"}
+        panel = xr.concat(parts, xr.Variable("band", list(BAND), words))
+        for name in both:
+            panel[name].attrs = both[name].attrs
+        found.append(panel.assign(predicted_speed=data["predicted_speed"]).assign_attrs(data.attrs))
+    joined = style.join(found, list(maps), "sweep")
+    ends = np.minimum(paper_ends, float(joined["end"][-1]))
+    return joined.assign(paper_end=("sweep", ends, {"long_name": "end of the paper's window"}))
 
 
 @style.styled
 def draw_window_map(data: xr.Dataset) -> Figure:
     """Draw a column for each sweep: the map of l2 above, maxima at two ends T below."""
     figure = style.new_figure(style.DOUBLE, 4.2)
-    panels = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row")
-    shown = data["l2"].sel(statistic="mean")
+    grid = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row")
+    shown = data["l2"].sel(band="mean")
     norm = LogNorm(float(shown.min()), float(shown.max()))
-    for (above, below), sweep in zip(panels.T, data["sweep"].values, strict=True):
+    for (above, below), sweep in zip(grid.T, data["sweep"].values, strict=True):
         one = data.sel(sweep=sweep)
         mesh = _draw_map(above, one, norm)
         _draw_at_ends(below, one)
-    panels[0, 0].set_ylabel("end $T$ of the window $[10, T]$")
-    panels[1, 0].set_ylabel("maximal norm of $(A, B)$")
-    bar = figure.colorbar(mesh, ax=panels[0].tolist(), pad=0.01, aspect=14)
+    grid[0, 0].set_ylabel("end $T$ of the window $[10, T]$")
+    grid[1, 0].set_ylabel("maximal norm of $(A, B)$")
+    bar = figure.colorbar(mesh, ax=grid[0].tolist(), pad=0.01, aspect=14)
     bar.set_label(r"maximal $\ell^2$ of $(A, B)$")
     figure.legend(handles=_legend(data), loc="outside lower center", ncols=3, columnspacing=1.4)
     return figure
 
 
 def _draw_map(axes: Axes, one: xr.Dataset, norm: LogNorm) -> QuadMesh:
-    values = one["l2"].sel(statistic="mean").transpose("end", "half_width")
+    values = one["l2"].sel(band="mean").transpose("end", "half_width")
     ends = one["end"].values
     edges = np.append(ends - 0.5 * (ends[1] - ends[0]), ends[-1] + 0.5 * (ends[1] - ends[0]))
     mesh = axes.pcolormesh(
@@ -157,55 +147,38 @@ def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:
     for end, fill in ((float(one["paper_end"]), True), (float(one["end"][-1]), False)):
         maxima = one.sel(end=end, method="nearest")
         for name in ("l2", "linf"):
-            middle = maxima[name].sel(statistic="mean").values
-            bounds = [maxima[name].sel(statistic=b).values for b in ("lowest", "highest")]
+            middle = maxima[name].sel(band="mean").values
+            bounds = [maxima[name].sel(band=b).values for b in ("lowest", "highest")]
             errors = np.abs(np.array(bounds) - middle)
-            axes.errorbar(one["half_width"], middle, errors, **_look(name, fill))
-        axes.axvline(float(one["predicted_speed"]) * end, color="0.45", **_line(fill))
+            axes.errorbar(one["half_width"], middle, errors, elinewidth=0.8, **_mark(name, fill))
+        axes.axvline(float(one["predicted_speed"]) * end, **_line(fill))
     axes.set_yscale("log")
     axes.set_xlabel("half-width $M$")
     _log_axis(axes, one)
 
 
-def _look(name: str, fill: bool) -> dict:
-    colour = style.COLOURS[name]
-    return {
-        "color": colour,
-        "marker": {"l2": "o", "linf": "s"}[name],
-        "ms": 3.2,
-        "mfc": colour if fill else "white",
-        "mew": 0.7,
-        "lw": 0.6,
-        "elinewidth": 0.8,
-    }
-
-
 def _mark(name: str, fill: bool) -> dict:
-    return {key: value for key, value in _look(name, fill).items() if key != "elinewidth"}
+    colour = style.COLOURS[name]
+    dots = {"marker": panels.MARKERS[name], "ms": 3.2, "mfc": colour if fill else "white"}
+    return {"color": colour, "mew": 0.7, "lw": 0.6, **dots}
 
 
 def _line(fill: bool) -> dict:
-    return {"lw": 0.9, "ls": (0, (4, 2)) if fill else "-"}
+    return {"color": "0.45", "lw": 0.9, "ls": (0, (4, 2)) if fill else "-"}
 
 
 def _log_axis(axes: Axes, one: xr.Dataset) -> None:
-    axes.set_xscale("log")
+    panels.half_width_axis(axes, [10, 100, 1000])
     edges = _log_edges(one["half_width"].values)
     axes.set_xlim(edges[0], edges[-1])
-    axes.xaxis.set_major_locator(FixedLocator([10, 100, 1000]))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
 
 
 def _legend(data: xr.Dataset) -> list[Line2D]:
-    last = float(data["end"][-1])
-    handles = [
-        Line2D([], [], label=f"{NORMS[name]}, {text}", **_mark(name, fill))
-        for name in NORMS
-        for fill, text in ((True, "the paper's $T$"), (False, f"$T = {last:g}$"))
+    ends = ((True, "the paper's $T$"), (False, f"$T = {float(data['end'][-1]):g}$"))
+    looks = [(NORMS[name], partial(_mark, name)) for name in NORMS]
+    looks += [("$M = v^*T$", _line)]
+    return [
+        Line2D([], [], label=f"{label}, {text}", **look(fill))
+        for label, look in looks
+        for fill, text in ends
     ]
-    handles += [
-        Line2D([], [], color="0.45", label=f"$M = v^*T$, {text}", **_line(fill))
-        for fill, text in ((True, "the paper's $T$"), (False, f"$T = {last:g}$"))
-    ]
-    return handles

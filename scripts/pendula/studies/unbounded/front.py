@@ -15,10 +15,13 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from pendula.datasets.netcdf import Variable, as_xarray
+from pendula.datasets.trajectories import shared_by
 from pendula.problem import Constants
 
 from .bulk import (
     LENGTH,
+    POWER,
     TERMS,
     bulk_of,
     complex_pair,
@@ -27,8 +30,14 @@ from .bulk import (
     mean_powers,
     profile,
     spectrum,
+    statistics_of,
     with_ghosts,
 )
+
+PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau"
+DELAY = "sites lost per unit of log tau on the way to that speed"
+PIECE_TAU, SITE_OF_FRONT = "slow time at the end of a piece of the run", "site of the front"
+"""What these quantities are called in every dataset of this study."""
 
 
 class LinearFront(NamedTuple):
@@ -117,7 +126,7 @@ def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarr
     error is one site over the time of the fit at least: a front stands on sites.
     """
     tau = run["piece_tau"].values
-    way = run["front"].sel(level=level).transpose("variant", "member", "piece_tau").values
+    way = run["front"].sel(front_power=level).transpose("variant", "member", "piece_tau").values
     if corrected:
         way = way + run["predicted_delay"].values[:, None, None] * np.log(tau)
     found = np.array([[speed_of(tau, series) for series in members] for members in way])
@@ -135,94 +144,81 @@ def measure_front(
 
     `omegas` are runs over Omega, `bulk` the run whose bulk is looked at, `large` one whose bulk
     spreads where the chain at rest is stable. `thermal` are the states without energy that the
-    bulk is compared with. Speeds are in sites per unit of tau, everything else is dimensionless.
+    bulk is compared with.
     """
     constants = Constants.of(bulk.attrs)
-    data = xr.Dataset(
-        {
-            **_speeds(omegas, thermal),
-            **_line(constants),
-            **_positions(omegas, large),
-            **_way(bulk),
-            **_behind(bulk, constants),
-            **_powers(omegas),
-            **_thermal(thermal, constants.omega),
-        },
-        {"omega": _named("omega", omegas["omega"].values, "detuning Omega")},
-    )
-    title = "The front on chains without ends, and the bulk behind it"
-    data.attrs = {"title": title}
-    return data.assign_attrs(**asdict(constants), large_omega=large.attrs["omega"])
-
-
-def _named(dims, values, title: str, units: str = "1"):
-    return dims, np.asarray(values), {"long_name": title, "units": units}
-
-
-def _speeds(omegas: xr.Dataset, thermal: xr.Dataset) -> dict:
-    """Return measured and predicted speeds, and the thermal power at the same Omega."""
-    title = "front speed (sites per unit of tau)"
+    omega, line = omegas["omega"].values, np.linspace(-4.0, 8.0, 97)
     plain, plain_error = speeds(omegas)
     corrected, corrected_error = speeds(omegas, corrected=True)
-    known = thermal["power"].reindex(omega=omegas["omega"].values, method="nearest", tolerance=1e-9)
-    return {
-        "speed": _named("omega", plain, f"measured {title}"),
-        "speed_error": _named("omega", plain_error, f"standard error of the {title}"),
-        "corrected_speed": _named("omega", corrected, f"{title}, its delay added back"),
-        "corrected_speed_error": _named("omega", corrected_error, "standard error of that speed"),
-        "predicted_speed": _named(
-            "omega", omegas["predicted_speed"].values, f"linear spreading, {title}"
-        ),
-        "expected_power": _named("omega", known.values, "mean power of the thermal state, P"),
+    line_speeds = [linear_front(replace(constants, omega=value)).speed for value in line]
+    power, power_error = _powers(omegas)
+    known = thermal["power"].reindex(omega=omega, method="nearest", tolerance=1e-9).values
+
+    def over_omega(values, long_name: str = "") -> Variable:
+        return Variable(("omega",), values, long_name)
+
+    variables = {
+        "omega": over_omega(omega),
+        "speed": over_omega(plain, "measured speed of the front, in sites per unit of tau"),
+        "speed_error": over_omega(plain_error, "standard error of the speed of the front"),
+        "corrected_speed": over_omega(corrected, "speed of the front, its delay added back"),
+        "corrected_speed_error": over_omega(corrected_error, "standard error of that speed"),
+        "predicted_speed": over_omega(omegas["predicted_speed"].values, PREDICTED_SPEED),
+        "power": over_omega(power, POWER),
+        "power_error": over_omega(power_error, f"standard error of the {POWER}"),
+        "expected_power": over_omega(known, f"{POWER} in the thermal state at the same Omega"),
+        "line_omega": Variable(("line_omega",), line, "detuning Omega, on a finer grid"),
+        "line_speed": Variable(("line_omega",), line_speeds, PREDICTED_SPEED),
+        **_ways(omegas, large),
+        **_delay(bulk),
+        **_behind(bulk, constants),
+        **_thermal(thermal, constants.omega),
     }
+    title = "The front on chains without ends, and the bulk behind it"
+    about = {**shared_by([omegas.attrs, bulk.attrs]), **asdict(constants)}
+    return as_xarray(variables, {**about, "title": title, "large_omega": large.attrs["omega"]})
 
 
-def _line(constants: Constants) -> dict:
-    """Return the speed of linear spreading over Omega, on a fine grid."""
-    grid = np.linspace(-4.0, 8.0, 97)
-    lines = [linear_front(replace(constants, omega=omega)).speed for omega in grid]
-    title = "linear spreading, front speed (sites per unit of tau)"
-    return {
-        "line_omega": _named("line_omega", grid, "detuning Omega"),
-        "predicted": _named("line_omega", lines, title),
-    }
+def _powers(omegas: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean powers over the members, and their standard errors."""
+    found = mean_powers(omegas)
+    return found.mean(axis=1), found.std(axis=1) / np.sqrt(max(1, found.shape[1] - 1))
 
 
-def _positions(omegas: xr.Dataset, large: xr.Dataset) -> dict:
+def _ways(omegas: xr.Dataset, large: xr.Dataset) -> dict[str, Variable]:
     """Return the fronts of the ensembles' first members against time."""
-    first = omegas["front"].sel(level=FRONT).isel(member=0)
-    of_bulk = large["front"].sel(level=BULK).isel(variant=0, member=0)
+    first = omegas["front"].sel(front_power=FRONT).isel(member=0).values
+    of_bulk = large["front"].sel(front_power=BULK).isel(variant=0, member=0).values
+    stable = ("large_piece",)
     return {
-        "tau": _named("piece", omegas["piece_tau"].values, "slow time"),
-        "front": _named(("omega", "piece"), first.values, "site of the front"),
-        "large_tau": _named("large_piece", large["piece_tau"].values, "slow time, stable chain"),
-        "large_front": _named(
-            "large_piece", of_bulk.values, "site where the bulk ends, stable chain, large data"
-        ),
+        "piece_tau": Variable(("piece_tau",), omegas["piece_tau"].values, PIECE_TAU),
+        "front": Variable(("omega", "piece_tau"), first, SITE_OF_FRONT),
+        "large_tau": Variable(stable, large["piece_tau"].values, "slow time, stable chain"),
+        "large_front": Variable(stable, of_bulk, "site where the bulk ends, stable chain"),
     }
 
 
-def _way(bulk: xr.Dataset) -> dict:
-    front = bulk["front"].isel(variant=0).sel(level=FRONT)
+def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
+    """Return how far the front falls behind the speed of linear spreading, mean over members."""
     tau = bulk["piece_tau"].values
-    v, delay = (
-        float(bulk[name].isel(variant=0)) for name in ("predicted_speed", "predicted_delay")
-    )
-    behind = (front.transpose("member", "piece_tau").values - v * tau).mean(axis=0)
+    one = bulk.isel(variant=0)
+    v, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
+    way = one["front"].sel(front_power=FRONT).transpose("member", "piece_tau").values
+    behind = (way - v * tau).mean(axis=0)
     # a front stands on whole sites: means over short spans of log time show where it is
     spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
     found = [spans == span for span in np.unique(spans)]
     return {
-        "way_tau": _named("time", [tau[span].mean() for span in found], "slow time"),
-        "behind": _named("time", [behind[span].mean() for span in found], "front minus v tau"),
-        "delay": _named((), delay, "sites lost per unit of log tau, predicted"),
+        "way_tau": Variable(("time",), [tau[s].mean() for s in found], "slow time, mean of a span"),
+        "behind": Variable(("time",), [behind[s].mean() for s in found], "site of front - v tau"),
+        "delay": Variable((), delay, DELAY),
     }
 
 
-def _behind(bulk: xr.Dataset, constants: Constants) -> dict:
+def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
     """Return profiles, spectrum and distribution of the final states of all members."""
     states = [with_ghosts(state) for state in bulk["state"].isel(variant=0).values]
-    fronts = bulk["front"].isel(variant=0, piece_tau=-1).sel(level=FRONT).values.astype(int)
+    fronts = bulk["front"].isel(variant=0, piece_tau=-1).sel(front_power=FRONT).values.astype(int)
     edges = np.linspace(0.0, HIGHEST, BINS + 1)
     terms, spectra, moduli = [], [], []
     for state, front in zip(states, fronts, strict=True):
@@ -234,36 +230,27 @@ def _behind(bulk: xr.Dataset, constants: Constants) -> dict:
             moduli.append(np.abs(amplitude[inside]))
     moduli = np.concatenate(moduli)
     cells = np.linspace(0.0, 1.05 * moduli.max(), MODULI + 1)
-    waves = 2.0 * np.pi * np.arange(LENGTH) / LENGTH
     return {
-        "terms": _named(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
-        "term": _named("term", list(TERMS), "term of the energy (8)"),
-        "scaled_site": _named("bin", 0.5 * (edges[1:] + edges[:-1]), "site over that of the front"),
-        "spectrum": _named("wave", np.mean(spectra, axis=0), "mean |A(k)|^2 behind the front"),
-        "wave_number": _named("wave", waves, "wave number", "rad"),
-        "density": _named(
-            "modulus", distribution(moduli, cells), "probability density of |A_n| and |B_n|"
+        "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
+        "terms": Variable(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
+        "scaled_site": Variable(
+            ("bin",), 0.5 * (edges[1:] + edges[:-1]), "site over that of the front"
         ),
-        "modulus": _named("modulus", 0.5 * (cells[1:] + cells[:-1]), "modulus |A_n| or |B_n|"),
+        **statistics_of(np.mean(spectra, axis=0), distribution(moduli, cells), cells),
     }
 
 
-def _powers(omegas: xr.Dataset) -> dict:
-    found = mean_powers(omegas)
-    error = found.std(axis=1) / np.sqrt(max(1, found.shape[1] - 1))
-    return {
-        "power": _named("omega", found.mean(axis=1), "mean power |A_n|^2 + |B_n|^2 of the bulk"),
-        "power_error": _named("omega", error, "its standard error over the ensemble"),
-    }
-
-
-def _thermal(thermal: xr.Dataset, omega: float) -> dict:
+def _thermal(thermal: xr.Dataset, omega: float) -> dict[str, Variable]:
+    """Return of the thermal states what the bulk is compared with, for some of it at one Omega."""
     one = thermal.sel(omega=omega, method="nearest")
-    density = "probability density of the modulus, thermal state"
+    taken = {"omega": thermal["omega"], "power": thermal["power"], "modulus": one["modulus"],
+             "density": one["density"], "spectrum": one["spectrum"]}  # fmt: skip
+    dims = {"omega": "state", "modulus": "cell", "wave": "wave"}
     return {
-        "thermal_omega": _named("state", thermal["omega"].values, "detuning of the thermal states"),
-        "thermal_power": _named("state", thermal["power"].values, "mean power, thermal state"),
-        "thermal_modulus": _named("cell", one["modulus"].values, "modulus |A_n| or |B_n|"),
-        "thermal_density": _named("cell", one["density"].values, density),
-        "thermal_spectrum": _named("wave", one["spectrum"].values, "|A(k)|^2, thermal state"),
+        f"thermal_{name}": Variable(
+            tuple(dims[dim] for dim in values.dims),
+            values.values,
+            f"{values.attrs['long_name']}, thermal state",
+        )
+        for name, values in taken.items()
     }

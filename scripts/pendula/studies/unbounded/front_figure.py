@@ -7,13 +7,8 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import style
 
-MEASURED = (
-    *("speed", "speed_error", "predicted", "tau", "front", "large_tau", "large_front"),
-    *("way_tau", "behind", "delay", "terms", "term", "scaled_site"),
-    *("spectrum", "wave_number", "density", "modulus", "power", "power_error"),
-    *("thermal_omega", "thermal_power", "thermal_modulus", "thermal_density", "thermal_spectrum"),
-)
-"""The variables of the measured front that are drawn."""
+TOLD = ["corrected_speed", "corrected_speed_error", "predicted_speed", "expected_power"]
+"""The variables of the measured front that the report tells, and the figure does not show."""
 
 LATE = 10
 """The line of the delay is laid through so many of the last points of the front's way."""
@@ -32,9 +27,7 @@ TERM_LOOKS = {
 
 def gather_front(measured: xr.Dataset) -> xr.Dataset:
     """Return what is drawn of the front and of the bulk, as `front.measure_front` found it."""
-    attributes = ("omega", "gamma", "epsilon", "large_omega")
-    data = measured[list(MEASURED)].drop_attrs(deep=False)
-    return data.assign_attrs({name: measured.attrs[name] for name in attributes})
+    return measured.drop_vars(TOLD)
 
 
 @style.styled
@@ -54,12 +47,14 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     middle = data["omega"].values[data.sizes["omega"] // 2]
     for omega, colour in ((middle, style.RED), (data["omega"].values[0], GREEN)):
         label = rf"$\Omega = {omega:g}$"
-        axes.plot(data["tau"], data["front"].sel(omega=omega), color=colour, lw=1.4, label=label)
-        speed = np.interp(omega, data["line_omega"], data["predicted"])
-        ends = np.array([0.0, float(data["tau"][-1])])
+        axes.plot(
+            data["piece_tau"], data["front"].sel(omega=omega), color=colour, lw=1.4, label=label
+        )
+        speed = np.interp(omega, data["line_omega"], data["line_speed"])
+        ends = np.array([0.0, float(data["piece_tau"][-1])])
         axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
     axes.lines[-1].set_label("linear")
-    shown = data["large_tau"].values <= float(data["tau"][-1])
+    shown = data["large_tau"].values <= float(data["piece_tau"][-1])
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
     bulk = data["large_front"].values
     axes.plot(data["large_tau"].values[shown], bulk[shown], color=style.BLUE, lw=1.1, label=label)
@@ -70,7 +65,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
 
 
 def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
-    axes.plot(data["line_omega"], data["predicted"], color="black", lw=0.9, label="linear")
+    axes.plot(data["line_omega"], data["line_speed"], color="black", lw=0.9, label="linear")
     axes.errorbar(data["omega"], data["speed"], data["speed_error"], label="measured", **DOTS)
     low, high = -2 * data.attrs["gamma"], 2 * data.attrs["gamma"] + 4 * data.attrs["epsilon"]
     axes.axvspan(low, high, color="0.92", zorder=0)

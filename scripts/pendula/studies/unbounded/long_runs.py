@@ -1,38 +1,46 @@
-"""Ensembles of long runs on chains without ends: their members, their datasets, how norms grow.
+"""Ensembles of long runs on chains without ends: their datasets, how norms grow, and maps.
 
 Where the chain at rest is unstable, a front moves at the speed v of linear spreading and leaves a
 thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v P tau)^(1/2).
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from pendula import __version__
-from pendula.datasets.netcdf import Variable
+from pendula.datasets.netcdf import Variable, as_xarray
+from pendula.datasets.registry import NAMES
+from pendula.datasets.trajectories import describe_run, shared_by
 from pendula.measures.growth import local_exponents
-from pendula.problem import Problem, write_initial
+from pendula.problem import Problem
 
-from .active_sites import LEVELS, LongRun
-from .front import linear_front
+from .active_sites import LEVELS, LongRun, run_long
+from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, SITE_OF_FRONT, linear_front
 
-SIZE = 1e-6
+SIZE, SEED = 1e-6, 2017
 """Relative size of the differences: grown to order one within some ten units of tau by chaos."""
 
 
-def member(initial: np.ndarray, number: int, seed: int = 2017) -> np.ndarray:
+def member(initial: np.ndarray, number: int) -> np.ndarray:
     """Return the initial data of an ensemble's member; number 0 has the data as they are.
 
     All sites of a component share a factor, so that even data stay even.
     """
     if number == 0:
         return initial
-    factors = 1.0 + SIZE * np.random.default_rng([seed, number]).normal(size=2)
+    factors = 1.0 + SIZE * np.random.default_rng([SEED, number]).normal(size=2)
     return initial * factors[:, None]
 
 
-RUN = ("variant", "member")
+def attributes(title: str, name: str, problems: list[Problem], rest: float, members: int) -> dict:
+    """Return what all of `problems` have in common: of varied parameters there is no one value."""
+    described = [describe_run(name, problem, problem.solver) for problem in problems]
+    shared = shared_by(described, "half_width", "snapshot_every")
+    ensemble = {"members": members, "perturbation": SIZE, "seed": SEED}
+    ends = {"boundary": "none: sites are added as the front moves", "rest": rest}
+    return {"title": title, **shared, **ends, **ensemble}
 
 
 def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[str, Variable]:
@@ -40,66 +48,38 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
     first = runs[0][0]
     predicted = [linear_front(problem.constants) for problem in problems]
 
-    def series(name: str, axis: str, title: str, more: tuple = ()) -> Variable:
+    def of_variants(values: list[float], long_name: str = "") -> Variable:
+        return Variable(("variant",), np.array(values, float), long_name)
+
+    def series(name: str, axes: tuple, long_name: str = "") -> Variable:
         values = [[getattr(run, name) for run in members] for members in runs]
-        return Variable((*RUN, axis, *more), np.array(values), title)
+        return Variable(("variant", "member", *axes), np.array(values), long_name)
 
     return {
-        "tau": Variable(("tau",), first.tau, "slow time"),
-        "piece_tau": Variable(("piece_tau",), first.piece_tau, "slow time at the end of a piece"),
-        "level": Variable(("level",), LEVELS, "power |A|^2 + |B|^2 at which the front is found"),
-        **_parameters(problems),
-        "l2": series("l2", "tau", "l2 norm of (A, B) over the chain"),
-        "linf": series("linf", "tau", "l-infinity norm of (A, B) over the chain"),
-        "energy": series("energy", "tau", "conserved energy H of equation (8)"),
-        "front": series("front", "piece_tau", "outermost site above a power", ("level",)),
-        "width": series("width", "piece_tau", "last site that is integrated, W"),
-        "evaluations": series("evaluations", "piece_tau", "right-hand sides taken in the piece"),
+        "tau": Variable(("tau",), first.tau),
+        "piece_tau": Variable(("piece_tau",), first.piece_tau, PIECE_TAU),
+        "front_power": Variable(("front_power",), LEVELS, "power P at which the front is found"),
+        "omega": of_variants([p.constants.omega for p in problems]),
+        "central_modulus": of_variants([_central(p) for p in problems], "initial |A_0|"),
+        "tolerance": of_variants([p.solver["rtol"] for p in problems], "tolerance of dop853"),
+        "l2": series("l2", ("tau",), f"{NAMES['l2']}, of A and B together"),
+        "linf": series("linf", ("tau",), f"{NAMES['linf']}, of A and B together"),
+        "energy": series("energy", ("tau",)),
+        "front": series("front", ("piece_tau", "front_power"), SITE_OF_FRONT),
+        "width": series("width", ("piece_tau",), "last site that is integrated, W"),
         "state": Variable(
-            (*RUN, "row", "site"),
+            ("variant", "member", "row", "site"),
             _padded([[run.state[:, 1:-1] for run in members] for members in runs]),
             "Re A, Im A, Re B, Im B at the end, zero beyond W",
         ),
-        "predicted_speed": _of_variants(
-            [front.speed for front in predicted], "linear spreading speed (sites per tau)"
-        ),
-        "predicted_delay": _of_variants(
-            [front.delay for front in predicted], "sites lost per unit of log tau on the way to it"
-        ),
-    }
-
-
-def attributes(name: str, problem: Problem, rest: float) -> dict:
-    """Return what was solved: no dates, no hosts."""
-    values = problem.plain()
-    plain = {key: values[key] for key in ("epsilon", "gamma", "omega", "end_time", "output_step")}
-    return {
-        "case": name,
-        **plain,
-        "rest": rest,
-        "initial": write_initial(values["initial"]),
-        "boundary": "none: sites are added as the front moves",
-        "solver": problem.solver["name"],
-        "solver_rtol": problem.solver["rtol"],
-        "version": __version__,
-    }
-
-
-def _parameters(problems: list[Problem]) -> dict[str, Variable]:
-    return {
-        "omega": _of_variants([p.constants.omega for p in problems], "detuning Omega"),
-        "amplitude": _of_variants([_central(p) for p in problems], "initial |A_0|"),
-        "tolerance": _of_variants([p.solver["rtol"] for p in problems], "solver's tolerance"),
+        "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
+        "predicted_delay": of_variants([front.delay for front in predicted], DELAY),
     }
 
 
 def _central(problem: Problem) -> float:
     """Return |A_0| at the start."""
     return abs(problem.initial[0, problem.initial.shape[1] // 2])
-
-
-def _of_variants(values: list[float], title: str) -> Variable:
-    return Variable(("variant",), np.array(values, float), title)
 
 
 def _padded(states: list[list[np.ndarray]]) -> np.ndarray:
@@ -109,40 +89,65 @@ def _padded(states: list[list[np.ndarray]]) -> np.ndarray:
     )
 
 
-# --- Growth -------------------------------------------------------------------------------------
+# --- Growth ---------------------------------------------------------------------------------------
 
 POINTS, OCTAVES = 120, 4
 """Times of a series, equally spaced in log tau; the last octaves of time with an exponent each."""
-NORMS = {"l2": "l2", "linf": "l-infinity"}
-STATISTICS = ["lowest", "mean", "highest"]
+BAND = ("lowest", "mean", "highest")
+"""What is kept of a norm over the members of an ensemble."""
 
 
 def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
     """Return series, exponents and laws of the ensembles in `runs`, by case.
 
     `runs` are datasets of `run_variables`, of which the first variant is measured; `thermal`
-    holds the mean power of the thermal states over Omega. All values are dimensionless:
-    `l2`, `linf` (case, statistic, point) over `tau` (case, point); `l2_exponent` and
-    `linf_exponent` (case, octave) with standard errors, at `octave_tau` (case, octave); `law`
-    (case), the coefficient of tau^(1/2), NaN where the chain at rest is stable.
+    holds the mean power of the thermal states over Omega. All values are dimensionless.
     """
     first = [run.isel(variant=0) for run in runs.values()]
-    case = xr.Variable("case", list(runs), _words("case of the paper, on a chain without ends"))
-    data = xr.concat([_measure(run) for run in first], case)
-    data["omega"] = "case", [float(run["omega"]) for run in first], _words("detuning Omega")
-    initials = [str(run.attrs["initial"]) for run in first]
-    data["initial"] = "case", initials, _words("initial {site: [A, B]}")
-    laws = [_law(run, thermal) for run in first]
-    title = "coefficient of tau^(1/2) by linear spreading and the thermal bulk"
-    data["law"] = "case", laws, _words(title)
-    same = {key: first[0].attrs[key] for key in ("epsilon", "gamma", "version") if key in
-            first[0].attrs}  # fmt: skip
-    title = "Growth of the norms on chains without ends"
-    return data.assign_attrs(title=title, **same)
+    series = {name: [_series(run, name) for run in first] for name in ("l2", "linf")}
+    local = [_exponents(run) for run in first]
+    case, point, octave = ("case",), ("case", "point"), ("case", "octave")
+    variables = {
+        "case": Variable(case, list(runs)),
+        "omega": Variable(case, [float(run["omega"]) for run in first]),
+        "initial": Variable(case, [str(run.attrs["initial"]) for run in first]),
+        "band": Variable(("band",), list(BAND), "value over the members of the ensemble"),
+        "tau": Variable(point, [_times(run) for run in first]),
+        **{
+            name: Variable(("case", "band", "point"), values, f"{NAMES[name]}, of A and B together")
+            for name, values in series.items()
+        },
+        "octave_tau": Variable(octave, [one[0] for one in local], "middle of an octave of tau"),
+        "l2_exponent": Variable(octave, [one[1] for one in local], "exponent of tau in l2"),
+        "l2_exponent_error": Variable(
+            octave, [one[2] for one in local], "standard error of the exponent of tau in l2"
+        ),
+        "law": Variable(
+            case,
+            [_law(run, thermal) for run in first],
+            "coefficient of tau^(1/2) by linear spreading and the thermal bulk",
+        ),
+    }
+    shared = shared_by([run.attrs for run in first])
+    return as_xarray(variables, {**shared, "title": "Growth of the norms on chains without ends"})
 
 
-def _words(long_name: str) -> dict[str, str]:
-    return {"long_name": long_name, "units": "1"}
+def _times(run: xr.Dataset) -> np.ndarray:
+    return np.geomspace(1.0, float(run["tau"][-1]), POINTS)
+
+
+def _series(run: xr.Dataset, name: str) -> list[np.ndarray]:
+    """Return a norm at POINTS times, its BAND over the members."""
+    values = run[name].transpose("member", "tau").values
+    drawn = np.array([np.interp(_times(run), run["tau"].values, series) for series in values])
+    return [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
+
+
+def _exponents(run: xr.Dataset) -> tuple[np.ndarray, ...]:
+    """Return the middles of the last octaves, the exponents of l2 there, and their errors."""
+    values = run["l2"].transpose("member", "tau").values
+    middles, fits = local_exponents(run["tau"].values, values, OCTAVES)
+    return middles, *np.array(fits).T
 
 
 def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
@@ -153,19 +158,59 @@ def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
     return float(np.sqrt(2.0 * run["predicted_speed"] * near["power"]))
 
 
-def _measure(run: xr.Dataset) -> xr.Dataset:
-    tau = run["tau"].values
-    grid = np.geomspace(1.0, tau[-1], POINTS)
-    found = xr.Dataset({"tau": ("point", grid, _words("slow time"))})
-    for name, title in NORMS.items():
-        values = run[name].transpose("member", "tau").values
-        drawn = np.array([np.interp(grid, tau, series) for series in values])
-        band = [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
-        found[name] = ("statistic", "point"), np.array(band), _words(f"{title} norm of (A, B)")
-        middles, fits = local_exponents(tau, values, OCTAVES)
-        exponents, errors = np.array(fits).T
-        title = f"exponent of tau in the {title} norm over an octave"
-        found[f"{name}_exponent"] = "octave", exponents, _words(title)
-        found[f"{name}_exponent_error"] = "octave", errors, _words(f"standard error of the {title}")
-    found["octave_tau"] = "octave", middles, _words("middle of an octave of tau")
-    return found.assign_coords(statistic=("statistic", STATISTICS, _words("over the ensemble")))
+# --- Maxima over [10, T] on chains of half-width M ------------------------------------------------
+
+START = 10.0
+"""Where the paper's windows begin."""
+
+
+class WindowMap(NamedTuple):
+    """Maxima of the pair's norms over [START, end], (half_width, end)."""
+
+    l2: np.ndarray
+    linf: np.ndarray
+
+
+def window_map(
+    problem: Problem,
+    rest: float,
+    half_widths: list[int],
+    ends: np.ndarray,
+    progress: Callable[[str], None] = lambda message: None,
+) -> WindowMap:
+    """Return the maxima for each of the rising `half_widths` (see `run_long` for `rest`).
+
+    One run of a chain gives the maxima for all `ends`. A chain whose front never reached its end
+    is a chain without ends: all longer ones have the same numbers.
+    """
+    l2, linf, free = [], [], False
+    for half_width in half_widths:
+        if not free:
+            run = run_long(problem.changed(half_width=half_width), rest)
+            free = run.width[-1] < half_width
+            progress(f"half-width {half_width}: {'no end reached' if free else 'done'}")
+        l2.append(maxima(run.tau, run.l2, ends))
+        linf.append(maxima(run.tau, run.linf, ends))
+    return WindowMap(np.array(l2), np.array(linf))
+
+
+def maxima(tau: np.ndarray, series: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Return the largest value over [START, end] for each of `ends`."""
+    first = np.searchsorted(tau, START - 1e-9)
+    running = np.maximum.accumulate(series[first:])
+    return running[np.searchsorted(tau[first:], np.asarray(ends) + 1e-9) - 1]
+
+
+def map_variables(
+    maps: list[WindowMap], half_widths: list[int], ends: np.ndarray, problem: Problem
+) -> dict[str, Variable]:
+    """Return the variables of the maps of an ensemble's members."""
+    axes, speed = ("member", "half_width", "end"), linear_front(problem.constants).speed
+    found = f"of A and B together, maximum over [{START:g}, end]"
+    return {
+        "half_width": Variable(("half_width",), np.asarray(half_widths)),
+        "end": Variable(("end",), ends, "end of the time window"),
+        "l2": Variable(axes, [m.l2 for m in maps], f"{NAMES['l2']}, {found}"),
+        "linf": Variable(axes, [m.linf for m in maps], f"{NAMES['linf']}, {found}"),
+        "predicted_speed": Variable((), speed, PREDICTED_SPEED),
+    }

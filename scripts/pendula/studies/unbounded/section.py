@@ -70,7 +70,7 @@ def _case(results: Results, name: str) -> dict[str, Any]:
             case_of(case),
             results.quote(run, end, 4),
             results.quote(run, int(results[run]["width"].max()), 6),
-            results.quote(GROWTH, float(case["l2"].sel(statistic="mean").isel(point=-1))),
+            results.quote(GROWTH, float(case["l2"].sel(band="mean").isel(point=-1))),
             results.say(GROWTH, octaves),
             results.quote_error(GROWTH, last, error),
         ],
