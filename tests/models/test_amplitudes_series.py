@@ -39,6 +39,7 @@ def test_each_kind_of_half_continues_the_series(even, synchronised):
     @given(z=chains(even=even, synchronised=synchronised), numbers=constants, boundary=boundaries)
     @settings(max_examples=30)
     def check(z, numbers, boundary):
+        z = 0.5 * z  # larger data cancel: the oracle itself then loses digits in its high orders
         expected = power_series(z, numbers, boundary, ORDER)
         for reduction in (WHOLE, find_reduction(z)):
             actual = coefficients(z, numbers, boundary, reduction)

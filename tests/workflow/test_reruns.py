@@ -54,7 +54,9 @@ def test_one_plot_reruns_alone(finished, clone):
     assert set(planned(clone, finished)) == {"fig1", "report", "all"}
 
 
-@pytest.mark.parametrize("module", ["models/amplitudes.py", "models/energy.py", "compiled.py"])
+@pytest.mark.parametrize(
+    "module", ["models/amplitudes.py", "models/amplitudes_series.py", "compiled.py"]
+)
 def test_the_equations_rerun_every_simulation(finished, clone, module):
     change(clone / "scripts/pendula" / module)
     jobs = planned(clone, finished)
