@@ -56,7 +56,7 @@ def test_the_ledger_names_the_rules_that_decide(finished):
     rules = {row["name"]: row["rules"] for row in ledger_of(finished)}
     assert rules["hamiltonian"] == ["check_equations"]
     assert rules["growth_bound"] == ["check_bounds", "trajectory"]
-    assert rules["second_solver_sweeps"] == ["sweep"]
+    assert rules["second_solver_sweeps"] == ["measure_solvers"]
 
 
 def test_short_runs_leave_sweeps_undecided_and_theorems_decided(finished):
@@ -108,7 +108,7 @@ def test_the_ledger_is_the_same_every_time(finished):
     assert (finished / "results/claims.json").read_bytes() == before
 
 
-@pytest.mark.parametrize("module", ["bounds.py", "checks.py"])
+@pytest.mark.parametrize("module", ["equations.py", "checks.py"])
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone, module):
     change(clone / "scripts/pendula/studies/theory" / module)
     jobs = set(planned(clone, finished))
@@ -117,7 +117,7 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone,
 
 
 def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
-    change(clone / "scripts/pendula/studies/paper/claims_figure_2.py")
+    change(clone / "scripts/pendula/studies/paper/claims_norms.py")
     assert set(planned(clone, finished)) == {"claims", "report", "all"}
 
 

@@ -177,7 +177,7 @@ def _times(data: xr.Dataset, dims: tuple[str, ...], shape: tuple[int, ...]) -> n
     """Return the times along the first dimension that has them, in the given shape."""
     for axis, dim in enumerate(dims):
         for name in (dim, f"{dim}_tau"):
-            if name in data.variables and name.endswith("tau"):
+            if name.endswith("tau") and name in data.variables and data[name].ndim == 1:
                 along = [-1 if place == axis else 1 for place in range(len(dims))]
                 return np.broadcast_to(data[name].values.reshape(along), shape)
     return None
