@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.checks import table, tabulate, variable
+from pendula.datasets.checks import columns, table, tabulate, variable
 from pendula.measures.norms import growth_margin, total_power
 from pendula.models.bounds import (
     best_bound,
@@ -106,13 +106,9 @@ def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
         "The paper's sweeps beside the bounds of its theorems",
         {"sweep": list(sweeps), "half_width": half_widths},
         swept_observed=variable(observed, dims, "largest P in the windows"),
-        theorem_3=variable(finite, dims, "C_N of Theorem 3"),
-        best=variable(best, dims, "smallest bound that holds"),
+        **columns(dims, NUMBERS, {"theorem_3": finite, "best": best}),
         **labels(sweeps.values(), ("sweep",)),
         swept_ratio=variable(
-            np.nanmax(observed / best),
-            (),
-            "largest P of all over its smallest bound",
-            tolerance=1.0,
+            np.nanmax(observed / best), (), "largest P of all over its bound", tolerance=1.0
         ),
     )

@@ -7,44 +7,15 @@ import numpy as np
 
 from pendula.problem import Constants
 
-from .equations import check_conservation, check_dispersion, check_gradient
-from .errata import (
-    check_energy_drift,
-    check_negative_depth,
-    check_not_shown,
-    check_opposite,
-    check_theorem_2_case,
-    check_theorem_3_constant,
-)
-from .estimates import check_balance, check_growth, check_inequalities
-from .other_forms import check_expansion, check_pt_form, check_symmetries
-from .stability_chart import check_chart, check_measured_windows, check_threshold, check_windows
-from .worst_data import check_samples, check_worst
+from . import equations, errata, estimates, other_forms, stability_chart, worst_data
 
 CHECKS = {
-    "gradient": check_gradient,
-    "symmetries": check_symmetries,
-    "opposite": check_opposite,
-    "pt_form": check_pt_form,
-    "conservation": check_conservation,
-    "expansion": check_expansion,
-    "theorem_3_constant": check_theorem_3_constant,
-    "theorem_2_case": check_theorem_2_case,
-    "negative_depth": check_negative_depth,
-    "energy_drift": check_energy_drift,
-    "not_shown": check_not_shown,
-    "dispersion": check_dispersion,
-    "chart": check_chart,
-    "short_chart": check_chart,
-    "windows": check_windows,
-    "measured_windows": check_measured_windows,
-    "threshold": check_threshold,
-    "balance": check_balance,
-    "growth": check_growth,
-    "inequalities": check_inequalities,
-    "samples": check_samples,
-    "worst": check_worst,
+    name.removeprefix("check_"): function
+    for module in (equations, errata, estimates, other_forms, stability_chart, worst_data)
+    for name, function in vars(module).items()
+    if name.startswith("check_")
 }
+CHECKS["short_chart"] = CHECKS["chart"]
 
 
 def run_check(name: str, arguments: Mapping[str, Any]) -> dict:

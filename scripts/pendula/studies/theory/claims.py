@@ -40,47 +40,36 @@ LINEAR = 0.9
 SHARP, ATTAINED = 0.9, 0.999
 
 
-def held(name: str, place: str, says: str, check: str, *variables: str) -> Callable:
-    """Return the function that decides a claim by whether a check keeps these tolerances."""
+def decides(place: str, says: str, *names: str) -> Callable:
+    """Return a decorator: the function, which takes these checks, decides the claim of its name."""
 
-    @claim(name, place, says, checks(check))
-    def decide(dataset) -> Finding:
-        return within_tolerance(dataset, *variables)
+    def declare(function: Callable) -> Callable:
+        return claim(function.__name__, place, says, checks(*names))(function)
 
-    decide.__name__ = name
-    return decide
+    return declare
 
 
-hamiltonian = held(
-    "hamiltonian",
+@decides(
     "Section 2, (7) and (8)",
     "The equations are the Hamiltonian system of the energy H.",
     "gradient",
-    "gradient_error",
 )
-
-conserved = held(
-    "conserved", "Section 2, (8)", "The energy H is conserved.", "conservation", "energy_drift"
-)
+def hamiltonian(check) -> Finding:
+    return within_tolerance(check, "gradient_error")
 
 
-@claim(
-    "no_gauge",
-    "Abstract; Section 2",
-    "The equations have no gauge symmetry.",
-    checks("conservation"),
-)
+@decides("Section 2, (8)", "The energy H is conserved.", "conservation")
+def conserved(check) -> Finding:
+    return within_tolerance(check, "energy_drift")
+
+
+@decides("Abstract; Section 2", "The equations have no gauge symmetry.", "conservation")
 def no_gauge(conservation) -> Finding:
     defect = float(conservation["gauge_defect"].max())
     return judge({"gauge_defect": defect}, Above(MISSED, "gauge_defect"))
 
 
-@claim(
-    "one_integral",
-    "Introduction",
-    "The energy is the only integral of motion.",
-    checks("conservation"),
-)
+@decides("Introduction", "The energy is the only integral of motion.", "conservation")
 def one_integral(conservation) -> Finding:
     measured = {"l2_change": conservation["l2_change"].max()}
     return undecided(
@@ -88,30 +77,23 @@ def one_integral(conservation) -> Finding:
     )
 
 
-pt_form = held(
-    "pt_form",
-    "Section 2, (9) and (10)",
-    "In the variables u, v the equations take the form (10).",
-    "pt_form",
-    "rates",
-    "trajectory",
+@decides(
+    "Section 2, (9) and (10)", "In the variables u, v the equations take the form (10).", "pt_form"
 )
+def pt_form(check) -> Finding:
+    return within_tolerance(check, "rates", "trajectory")
 
-pt_energy = held(
-    "pt_energy",
+
+@decides(
     "Section 2, after (11)",
     "The PT-symmetric form is Hamiltonian with a modified energy.",
     "pt_form",
-    "energy_gradient",
 )
+def pt_energy(check) -> Finding:
+    return within_tolerance(check, "energy_gradient")
 
 
-@claim(
-    "pt_symmetry",
-    "Section 2, (11)",
-    "The form (10) is invariant under the action of P and T.",
-    checks("pt_form"),
-)
+@decides("Section 2, (11)", "The form (10) is invariant under the action of P and T.", "pt_form")
 def pt_symmetry(pt) -> Finding:
     measured = {name: pt[name].max() for name in ("pt", "p_alone", "t_alone")}
     alone = min(measured["p_alone"], measured["t_alone"])
@@ -121,20 +103,20 @@ def pt_symmetry(pt) -> Finding:
     return judge(measured, AtMost(pt["pt"].attrs["tolerance"], "pt"), caveat)
 
 
-exchange = held(
-    "exchange",
+@decides(
     "Section 2, before (7)",
     "The equations are invariant under the exchange of A and B.",
     "symmetries",
-    "exchange",
 )
+def exchange(check) -> Finding:
+    return within_tolerance(check, "exchange")
 
 
-@claim(
-    "synchronised",
+@decides(
     "Section 2, (5) and (6)",
     "A = B is an invariant reduction on which the drive has no effect.",
-    checks("symmetries", "opposite"),
+    "symmetries",
+    "opposite",
 )
 def synchronised(symmetries, opposite) -> Finding:
     finding = within_tolerance(symmetries, "synchrony", "norm_drift", "scalar")
@@ -142,11 +124,10 @@ def synchronised(symmetries, opposite) -> Finding:
     return finding._replace(measured=finding.measured | {"opposite_departure": departure})
 
 
-@claim(
-    "slow_time",
+@decides(
     "Section 2, after (4)",
     "The amplitudes in the expansion move with tau = mu^2 t / 2.",
-    checks("expansion"),
+    "expansion",
 )
 def slow_time(expansion) -> Finding:
     order = number(expansion, "order", reading="mu^2 t / 2")
@@ -154,12 +135,7 @@ def slow_time(expansion) -> Finding:
     return judge(measured, Near(ORDER, NEAR, "order", says="order in mu"))
 
 
-@claim(
-    "printed_time",
-    "Section 2, (3)",
-    "The amplitudes in the expansion are functions of mu^2 t.",
-    checks("expansion"),
-)
+@decides("Section 2, (3)", "The amplitudes in the expansion are functions of mu^2 t.", "expansion")
 def printed_time(expansion) -> Finding:
     order = number(expansion, "order", reading="mu^2 t")
     measured = {"order": order, "smallest_error": expansion["angle_error"].values[-1, 1]}
@@ -167,11 +143,10 @@ def printed_time(expansion) -> Finding:
     return judge(measured, Near(ORDER, NEAR, "order", says="order in mu"), fails=fails)
 
 
-@claim(
-    "drive_sign",
+@decides(
     "Section 2, (2) and (4)",
     "The drive D = 2 gamma mu^2 cos 2 omega t gives gamma (conj B - conj A).",
-    checks("expansion"),
+    "expansion",
 )
 def drive_sign(expansion) -> Finding:
     right = number(expansion, "order", reading="mu^2 t / 2")
@@ -184,17 +159,16 @@ def drive_sign(expansion) -> Finding:
     return judge(measured, criterion)
 
 
-dispersion = held(
-    "dispersion",
+@decides(
     "Section 3, (15)",
     "The characteristic equation factorises into the dispersion relation.",
     "dispersion",
-    "eigenvalue_error",
-    "factorisation",
 )
+def dispersion(check) -> Finding:
+    return within_tolerance(check, "eigenvalue_error", "factorisation")
 
 
-@claim("stable_below", "Lemma 1", "Zero is linearly stable for |gamma| < gamma_0.", checks("chart"))
+@decides("Lemma 1", "Zero is linearly stable for |gamma| < gamma_0.", "chart")
 def stable_below(chart) -> Finding:
     below = np.abs(chart["gamma"]) < chart["infinite_threshold"]
     measured = {
@@ -205,9 +179,7 @@ def stable_below(chart) -> Finding:
     return judge(measured, AtMost(RESOLVED, "fastest", says="fastest growth"))
 
 
-@claim(
-    "unstable_above", "Lemma 1", "Zero is linearly unstable for |gamma| > gamma_0.", checks("chart")
-)
+@decides("Lemma 1", "Zero is linearly unstable for |gamma| > gamma_0.", "chart")
 def unstable_above(chart) -> Finding:
     above = (chart["gamma"] > chart["infinite_threshold"]) & (chart["gamma"] > 0)
     finite = chart["gamma"] > chart["finite_threshold"]
@@ -219,11 +191,12 @@ def unstable_above(chart) -> Finding:
     return judge(measured, AtMost(0, "contradictions"), caveat)
 
 
-@claim(
-    "unstable_band",
+@decides(
     "Lemma 1",
     "Zero is linearly unstable for Omega in [0, 4 epsilon] and any gamma but 0.",
-    checks("chart", "windows", "measured_windows"),
+    "chart",
+    "windows",
+    "measured_windows",
 )
 def unstable_band(chart, windows, measured_windows) -> Finding:
     inside = chart["omega"].where((chart["omega"] >= 0) & (chart["infinite_threshold"] == 0))
@@ -241,12 +214,7 @@ def unstable_band(chart, windows, measured_windows) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-@claim(
-    "threshold_growth",
-    "Proof of Lemma 1",
-    "At |gamma| = gamma_0 perturbations grow polynomially.",
-    checks("threshold"),
-)
+@decides("Proof of Lemma 1", "At |gamma| = gamma_0 perturbations grow polynomially.", "threshold")
 def threshold_growth(threshold) -> Finding:
     exponents = threshold["spreading_exponent"]
     measured = {
@@ -283,26 +251,21 @@ def growth_bound(check, *trajectories) -> Finding:
     return judge(measured, AtMost(1.0 + ROUNDING, "steepest", "random_data", says=says))
 
 
-balance = held(
-    "balance",
-    "Proof of Lemma 2",
-    "The l2 norm obeys the balance equation.",
-    "balance",
-    "pointwise",
-    "integrated",
-)
+@decides("Proof of Lemma 2", "The l2 norm obeys the balance equation.", "balance")
+def balance(check) -> Finding:
+    return within_tolerance(check, "pointwise", "integrated")
 
 
 # --- Section 4 ------------------------------------------------------------------------------------
 
-inequalities = held(
-    "inequalities",
+
+@decides(
     "Section 4, (17), (18), (21), (22), (25), (27)",
     "The inequalities behind the theorems hold.",
     "inequalities",
-    "left_over_right",
-    "bound_excess",
 )
+def inequalities(check) -> Finding:
+    return within_tolerance(check, "left_over_right", "bound_excess")
 
 
 def theorem(name: str, says: str, *families: str) -> Callable:
@@ -331,9 +294,7 @@ theorem_2 = theorem(
 )
 
 
-@claim(
-    "positive_depth", "Proof of Theorem 2", "-H > 0 is constant in time.", checks("negative_depth")
-)
+@decides("Proof of Theorem 2", "-H > 0 is constant in time.", "negative_depth")
 def positive_depth(depth) -> Finding:
     first = number(depth, "first_negative")
     measured = {"first_negative": first, "assured": number(depth, "assured")}
@@ -347,11 +308,10 @@ theorem_3 = theorem(
 )
 
 
-@claim(
-    "theorem_3_proof",
+@decides(
     "Proof of Theorem 3",
     "The quadratic part of H is at least -(|Omega| + gamma + 4 epsilon) P.",
-    checks("theorem_3_constant"),
+    "theorem_3_constant",
 )
 def theorem_3_proof(constant) -> Finding:
     measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
@@ -360,7 +320,7 @@ def theorem_3_proof(constant) -> Finding:
     return judge(measured, AtLeast(-ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
 
 
-@claim("sharp_bounds", "Section 6", "The bounds on the l2 norms are sharp.", checks("worst"))
+@decides("Section 6", "The bounds on the l2 norms are sharp.", "worst")
 def sharp_bounds(worst) -> Finding:
     measured = {str(q): worst["worst"].sel(question=q) for q in worst["question"].values}
     measured["attained_theorem_3"] = number(worst, "attained")

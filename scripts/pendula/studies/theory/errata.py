@@ -27,9 +27,7 @@ def alternating(sites: int, x: float) -> np.ndarray:
     return np.stack([wave, -wave]).astype(complex)
 
 
-def theorem_3_margin(
-    constants: Constants, amplitudes: np.ndarray, boundary: str, drive: float
-) -> float:
+def theorem_3_margin(constants: Constants, amplitudes: np.ndarray, drive: float) -> float:
     """Return H minus the lower bound of Theorem 3's proof with `drive` times gamma in it.
 
     The paper prints one, the right number is two. The quartic terms of both sides are equal, so
@@ -39,20 +37,17 @@ def theorem_3_margin(
     quartic = np.sum(density**2, axis=1)
     constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
     linear = constant * np.sqrt(amplitudes.shape[1]) * np.sum(np.sqrt(quartic))
-    return total_energy(constants, boundary, amplitudes) - (0.25 * quartic.sum() - linear)
+    return total_energy(constants, "dirichlet", amplitudes) - (0.25 * quartic.sum() - linear)
 
 
 def check_theorem_3_constant(constants: Constants, amplitude: float, longest: int) -> dict:
     """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails."""
     sizes = np.arange(1, longest + 1, 2)
-    margins = np.array(
-        [
-            theorem_3_margin(constants, alternating(n, amplitude), "dirichlet", drive)
-            for drive in (1.0, 2.0)
-            for n in sizes
-        ]
+    chains = [alternating(n, amplitude) for n in sizes]
+    printed, corrected = (
+        np.array([theorem_3_margin(constants, chain, drive) for chain in chains])
+        for drive in (1.0, 2.0)
     )
-    printed, corrected = margins.reshape(2, -1)
     failing = sizes[printed < 0]
     smallest = failing.min() if len(failing) else 0
     return table(

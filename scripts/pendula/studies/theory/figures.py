@@ -18,10 +18,7 @@ HEAT = "YlOrRd"  # from light to dark: the boundaries, where growth is slow, lie
 SHADES = ["#9ecae1", "#6baed6", "#3182bd", "#08519c", "#041f42"]
 DASHES = [(1, 0), (5, 1.5), (3, 1.5), (1.2, 1.2), (6, 1.5, 1.2, 1.5)]
 CHART = ["measured", "infinite_curve", "finite_curve", "sites"]
-CHARTS = {
-    "long": {"marker": "o", "color": "#f2a15f", "markersize": 3.5},
-    "short": {"marker": "x", "color": style.BLUE, "markersize": 3},
-}
+CHARTS = {"long": ("o", "#f2a15f", 3.5), "short": ("x", style.BLUE, 3)}
 ERRORS = {
     "exact_flow": ("s", "#16876b", "linear flow of the data"),
     "finite_rate": (".", "0.55", "fastest mode"),
@@ -81,9 +78,8 @@ def _short_chart(data: xr.Dataset) -> xr.Dataset:
 
 def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
     rate = chart["measured"].transpose("gamma", "omega").clip(min=0)
-    image = axes.pcolormesh(
-        chart["omega"], chart["gamma"], rate, shading="nearest", cmap=HEAT, vmin=0, rasterized=True
-    )
+    look = {"shading": "nearest", "cmap": HEAT, "vmin": 0, "rasterized": True}
+    image = axes.pcolormesh(chart["omega"], chart["gamma"], rate, **look)
     bar = figure.colorbar(image, ax=axes, pad=0.015, aspect=18)
     bar.set_label("measured growth rate\n(per unit of $\\epsilon \\tau$)")
     sites = int(chart["sites"])
@@ -124,9 +120,8 @@ def gather_rates(chart: xr.Dataset, short_chart: xr.Dataset, threshold: xr.Datas
         rows.append(row)
     joined = xr.concat(rows, "cell", combine_attrs="drop_conflicts").reset_coords()
     joined["chain"].attrs = {"long_name": "chart to which a cell belongs", "units": "1"}
-    joined["sites"].attrs = {"long_name": "number of sites N", "units": "1"}
-    names = {"omega": "threshold_omega"}
-    growth = threshold[["grown", "threshold", "spreading"]].rename(names)
+    joined["sites"].attrs = chart["sites"].attrs
+    growth = threshold[["grown", "threshold", "spreading"]].rename(omega="threshold_omega")
     return xr.merge([joined, growth], combine_attrs="drop_conflicts")
 
 
@@ -142,10 +137,10 @@ def draw_rates(data: xr.Dataset) -> Figure:
 
 
 def _draw_measured(axes: Axes, data: xr.Dataset) -> None:
-    for name, look in CHARTS.items():
+    for name, (marker, colour, size) in CHARTS.items():
         cells = data.isel(cell=data["chain"].values == name)
-        label = f"$N = {int(cells['sites'][0])}$"
-        axes.plot(cells["finite_rate"], cells["measured"], linestyle="none", label=label, **look)
+        look = {"color": colour, "markersize": size, "label": f"$N = {int(cells['sites'][0])}$"}
+        axes.plot(cells["finite_rate"], cells["measured"], marker, **look)
     top = float(data["finite_rate"].max())
     axes.plot([0, top], [0, top], color="black", lw=0.8, label="equal")
     axes.set(xlabel=PREDICTED, ylabel="measured growth rate (per unit of $\\tau$)")
@@ -158,8 +153,7 @@ def _draw_errors(axes: Axes, data: xr.Dataset) -> None:
         with np.errstate(divide="ignore"):
             error = abs(growing["measured"] / growing[name] - 1)
         shown = error.where(error > 0)
-        look = {"marker": marker, "color": colour, "markersize": 2.5}
-        axes.plot(growing["finite_rate"], shown, linestyle="none", label=label, **look)
+        axes.plot(growing["finite_rate"], shown, marker, color=colour, markersize=2.5, label=label)
     axes.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
     axes.set_ylim(top=1e6)  # room for the legend
     axes.legend(loc="upper right", title="against the", handletextpad=0.1)
@@ -188,8 +182,7 @@ def _draw_both(
     looks = [{"markersize": 5, "markerfacecolor": "white", "label": label}]
     looks += [{"markersize": 2}] * (values.sizes["threshold_omega"] - 1)
     for i, look in enumerate(looks):
-        row = values.isel(threshold_omega=i)
-        axes.plot(times, row, color=colour, marker=marker, linestyle="none", **look)
+        axes.plot(times, values.isel(threshold_omega=i), marker, color=colour, **look)
 
 
 # --- The bounds ----------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import numpy as np
 from pendula.datasets.checks import broken, deciding
 from pendula.ledger.section import Ledger, load
 from pendula.report.results import Results, Section
-from pendula.report.words import case_in_words, number, symbols
+from pendula.report.words import Quote, case_in_words, number, symbols
 
 from .settings import GROUPS, OBSERVED
 
@@ -19,31 +19,32 @@ def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return the errors found by the checks, and all that the ledger could not reproduce."""
     return {
         "constant": _constant(results),
-        "time": _time(ledger),
+        "time": {
+            "printed": ledger.quote("printed_time", "order", 2),
+            "right": ledger.quote("slow_time", "order", 2),
+            "verdict": ledger.verdict("printed_time"),
+        },
         "case": _case(results),
-        "depth": results.quote("checks/negative_depth", _first_negative(results)),
+        "depth": _quote_largest(results, "checks/negative_depth", "first_negative"),
         "captions": [(n, ledger.verdict(f"fig{n}_caption")) for n in (5, 6)],
         "caption": ledger.because("fig5_caption"),
         "missed": _missed(results),
     }
 
 
+def _quote_largest(results: Results, source: str, name: str) -> Quote:
+    return results.quote(source, float(results[source][name].max()))
+
+
 def _constant(results: Results) -> dict[str, Any]:
     source = "checks/theorem_3_constant"
     check = results[source]
+    printed, corrected = (float(check[name].min()) for name in ("printed", "corrected"))
     return {
         "sites": results.quote(source, int(check["smallest"])),
-        "printed": results.quote(source, float(check["printed"].min())),
-        "corrected": results.quote(source, float(check["corrected"].min())),
-        "fails": float(check["printed"].min()) < 0 <= float(check["corrected"].min()),
-    }
-
-
-def _time(ledger: Ledger) -> dict[str, Any]:
-    return {
-        "printed": ledger.quote("printed_time", "order", 2),
-        "right": ledger.quote("slow_time", "order", 2),
-        "verdict": ledger.verdict("printed_time"),
+        "printed": results.quote(source, printed),
+        "corrected": results.quote(source, corrected),
+        "fails": printed < 0 <= corrected,
     }
 
 
@@ -59,10 +60,6 @@ def _case(results: Results) -> dict[str, Any]:
         "covered_widened": bool(check["start"] <= check["widened_delta_0"]),
         **{name: results.quote(source, float(check[name]), 4) for name in numbers},
     }
-
-
-def _first_negative(results: Results) -> float:
-    return float(results["checks/negative_depth"]["first_negative"])
 
 
 def _missed(results: Results) -> list[dict]:
@@ -91,7 +88,7 @@ def gather_theory(results: Results, ledger: Ledger) -> dict[str, Any]:
         "cells": results.quote(CHARTS[0], cells, 6),
         "fastest": ledger.quote("stable_below", "fastest"),
         "misclassified": ledger.quote("stable_below", "misclassified"),
-        "worst": results.quote("checks/worst", _worst(results)),
+        "worst": _quote_largest(results, "checks/worst", "worst"),
         "stability": results.picture("stability_chart", _chart_alt(results, cells)),
         "rates": results.picture("growth_rates", _rates_alt(results)),
         "bounds": results.picture("bounds", _bounds_alt(results)),
@@ -114,10 +111,6 @@ def _rows(results: Results, name: str) -> list[dict]:
         }
         for variable, (largest, limit) in deciding(check).items()
     ]
-
-
-def _worst(results: Results) -> float:
-    return float(results["checks/worst"]["worst"].max())
 
 
 def _chart_alt(results: Results, cells: int) -> str:

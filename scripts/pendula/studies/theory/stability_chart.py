@@ -38,6 +38,9 @@ ABOUT = {
     "infinite_curve": ("gamma_0 of (12), finely", None),
     "finite_curve": ("threshold of N sites, finely", None),
     "rate_error": ("measured minus exact flow, per unit of tau", 1e-6),
+    "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
+    "threshold": ("threshold of the finite chain", None),
+    "finite_gap": ("threshold of the finite chain minus gamma_0", None),
     "misclassified": ("cells whose measured growth contradicts the finite chain's threshold", 0),
 }
 
@@ -72,12 +75,6 @@ def measured_slopes(cells, boundary: str, data: np.ndarray, end_time: float) -> 
     return np.array([log_slope(p[1], p[2], 0.5 * end_time) for p in powers])
 
 
-def running_times(gammas, longest: float, foldings: float) -> np.ndarray:
-    """Return how long to run at each gamma: until a mode can outgrow another by e^foldings."""
-    fastest = 2.0 * np.abs(np.asarray(gammas, float))
-    return np.minimum(longest, foldings / np.maximum(fastest, 1e-300))
-
-
 def check_chart(
     omegas,
     gammas,
@@ -98,7 +95,8 @@ def check_chart(
     """
     omegas, gammas = np.asarray(omegas, float), np.asarray(gammas, float)
     data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
-    times = running_times(gammas, end_time, foldings)
+    # until a mode can outgrow another, at 2 |gamma|, by e^foldings
+    times = np.minimum(end_time, foldings / np.maximum(2.0 * np.abs(gammas), 1e-300))
     measured, exact = [], []
     for gamma, end in zip(gammas, times, strict=True):
         cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
@@ -213,21 +211,21 @@ def check_measured_windows(
     )
 
 
-def threshold_run(epsilon: float, omega: float, sites: int, boundary: str, mode: int, times):
-    """Return |Im D| / (4 gamma tau |D_0|) of a mode run at exactly its own threshold.
+def threshold_run(epsilon: float, omega: float, sites: int, times):
+    """Return gamma and |Im D| / (4 gamma tau |D_0|) of a mode run at exactly its own threshold.
 
     D = A - B starts real in the mode with kappa = +- 2 gamma, where (14) makes its other part
     grow as 4 gamma tau: the ratio is one.
     """
-    shape = modes(sites, boundary)[mode]
-    gamma = float(finite_threshold(omega, epsilon, sites, boundary))
+    shape = modes(sites, "dirichlet")[0 if omega < 0 else sites - 1]
+    gamma = float(finite_threshold(omega, epsilon, sites, "dirichlet"))
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
     along_real = omega < 0  # kappa = 2 gamma > 0 feeds the imaginary part, kappa < 0 the real one
     start = 0.5 * TINY * shape * (1.0 if along_real else 1j)
     data = np.stack([start, -start]).astype(complex)
     ratios, solver = [], {"name": "dop853", **tiny_tolerances(1e-12)}
     for tau in times:
-        final = run(constants, boundary, data, tau, solver=solver).final
+        final = run(constants, "dirichlet", data, tau, solver=solver).final
         grown = (final[0] - final[1]) @ shape / TINY
         ratios.append(abs(grown.imag if along_real else grown.real) / (4.0 * gamma * tau))
     return gamma, np.array(ratios)
@@ -240,7 +238,8 @@ def spreading_norms(epsilon: float, omega: float, times, sites: int):
     chain.
     """
     gamma = float(gamma_0(omega, epsilon))
-    kappa = epsilon * curvature_of_ring(sites) - omega
+    curvatures_of_waves = 4.0 * np.sin(np.pi * np.arange(sites) / sites) ** 2  # in FFT order
+    kappa = epsilon * curvatures_of_waves - omega
     norms = []
     for tau in times:
         even, odd = driven(kappa, gamma, tau)
@@ -249,16 +248,6 @@ def spreading_norms(epsilon: float, omega: float, times, sites: int):
         field = np.fft.ifft(p).real + 1j * np.fft.ifft(q).real
         norms.append([np.sqrt(np.sum(np.abs(field) ** 2)), np.abs(field).max()])
     return np.array(norms).T
-
-
-def curvature_of_ring(sites: int) -> np.ndarray:
-    """Return lambda of each wave of a ring in the order of the fast Fourier transform."""
-    return 4.0 * np.sin(np.pi * np.arange(sites) / sites) ** 2
-
-
-def exponent(times, norms) -> float:
-    """Return the exponent of time that fits the last two of the norms."""
-    return float(np.log(norms[-1] / norms[-2]) / np.log(times[-1] / times[-2]))
 
 
 def check_threshold(epsilon: float, sites: int, omegas, times, long_times, ring_sites: int) -> dict:
@@ -270,41 +259,29 @@ def check_threshold(epsilon: float, sites: int, omegas, times, long_times, ring_
     higher.
     """
     times, long_times = np.asarray(times, float), np.asarray(long_times, float)
-    thresholds, ratios, spreading = [], [], []
-    for omega in omegas:
-        mode = 0 if omega < 0 else sites - 1
-        gamma, ratio = threshold_run(epsilon, omega, sites, "dirichlet", mode, times)
-        thresholds.append(gamma)
-        ratios.append(ratio)
-        spreading.append(spreading_norms(epsilon, omega, long_times, ring_sites))
-    thresholds, ratios, dims = np.array(thresholds), np.array(ratios), ("omega",)
-    exponents = [[exponent(long_times, norms) for norms in both] for both in spreading]
+    found = [threshold_run(epsilon, omega, sites, times) for omega in omegas]
+    thresholds, ratios = map(np.array, zip(*found, strict=True))
+    norms = [spreading_norms(epsilon, omega, long_times, ring_sites) for omega in omegas]
+    spreading, dims = np.array(norms), ("omega", "norm")
+    late = np.log(spreading[..., -1] / spreading[..., -2]) / np.log(long_times[-1] / long_times[-2])
+    numbers = {
+        "wave_error": np.abs(ratios - 1.0).max(axis=1),
+        "threshold": thresholds,
+        "finite_gap": thresholds - gamma_0(np.asarray(omegas, float), epsilon),
+    }
     return table(
         "Growth exactly at the threshold of Lemma 1",
         {"omega": omegas, "tau": times, "norm": ["l2", "linf"], "long_tau": long_times},
-        wave_error=variable(
-            np.abs(ratios - 1.0).max(axis=1),
-            dims,
-            "distance to one of the growth of a wave over 4 gamma tau",
-            tolerance=1e-8,
-        ),
+        **columns(("omega",), ABOUT, numbers),
         grown=variable(
             4.0 * thresholds[:, None] * times * ratios,
             ("omega", "tau"),
             "growth of the threshold mode, |Im D| / |D(0)|",
         ),
-        threshold=variable(thresholds, dims, "threshold of the finite chain"),
-        finite_gap=variable(
-            thresholds - gamma_0(np.asarray(omegas, float), epsilon),
-            dims,
-            "threshold of the finite chain minus gamma_0",
-        ),
         spreading=variable(
             spreading,
-            ("omega", "norm", "long_tau"),
+            (*dims, "long_tau"),
             "norm of D at gamma_0 on the infinite chain from one site D = 1 + i",
         ),
-        spreading_exponent=variable(
-            exponents, ("omega", "norm"), "exponent of tau in that norm, at the end"
-        ),
+        spreading_exponent=variable(late, dims, "exponent of tau in that norm, at the end"),
     )
