@@ -10,7 +10,9 @@ def run_hard_cases(data: str, cases: list[dict], kernels: list[str] | tuple = ()
     A row that does not end as expected is said here and marked in it.
     """
     results = outcomes(cases)
-    write(data, variables(results), {"title": "Hard cases for the solvers"})
+    title = "Hard cases for the solvers: errors against what is known, or refusals in words"
+    seeds = "the number of sites, for random data; cases say their constants"
+    write(data, variables(results), {"title": title, "seed": seeds})
     for result in results:
         if not result.sound:
             print(f"NOT AS EXPECTED: {result.case}, {result.solver}: {result.error:.3g} ")

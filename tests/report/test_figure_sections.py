@@ -153,7 +153,8 @@ def test_the_ledger_is_shown_and_counted(tmp_path):
     assert shown["rows"][0]["measured"] == "largest rate = 0.25"
     assert shown["rows"][0]["criterion"] == "largest rate ≤ 0.001"
     assert shown["rows"][0]["data"][0].link == "checks/chart.nc"
-    assert shown["by_figure"][5] == [("confirmed", 1)] and shown["by_figure"][6] == []
+    ledger = claims.Ledger(results)
+    assert ledger.counts("Fig 5") == [("confirmed", 1)] and ledger.counts("Fig 6") == []
 
 
 def test_numbers_of_the_ledger_link_to_what_decides_them(tmp_path):

@@ -36,11 +36,14 @@ class Claim(NamedTuple):
     decide: Callable
 
 
-def claim(name: str, place: str, says: str, needs: tuple[str, ...]) -> Callable:
-    """Return a decorator: the function, which takes the datasets in `needs`, decides this claim."""
+def claim(place: str, says: str, needs: tuple[str, ...]) -> Callable:
+    """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
+
+    The claim has the name of the function.
+    """
 
     def declare(function: Callable) -> Callable:
-        function.claim = Claim(name, place, says, needs, function)
+        function.claim = Claim(function.__name__, place, says, needs, function)
         return function
 
     return declare

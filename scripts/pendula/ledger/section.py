@@ -25,14 +25,7 @@ def gather(results: Results) -> dict[str, Any]:
         "rows": [_shown(row, results) for row in rows],
         "total": results.say(LEDGER, str(len(rows))),
         "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in Verdict],
-        "by_figure": {n: _counts([row for row in rows if f"Fig {n}" in row["place"]]) for n in
-                      range(1, 7)},
-    }  # fmt: skip
-
-
-def _counts(rows: list[dict]) -> list[tuple[str, int]]:
-    counted = Counter(row["verdict"] for row in rows)
-    return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
+    }
 
 
 def _shown(row: dict, results: Results) -> dict:
@@ -76,6 +69,12 @@ class Ledger:
     def holds(self, claim: str) -> bool:
         """Return whether a claim is confirmed, with a caveat or without."""
         return self.verdict(claim) in (Verdict.CONFIRMED, Verdict.CAVEAT)
+
+    def counts(self, place: str) -> list[tuple[str, int]]:
+        """Return how many of the claims on a place such as "Fig 5" have each verdict."""
+        rows = (row for row in self._rows.values() if place in row["place"])
+        counted = Counter(row["verdict"] for row in rows)
+        return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
 
     def because(self, claim: str) -> str:
         """Return what was found to stand against a claim, or beside it."""

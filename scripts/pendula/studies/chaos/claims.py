@@ -41,12 +41,11 @@ def swept(ensembles, sweep: str, norm: str, window: str):
 
 
 @claim(
-    "ensemble_fig3",
     "Section 5, Fig 3 lower, in an ensemble",
     "The central pendulum excites large oscillations of others and l2 grows.",
     NEEDS,
 )
-def nearly_all_grow(ensembles) -> Finding:
+def ensemble_fig3(ensembles) -> Finding:
     start = float(ensembles["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0])
     first, second = halves(followed(ensembles, "fig3_large", "l2", 0.05))
     measured = {"first_half": first.mean() / start, "second_half": second.mean() / start}
@@ -55,12 +54,11 @@ def nearly_all_grow(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig4_settles",
     "Section 5, Fig 4, in an ensemble",
     "Growth stabilises at a certain level of the l-infinity norm.",
     NEEDS,
 )
-def medians_settle(ensembles) -> Finding:
+def ensemble_fig4_settles(ensembles) -> Finding:
     changes = {}
     for size in ("small", "large"):
         first, second = halves(followed(ensembles, f"fig4_{size}", "linf"))
@@ -69,12 +67,11 @@ def medians_settle(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig4_alike",
     "Section 5, Fig 4, in an ensemble",
     "There are no visible differences between the upper and lower panels.",
     NEEDS,
 )
-def bands_alike(ensembles) -> Finding:
+def ensemble_fig4_alike(ensembles) -> Finding:
     small, large = (
         [followed(ensembles, f"fig4_{size}", "l2", q) for q in (0.05, 0.5, 0.95)]
         for size in ("small", "large")
@@ -88,12 +85,11 @@ def bands_alike(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig5_grows",
     "Section 5, Fig 5 right, in an ensemble",
     "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
     NEEDS,
 )
-def mean_grows_with_m(ensembles) -> Finding:
+def ensemble_fig5_grows(ensembles) -> Finding:
     m, l2, error = swept(ensembles, "fig5_right", "l2", "[10, 50]")
     steps = np.diff(l2) / np.hypot(error[1:], error[:-1])
     level = levelling_of_means(m, l2, error, least=2)
@@ -113,12 +109,11 @@ def mean_grows_with_m(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig5_maximum",
     "Section 5, Fig 5 right, in an ensemble",
     "The l-infinity norm saturates to the same level whatever M.",
     NEEDS,
 )
-def mean_maximum_independent_of_m(ensembles) -> Finding:
+def ensemble_fig5_maximum(ensembles) -> Finding:
     _, linf, error = swept(ensembles, "fig5_right", "linf", "[10, 50]")
     measured = {
         "relative_range": relative_range(linf),
@@ -129,12 +124,11 @@ def mean_maximum_independent_of_m(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig6_grows",
     "Section 5, Fig 6 right, in an ensemble",
     "At Omega = -4, large data, the maximal l2 norm grows with M.",
     NEEDS,
 )
-def mean_of_large_data_grows(ensembles) -> Finding:
+def ensemble_fig6_grows(ensembles) -> Finding:
     m, l2, error = swept(ensembles, "fig6_right", "l2", "[10, 70]")
     peak = int(np.argmax(l2))
     ratio = l2[peak] / l2[0]
@@ -146,12 +140,11 @@ def mean_of_large_data_grows(ensembles) -> Finding:
 
 
 @claim(
-    "ensemble_fig6_diverges",
     "Section 5, Fig 6 right, in an ensemble",
     "It apparently diverges as N goes to infinity.",
     NEEDS,
 )
-def mean_of_large_data_diverges(ensembles) -> Finding:
+def ensemble_fig6_diverges(ensembles) -> Finding:
     m, l2, error = swept(ensembles, "fig6_right", "l2", "[10, 70]")
     level = levelling_of_means(m, l2, error)
     measured = {"level_from": level, "last": l2[-1], "error": error[-1], "largest": l2.max()}

@@ -57,32 +57,29 @@ def drifts(solvers, size: str) -> Finding:
 
 
 @claim(
-    "energy_small",
     "Section 5",
     "H is conserved to the order of 1e-6 for the smaller data.",
     checks("solvers"),
 )
-def drifts_of_small_data(solvers) -> Finding:
+def energy_small(solvers) -> Finding:
     return drifts(solvers, "small")
 
 
 @claim(
-    "energy_large",
     "Section 5",
     "H is conserved to the order of 1e-4 for the larger data.",
     checks("solvers"),
 )
-def drifts_of_large_data(solvers) -> Finding:
+def energy_large(solvers) -> Finding:
     return drifts(solvers, "large")
 
 
 @claim(
-    "fig2_bounded",
     "Section 5, Fig 2",
     "The simulation confirms the global bound of Theorem 1 at Omega = 8.",
     runs("fig2_small", "fig2_large"),
 )
-def bounded_by_theorem_1(small, large) -> Finding:
+def fig2_bounded(small, large) -> Finding:
     ratios = [
         total_power(ds).max() / theorem_1_bound(float(ds["energy"][0]), constants(ds))
         for ds in (small, large)
@@ -92,24 +89,22 @@ def bounded_by_theorem_1(small, large) -> Finding:
 
 
 @claim(
-    "fig2_centre",
     "Section 5, Fig 2 upper",
     "The oscillation of the central pendulum decreases.",
     runs("fig2_small"),
 )
-def centre_decreases(small) -> Finding:
+def fig2_centre(small) -> Finding:
     a = late(small)["linf"].sel(component="A").max() / small["linf"].sel(component="A")[0]
     says = "largest late amplitude over the initial one"
     return judge({"largest_late_amplitude": a}, Below(HALF, "largest_late_amplitude", says=says))
 
 
 @claim(
-    "fig2_exchange",
     "Section 5, Fig 2 upper",
     "The l2 norm oscillates between A and B.",
     runs("fig2_small"),
 )
-def modes_exchange(small) -> Finding:
+def fig2_exchange(small) -> Finding:
     a, b = late(small)["l2"].values ** 2
     with np.errstate(invalid="ignore"):  # constant norms have no correlation
         correlation, swing = np.corrcoef(a, b)[0, 1], float(np.ptp(a) / np.mean(a))
@@ -119,12 +114,11 @@ def modes_exchange(small) -> Finding:
 
 
 @claim(
-    "fig2_maxima",
     "Section 5, Fig 2 upper",
     "The l-infinity norms of A and B are comparable and change little.",
     runs("fig2_small"),
 )
-def maxima_comparable(small) -> Finding:
+def fig2_maxima(small) -> Finding:
     first, second = halves(small)
     ratio = mean(late(small), "linf", "A") / mean(late(small), "linf", "B")
     change = max(abs(mean(second, "linf", k) / mean(first, "linf", k) - 1.0) for k in "AB")
@@ -134,12 +128,11 @@ def maxima_comparable(small) -> Finding:
 
 
 @claim(
-    "fig2_separate",
     "Section 5, Fig 2 lower",
     "The motion of A is effectively separated from that of B.",
     runs("fig2_large"),
 )
-def modes_separate(large) -> Finding:
+def fig2_separate(large) -> Finding:
     settled = late(large)
     share = settled["linf"].sel(component="A") / large["linf"].sel(component="A")[0]
     ratio = settled["l2"].sel(component="B").max() / settled["l2"].sel(component="A").min()
@@ -150,12 +143,11 @@ def modes_separate(large) -> Finding:
 
 
 @claim(
-    "fig2_alone",
     "Section 5, Fig 2 lower",
     "The central pendulum does not excite large oscillations of others.",
     runs("fig2_large"),
 )
-def centre_alone(large) -> Finding:
+def fig2_alone(large) -> Finding:
     start = float(large["linf"].sel(component="A")[0])
     a = large.sel(component="A")
     others = np.sqrt(np.maximum(0.0, a["l2"] ** 2 - a["linf"] ** 2)).max() / start
@@ -166,12 +158,11 @@ def centre_alone(large) -> Finding:
 
 
 @claim(
-    "fig3_alike",
     "Section 5, Fig 3 upper",
     "For small data Omega = -4 shows no drastic difference to Omega = 8.",
     runs("fig2_small", "fig3_small"),
 )
-def like_omega_8(eight, four) -> Finding:
+def fig3_alike(eight, four) -> Finding:
     l2 = np.sqrt(total_power(late(four)).mean() / total_power(late(eight)).mean())
     linf = largest(late(four)).mean() / largest(late(eight)).mean()
     measured = {"l2_ratio": l2, "linf_ratio": linf}
@@ -179,12 +170,11 @@ def like_omega_8(eight, four) -> Finding:
 
 
 @claim(
-    "fig3_mix",
     "Section 5, Fig 3 lower",
     "A and B mix up.",
     runs("fig3_large"),
 )
-def modes_mix(large) -> Finding:
+def fig3_mix(large) -> Finding:
     _, second = halves(large)
     ratio = mean(second, "l2", "A") / mean(second, "l2", "B")
     initial = float(large["l2"].sel(component="A")[0] / large["l2"].sel(component="B")[0])
@@ -193,12 +183,11 @@ def modes_mix(large) -> Finding:
 
 
 @claim(
-    "fig3_excited",
     "Section 5, Fig 3 lower",
     "The central pendulum excites large oscillations of others and l2 grows.",
     runs("fig3_large"),
 )
-def others_excited(large) -> Finding:
+def fig3_excited(large) -> Finding:
     _, second = halves(large)
     growth = np.sqrt(total_power(second).mean() / total_power(large)[0])
     sites = total_power(second).mean() / np.mean(largest(second) ** 2)
@@ -207,12 +196,11 @@ def others_excited(large) -> Finding:
 
 
 @claim(
-    "fig3_maximum",
     "Section 5, Fig 3 lower",
     "The l-infinity norm stays at the level of the initial data.",
     runs("fig3_large"),
 )
-def maximum_stays(large) -> Finding:
+def fig3_maximum(large) -> Finding:
     ratio = largest(late(large)) / largest(large)[0]
     measured = {"mean": ratio.mean(), "largest": ratio.max()}
     grown = measured["mean"] > 1.0 + RISE
@@ -221,12 +209,11 @@ def maximum_stays(large) -> Finding:
 
 
 @claim(
-    "fig4_unstable",
     "Section 5, Fig 4",
     "Zero is linearly unstable at Omega = 0.",
     runs("fig4_small", "fig4_large"),
 )
-def unstable_at_zero(small, large) -> Finding:
+def fig4_unstable(small, large) -> Finding:
     rates = [
         0.5
         * np.log(total_power(ds.sel(tau=slice(0, UNSTABLE))).max() / total_power(ds)[0])
@@ -240,12 +227,11 @@ def unstable_at_zero(small, large) -> Finding:
 
 
 @claim(
-    "fig4_settles",
     "Section 5, Fig 4",
     "Growth stabilises at a certain level of the l-infinity norm.",
     runs("fig4_small", "fig4_large"),
 )
-def maximum_settles(small, large) -> Finding:
+def fig4_settles(small, large) -> Finding:
     changes = []
     for ds in (small, large):
         first, second = halves(ds)
@@ -256,24 +242,22 @@ def maximum_settles(small, large) -> Finding:
 
 
 @claim(
-    "fig4_l2_larger",
     "Section 5, Fig 4",
     "The l2 norm is significantly larger than the l-infinity norm.",
     runs("fig4_small", "fig4_large"),
 )
-def sum_exceeds_maximum(small, large) -> Finding:
+def fig4_l2_larger(small, large) -> Finding:
     ratios = [np.mean(np.sqrt(total_power(late(ds))) / largest(late(ds))) for ds in (small, large)]
     measured = {"small": ratios[0], "large": ratios[1]}
     return judge(measured, Above(MUCH, "small", "large", says="l2 over l-infinity"))
 
 
 @claim(
-    "fig4_many",
     "Section 5, Fig 4",
     "Many pendula oscillate with amplitudes comparable to the central one's.",
     runs("fig4_small", "fig4_large"),
 )
-def many_in_motion(small, large) -> Finding:
+def fig4_many(small, large) -> Finding:
     shares = []
     for ds in (small, large):
         settled = late(ds)
@@ -285,12 +269,11 @@ def many_in_motion(small, large) -> Finding:
 
 
 @claim(
-    "fig4_alike",
     "Section 5, Fig 4",
     "There are no visible differences between the upper and lower panels.",
     runs("fig4_small", "fig4_large"),
 )
-def panels_alike(small, large) -> Finding:
+def fig4_alike(small, large) -> Finding:
     a, b = late(small), late(large)
     l2 = np.sqrt(total_power(b).mean() / total_power(a).mean()) - 1.0
     linf = largest(b).mean() / largest(a).mean() - 1.0
@@ -307,7 +290,6 @@ def panels_alike(small, large) -> Finding:
 
 
 @claim(
-    "equilibrium",
     "Abstract; Section 6",
     "Excitation spreads until every pendulum oscillates at a finite amplitude.",
     runs("fig4_small"),
@@ -329,7 +311,6 @@ def equilibrium(small) -> Finding:
 
 
 @claim(
-    "finite_bound",
     "Section 5, before Fig 5",
     "By Theorem 3 the solution in the finite chain stays bounded.",
     (*SMALL, *LARGE),

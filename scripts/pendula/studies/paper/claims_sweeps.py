@@ -50,12 +50,11 @@ PAIR = "ode45 - crank_nicolson"
 
 
 @claim(
-    "fig5_grows",
     "Section 5, Fig 5 right",
     "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
     sweeps("fig5_right"),
 )
-def l2_grows_with_m(sweep) -> Finding:
+def fig5_grows(sweep) -> Finding:
     m, l2 = swept(sweep, "l2", "max", WINDOW)
     level = levelling(m, l2)
     rising = l2[: np.searchsorted(m, level) + 1] if np.isfinite(level) else l2
@@ -66,12 +65,11 @@ def l2_grows_with_m(sweep) -> Finding:
 
 
 @claim(
-    "fig5_conjecture",
     "Section 5, Fig 5 right",
     "This confirms growth on the unbounded lattice as time goes to infinity.",
     sweeps("fig5_right"),
 )
-def conjecture(sweep) -> Finding:
+def fig5_conjecture(sweep) -> Finding:
     m, l2 = swept(sweep, "l2", "max", WINDOW)
     level = levelling(m, l2)
     measured = {"growth": l2[-1] / l2[0], "level_from": level, "level": l2[-1]}
@@ -88,12 +86,11 @@ def conjecture(sweep) -> Finding:
 
 
 @claim(
-    "fig5_maximum",
     "Section 5, Fig 5 right",
     "The l-infinity norm saturates to the same level whatever M.",
     sweeps("fig5_right"),
 )
-def maximum_independent_of_m(sweep) -> Finding:
+def fig5_maximum(sweep) -> Finding:
     m, linf = swept(sweep, "linf", "max", WINDOW)
     kept = linf[m >= SHORTEST] if np.any(m >= SHORTEST) else linf
     measured = {"relative_range": relative_range(kept), "mean": np.mean(kept)}
@@ -102,12 +99,11 @@ def maximum_independent_of_m(sweep) -> Finding:
 
 
 @claim(
-    "fig5_decreases",
     "Section 5, Fig 5 left",
     "At Omega = -4 the l2 norm decreases in M towards a level.",
     sweeps("fig5_left"),
 )
-def l2_decreases_with_m(sweep) -> Finding:
+def fig5_decreases(sweep) -> Finding:
     m, highest = swept(sweep, "l2", "max", WINDOW)
     _, average = swept(sweep, "l2", "mean", WINDOW)
     measured = {
@@ -122,12 +118,11 @@ def l2_decreases_with_m(sweep) -> Finding:
 
 
 @claim(
-    "fig5_theorem_2",
     "Section 5, Fig 5 left",
     "The absence of growth agrees with Theorem 2.",
     (*runs("fig3_small"), *sweeps("fig5_left")),
 )
-def agrees_with_theorem_2(case, sweep) -> Finding:
+def fig5_theorem_2(case, sweep) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])
     parameters, boundary = constants(case), str(case.attrs["boundary"])
     region = proven_region(energy, start, parameters, boundary)
@@ -149,12 +144,11 @@ def agrees_with_theorem_2(case, sweep) -> Finding:
 
 
 @claim(
-    "fig5_caption",
     "Fig 5, caption",
     "The norms shown are averages over [10, 50].",
     sweeps("fig5_left"),
 )
-def caption_of_fig_5(sweep) -> Finding:
+def fig5_caption(sweep) -> Finding:
     _, average = swept(sweep, "l2", "mean", WINDOW)
     fall = 1.0 - average[-1] / average[0]
     fails = "the average does not decrease in M as the text says of this figure"
@@ -162,12 +156,11 @@ def caption_of_fig_5(sweep) -> Finding:
 
 
 @claim(
-    "fig5_not_shown",
     "Section 5, Fig 5",
     "A similar dependence (not shown) exists for Omega = 8.",
     checks("not_shown"),
 )
-def not_shown(check) -> Finding:
+def fig5_not_shown(check) -> Finding:
     l2 = check["l2"].values
     level = levelling(check["half_width"].values, l2, CONSTANT)
     measured = {"fall": 1.0 - l2[-1] / l2[0], "level_from": level}
@@ -175,36 +168,33 @@ def not_shown(check) -> Finding:
 
 
 @claim(
-    "fig6_constant",
     "Section 5, Fig 6 left",
     "At Omega = 8 the maximal l2 norm does not change with N.",
     sweeps("fig6_left"),
 )
-def independent_of_m(sweep) -> Finding:
+def fig6_constant(sweep) -> Finding:
     _, l2 = swept(sweep, "l2", "max", TEXT_6)
     criterion = Below(CONSTANT, "relative_range", says="range over mean")
     return judge({"relative_range": relative_range(l2)}, criterion)
 
 
 @claim(
-    "fig6_theorem_1",
     "Section 5, Fig 6 left",
     "This agrees with Theorem 1.",
     (*runs("fig2_large"), *sweeps("fig6_left")),
 )
-def bounded_by_theorem_1(case, sweep) -> Finding:
+def fig6_theorem_1(case, sweep) -> Finding:
     bound = float(theorem_1_bound(float(case["energy"][0]), constants(case)))
     ratio = float(sweep["l2"].sel(quantity="pair").max()) ** 2 / bound
     return judge({"ratio": ratio}, AtMost(1.0, "ratio", says="largest P over C"))
 
 
 @claim(
-    "fig6_grows",
     "Section 5, Fig 6 right",
     "At Omega = -4, large data, the maximal l2 norm grows with M.",
     sweeps("fig6_right"),
 )
-def large_data_grow_with_m(sweep) -> Finding:
+def fig6_grows(sweep) -> Finding:
     m, l2 = swept(sweep, "l2", "max", TEXT_6)
     peak = int(np.argmax(l2))
     measured = {"peak_over_first": l2[peak] / l2[0], "peak_at": m[peak], "last": l2[-1] / l2[peak]}
@@ -215,12 +205,11 @@ def large_data_grow_with_m(sweep) -> Finding:
 
 
 @claim(
-    "fig6_diverges",
     "Section 5, Fig 6 right",
     "It apparently diverges as N goes to infinity.",
     sweeps("fig6_right"),
 )
-def large_data_diverge(sweep) -> Finding:
+def fig6_diverges(sweep) -> Finding:
     m, l2 = swept(sweep, "l2", "max", TEXT_6)
     level = levelling(m, l2)
     measured = {"level_from": level, "last": l2[-1], "largest": l2.max()}
@@ -229,12 +218,11 @@ def large_data_diverge(sweep) -> Finding:
 
 
 @claim(
-    "fig6_not_technical",
     "Section 5, Fig 6 right",
     "That Theorem 2 is limited to small data is not a technical shortfall.",
     (*runs("fig3_large"), *sweeps("fig6_right")),
 )
-def not_technical(case, sweep) -> Finding:
+def fig6_not_technical(case, sweep) -> Finding:
     m, l2 = swept(sweep, "l2", "max", TEXT_6)
     c_0 = theorem_2_constants(constants(case))[1]
     start = float(total_power(case)[0])
@@ -244,12 +232,11 @@ def not_technical(case, sweep) -> Finding:
 
 
 @claim(
-    "fig6_caption",
     "Fig 6, caption",
     "The norms shown are averages over [10, 40].",
     sweeps("fig6_left", "fig6_right"),
 )
-def caption_of_fig_6(left, right) -> Finding:
+def fig6_caption(left, right) -> Finding:
     readings = (("max", TEXT_6), ("mean", CAPTION_6))
     flat = [relative_range(swept(left, "l2", *reading)[1]) < CONSTANT for reading in readings]
     grows = []
@@ -264,12 +251,11 @@ def caption_of_fig_6(left, right) -> Finding:
 
 
 @claim(
-    "second_solver",
     "Section 5, end",
     "Figs 2 to 4 come out of the second solver without significant differences.",
     checks("solvers"),
 )
-def differences_of_solvers(solvers) -> Finding:
+def second_solver(solvers) -> Finding:
     pair = solvers.sel(pair=PAIR)
     times = {
         str(case): float(pair["divergence_time"].sel(case=case)) for case in pair["case"].values
@@ -288,12 +274,11 @@ def differences_of_solvers(solvers) -> Finding:
 
 
 @claim(
-    "second_solver_sweeps",
     "Section 5, end",
     "So do Figs 5 and 6.",
     checks("solvers"),
 )
-def differences_of_sweeps(solvers) -> Finding:
+def second_solver_sweeps(solvers) -> Finding:
     measured = {}
     for name in map(str, solvers["sweep"].values):
         difference = solvers["sweep_difference"].sel(sweep=name, statistic="max")

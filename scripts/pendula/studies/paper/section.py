@@ -1,14 +1,12 @@
 """The report's part on the paper's figures: norms and sweeps, the chain in motion, the solvers."""
 
 import base64
-from collections import Counter
 from typing import Any
 
 import numpy as np
 
 from pendula.ledger.claim import CHANGE, CONSTANT
-from pendula.ledger.criterion import Verdict
-from pendula.ledger.section import Ledger, load
+from pendula.ledger.section import Ledger
 from pendula.measures.levels import levelling
 from pendula.problem import name_window
 from pendula.report.page import Picture
@@ -42,13 +40,12 @@ MOVING = 0.5
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return Figs 1 to 6, each with its picture and what its datasets say in numbers."""
-    rows = load(results)
     alt = "A drawing of a chain of pendula pairs on strings, coupled along the chain and across "
     return {
         "chain": results.picture("fig1", f"{alt}each pair."),
         "norms": [_norms(results, which) for which in (2, 3, 4)],
         "sweeps": [_sweeps(results, which) for which in (5, 6)],
-        "verdicts": {which: _verdicts(rows, which) for which in range(1, 7)},
+        "verdicts": {which: ledger.counts(f"Fig {which}") for which in range(1, 7)},
         "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
         "visible": _visible(results),
     }
@@ -56,12 +53,6 @@ def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 def _visible(results: Results) -> str:
     return percent(float(results[TRUST]["size"].sel(level="visible")))
-
-
-def _verdicts(rows: list[dict], which: int) -> list[tuple[str, int]]:
-    """Return how many of the claims on a figure have each verdict."""
-    counted = Counter(row["verdict"] for row in rows if f"Fig {which}" in row["place"])
-    return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
 
 
 def _norms(results: Results, which: int) -> dict[str, Any]:

@@ -41,12 +41,8 @@ SHARP, ATTAINED = 0.9, 0.999
 
 
 def decides(place: str, says: str, *names: str) -> Callable:
-    """Return a decorator: the function, which takes these checks, decides the claim of its name."""
-
-    def declare(function: Callable) -> Callable:
-        return claim(function.__name__, place, says, checks(*names))(function)
-
-    return declare
+    """Return a decorator: the function, which takes these checks, decides the claim."""
+    return claim(place, says, checks(*names))
 
 
 @decides(
@@ -235,7 +231,6 @@ def threshold_growth(threshold) -> Finding:
 
 
 @claim(
-    "growth_bound",
     "Lemma 2, (19)",
     "The squared l2 norm grows at most as exp(4 |gamma tau|).",
     (*checks("growth"), *SMALL, *LARGE),
@@ -271,7 +266,6 @@ def inequalities(check) -> Finding:
 def theorem(name: str, says: str, *families: str) -> Callable:
     """Return the function that decides a theorem: no random or searched data break its bounds."""
 
-    @claim(name, name.replace("_", " ").capitalize(), says, checks("samples", "worst"))
     def decide(samples, worst) -> Finding:
         sampled = samples["worst_sample"].sel(family=list(families))
         searched = worst["worst"].values[np.isin(worst["searched_family"].values, families)]
@@ -280,7 +274,7 @@ def theorem(name: str, says: str, *families: str) -> Callable:
         return judge(measured, AtMost(1.0 + ROUNDING_OF_P, *measured, says=says))
 
     decide.__name__ = name
-    return decide
+    return claim(name.replace("_", " ").capitalize(), says, checks("samples", "worst"))(decide)
 
 
 theorem_1 = theorem(

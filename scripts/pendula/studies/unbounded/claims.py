@@ -59,12 +59,11 @@ def sites_in_motion(run) -> float:
 
 
 @claim(
-    "unbounded_in_time",
     "Introduction",
     "The l2 norm diverges in the unbounded chain as time goes to infinity.",
     unbounded("fig4_small", "thermal"),
 )
-def grows(run, thermal) -> Finding:
+def unbounded_in_time(run, thermal) -> Finding:
     exponent = exponent_of(run, "l2")
     values = run["l2"].isel(variant=0).transpose("member", "tau").values
     last = local_exponents(run["tau"].values, values, 1)[1][0]
@@ -83,12 +82,11 @@ def grows(run, thermal) -> Finding:
 
 
 @claim(
-    "unbounded_band",
     "Section 5, before Fig 5",
     "It grows on the unbounded lattice for all Omega in (-2 gamma, 2 gamma + 4 epsilon).",
     unbounded("omegas"),
 )
-def grows_in_the_band(run) -> Finding:
+def unbounded_band(run) -> Finding:
     found = [exponent_of(run, "l2", variant).value for variant in range(run.sizes["variant"])]
     omegas = run["omega"].values
     measured = {"least_exponent": min(found), "largest_exponent": max(found), "values": len(found)}
@@ -99,12 +97,11 @@ def grows_in_the_band(run) -> Finding:
 
 
 @claim(
-    "unbounded_front",
     "Introduction",
     "The central pendulum excites its neighbours, and this process continues.",
     unbounded("omegas"),
 )
-def front_is_pulled(run) -> Finding:
+def unbounded_front(run) -> Finding:
     if run["tau"][-1] < SHORTEST:
         raise UndecidableError(f"the runs end before tau = {SHORTEST:g}")
     found, errors = speeds(run, corrected=True)
@@ -115,12 +112,11 @@ def front_is_pulled(run) -> Finding:
 
 
 @claim(
-    "unbounded_equilibrium",
     "Introduction",
     "A dynamical equilibrium is reached where each pendulum oscillates at a finite amplitude.",
     unbounded("omegas", "thermal"),
 )
-def sea_is_thermal(run, thermal) -> Finding:
+def unbounded_equilibrium(run, thermal) -> Finding:
     if run["tau"][-1] < SHORTEST:
         raise UndecidableError(f"the runs end before tau = {SHORTEST:g}")
     expected = thermal["power"].sel(omega=run["omega"].values, method="nearest").values
@@ -136,12 +132,11 @@ def sea_is_thermal(run, thermal) -> Finding:
 
 
 @claim(
-    "unbounded_maximum",
     "Introduction",
     "The l-infinity norm remains finite at the dynamical equilibrium.",
     unbounded("fig4_small"),
 )
-def maximum_grows_slowly(run) -> Finding:
+def unbounded_maximum(run) -> Finding:
     exponent = exponent_of(run, "linf")
     tau, values = run["tau"].values, run["linf"].isel(variant=0).transpose("member", "tau").values
     rise = fit_rise(tau, values**4, tau[-1] * 0.5 ** (OCTAVES + 2))
@@ -162,12 +157,11 @@ def maximum_grows_slowly(run) -> Finding:
 
 
 @claim(
-    "unbounded_large",
     "Section 5, Fig 6 right",
     "For Omega < -2 gamma a large solution can grow in time on the unbounded lattice.",
     unbounded("fig3_large", "amplitudes"),
 )
-def large_data_grow(run, amplitudes) -> Finding:
+def unbounded_large(run, amplitudes) -> Finding:
     exponent = exponent_of(run, "l2")
     grown = [exponent_of(amplitudes, "l2", v).value for v in range(amplitudes.sizes["variant"])]
     sizes = amplitudes["central_modulus"].values[np.array(grown) > GROWING]
@@ -188,32 +182,29 @@ def stays(run) -> Finding:
 
 
 @claim(
-    "unbounded_small",
     "Section 5, Fig 5 left",
     "For Omega < -2 gamma a small solution does not grow on the unbounded lattice.",
     unbounded("fig3_small"),
 )
-def small_data_stay(run) -> Finding:
+def unbounded_small(run) -> Finding:
     return stays(run)
 
 
 @claim(
-    "unbounded_stable",
     "Section 5, Fig 6 left",
     "For Omega > 2 gamma + 4 epsilon a large solution does not grow on the unbounded lattice.",
     unbounded("fig2_large"),
 )
-def stable_data_stay(run) -> Finding:
+def unbounded_stable(run) -> Finding:
     return stays(run)
 
 
 @claim(
-    "unbounded_window",
     "Section 5, Fig 5 right",
     "Growth in M on a fixed window shows growth on the unbounded lattice.",
     unbounded("map_fig5_right"),
 )
-def window_follows_the_front(run) -> Finding:
+def unbounded_window(run) -> Finding:
     widths, ends = run["half_width"].values, run["end"].values
     if ends[-1] < SHORTEST or len(widths) < FEWEST:
         raise UndecidableError("the map over half-widths and windows is too small")
