@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.ledger import section as claims
+from pendula.studies.paper import motion
 from pendula.studies.paper import section as paper
 
 
@@ -126,7 +127,7 @@ def moving_chain() -> xr.Dataset:
 
 def test_the_run_to_play_is_quantised_time_after_time(tmp_path):
     results = made_up.MadeUp(tmp_path, {"trajectories/a": moving_chain()})
-    shown = paper.played(results, "trajectories/a")
+    shown = motion.played(results, "trajectories/a")
     frames = np.frombuffer(base64.b64decode(shown["frames"]), np.uint8).reshape(4, 2, 3)
     assert shown["count"] == 4 and shown["step"] == 0.5 and str(shown["peak"]) == "2"
     assert frames[:, 0, 1].tolist() == [128, 255, 255, 255]

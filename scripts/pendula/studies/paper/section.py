@@ -1,6 +1,5 @@
 """The report's part on the paper's figures: norms and sweeps, the chain in motion, the solvers."""
 
-import base64
 from typing import Any
 
 import numpy as np
@@ -24,18 +23,13 @@ from pendula.report.words import (
     span,
 )
 
-SIZES = ("small", "large")
+from .motion import SIZES, gather_motion
+
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
 TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
 COMPARED = "checks/solvers"
-
-PLAYED = "fig4_small"
-"""The case that the page plays: small data that fill the chain."""
-STEPS = 255
-MOVING = 0.5
-"""Part of the largest modulus above which a site counts as moving, in the words for a picture."""
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -199,74 +193,6 @@ def _sample(results: Results, last) -> dict[str, Any]:
         "off": results.quote(SAMPLES, abs(off), 2),
         "below": off < 0,
     }
-
-
-def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the pictures beside Figs 2 to 4 and the run to play."""
-    return {
-        "pictures": [_spacetime(results, which) for which in (2, 3, 4)],
-        "played": played(results, f"trajectories/{PLAYED}"),
-    }
-
-
-def _spacetime(results: Results, which: int) -> dict[str, Any]:
-    told, alts = [], []
-    for source in (f"trajectories/fig{which}_{size}" for size in SIZES):
-        run = results[source]
-        case = case_in_words(run.attrs["omega"], run.attrs["initial"])
-        last = run["modulus"].isel(snapshot=-1).max("component").values
-        numbers = (
-            str(int((last > MOVING * last.max()).sum())),
-            str(len(last)),
-            measured(float(last.max())),
-        )
-        told.append((case, *(results.say(source, text) for text in numbers)))
-        moving, sites, largest = numbers
-        alts.append(
-            f"{case}: at the end {moving} of {sites} sites move at over half the largest size "
-            f"{largest}"
-        )
-    alt = f"Moduli of A and B over sites and time. {'; '.join(alts)}."
-    return {
-        "number": which,
-        "picture": results.picture(f"fig{which}_spacetime", alt),
-        "omega": results.quote(source, float(run.attrs["omega"])),
-        "told": told,
-    }
-
-
-def played(results: Results, source: str) -> dict[str, Any]:
-    """Return a run with its moduli in 256 steps, time after time, as the page's script reads it."""
-    run = results[source]
-    modulus = run["modulus"].transpose("snapshot", "component", "site").values
-    peak = float(modulus.max())
-    steps = np.rint(modulus * (STEPS / peak)).astype(np.uint8)
-    tau = run["snapshot_tau"].values
-    still = half_way(modulus)
-    return {
-        "case": case_in_words(run.attrs["omega"], run.attrs["initial"]),
-        "source": results.say(source, source),
-        "frames": base64.b64encode(steps.tobytes()).decode(),
-        "count": len(steps),
-        "sites": [int(site) for site in run["site"].values],
-        "first": number(int(run["site"][0])),
-        "peak": results.quote(source, peak),
-        "step": float(tau[1] - tau[0]),
-        "end": results.quote(source, float(tau[-1])),
-        "still": still,
-        "still_tau": results.quote(source, float(tau[still])),
-        "bars": [[round(float(v) / STEPS, 3) for v in row] for row in steps[still]],
-    }
-
-
-def half_way(modulus: np.ndarray) -> int:
-    """Return the first time at which half of the sites move, the last if there is none.
-
-    `modulus` is (time, component, site); the picture of that time shows where the front is.
-    """
-    moving = (modulus.max(axis=1) > MOVING * modulus.max(axis=(1, 2))[:, None]).mean(axis=1)
-    found = np.flatnonzero(moving >= 0.5)
-    return int(found[0]) if found.size else len(modulus) - 1
 
 
 def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
