@@ -43,7 +43,7 @@ def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset
 
 
 def _about(title: str) -> dict[str, str]:
-    return {"long_name": title, "units": "1"}
+    return {"long_name": title}
 
 
 def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.ndarray:

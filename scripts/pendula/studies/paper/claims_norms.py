@@ -214,16 +214,12 @@ def fig3_maximum(large) -> Finding:
     runs("fig4_small", "fig4_large"),
 )
 def fig4_unstable(small, large) -> Finding:
-    rates = [
-        0.5
-        * np.log(total_power(ds.sel(tau=slice(0, UNSTABLE))).max() / total_power(ds)[0])
-        / UNSTABLE
-        for ds in (small, large)
-    ]
-    measured = {"mean_rate_small": rates[0], "mean_rate_large": rates[1]}
-    return judge(
-        measured, Above(1.0 / UNSTABLE, "mean_rate_small", says="mean rate of the small data")
-    )
+    measured = {}
+    for size, ds in (("small", small), ("large", large)):
+        growth = total_power(ds.sel(tau=slice(0, UNSTABLE))).max() / total_power(ds)[0]
+        measured[f"mean_rate_{size}"] = 0.5 * np.log(growth) / UNSTABLE
+    says = "mean rate of the small data"
+    return judge(measured, Above(1.0 / UNSTABLE, "mean_rate_small", says=says))
 
 
 @claim(

@@ -37,20 +37,26 @@ SHORTEST = 100.0
 OCTAVES = 2
 
 
-def exponent_of(run, name: str, variant: int = 0):
-    """Return the exponent of tau that a norm follows over the last OCTAVES of the run."""
+def times_of(run) -> np.ndarray:
+    """Return the times of a run that is long enough to be a test of growth in time."""
     tau = run["tau"].values
     if tau[-1] < SHORTEST:
         raise UndecidableError(f"the runs end at tau = {tau[-1]:g}, before {SHORTEST:g}")
+    return tau
+
+
+def exponent_of(run, name: str, variant: int = 0):
+    """Return the exponent of tau that a norm follows over the last OCTAVES of the run."""
+    tau = times_of(run)
     values = run[name].isel(variant=variant).transpose("member", "tau").values
     return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
 def law_at_end(run, thermal) -> float:
-    """Return (2 v P tau)^(1/2) at the end: a linear front, and a thermal sea behind it."""
+    """Return (2 v P tau)^(1/2) at the end: a linear front, and a thermal bulk behind it."""
     one = run.isel(variant=0)
-    sea = float(thermal["power"].sel(omega=one["omega"], method="nearest"))
-    return float(np.sqrt(2.0 * one["predicted_speed"] * sea * run["tau"][-1]))
+    power = float(thermal["power"].sel(omega=one["omega"], method="nearest"))
+    return float(np.sqrt(2.0 * one["predicted_speed"] * power * run["tau"][-1]))
 
 
 def sites_in_motion(run) -> float:
@@ -102,8 +108,7 @@ def unbounded_band(run) -> Finding:
     unbounded("omegas"),
 )
 def unbounded_front(run) -> Finding:
-    if run["tau"][-1] < SHORTEST:
-        raise UndecidableError(f"the runs end before tau = {SHORTEST:g}")
+    times_of(run)
     found, errors = speeds(run, corrected=True)
     ratio = found / run["predicted_speed"].values
     measured = {"least": ratio.min(), "largest": ratio.max(), "error": errors.max()}
@@ -117,8 +122,7 @@ def unbounded_front(run) -> Finding:
     unbounded("omegas", "thermal"),
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
-    if run["tau"][-1] < SHORTEST:
-        raise UndecidableError(f"the runs end before tau = {SHORTEST:g}")
+    times_of(run)
     expected = thermal["power"].sel(omega=run["omega"].values, method="nearest").values
     ratio = mean_powers(run).mean(axis=1) / expected
     measured = {"least": ratio.min(), "largest": ratio.max(), "mean": ratio.mean()}
