@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import style
 
 MARKERS = "osD^vP*X<>hdp8"
@@ -30,7 +31,7 @@ def draw_work_precision(data: xr.Dataset) -> Figure:
 
 
 def _draw_case(axes: Axes, case: xr.Dataset) -> None:
-    peers = [name for name in case["contestant"].values if name not in style.SOLVER_NAMES]
+    peers = [name for name in case["contestant"].values if name not in SOLVER_NAMES]
     greys = np.linspace(0.35, 0.75, max(len(peers), 1))
     for name in case["contestant"].values:
         curve = case.sel(contestant=name)
@@ -48,7 +49,7 @@ def _draw_case(axes: Axes, case: xr.Dataset) -> None:
             look |= {"markerfacecolor": "white", "markeredgewidth": 0.6}
         else:
             look |= {"color": style.COLOURS[name], "marker": ".", "lw": 1.2, "zorder": 2}
-            look |= {"label": style.SOLVER_NAMES[name], "markersize": 5}
+            look |= {"label": SOLVER_NAMES[name], "markersize": 5}
         axes.plot(curve["error"], 1e3 * curve["seconds"], **look)
     axes.axvline(float(case["target"]), color="0.6", lw=0.6, dashes=(4, 2), zorder=0)
     axes.set_xscale("log")
@@ -91,7 +92,7 @@ def draw_cost(data: xr.Dataset) -> Figure:
 
 def _draw_cost_along(axes: Axes, seconds: xr.DataArray, dim: str) -> None:
     for solver in seconds["solver"].values:
-        look = {"color": style.COLOURS[solver], "label": style.SOLVER_NAMES[solver]}
+        look = {"color": style.COLOURS[solver], "label": SOLVER_NAMES[solver]}
         axes.plot(seconds[dim], 1e6 * seconds.sel(solver=solver), marker=".", **look)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
@@ -99,7 +100,7 @@ def _draw_cost_along(axes: Axes, seconds: xr.DataArray, dim: str) -> None:
 
 
 def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
-    look = {"color": style.COLOURS["dop853"], "label": style.SOLVER_NAMES["dop853"]}
+    look = {"color": style.COLOURS["dop853"], "label": SOLVER_NAMES["dop853"]}
     carried = data["carried"].sel(solver="dop853")
     axes.plot(carried["sites"], carried, marker=".", **look)
     limits = {"arithmetic_limit": ("arithmetic", (4, 2)), "memory_limit": ("memory", (1, 1))}

@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
-from pendula.report.words import SOLVERS, case_of, number, percent, span, symbols, with_error
+from pendula.datasets.registry import SOLVER_NAMES
+from pendula.report.words import case_of, number, percent, span, symbols, with_error
 
 GROWING = 0.3
 """The exponent above which a norm counts as growing."""
@@ -309,7 +310,7 @@ def speed(baseline: Baseline) -> dict:
             for peer, ratio in ratios.items()
         ],
         "best": [
-            {"solver": SOLVERS[name], "time": number(1e3 * seconds, 2)}
+            {"solver": SOLVER_NAMES[name], "time": number(1e3 * seconds, 2)}
             for name, seconds in _best(measured.sel(case="fig3_small"), REGULAR_ERROR).items()
         ],
         "processor": measured.attrs["processor"],

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from pendula.archive import codemeta, contents, ro_crate
+from pendula.archive import contents, metadata
 from pendula.datasets import complete_or_absent
 from pendula.sources import SCRIPTS
 
@@ -17,14 +17,14 @@ def pack_results(
 
     `records` name the code that made the results, `configuration` is what they were made with.
     """
-    about = codemeta.read_about(PROJECT)
+    about = metadata.read_about(PROJECT)
     code = contents.code_files(PROJECT)
     contents.check_records(map(Path, records), code)
     members = {name: PROJECT / name for name in code}
     members |= {name: Path(name) for name in (*results, *records)}
     members["configuration.yaml"] = contents.dump_configuration(configuration)
-    members["codemeta.json"] = _json(codemeta.describe(about))
-    members["ro-crate-metadata.json"] = _json(ro_crate.describe(about, members))
+    members["codemeta.json"] = _json(metadata.describe_software(about))
+    members["ro-crate-metadata.json"] = _json(metadata.describe_archive(about, members))
     members[contents.MANIFEST] = contents.manifest(members)
     with complete_or_absent(archive) as new_archive, complete_or_absent(checksum) as new_checksum:
         contents.pack(new_archive, f"{about.name}-{about.version}", members)

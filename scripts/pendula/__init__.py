@@ -1,7 +1,7 @@
 """Coupled PT-symmetric dNLS chains: the equations, their solvers, datasets and plots.
 
-For notebooks: `from pendula import Case, simulate, sweep, check, read, draw_norms`. All of it is
-listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
+For notebooks: `from pendula import Case, simulate, sweep, check, read, draw_norms`. The public
+names are listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
 """
 
 from importlib import import_module
@@ -17,7 +17,8 @@ _HOMES = {
     "configuration.messages": ("ConfigurationError",),
     "simulation.simulate": ("IntegrationError",),
 }
-"""The public names by their module, loaded when first asked for: no job pays for all of them."""
+"""The public names by their module. A module is loaded when a name of it is first asked for, so
+that no job waits for modules that it does not use."""
 
 __all__ = sorted(name for names in _HOMES.values() for name in names)
 

@@ -9,9 +9,9 @@ folder that is named after the text of its module and of all that the module imp
 `sources`). An edit of any of them starts an empty folder.
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
-*, / and sqrt give the same bits on every processor. The C library's functions (a power, a sine)
-need not: taylor, dop853 and crank_nicolson do without them, ode45 and splitting cannot
-(tests/test_same_bits.py).
+*, / and sqrt give the same bits on every processor. The functions of the C
+library (x^0.2, a sine) need not give the same bits: taylor, dop853 and crank_nicolson do not use
+them, ode45 and splitting must (tests/test_same_bits.py).
 """
 
 import os

@@ -119,7 +119,7 @@ def sweep(
     (3,)
     """
     asked = {"case": name, "half_widths": list(half_widths), "windows": list(windows)}
-    # the case's own half-width counts for nothing here, and need not hold the initial data
+    # the case's own half-width is not used here, and its chain need not hold the initial data
     settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}})
     checked, problem = settings.sweeps[name], Problem.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
@@ -129,8 +129,9 @@ def sweep(
 def check(case: Case, run=None):
     """Set a run beside the paper's lemmas and theorems, and measure how far it can be trusted.
 
-    `run` is what `simulate` made of the case; left out, it is made. Returns an xarray.Dataset of
-    numbers, each with a long_name and units: see pendula.own for the sources.
+    `run` is what `simulate` made of the case; if it is left out, the case is integrated here.
+    Returns an xarray.Dataset of numbers, each with a long_name and units; pendula.own_cases.checks
+    says how each is computed.
 
     >>> found = check(Case(omega=8, end_time=10))
     >>> str(found["region"].values), bool(found["ratio"] < 1)
@@ -144,8 +145,8 @@ def draw_norms(run, checks=None):
     """Draw the norms of A (red) and B (blue) against tau: l-infinity left, l2 right.
 
     `run` is a trajectory as `pendula.simulate` or `pendula.read` return it. With the `checks` that
-    `pendula.check` made of it, their second run lies below in pale colours, and a mark shows from
-    when on the two are other curves. Laid out as a row of Figs 2 to 4 of the paper.
+    `pendula.check` made of it, their second run is drawn below it in pale colours, and a mark shows
+    the divergence time. The layout is that of a row of Figs 2 to 4 of the paper.
 
     >>> from pendula import Case, simulate
     >>> len(draw_norms(simulate(Case(omega=8, end_time=10))).axes)
@@ -171,8 +172,9 @@ def draw_spacetime(run):
 def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):
     """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
 
-    Dots are the maximum over `max_window`, hollow ones the mean over `mean_window`, windows named
-    as in the dataset; left out, the first window serves for both. As in Figs 5 and 6 of the paper.
+    Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
+    are named as in the dataset; the first one is taken for what is left out. The layout is that of
+    Figs 5 and 6 of the paper.
 
     >>> from pendula import Case, sweep
     >>> len(draw_sweep(sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])).axes)

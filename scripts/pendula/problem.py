@@ -34,7 +34,7 @@ class Constants:
         return cls(**{name: float(values[name]) for name in ("epsilon", "gamma", "omega")})
 
     def scaled(self, factor: float) -> "Constants":
-        """Return all three times a factor: what another unit of time makes of them."""
+        """Return all three times a factor, as another unit of time makes them."""
         return Constants(
             epsilon=factor * self.epsilon, gamma=factor * self.gamma, omega=factor * self.omega
         )
@@ -47,7 +47,7 @@ class Problem:
     Time is the slow time tau. `initial` is complex, of shape (2, 2r + 1): A and B on the sites
     -r..r at tau = 0; all sites beyond are at rest. `half_width` is M, the chain has the sites
     -M..M; None stands for a chain without ends. `snapshot_every` keeps |A_n| and |B_n| at each so
-    many outputs, 0 keeps none.
+    many outputs; 0 keeps none.
 
     Raises ValueError where data lie outside the chain.
     """
@@ -127,7 +127,7 @@ def output_times(end_time: float, output_step: float) -> np.ndarray:
 
 
 def place(initial: np.ndarray, half_width: int) -> np.ndarray:
-    """Return amplitudes (2, 2M + 1), at rest but for `initial` (2, 2r + 1) on the sites -r..r."""
+    """Return amplitudes (2, 2M + 1): `initial` (2, 2r + 1) on the sites -r..r, zero elsewhere."""
     reach = initial.shape[1] // 2
     require_inside(reach, half_width)
     amplitudes = np.zeros((2, 2 * half_width + 1), complex)
@@ -136,7 +136,7 @@ def place(initial: np.ndarray, half_width: int) -> np.ndarray:
 
 
 def require_inside(site: int, half_width: int) -> None:
-    """Raise ValueError where there is no such site in the chain."""
+    """Raise ValueError if the chain has no such site."""
     if site > half_width:
         raise ValueError(f"site {site} lies outside the chain -{half_width}..{half_width}")
 

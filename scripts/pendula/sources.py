@@ -1,6 +1,6 @@
 """What a result comes from: the modules that a file imports, the processor and the versions.
 
-Needs the standard library only.
+This module needs the standard library only.
 """
 
 import ast
@@ -16,7 +16,7 @@ SCRIPTS = Path(__file__).resolve().parent.parent
 """The folder of the library and of the scripts."""
 
 OURS = ("pendula", "job", "benchmarks")
-"""What is followed: beside an installed library there may be everything else."""
+"""Only imports of these packages are followed: others may lie beside an installed library."""
 
 
 def modules_of(file: Path) -> list[Path]:
@@ -31,7 +31,7 @@ def modules_of(file: Path) -> list[Path]:
 
 
 def attached_to(modules: list[Path]) -> list[Path]:
-    """Return the files beside `modules` that are no modules but are read by them: templates.
+    """Return the files beside `modules` that are read by them and are no modules, as templates are.
 
     A file that is named after a module beside it (section.html.j2, section.py) belongs to this
     module alone, so that a job that computes does not depend on how a page looks. Any other file

@@ -9,8 +9,8 @@ import yaml
 from metadata_schemas import CODEMETA, CRATE
 from offline_contexts import Answer, codemeta_context
 from pendula import __version__
-from pendula.archive import codemeta, ro_crate
-from pendula.archive.codemeta import agent, read_about
+from pendula.archive import metadata
+from pendula.archive.metadata import agent, read_about
 from pendula.datasets import netcdf
 from pendula.sources import SCRIPTS
 from rocrate.rocrate import ROCrate
@@ -29,7 +29,7 @@ def about():
 
 @pytest.fixture(scope="module")
 def described(about):
-    return ro_crate.describe(about, dict.fromkeys(NAMES, b"content"))
+    return metadata.describe_archive(about, dict.fromkeys(NAMES, b"content"))
 
 
 @pytest.fixture
@@ -82,9 +82,9 @@ def test_the_crate_names_the_workflow_the_paper_and_the_files(described, about):
 
 def test_the_same_files_give_the_same_description_at_any_time(about, monkeypatch):
     members = dict.fromkeys(NAMES, b"content")
-    first = json.dumps(ro_crate.describe(about, members))
+    first = json.dumps(metadata.describe_archive(about, members))
     monkeypatch.setattr("rocrate.model.root_dataset.iso_now", lambda: "2001-01-01T00:00:00+00:00")
-    assert json.dumps(ro_crate.describe(about, dict(reversed(members.items())))) == first
+    assert json.dumps(metadata.describe_archive(about, dict(reversed(members.items())))) == first
     assert "2001" not in first and about.released in first
 
 
@@ -94,7 +94,7 @@ def test_a_dataset_is_described_by_its_own_title(about, tmp_path):
     netcdf.write(titled, {}, {"title": "The lifetime of a breather"})
     netCDF4.Dataset(plain, "w").close()
     members = {"Snakefile": b"", "results/new/a.nc": titled, "results/new/b.nc": plain}
-    entities = by_id(ro_crate.describe(about, members))
+    entities = by_id(metadata.describe_archive(about, members))
     assert entities["results/new/a.nc"]["description"] == "The lifetime of a breather"
     assert entities["results/new/b.nc"]["description"] == "A dataset"
 
@@ -130,7 +130,7 @@ def test_the_crate_is_read_back(folder, about):
 
 
 def test_codemeta_has_what_catalogues_ask_for(about):
-    jsonschema.validate(codemeta.describe(about), CODEMETA)
+    jsonschema.validate(metadata.describe_software(about), CODEMETA)
 
 
 def test_codemeta_uses_words_that_codemeta_defines(about):
@@ -138,10 +138,10 @@ def test_codemeta_uses_words_that_codemeta_defines(about):
     pytest.importorskip("codemeta", reason="codemetapy is missing")
 
     def load(url, _):
-        assert url == codemeta.CONTEXT
+        assert url == metadata.CONTEXT
         return {"contextUrl": None, "documentUrl": url, "document": codemeta_context()}
 
-    described = codemeta.describe(about)
+    described = metadata.describe_software(about)
     (found,) = jsonld.expand(described, {"documentLoader": load, "base": "file:///"})
     known = ("http://schema.org/", "https://codemeta.github.io/terms/", "@")
     assert len(found) == len(described) - 1 and all(key.startswith(known) for key in found)

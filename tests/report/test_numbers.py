@@ -6,7 +6,6 @@ from markupsafe import escape
 from pendula.report.words import (
     Quote,
     case_in_words,
-    count,
     markdown,
     measured,
     number,
@@ -77,7 +76,6 @@ def test_cases_in_words():
     words = plain(case_in_words(0.5, '{"-3": ["-0.3+0.4j", 1.0]}'))
     assert words == "Ω = 0.5, (A₋₃, B₋₃) = (-0.3+0.4j, 1)"
     assert "data on 2 sites" in case_in_words(0, '{"0": [1, 0], "1": [1, 0]}')
-    assert count(1, "case") == "1 case" and count(3, "case") == "3 cases"
 
 
 def test_a_table_keeps_its_texts_and_escapes_bars():

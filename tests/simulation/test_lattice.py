@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
 from pendula.models.amplitudes import DIRICHLET, FREE, MIRROR, PERIODIC
-from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, spread, unpack
+from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 
@@ -56,9 +56,9 @@ def test_a_state_is_as_small_as_the_symmetries_allow(data, reduction):
     assert pack(z, reduction).shape == (rows, sites + 2)
 
 
-def test_spreading_mirrors_the_sites_and_keeps_later_axes():
+def test_unfolding_mirrors_the_sites_and_keeps_later_axes():
     half = np.arange(6.0).reshape(1, 3, 2)
-    whole = spread(half, Reduction(even=True, synchronised=True))
+    whole = unfold(half, Reduction(even=True, synchronised=True))
     assert whole.shape == (2, 5, 2)
     np.testing.assert_array_equal(whole[1, :, 0], [4, 2, 0, 2, 4])
     np.testing.assert_array_equal(whole[0, :, 1], [5, 3, 1, 3, 5])

@@ -69,7 +69,7 @@ def test_saved_data_alone_give_the_same_figure_whatever_the_users_style(plot, tm
 
 def test_text_is_legible_and_everything_is_on_the_page(plot):
     _, _, figure, _ = plot
-    assert figure.get_figwidth() in (style.SINGLE, style.DOUBLE)
+    assert figure.get_figwidth() == style.DOUBLE
     shown = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
     assert shown
     assert min(text.get_fontsize() for text in shown) >= 7

@@ -19,17 +19,17 @@ from pendula.sources import digest_of
 MANIFEST = "manifest-sha256.txt"
 
 METADATA = ("ro-crate-metadata.json", "codemeta.json", "configuration.yaml", MANIFEST)
-"""What an archive holds beside the project and its results; packing always makes it anew."""
+"""Files that an archive holds beside the project and its results; packing makes them anew."""
 
 MADE = 315532800
-"""All files get this time, 1980-01-01: with several, Snakemake would make some of them again."""
+"""All files get this time, 1980-01-01: if times differed, Snakemake would make some files again."""
 
 Content = Path | bytes
 """A member of an archive: a file on disk, or the bytes of one."""
 
 
 class ArchiveError(Exception):
-    """A reason why the project cannot be packed; the message says the way out."""
+    """The project cannot be packed; the message says why, and what to do."""
 
 
 def code_files(project: Path) -> list[str]:
@@ -67,7 +67,7 @@ def _unpacked(project: Path) -> list[str]:
 
 
 def check_records(records: Iterable[Path], code: Iterable[str]) -> None:
-    """Refuse results that code made which the archive would leave behind.
+    """Raise ArchiveError if results were made by code that the archive would not hold.
 
     `records` are files of results/code, which list the code of a job; `code` is what git tracks.
     """

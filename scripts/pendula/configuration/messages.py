@@ -7,18 +7,7 @@ from pydantic import BaseModel, ValidationError, create_model
 
 from pendula.studies import modules
 
-from .schema import (
-    Auto,
-    Case,
-    Configuration,
-    CrankNicolson,
-    Dop853,
-    Drawn,
-    Ode45,
-    Solvers,
-    Sweep,
-    Taylor,
-)
+from .schema import Auto, Configuration, CrankNicolson, Dop853, Ode45, Taylor
 
 SOLVERS = {
     model.model_fields["name"].default: model
@@ -123,28 +112,17 @@ def _closest(word: str, known) -> str:
 
 
 def _model_at(place: tuple) -> type[BaseModel]:
-    """Return the model whose keys stand at this place of the configuration."""
-    if len(place) == 1:
-        return Whole
-    if place[0] in STUDIES:
-        return _model_within(STUDIES[place[0]], place[1:-1])
-    if place[0] == "solvers":
-        return SOLVERS[place[1]] if len(place) == 3 else Solvers
-    if place[-2] == "draw":
-        return Drawn
-    if "solver" in place[:-1]:
-        return SOLVERS[place[place.index("solver") + 1]]
-    return {"cases": Case, "sweeps": Sweep}[place[0]]
+    """Return the model whose keys stand at this place of the configuration.
 
-
-def _model_within(model: type[BaseModel], place: tuple) -> type[BaseModel]:
-    """Return the model that stands at a place within another: keys, names and numbers of items."""
-    for part in place:
-        field = model.model_fields.get(str(part)) if model else None
-        inner = _models_in(field.annotation) if field else [model]
-        tagged = [kind for kind in inner if _tag_of(kind) == part]
-        model = (tagged or inner or [model])[0]
-    return model
+    Where a value may be of several models, the tag that pydantic inserts says which it is. Names
+    of cases and numbers of items lead to no other model.
+    """
+    models = [Whole]
+    for part in place[:-1]:
+        tagged = [model for model in models if _tag_of(model) == part]
+        fields = [field for model in models if (field := model.model_fields.get(str(part)))]
+        models = tagged or (_models_in(fields[0].annotation) if fields else models)
+    return models[0]
 
 
 def _models_in(annotation) -> list[type[BaseModel]]:

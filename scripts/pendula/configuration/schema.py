@@ -102,9 +102,9 @@ Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Auto, Field(discrim
 Window = tuple[Number, Number]
 
 FEWEST = 200
-"""Snapshots that make a smooth picture; fewer than twice as many are kept."""
+"""A smooth picture needs so many snapshots; fewer than twice as many are kept."""
 MOST_NUMBERS = 20_000_000
-"""Moduli in memory at once: very long chains have fewer snapshots."""
+"""At most so many moduli are kept in memory: very long chains have fewer snapshots."""
 
 
 def choose_every(outputs: int, sites: int) -> int:
@@ -161,7 +161,7 @@ class Case(Model):
         return {**values, "snapshot_every": every}
 
     def shown_problem(self, **changes) -> dict:
-        """Return the same, with snapshots for a picture where the case does not say how many."""
+        """Return the problem, with snapshots enough for a picture if the case names no number."""
         problem = self.problem(**changes)
         every = problem["snapshot_every"] or choose_every(
             round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
@@ -202,7 +202,7 @@ class Sweep(Model):
 
     @property
     def drawn(self) -> Drawn:
-        """What a figure shows where the configuration does not say: the first window."""
+        """The windows that a figure shows: the first one, if the configuration names none."""
         return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
 
 
@@ -276,11 +276,11 @@ class Configuration(Model):
         return self.cases[case].problem(**self._by(solver), **changes)
 
     def shown_problem(self, case: str, solver: str | None = None) -> dict:
-        """Return the same, with snapshots for a picture where the case does not say how many."""
+        """Return the problem, with snapshots enough for a picture if the case names no number."""
         return self.cases[case].shown_problem(**self._by(solver))
 
     def swept_problem(self, sweep: str, solver: str | None = None) -> dict:
-        """Return the same for a sweep: its case, run to the end of the last window."""
+        """Return the case of a sweep as plain values, to be run to the end of the last window."""
         end_time = max(end for _, end in self.sweeps[sweep].windows)
         own = self.sweeps[sweep].solver
         changes = {"end_time": end_time, "snapshot_step": None}

@@ -8,7 +8,10 @@ from pathlib import Path
 
 @contextmanager
 def complete_or_absent(path: str | Path) -> Iterator[Path]:
-    """Give a temporary path beside `path`, renamed to it when the block ends without a fault."""
+    """Yield a temporary path beside `path`, which is renamed to `path` if the block succeeds.
+
+    So a file appears whole or not at all.
+    """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".{os.getpid()}.{path.name}")

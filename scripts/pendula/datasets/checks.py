@@ -1,4 +1,4 @@
-"""The shape of what a check returns: coordinates, variables, and which of them decide."""
+"""What a check returns: coordinates, variables, and the tolerances of those that decide."""
 
 from collections.abc import Iterable, Mapping
 
@@ -10,7 +10,7 @@ from .registry import NAMES
 def table(title: str, coords: dict, **variables: dict) -> dict:
     """Return a check's numbers in the form that `xarray.Dataset.from_dict` takes.
 
-    Coordinates have the long names of the registry, or are called what they are named.
+    Coordinates have the long names of the registry, or their own names in words.
     """
     described = {
         name: variable(values, (name,), NAMES.get(name, name.replace("_", " ")))
@@ -20,7 +20,7 @@ def table(title: str, coords: dict, **variables: dict) -> dict:
 
 
 def variable(values, dims: Iterable[str], long_name: str, units: str = "1", tolerance=None) -> dict:
-    """Return one variable; with a `tolerance` it is an error that a sound check keeps below."""
+    """Return one variable; if it has a `tolerance`, a sound check keeps the values below that."""
     attrs = {"long_name": long_name, "units": units}
     if tolerance is not None:
         attrs["tolerance"] = float(tolerance)
@@ -77,14 +77,9 @@ def broken(check: dict) -> dict[str, float]:
 
 def describe(name: str, check: dict) -> str:
     """Return a line for each deciding variable above its tolerance, or that the check holds."""
-    limits = {variable: limit for variable, (_, limit) in deciding(check).items()}
     faults = [
-        f"CHECK VIOLATED: {name}: {variable} is {worst:.6g}, tolerance {limits[variable]:.6g}"
-        for variable, worst in broken(check).items()
+        f"CHECK VIOLATED: {name}: {variable} is {worst:.6g}, tolerance {limit:.6g}"
+        for variable, (worst, limit) in deciding(check).items()
+        if not worst <= limit
     ]
     return "\n".join(faults) or f"{name} holds"
-
-
-def values(check: dict, name: str) -> np.ndarray:
-    """Return the numbers of one variable of a check."""
-    return check["data_vars"][name]["data"]

@@ -28,7 +28,7 @@ class Variable(NamedTuple):
 
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
-    """Write a dataset; a fault (a full disk, say) leaves no file and names the one it was."""
+    """Write a dataset; a fault (a full disk, say) leaves no file, and its message names it."""
     try:
         with complete_or_absent(path) as partial, _created(partial) as file:
             file.setncatts(complete(attributes, Path(path).stem))
@@ -39,7 +39,7 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
 
 
 def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
-    """Return as an xarray.Dataset in memory what `write` would write and `read` would return."""
+    """Return the xarray.Dataset that `read` would return of what `write` writes."""
     import xarray  # here, so that writing does without it
 
     def one(name: str, variable: Variable) -> xarray.Variable:
@@ -59,7 +59,7 @@ def _created(path: Path) -> netCDF4.Dataset:
 
 
 def save(path: str | Path, dataset) -> None:
-    """Write an xarray.Dataset in the same way."""
+    """Write an xarray.Dataset as `write` does."""
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
     for name, variable in stated.variables.items():
         about = {key: variable.attrs.get(key, "") for key in ("long_name", "units")}

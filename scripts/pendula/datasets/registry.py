@@ -1,7 +1,7 @@
-"""What the variables and the attributes of datasets are called: one meaning to each name.
+"""Names of variables and attributes in datasets: each name has one meaning.
 
-Names that several datasets share stand here, with their long name and units: who writes one of them
-need not describe it, and cannot give it another meaning. A quantity of one study is described where
+Names that several datasets share stand here with their long names, so that a writer need not
+describe them and cannot give them another meaning. A quantity of one study is described where
 it is computed; a test reads all datasets of a run and fails where one name means two things.
 
 Everything in the paper is dimensionless. Time is the slow time tau, so that a rate is "per unit of
@@ -21,6 +21,7 @@ NAMES = {
     # coordinates
     "tau": "slow time",
     "snapshot_tau": "slow time of the snapshots",
+    "growth_tau": "slow time",
     "component": "pendulum of each pair",
     "site": "site of the chain",
     "part": "part of a complex number",
@@ -51,17 +52,27 @@ NAMES = {
     "modulus": "modulus of the amplitude on a site",
     "final": "amplitude at the end time",
 }
-"""Long names of what several datasets share; all of them have the units "1"."""
+"""Long names of variables that several datasets share; all of them have the units "1"."""
+
+
+SOLVER_NAMES = {
+    "ode45": "ode45",
+    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
+    "dop853": "DOP853",
+    "taylor": "Taylor",
+    "splitting": "BM6 splitting",
+}
+"""The solvers as figures and pages write them."""
 
 
 class NamingError(ValueError):
-    """A variable that is described otherwise than its name says, or not at all."""
+    """A variable has no description, or units that its name does not have."""
 
 
 def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]:
-    """Return `long_name` and `units` of a variable, those of the registry where it has the name.
+    """Return `long_name` and `units` of a variable; the registry names what has no long name.
 
-    Raises NamingError where neither says what the variable is, or where its units are not known.
+    Raises NamingError if nobody names the variable, or if its units are not among UNITS.
     """
     if not (long_name or name in NAMES):
         raise NamingError(f"{name}: has no long_name, and is not in datasets/registry.py")
@@ -71,9 +82,9 @@ def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]
 
 
 def complete(attributes: Mapping[str, Any], title: str) -> dict[str, Any]:
-    """Return a dataset's attributes with those that every file carries.
+    """Return a dataset's attributes together with those that every file has.
 
-    There are no dates, hosts, users or paths among them: two runs give the same content.
+    No date, host, user or path is among them: two runs give the same content.
     """
     made_by = f"computed by pendula {__version__}"
     fixed = {"Conventions": CONVENTIONS, "version": __version__, "history": made_by}

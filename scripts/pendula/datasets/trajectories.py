@@ -17,7 +17,7 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
-    """Return the dataset that a run of `problem` makes."""
+    """Return the contents of the dataset on a run of `problem`."""
     variables = trajectory_variables(trajectory, problem.snapshot_every)
     attributes = describe_run(name, problem, trajectory.solver)
     title = f"Norms and energy of {name} against time, by {trajectory.solver['name']}"
@@ -45,7 +45,7 @@ def trajectory_variables(trajectory: Trajectory, snapshot_every: int) -> dict[st
 
 
 def final_state(trajectory: Trajectory) -> dict[str, Variable]:
-    """Return the amplitudes at the end time, for those who go on from them."""
+    """Return the amplitudes at the end time, from which another run can start."""
     parts = [trajectory.final.real, trajectory.final.imag]
     return {
         "part": Variable(("part",), ["re", "im"]),
@@ -60,7 +60,7 @@ def sweep_contents(
     windows: Iterable[tuple[float, float]],
     sweep: Sweep,
 ) -> Contents:
-    """Return the dataset that a sweep of `problem` over half-widths makes."""
+    """Return the contents of the dataset on a sweep of `problem` over half-widths."""
     axes = ("half_width", "quantity", "statistic", "window")
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
@@ -90,10 +90,10 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
 
 
 def describe_cases(problems: Mapping[str, Problem]) -> Contents:
-    """Return names, detunings and data of several cases, and as attributes what they share.
+    """Return names, detunings and initial data of several cases as variables, and attributes.
 
-    The attributes hold each value that is the same in all of them, so that a dataset of many cases
-    says what was solved as that of a single one does.
+    The attributes hold each value that is the same in all cases, so that a dataset of many cases
+    says what was solved, as a dataset of one case does.
     """
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {

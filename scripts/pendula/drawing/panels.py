@@ -1,4 +1,4 @@
-"""Panels that the figures of several studies share: one a case, norms, space and time, sweeps."""
+"""Panels that figures of several studies share: one for each case, norms, moduli, sweeps."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -24,7 +24,7 @@ TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 
 def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str):
-    """Return a figure of one panel a case, filled by `draw_panel`, with one legend above."""
+    """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above."""
     figure = style.new_figure(style.DOUBLE, 4.0)
     drawn = _case_panels(figure, data)
     for axes, case in zip(drawn, data["case"].values, strict=True):
@@ -67,7 +67,7 @@ class Below(NamedTuple):
 
 
 def draw_norm(axes: Axes, case: xr.Dataset, name: str, below: Below) -> None:
-    """Draw one norm of A and B over the curves that lie below, where the case has such."""
+    """Draw one norm of A and B, and below them the curves of `below`, if the case has any."""
     for component in case["component"].values if f"{below.prefix}_{name}" in case else ():
         other = case[f"{below.prefix}_{name}"].sel(component=component)
         axes.plot(other["tau"], other, color=PALE[component], label=f"{below.label} ${component}$")

@@ -15,8 +15,8 @@ from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
 
-SINGLE, DOUBLE = 3.4, 7.0
-"""Widths of one and of two columns of a journal page, in inches."""
+DOUBLE = 7.0
+"""The width of two columns of a journal page, in inches."""
 
 RED, BLUE = "#e8402f", "#123b8c"
 """The paper's two colours, of a lightness so different that they stay apart in grey."""
@@ -31,13 +31,6 @@ COLOURS = {
     "dop853": "#16876b",
     "taylor": "#7b4fa3",
     "splitting": "#5aa7d6",
-}
-SOLVER_NAMES = {
-    "ode45": "ode45",
-    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
-    "dop853": "DOP853",
-    "taylor": "Taylor",
-    "splitting": "BM6 splitting",
 }
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures

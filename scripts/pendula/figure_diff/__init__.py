@@ -9,7 +9,7 @@ IDENTICAL, NEARLY = "identical", "nearly the same"
 DIFFERENT, DAMAGED, MISSING, EXTRA = "different", "damaged", "missing", "extra"
 FAULTS = (DIFFERENT, DAMAGED, MISSING, EXTRA)
 STATUSES = (*FAULTS, NEARLY, IDENTICAL)
-"""In the order of the page: what a person must look at comes first."""
+"""The statuses in the order of the page: a person must look at the first ones."""
 
 
 @dataclass(frozen=True)

@@ -91,14 +91,13 @@ def thin(data: xr.Dataset) -> xr.Dataset:
     while sum(variable.size for variable in data.variables.values()) > MOST_NUMBERS:
         longest = max(data.sizes, key=data.sizes.get)
         data = data.isel({longest: slice(None, None, 2)})
-    single = {name: _single(variable) for name, variable in data.variables.items()}
-    coordinates = {name: single.pop(name) for name in data.coords}
-    return xr.Dataset(single, coordinates, {"thinned": "for tests/baseline"})
-
-
-def _single(variable: xr.Variable) -> xr.Variable:
-    kept = xr.Variable(variable.dims, variable.values, dict(variable.attrs))
-    return kept.astype("float32") if kept.dtype.kind == "f" else kept
+    kept = {}
+    for name, variable in data.variables.items():
+        kept[name] = xr.Variable(variable.dims, variable.values, dict(variable.attrs))
+        if variable.dtype.kind == "f":
+            kept[name] = kept[name].astype("float32")
+    coordinates = {name: kept.pop(name) for name in data.coords}
+    return xr.Dataset(kept, coordinates, {"thinned": "for tests/baseline"})
 
 
 def accept(names: Iterable[str], made: Path, folder: Path) -> list[str]:

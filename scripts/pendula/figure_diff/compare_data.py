@@ -25,7 +25,7 @@ TOLERANCES = "tolerances.yaml"
 
 
 class ToleranceError(ValueError):
-    """Tolerances that cannot be read; the message names the file and the way out."""
+    """The tolerances cannot be read; the message names the file and says what to do."""
 
 
 class _Table(BaseModel):
@@ -33,7 +33,7 @@ class _Table(BaseModel):
 
 
 class Bands(_Table):
-    """How far the statistics of a curve may move beyond the horizon, relative; None allows all."""
+    """How much statistics of a curve may change beyond the horizon, relatively; None allows all."""
 
     mean: float | None = Field(None, gt=0)
     standard_deviation: float | None = Field(None, gt=0)
@@ -50,7 +50,7 @@ class Rule(_Table):
     """A fraction of the largest value of the curve; for `magnitude`, a number of decades."""
     reason: str = Field(min_length=1)
     horizon: float = 0.0
-    """In units of tau."""
+    """The time tau up to which the curve is compared point by point."""
     bands: Bands = Bands()
     below: float = float("inf")
     """The rule holds only for curves whose largest value is smaller than this."""
@@ -138,8 +138,8 @@ def compare(name: str, accepted: xr.Dataset, made: xr.Dataset, rules: list[Rule]
     """Return the finding for the dataset `name`: it names the curve that is off the most."""
     stem = name.removesuffix(".nc")
     was, now = ({c.label: c for c in curves(data, stem)} for data in (accepted, made))
-    if unmatched := _unmatched(was, now):
-        return Finding(name, DIFFERENT, unmatched)
+    if was.keys() != now.keys():
+        return Finding(name, DIFFERENT, _unmatched(was, now))
     compared = {
         label: deviation(was[label], now[label], rule_for(rules, label, was[label].largest))
         for label in was
@@ -160,17 +160,15 @@ def curves(data: xr.Dataset, stem: str) -> Iterator[Curve]:
     A label reads `figures/fig3:l2 amplitude=large component=A`.
     """
     for name, variable in data.variables.items():
-        words = [dim for dim in variable.dims if dim in data.coords and _is_text(data[dim])]
+        words = [
+            dim for dim in variable.dims if dim in data.coords and data[dim].dtype.kind in "UOT"
+        ]
         array = variable.transpose(*words, ...)
         shape = tuple(variable.sizes[dim] for dim in words)
         tau = _times(data, array.dims[len(words) :], array.shape[len(words) :])
         for index in np.ndindex(shape):
             chosen = [f"{d}={data[d].values[i]}" for d, i in zip(words, index, strict=True)]
             yield Curve(" ".join([f"{stem}:{name}", *chosen]), array.values[index], tau)
-
-
-def _is_text(array: xr.DataArray) -> bool:
-    return array.dtype.kind in "UOT"
 
 
 def _times(data: xr.Dataset, dims: tuple[str, ...], shape: tuple[int, ...]) -> np.ndarray | None:

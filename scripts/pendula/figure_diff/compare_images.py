@@ -14,7 +14,6 @@
 """
 
 import itertools
-from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -134,7 +133,8 @@ def local_distance(reference: np.ndarray, new: np.ndarray) -> np.ndarray:
     was, now = _blurred(reference), _blurred(new)
     present = [_around(abs(channels)) for channels in (was, now)]
     best = np.full(was.shape[1:], np.inf, np.float32)
-    for shifted, there in _shifted(now, present[1]):
+    for shift in itertools.product(range(-SHIFT, SHIFT + 1), repeat=2):
+        shifted, there = (np.roll(array, shift, (1, 2)) for array in (now, present[1]))
         apart = _around(abs(was - shifted)) / (present[0] + there + FAINT[:, None, None])
         np.minimum(best, apart.max(0), out=best)
     return best[SHIFT:-SHIFT, SHIFT:-SHIFT]
@@ -150,12 +150,6 @@ def _around(channels: np.ndarray) -> np.ndarray:
     """Return the means of darkness, and of both contrasts together, around each point."""
     both = np.stack([channels[0], channels[1] + channels[2]])
     return uniform_filter(both, (0, NEIGHBOURHOOD, NEIGHBOURHOOD), mode="constant")
-
-
-def _shifted(*arrays: np.ndarray) -> Iterator[list[np.ndarray]]:
-    steps = range(-SHIFT, SHIFT + 1)
-    for step in itertools.product(steps, steps):
-        yield [np.roll(array, step, (1, 2)) for array in arrays]
 
 
 def _inks(colours: np.ndarray, factor: int) -> np.ndarray:

@@ -1,10 +1,10 @@
 """The page of the comparison: it shows reference, new image and difference side by side."""
 
-import io
 from collections import Counter
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -17,22 +17,6 @@ from .compare_images import DamagedImageError, read
 
 THUMBNAIL = 320
 """Width in pixels of images that are identical; the others are shown whole."""
-
-
-class Shown(NamedTuple):
-    """An image on the page; the address is empty where there is nothing to show."""
-
-    address: str
-    caption: str
-
-
-class Section(NamedTuple):
-    """All findings of one status: those of datasets, and those of images with what is shown."""
-
-    status: str
-    datasets: list[Finding]
-    images: list[tuple[Finding, list[Shown]]]
-    is_open: bool
 
 
 def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
@@ -48,37 +32,38 @@ def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> 
     )
 
 
-def _section(status: str, findings: Sequence[Finding], made: Path, folder: Path) -> Section:
+def _section(status: str, findings: Sequence[Finding], made: Path, folder: Path) -> dict[str, Any]:
+    """Return all findings of one status, and what is shown of those on images."""
     mine = [finding for finding in findings if finding.status == status]
     images = [finding for finding in mine if finding.name.endswith(".png")]
-    return Section(
-        status,
-        [finding for finding in mine if finding not in images],
-        [(finding, _shown(finding, made, folder)) for finding in images],
-        is_open=status not in (IDENTICAL, NEARLY),
-    )
+    return {
+        "status": status,
+        "datasets": [finding for finding in mine if finding not in images],
+        "images": [(finding, _shown(finding.name, status, made, folder)) for finding in images],
+        "is_open": status not in (IDENTICAL, NEARLY),
+    }
 
 
-def _shown(finding: Finding, made: Path, folder: Path) -> list[Shown]:
-    """Return a thumbnail of an identical image; of any other, three images to compare."""
-    new, reference = made / finding.name, folder / finding.name
-    if finding.status == IDENTICAL:
-        return [Shown(_thumbnail(new), finding.name)]
-    return [
-        Shown(_whole(reference), "reference"),
-        Shown(_whole(new), "new"),
-        Shown(_difference(reference, new), "difference (grey: same, red: gone, blue: new)"),
-    ]
+def _shown(name: str, status: str, made: Path, folder: Path) -> list[dict[str, str]]:
+    """Return addresses and captions: of an identical image a thumbnail, of any other three images.
+
+    The address is empty where there is nothing to show.
+    """
+    new, reference = made / name, folder / name
+    if status == IDENTICAL:
+        image = Image.fromarray(read(new).colours)
+        image.thumbnail((THUMBNAIL, THUMBNAIL), reducing_gap=2)
+        return [{"address": _address(image), "caption": name}]
+    addresses = {
+        "reference": _whole(reference),
+        "new": _whole(new),
+        "difference (grey: same, red: gone, blue: new)": _difference(reference, new),
+    }
+    return [{"address": address, "caption": caption} for caption, address in addresses.items()]
 
 
 def _whole(path: Path) -> str:
     return address_of(path.read_bytes()) if _colours(path) is not None else ""
-
-
-def _thumbnail(path: Path) -> str:
-    image = Image.fromarray(read(path).colours)
-    image.thumbnail((THUMBNAIL, THUMBNAIL), reducing_gap=2)
-    return _address(image)
 
 
 def _difference(reference: Path, new: Path) -> str:
@@ -103,6 +88,6 @@ def _colours(path: Path) -> np.ndarray | None:
 
 
 def _address(image: Image.Image) -> str:
-    written = io.BytesIO()
+    written = BytesIO()
     image.save(written, "png", compress_level=3)
     return address_of(written.getvalue())

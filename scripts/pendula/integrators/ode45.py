@@ -13,8 +13,8 @@ loop. `y` is the state before a step, `w` the state after it or the argument of 
 the slope of stage s; the slope of the last stage is the first of the next step. The sums are
 written out term by term, each one pass over the state in a fixed order of operations.
 
-Steps come from powers of 1/5 by the C library, as in MATLAB: their last bit, and with it that of
-the trajectory, may differ from machine to machine.
+Steps come from fifth roots by the C library, as in MATLAB: their last bit, and with it that of the
+trajectory, may differ from machine to machine.
 """
 
 from math import sqrt
@@ -28,7 +28,7 @@ from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 WORK = 9
 """Work arrays of the size of a state."""
-# the weights b of the fifth-order solution less those of the fourth-order one
+# weights b of the fifth-order solution minus those of the fourth-order solution
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
 
 
@@ -150,7 +150,7 @@ def build(rates, observe):
         while i < times.size:
             shortest = spacing(t)
             h = min(longest, max(shortest, h))
-            if 1.1 * h >= end - t:  # stretch the last step rather than leave a short one
+            if 1.1 * h >= end - t:  # lengthen the last step rather than leave a short one
                 h = end - t
             elif not h > refused:  # also where h is NaN
                 return Outcome(STEP_TOO_SMALL, t, steps, rejected, evaluations)

@@ -30,7 +30,7 @@ from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 # --- A power series in memory -------------------------------------------------------------------
 
 ORDER = 16
-"""Order of the method: the highest power of time in the series."""
+"""Order of the method: the highest exponent of time in the series."""
 X, Y, EXTRA = 0, LANES, 2 * LANES
 """Where real parts, imaginary parts and the rule's own numbers lie in a coefficient of a block."""
 ORDER_STRIDE = 3 * LANES
@@ -156,7 +156,7 @@ def largest_modulus(series, k):
 
 @kernel
 def sixteenth_root(x):
-    """Return x^(1/16) by square roots, whose bits are the same everywhere, unlike a power's."""
+    """Return x^(1/16) by square roots, whose bits are the same on every machine (not so pow)."""
     return sqrt(sqrt(sqrt(sqrt(x))))
 
 

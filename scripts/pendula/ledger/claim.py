@@ -1,4 +1,4 @@
-"""Claims: how a study declares one, how its function reads datasets, and the verdicts on all."""
+"""How a study declares a claim, how its function reads datasets, and the verdicts on all claims."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -18,13 +18,13 @@ from .criterion import Finding, UndecidableError, undecided
 FACTOR, MUCH, CHANGE, CONSTANT, NEARLY_ALL = 2.0, 3.0, 0.25, 0.02, 0.75
 
 SETTLED = 10.0
-"""From here on the paper's own statistics are taken: its windows start at tau = 10."""
+"""The paper takes its statistics from here on: its time windows start at tau = 10."""
 FEWEST = 6
-"""Half-widths without which a sweep decides nothing."""
+"""A sweep with fewer half-widths decides nothing."""
 
 
 class Claim(NamedTuple):
-    """One sentence of the paper before it is decided.
+    """A sentence of the paper, and the function that decides it.
 
     `needs` names the datasets that decide it: paths below results/ without their ending.
     """
@@ -49,26 +49,13 @@ def claim(place: str, says: str, needs: tuple[str, ...]) -> Callable:
     return declare
 
 
-def checks(*names: str) -> tuple[str, ...]:
-    """Return the datasets of checks."""
-    return tuple(f"checks/{name}" for name in names)
+def _in(folder: str) -> Callable[..., tuple[str, ...]]:
+    """Return a function that takes names and returns those of the datasets in a folder."""
+    return lambda *names: tuple(f"{folder}/{name}" for name in names)
 
 
-def runs(*names: str) -> tuple[str, ...]:
-    """Return the datasets of trajectories."""
-    return tuple(f"trajectories/{name}" for name in names)
-
-
-def sweeps(*names: str) -> tuple[str, ...]:
-    """Return the datasets of sweeps."""
-    return tuple(f"sweeps/{name}" for name in names)
-
-
-def unbounded(*names: str) -> tuple[str, ...]:
-    """Return the datasets of runs on chains without ends."""
-    return tuple(f"unbounded/{name}" for name in names)
-
-
+checks, runs = _in("checks"), _in("trajectories")
+sweeps, unbounded = _in("sweeps"), _in("unbounded")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 
@@ -89,7 +76,7 @@ def halves(trajectory):
 
 
 def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair"):
-    """Return (half-widths, values) of one reading of a sweep."""
+    """Return the half-widths of a sweep and one statistic of a norm of the pair at each."""
     if window not in sweep["window"].values:
         raise UndecidableError(f"the sweep has no window {window}")
     values = sweep[norm].sel(quantity=quantity, statistic=statistic, window=window).values

@@ -1,11 +1,12 @@
 """Criteria that decide and print themselves, and the verdicts that follow from them.
 
 A criterion is an object: `holds` decides by its limit, and `str` writes the same limit, so that the
-text in the ledger can never differ from the constant that decides. What is not a number satisfies
-no criterion. A verdict is computed from a criterion and numbers, never typed.
+text in the ledger can never differ from the constant that decides. NaN satisfies no criterion. A
+verdict is computed from a criterion and numbers, never typed.
 """
 
 import math
+import operator
 from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple
@@ -13,12 +14,13 @@ from typing import NamedTuple
 import numpy as np
 
 Measured = Mapping[str, float]
+RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
 class Criterion:
     """A limit on measured numbers; all of `names` must keep it.
 
-    `says` are the words for them in print, where the names alone do not tell what they are.
+    `says` are the words for them in print, if the names alone do not say what the numbers are.
     """
 
     def __init__(self, limit: float, *names: str, says: str = ""):
@@ -50,69 +52,55 @@ class Criterion:
         return self.says or ", ".join(map(in_words, self.names))
 
 
-class Below(Criterion):
+class Comparison(Criterion):
+    """Each number stands in a relation to the limit, which `sign` writes."""
+
+    sign: str
+    beyond: float | None = None
+    """Where the nearest wrong number lies, if the limit itself keeps the relation."""
+
+    def keeps(self, value: float) -> bool:
+        return RELATIONS[self.sign](value, self.limit)
+
+    def wrong(self) -> float:
+        return self.limit if self.beyond is None else math.nextafter(self.limit, self.beyond)
+
+    def __str__(self) -> str:
+        return f"{self.words} {self.sign} {plain(self.limit)}"
+
+
+class Below(Comparison):
     """Each number is less than the limit."""
 
-    def keeps(self, value: float) -> bool:
-        return value < self.limit
-
-    def wrong(self) -> float:
-        return self.limit
-
-    def __str__(self) -> str:
-        return f"{self.words} < {plain(self.limit)}"
+    sign = "<"
 
 
-class AtMost(Below):
+class AtMost(Comparison):
     """No number is above the limit."""
 
-    def keeps(self, value: float) -> bool:
-        return value <= self.limit
-
-    def wrong(self) -> float:
-        return float(np.nextafter(self.limit, math.inf))
-
-    def __str__(self) -> str:
-        return f"{self.words} <= {plain(self.limit)}"
+    sign, beyond = "<=", math.inf
 
 
-class Above(Criterion):
+class Above(Comparison):
     """Each number is greater than the limit."""
 
-    def keeps(self, value: float) -> bool:
-        return value > self.limit
-
-    def wrong(self) -> float:
-        return self.limit
-
-    def __str__(self) -> str:
-        return f"{self.words} > {plain(self.limit)}"
+    sign = ">"
 
 
-class AtLeast(Above):
+class AtLeast(Comparison):
     """No number is below the limit."""
 
-    def keeps(self, value: float) -> bool:
-        return value >= self.limit
-
-    def wrong(self) -> float:
-        return float(np.nextafter(self.limit, -math.inf))
-
-    def __str__(self) -> str:
-        return f"{self.words} >= {plain(self.limit)}"
+    sign, beyond = ">=", -math.inf
 
 
-class WithinFactor(Criterion):
+class WithinFactor(Below):
     """Each number lies between one over the limit and the limit, which is a factor above one."""
 
     def keeps(self, value: float) -> bool:
         return 1.0 / self.limit < value < self.limit
 
-    def wrong(self) -> float:
-        return self.limit
-
     def __str__(self) -> str:
-        return f"{plain(1.0 / self.limit)} < {self.words} < {plain(self.limit)}"
+        return f"{plain(1.0 / self.limit)} < {super().__str__()}"
 
 
 class Near(Criterion):
@@ -213,7 +201,7 @@ def in_words(name: str) -> str:
 
 
 class Verdict(StrEnum):
-    """All that can be said of a sentence of the paper."""
+    """What the numbers can say about a sentence of the paper."""
 
     CONFIRMED = "confirmed"
     CAVEAT = "confirmed with a caveat"
@@ -239,7 +227,7 @@ def judge(
 ) -> Finding:
     """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
 
-    A `caveat` that is not empty stays with what holds.
+    If it holds and `caveat` is not empty, the claim is confirmed with that caveat.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     if not criterion.holds(numbers):
@@ -249,7 +237,7 @@ def judge(
 
 
 def undecided(measured: Measured, because: str) -> Finding:
-    """Return a finding that no number at hand can settle."""
+    """Return the finding on a claim that the numbers at hand cannot decide."""
     numbers = {name: float(value) for name, value in measured.items()}
     return Finding(numbers, None, Verdict.UNDECIDED, because)
 

@@ -47,18 +47,18 @@ def _value(value: float | str) -> str:
 
 
 class Ledger:
-    """What the ledger measured, by claim, each number linked to what decides the claim."""
+    """The numbers of the ledger by claim, each linked to a dataset that decides the claim."""
 
     def __init__(self, results: Results):
         self._results = results
         self._rows = {row["name"]: row for row in load(results)}
 
     def value(self, claim: str, key: str) -> float:
-        """Return a number; not a number where the claim could not be decided for want of data."""
+        """Return a measured number, or NaN if the data did not suffice to decide the claim."""
         return float(self._rows[claim]["measured"].get(key, "nan").__str__().replace("none", "nan"))
 
     def quote(self, claim: str, key: str, digits: int = 3) -> Quote:
-        """Return it as the page shows it."""
+        """Return a measured number as the page shows it."""
         source = self._rows[claim]["decided_by"][0]
         return self._results.quote(source, self.value(claim, key), digits)
 
@@ -77,5 +77,5 @@ class Ledger:
         return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
 
     def because(self, claim: str) -> str:
-        """Return what was found to stand against a claim, or beside it."""
+        """Return the reason of the verdict, in words."""
         return symbols(self._rows[claim]["because"])

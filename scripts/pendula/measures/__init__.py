@@ -1,7 +1,7 @@
-"""Measures: what is read off runs and sweeps, each with one definition.
+"""Measures of runs and sweeps, each with one definition.
 
 `difference`  how far two runs differ, and from when on (the divergence time)
-`norms`       what is read off one run: P, largest amplitude, drift of the energy, margin to (19)
+`norms`       measures of one run: P, largest amplitude, drift of the energy, margin to (19)
 `levels`      curves against a parameter: levelling off, range, rising steps; bands and means
 `growth`      exponents of power laws and of tangent vectors, each with its error; what is chaotic
 

@@ -9,9 +9,10 @@ POINTS = 60
 """Points of a fit, equally spaced in log tau, so that no decade of time outweighs another."""
 
 MANY = np.log(100.0)
-"""Growth over the second half of a run that no power of time gives: tau^6 grows by 64."""
+"""The logarithm of a growth over the second half of a run that no power law reaches: tau^6 grows by
+a factor of 64."""
 ERRORS = 3.0
-"""Standard errors by which a growth must exceed that."""
+"""A growth must exceed MANY by so many standard errors."""
 PARTS = 8
 
 
@@ -31,7 +32,8 @@ def slope(tau: np.ndarray, values: np.ndarray, start: float) -> float:
 def fit_exponent(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
     """Return the exponent of tau that values (member, time) follow from `start` on.
 
-    Its error is that of the mean over the members; of one member, that of a block bootstrap.
+    Its error is the standard error of the mean over the members, or that of a block bootstrap if
+    there is only one member.
     """
     slopes = np.array([slope(tau, series, start) for series in values])
     if len(slopes) > 1:
@@ -40,7 +42,7 @@ def fit_exponent(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
 
 
 def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
-    """Return what the members' values gain per unit of log tau, with its error over members."""
+    """Return the mean slope of the members' values over log tau, and its standard error."""
     x = np.linspace(np.log(start), np.log(tau[-1]), POINTS)
     kept = tau > 0
     drawn = [np.interp(x, np.log(tau[kept]), series[kept]) for series in values]
@@ -52,7 +54,10 @@ def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
 def bootstrap_error(
     tau: np.ndarray, values: np.ndarray, start: float, blocks: int = 10, draws: int = 400
 ) -> float:
-    """Return the standard error of a slope, its residuals redrawn in blocks that keep memory."""
+    """Return the standard error of a slope by a block bootstrap of its residuals.
+
+    Blocks keep the correlation of neighbouring residuals.
+    """
     x, y = _log_points(tau, values, start)
     line = np.polyval(np.polyfit(x, y, 1), x)
     residuals = (y - line).reshape(blocks, -1)
@@ -62,7 +67,7 @@ def bootstrap_error(
 
 
 def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
-    """Return the middles of the last octaves of time, and the Exponent of each."""
+    """Return the middle time of each of the last octaves, and the Exponent there."""
     edges = tau[-1] * 0.5 ** np.arange(octaves, -1, -1)
     found = []
     for first, last in pairwise(edges):
@@ -79,7 +84,7 @@ def _log_points(tau: np.ndarray, values: np.ndarray, start: float):
 def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:
     """Return the mean rate of growth from `start` to the end, of log_growth (..., time).
 
-    Of a tangent vector it is a Lyapunov exponent, per unit of tau.
+    For a tangent vector it is a Lyapunov exponent, per unit of tau.
     """
     first = int(np.searchsorted(tau, start))
     span = tau[-1] - tau[first]
@@ -97,10 +102,10 @@ def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, parts
 def is_chaotic(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
     """Return whether a tangent vector grows exponentially along a solution, (...).
 
-    It does where, relative to the solution of l2 norm `size` (..., time), it grows over the second
-    half of the run by more than MANY, which no power of time gives, and by ERRORS standard errors
-    more. Relative to the solution, since a chain that leaves its rest grows with it; the limit
-    follows from the powers of time, not from any case.
+    It does if its logarithm grows by more than MANY over the second half of the run, even after
+    ERRORS standard errors are taken off. The growth counts relative to the l2 norm `size` (...,
+    time) of the solution, since in a chain that leaves its rest both grow alike. No power law in
+    time reaches MANY, so that the limit does not depend on any case.
     """
     middle = tau[-1] / 2
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors

@@ -1,19 +1,19 @@
-"""What is read off a curve against a parameter, and off an ensemble: levels, ranges, means."""
+"""Measures of a curve against a parameter, and of an ensemble: levels, ranges, means."""
 
 import numpy as np
 
 # ASSUME: the paper gives no measure of "approaches a level"; half a percent is a line's width.
 LEVEL = 5e-3
-# ASSUME: what differs by less than two standard errors is not told apart.
+# ASSUME: values that differ by less than two standard errors count as equal.
 APART = 2.0
 
 
 def levelling(
     half_widths: np.ndarray, values: np.ndarray, tolerance: float = LEVEL, least: int = 3
 ) -> float:
-    """Return the half-width from which all values equal the last to `tolerance`, inf if none.
+    """Return the half-width from which all values equal the last one to `tolerance`.
 
-    The last value alone says nothing: at least so many must agree.
+    It is infinite if fewer than `least` values agree, since the last value agrees with itself.
     """
     return _first_of_tail(half_widths, np.abs(values / values[-1] - 1.0) <= tolerance, least)
 
@@ -23,7 +23,8 @@ def levelling_of_means(
 ) -> float:
     """Return the half-width from which no mean differs from the last by more than the noise.
 
-    The noise is APART standard errors of the difference. It is infinite if there is none.
+    The noise is APART standard errors of the difference. The half-width is infinite if fewer than
+    `least` means agree.
     """
     noise = APART * np.hypot(errors, errors[-1])
     return _first_of_tail(half_widths, np.abs(means - means[-1]) <= noise, least)

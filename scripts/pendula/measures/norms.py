@@ -1,4 +1,4 @@
-"""What is read off the norms and the energy of one run: P, largest amplitude, drift, margin."""
+"""Measures of one run, from its norms and its energy: P, largest amplitude, drift, margin."""
 
 import numpy as np
 
@@ -37,8 +37,8 @@ def drift(energy) -> np.ndarray:
 def late_difference(one, other) -> float:
     """Return the relative difference of two runs' mean norms over the second half of the time.
 
-    Two chaotic runs that are apart may still be alike in this sense. It is the larger of that of
-    l2 and that of l-infinity, both of the pair.
+    Two chaotic runs that have diverged may still be alike in this sense. The norms are l2 and
+    l-infinity of the pair, and the larger difference counts.
     """
     half = one["tau"].values >= 0.5 * float(one["tau"][-1])
     l2 = np.mean(np.sqrt(total_power(other))[half]) / np.mean(np.sqrt(total_power(one))[half])

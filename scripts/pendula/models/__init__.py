@@ -1,4 +1,4 @@
-"""The equations, once each: what a solver, an observable or a check needs of a model.
+"""The equations, each written once: what solvers, observables and checks need of a model.
 
 `amplitudes` holds the paper's equations (4) and their energy (8), `amplitudes_series` the same
 equations for the Taylor method, `tangent` their linearisation along a solution, `linear_chain` the

@@ -133,7 +133,7 @@ def theorem_3_bound(energy, sites: int, constants: Constants):
 
 
 def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
-    """Return which theorem bounds P independently of N: the ledger's word for a case's standing."""
+    """Return which theorem bounds P independently of N, in the words of the ledger."""
     if np.isfinite(theorem_1_bound(energy, constants)):
         return "theorem 1"
     if 0 < start < theorem_2_constants(constants)[0]:

@@ -24,8 +24,8 @@ def curvatures(sites: int, boundary: str) -> np.ndarray:
 def modes(sites: int, boundary: str) -> np.ndarray:
     """Return the real orthonormal modes of the lattice Laplacian, shape (mode, site).
 
-    Angles are reduced to one turn while they are still whole numbers, so that long chains lose
-    no digits. On a ring, cos + sin serves both waves of a pair.
+    Angles are reduced to one turn in whole numbers, so that long chains lose no digits. On a ring,
+    cos + sin serves both waves of a pair.
     """
     k, j = np.arange(sites)[:, None], np.arange(sites)
     if boundary == "dirichlet":

@@ -1,5 +1,5 @@
-"""What is made of cases and sweeps that a user brings: checks, figures and a page.
+"""Checks, figures and a page for the cases and sweeps that a user brings.
 
-It stands above the studies and uses them, since a user asks of a case what the studies ask of the
-paper's: until when it can be trusted, and what the theorems say of it.
+This room stands above the studies and uses them, since a user has the questions of the studies:
+until when a run can be trusted, and what the theorems state about the case.
 """

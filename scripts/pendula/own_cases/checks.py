@@ -1,10 +1,10 @@
-"""Checks of a case of one's own: how far its run is true, and what the paper states of it.
+"""Checks of a user's case: how far its run is true, and what the paper states about it.
 
-First the same case is run by another method at tight tolerances. The difference of two runs is the
-error of the worse one, made by steps and rounding of its own; where a case was run by the default
-solver at its default tolerances, it is that of double precision. Then a random tangent vector is
-carried along, whose growth says whether the case is chaotic and when the digits of double precision
-end. Last stand Lemma 1 at rest, Lemma 2 and Theorems 1 to 3 on the way.
+First the case is run again by another method at tight tolerances. The difference of the two runs is
+the error of the worse run. If the case was run by the default solver at its default tolerances,
+that is the error of double precision. Then a random tangent vector is carried along: its growth
+says whether the case is chaotic, and when the digits of double precision end. Last come Lemma 1 for
+the chain at rest, and Lemma 2 and Theorems 1 to 3 for the trajectory.
 """
 
 from dataclasses import astuple
@@ -15,7 +15,7 @@ import xarray as xr
 from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
-from pendula.measures.difference import at_times, difference, divergence_time
+from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.problem import Problem
@@ -26,13 +26,14 @@ from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow, random_ta
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 
+TITLE = "A case beside the paper's statements"
 TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
 
 
 def choose_solver(name: str, peak: float) -> dict:
-    """Return the controls of another method than `name`, for data whose largest part is `peak`.
+    """Return the controls of another method than `name`, for data of the largest modulus `peak`.
 
-    Data below one need a smaller absolute tolerance.
+    Data smaller than 1 need a smaller absolute tolerance.
     """
     other = "dop853" if name == "taylor" else "taylor"
     rtol = TIGHTEST[other]
@@ -40,7 +41,7 @@ def choose_solver(name: str, peak: float) -> dict:
 
 
 def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return the second run's norms and its difference from `run`, NaN where it was refused.
+    """Return the second run's norms and its difference from `run`; all are NaN if it was refused.
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
@@ -52,21 +53,17 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
         second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
         apart = difference(run, second).reindex(tau=run["tau"])
     except IntegrationError as error:
-        second, apart = run[["linf", "l2"]] * np.nan, xr.full_like(run["energy"], np.nan)
+        second, apart = run[list(NORMS)] * np.nan, xr.full_like(run["energy"], np.nan)
         said["second_refusal"] = str(error)
     return _compared(run, second, apart).assign_attrs(said)
 
 
 def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Dataset:
-    norms = at_times(second, run["tau"])
-    data = xr.Dataset(
-        {
-            f"second_{norm}": norms[norm].assign_attrs(
-                long_name=f"{run[norm].attrs['long_name']}, by another method", units="1"
-            )
-            for norm in ("linf", "l2")
-        }
-    )
+    data = at_times(second, run["tau"]).drop_attrs(deep=False)
+    data = data.rename({norm: f"second_{norm}" for norm in NORMS})
+    for norm in NORMS:
+        long_name = f"{run[norm].attrs['long_name']}, by another method"
+        data[f"second_{norm}"].attrs = {"long_name": long_name, "units": "1"}
     data["difference"] = apart.assign_attrs(
         long_name="largest difference of the norms of two runs, of full scale", units="1"
     )
@@ -83,7 +80,7 @@ FEWEST_STEPS = 64
 
 
 def follow(problem: Problem) -> Growth:
-    """Return the growth of a random tangent vector along a case."""
+    """Return the growth of a random tangent vector along the trajectory of a problem."""
     even = bool(find_reduction(problem.amplitudes).even)
     rng = np.random.default_rng(SEED)
     tangent = random_tangent(problem.sites, "even" if even else None, rng)
@@ -97,39 +94,37 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         growth = follow(problem)
     except IntegrationError as error:
         return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
-    middle = growth.tau[-1] / 2
+    tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
+    middle = tau[-1] / 2
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
-        relative = growth.log_growth[0] - np.log(growth.size)
-        late = relative[-1] - relative[np.searchsorted(growth.tau, middle)]
-        amplified = amplification(growth.tau, growth.log_growth[0], growth.size)
-    rate = mean_rate(growth.tau, growth.log_growth[0], middle)
-    error = mean_rate_error(growth.tau, growth.log_growth[0], middle)
-    chaotic = is_chaotic(growth.tau, growth.log_growth[0], growth.size)
-    times = {"long_name": "slow time", "units": "1"}
-    named = {
-        "log_growth": (
-            ("growth_tau", growth.log_growth[0]), "logarithm of the growth of a tangent vector", "1"
+        relative = log_growth - np.log(size)
+        late = relative[-1] - relative[np.searchsorted(tau, middle)]
+        amplified = amplification(tau, log_growth, size)
+    numbers = {
+        "exponent": (
+            mean_rate(tau, log_growth, middle),
+            "rate of that growth, second half, per unit of tau",
         ),
-        "exponent": (rate, "rate of that growth, second half, per unit of tau", "1"),
-        "exponent_error": (error, "standard error of the rate", "1"),
-        "late_growth": (late, "growth relative to the solution's, second half, logarithm", "1"),
-        "chaotic": (int(chaotic), "one where that growth is exponential", "1"),
+        "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
+        "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
+        "chaotic": (
+            int(is_chaotic(tau, log_growth, size)),
+            "one where that growth is exponential",
+        ),
         "divergence_rounding": (
-            predict(growth.tau, amplified, ROUNDING),
-            "tau at which one rounding a unit of tau has grown to 1 %", "1",
+            predict(tau, amplified, ROUNDING),
+            "tau at which one rounding a unit of tau has grown to 1 %",
         ),
-    }  # fmt: skip
-    data = xr.Dataset(coords={"growth_tau": ("growth_tau", growth.tau, times)})
-    for name, (value, long_name, units) in named.items():
-        dims, values = value if isinstance(value, tuple) else ((), value)
-        data[name] = (dims, values, {"long_name": long_name, "units": units})
-    return data
+    }
+    described = {name: variable(value, (), text) for name, (value, text) in numbers.items()}
+    curve = variable(log_growth, ("growth_tau",), "logarithm of the growth of a tangent vector")
+    return xr.Dataset.from_dict(table(TITLE, {"growth_tau": tau}, log_growth=curve, **described))
 
 
 # --- The paper's statements -----------------------------------------------------------------------
 
 RADIANS, PANELS = 40.0, 24
-"""The balance of Lemma 2 is integrated while the data turn by so much, on so many panels."""
+"""The balance of Lemma 2 is integrated while the data turn by RADIANS, on so many panels."""
 
 
 def beside_bounds(run: xr.Dataset) -> dict:
@@ -142,7 +137,7 @@ def beside_bounds(run: xr.Dataset) -> dict:
 
 
 def at_rest(problem: Problem) -> dict:
-    """Return thresholds and growth rates of the chain at rest: infinite, and as long as it is."""
+    """Return thresholds and growth rates of a chain at rest, infinite and of this length."""
     epsilon, gamma, omega = astuple(problem.constants)
     chain = (epsilon, problem.sites, problem.boundary)
     return {
@@ -164,7 +159,7 @@ def at_rest(problem: Problem) -> dict:
 def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
     """Return how well the balance of P in Lemma 2 holds from the initial data on.
 
-    The state is carried by `solver` from node to node, and the balance integrated over them.
+    `solver` carries the state from node to node of the quadrature.
     """
     constants, amplitudes = problem.constants, problem.amplitudes
     start, largest = float(np.sum(np.abs(amplitudes) ** 2)), float(run["linf"].max()) ** 2
@@ -182,16 +177,16 @@ def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
 
 
 def beside_statements(problem: Problem, run: xr.Dataset, solver: dict) -> xr.Dataset:
-    """Return all of it for a case and its trajectory."""
+    """Return what the paper states about a case, beside its trajectory."""
     numbers = beside_bounds(run) | at_rest(problem) | balance(problem, run, solver)
-    return xr.Dataset.from_dict(table("A case beside the paper's statements", {}, **numbers))
+    return xr.Dataset.from_dict(table(TITLE, {}, **numbers))
 
 
-# --- All of it ------------------------------------------------------------------------------------
+# --- All checks -----------------------------------------------------------------------------------
 
 
 def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
-    """Return every number that is known of a case beside its run, with the case's attributes.
+    """Return all checks of a case as one dataset, with the attributes of the case.
 
     `run` is the trajectory that `simulate` made of `problem`.
     """

@@ -1,4 +1,4 @@
-"""Cases and sweeps of one's own in pictures: as the paper's, with every parameter in the titles."""
+"""Figures of a user's cases and sweeps: like the paper's, with every parameter in the titles."""
 
 from collections.abc import Mapping
 
@@ -12,12 +12,12 @@ from pendula.drawing.panels import NORMS, Below
 from pendula.measures.difference import VISIBLE
 
 FEW = 8
-"""So many half-widths all find room below a panel."""
+"""Ticks for so many half-widths fit below a panel."""
 
-SECOND = Below("second", "second run,", f"the runs part by {100 * VISIBLE:g} %")
+SECOND = Below("second", "second run,", f"the runs differ by {100 * VISIBLE:g} %")
 ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
 LONGEST = 46
-"""A formula of at most so many characters leaves room for the rest of a title."""
+"""A formula with more characters leaves no room for the rest of a title."""
 
 
 def name_parameters(attributes: Mapping) -> str:
@@ -28,7 +28,7 @@ def name_parameters(attributes: Mapping) -> str:
 
 
 def name_data(attributes: Mapping) -> str:
-    """Return the initial data, where they fit into the title of a panel."""
+    """Return the initial data, or the number of sites if they do not fit into a title."""
     named = style.name_initial(attributes["initial"])
     return named if len(named) <= LONGEST else "data on 1 site"
 

@@ -1,4 +1,4 @@
-"""The report of one's own cases and sweeps: figures, checks and parameters, all from datasets."""
+"""The report on a user's cases and sweeps: figures, checks and parameters, all from datasets."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,6 +8,7 @@ import numpy as np
 
 from pendula import __version__
 from pendula.datasets.netcdf import read
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.measures.difference import VISIBLE
 from pendula.problem import read_initial
 from pendula.report.page import Picture, picture, render
@@ -15,7 +16,6 @@ from pendula.report.sections import versions
 from pendula.report.words import (
     MINUS,
     NORMS,
-    SOLVERS,
     STATISTICS,
     Quote,
     number,
@@ -32,7 +32,7 @@ ENDS = {
     "periodic": "joined to a ring",
 }
 FEW = 8
-"""Sites whose data find room in a table."""
+"""The data of more sites do not fit into the table."""
 _SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
 
 
@@ -71,7 +71,6 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
             key: str(checks.attrs.get(f"{key}_refusal", "")) for key in ("second", "sensitivity")
         },
         "level": percent(VISIBLE),
-        "rounding_level": percent(VISIBLE),
         "divergence_time": float(checks["divergence_time"]),
         "said": _said(checks, link),
         **_decided(checks),
@@ -139,7 +138,7 @@ def _picture_of_moduli(name: str, run, folder: Path) -> Picture:
 def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dict[str, Any]:
     """Return what the page shows of the sweep.
 
-    `trusted` holds, by case, the tau at which two runs of it part, NaN if they never do.
+    `trusted` holds the divergence time of two runs of each case, NaN if it is not known.
     """
     link, drawn_link = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
     swept, drawn, checks = (read(folder / at) for at in (f"sweeps/{name}.nc", drawn_link, link))
@@ -159,13 +158,13 @@ def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "windows": windows,
         "excess": Quote(number(checks["swept_ratio"]), link),
         "bound_holds": bool(checks["swept_ratio"] <= 1.0 + 1e-6),
-        "columns": ["M", *_columns(read_as), "P over bound"],
+        "columns": [
+            "M",
+            *(f"{word} {how} {window}" for word in NORMS.values() for how, window in read_as),
+            "P over bound",
+        ],
         "rows": _rows(panel, checks, drawn_link, link),
     }
-
-
-def _columns(windows: list[tuple[str, str]]) -> list[str]:
-    return [f"{word} {how} {window}" for word in NORMS.values() for how, window in windows]
 
 
 def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
@@ -202,7 +201,7 @@ def exact(value: Any) -> str:
 
 
 def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return what was solved and by which controls, a row each."""
+    """Return the parameters of a problem and of its solver as rows of a table."""
     rows = [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
     rows.append(("ends of the chain", ENDS[attributes["boundary"]]))
     rows += data(attributes)
@@ -218,10 +217,7 @@ def data(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     if len(sites) > FEW:
         return [("A, B at the start", f"on {len(sites)} sites, as the dataset's attributes say")]
     return [
-        (
-            f"A, B at site {site}".replace("-", MINUS),
-            ", ".join(map(exact, pair)),
-        )
+        (f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
         for site, pair in sites.items()
     ]
 
@@ -238,7 +234,7 @@ def solver(attributes: Mapping[str, Any], key: str) -> str:
         if at.startswith(f"{key}_") and at not in (f"{key}_name", f"{key}_refusal")
     }
     said = ", ".join(f"{at.replace('_', ' ')} {exact(value)}" for at, value in controls.items())
-    return f"{SOLVERS.get(name, name)} ({said})" if said else SOLVERS.get(name, name)
+    return f"{SOLVER_NAMES.get(name, name)} ({said})" if said else SOLVER_NAMES.get(name, name)
 
 
 def quotes(dataset, link: str) -> dict[str, Quote]:

@@ -1,1 +1,1 @@
-"""The report of a run as one page of HTML: a module a section, and what draws the page."""
+"""The report of a run as one page of HTML: its document, its words, its results, its page."""

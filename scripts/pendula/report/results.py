@@ -1,4 +1,4 @@
-"""What a run made, by name: datasets, pictures and links to both; the sections that show it."""
+"""The files of a run by name, with links to them, and what a section of the report is."""
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path

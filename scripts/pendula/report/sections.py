@@ -14,11 +14,12 @@ import numpy as np
 import xarray as xr
 from llvmlite import binding
 
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.sources import describe_machine
 
 from .page import picture
 from .results import ReportError, Results
-from .words import SOLVERS, case_of, number
+from .words import case_of, number
 
 
 class Measured(NamedTuple):
@@ -43,9 +44,9 @@ def gather_speed(results: Results, measured: Measured) -> dict[str, Any]:
     return {
         "fresh": measured.fresh,
         **_peers(results, source),
-        "head": ["case", "error", *(SOLVERS[str(name)] for name in best["solver"].values)],
+        "head": ["case", "error", *(SOLVER_NAMES[str(name)] for name in best["solver"].values)],
         "rows": [_row(results, source, best.sel(case=case)) for case in best["case"].values],
-        "fastest": SOLVERS[fastest],
+        "fastest": SOLVER_NAMES[fastest],
         "wins": results.quote(source, winners.count(fastest)),
         "cases": results.quote(source, len(winners)),
         "pictures": [picture(results.path(link), alt, link) for link in measured.pictures],
@@ -80,7 +81,7 @@ def _row(results: Results, source: str, times: xr.DataArray) -> list:
 def _alt(times: xr.DataArray) -> str:
     least = times.min("case")
     told = "; ".join(
-        f"{SOLVERS[str(name)]} {number(float(least.sel(solver=name)))}"
+        f"{SOLVER_NAMES[str(name)]} {number(float(least.sel(solver=name)))}"
         for name in times["solver"].values
     )
     return f"Time against error, a line a solver. Least times in ms at the error asked for: {told}."

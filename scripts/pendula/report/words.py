@@ -16,14 +16,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, TIMES = "−", "×"
 FIRM = "\N{NO-BREAK SPACE}"
 SMALL = 1e-3
-"""Numbers below are written with a power of ten."""
-SOLVERS = {
-    "ode45": "ode45",
-    "crank_nicolson": "Crank\N{EN DASH}Nicolson",
-    "dop853": "DOP853",
-    "taylor": "Taylor",
-    "splitting": "BM6 splitting",
-}
+"""Smaller numbers are written with a power of ten."""
 NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}
 STATISTICS = {"max": "maximum", "mean": "average"}
 SYMBOLS = {
@@ -82,7 +75,7 @@ def raised(exponent: str) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """Return a number and its standard error to the first digit of that, to the second of a 1."""
+    """Return a number and its standard error, to the first digit of the error (two after a 1)."""
     if not (np.isfinite(error) and error > 0):
         return number(value)
     first = int(np.floor(np.log10(error)))
@@ -91,7 +84,7 @@ def with_error(value: float, error: float) -> str:
 
 
 def percent(part: float, digits: int = 2) -> str:
-    """Return a part of one in per cent: 13 %."""
+    """Return a fraction in per cent: 13 %."""
     value = 100.0 * float(part)
     return (
         f"{value:.0f} %".replace("-", MINUS) if abs(value) >= 10 else f"{number(value, digits)} %"
@@ -99,7 +92,7 @@ def percent(part: float, digits: int = 2) -> str:
 
 
 def span(values, digits: int = 3) -> str:
-    """Return the least and the largest of measured numbers: 0.51 to 0.54; one if they are alike."""
+    """Return the range of measured numbers, such as 0.51 to 0.54; one number if both ends agree."""
     if not np.isfinite(values).any():
         return "none"
     least, largest = (measured(edge(values), digits) for edge in (np.nanmin, np.nanmax))
@@ -107,7 +100,7 @@ def span(values, digits: int = 3) -> str:
 
 
 def measured(value: float, digits: int = 3) -> str:
-    """Return a number with zeros at its end where they were measured: 1.00, not 1."""
+    """Return a number with its final zeros, which were measured: 1.00, not 1."""
     value = float(value)
     if not np.isfinite(value) or not SMALL <= abs(value) < 10**digits:
         return number(value, digits)
@@ -131,7 +124,7 @@ def plainly(name: str) -> str:
 
 
 def case_of(dataset) -> str:
-    """Return a case, of `omega` and `initial` as datasets keep them: Ω = 8, (A₀, B₀) = (5, 1)."""
+    """Return the case that `omega` and `initial` of a dataset name: Ω = 8, (A₀, B₀) = (5, 1)."""
     return case_in_words(float(dataset["omega"]), str(dataset["initial"].values))
 
 
@@ -148,11 +141,6 @@ def case_in_words(omega: float, initial: str) -> str:
 
 def _amplitude(z: complex) -> str:
     return f"{z:g}" if z.imag else number(z.real)
-
-
-def count(number_of: int, word: str) -> str:
-    """Return a number of things: 1 case, 3 cases."""
-    return f"{number_of} {word}" if number_of == 1 else f"{number_of} {word}s"
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence]) -> str:

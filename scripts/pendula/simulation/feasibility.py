@@ -1,7 +1,7 @@
-"""Runs that could not end, or whose digits would be noise, are refused before they start.
+"""Refuses a run before it starts if it could not end, or if its digits would be noise.
 
-Every answer is a reason in words, or nothing. What only shows on the way (a state that overflows,
-a step that shrinks to nothing) the solvers report themselves.
+Each function returns a reason in words, or None. The solvers themselves report what shows only
+during a run: a state that overflows, or a step that shrinks to nothing.
 """
 
 from collections.abc import Mapping
@@ -24,7 +24,7 @@ SMALLEST_DATA = 1e-153
 
 
 def find_obstacle(problem: Problem) -> str | None:
-    """Return why a problem cannot be integrated as it asks for, None if it can."""
+    """Return why a problem cannot be integrated, or None if it can."""
     parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
     peak = float(parts.max(initial=0.0))  # NaN where there is one
     constants, span, solver = problem.constants, float(problem.end_time), problem.solver
@@ -37,7 +37,7 @@ def find_obstacle(problem: Problem) -> str | None:
 
 
 def _rate(constants: Constants, peak: float) -> float:
-    """Return a bound of the rate at which data of that size turn or grow, relative to them."""
+    """Return a bound of the relative rate at which data of the size `peak` turn or grow."""
     epsilon, gamma, omega = np.abs([constants.epsilon, constants.gamma, constants.omega])
     with np.errstate(over="ignore"):
         return float(4 * epsilon + omega + 2 * gamma + 0.5 * np.square(peak))

@@ -12,7 +12,7 @@ from pendula.models.amplitudes import ENDS, FREE, MIRROR, PERIODIC
 
 
 class Reduction(NamedTuple):
-    """What of the chain is integrated: half of it (`even`), one component (`synchronised`)."""
+    """What is integrated: half of the chain if `even`, one component if `synchronised`."""
 
     even: bool
     synchronised: bool
@@ -31,7 +31,7 @@ def find_reduction(amplitudes: np.ndarray) -> Reduction:
 
 
 def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
-    """Return the kinds of the left and the right end of what is integrated."""
+    """Return the kinds of the left and the right end of the part that is integrated."""
     end = ENDS[boundary]
     if not reduction.even:
         return end, end
@@ -40,7 +40,7 @@ def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
 
 
 def pack(amplitudes: np.ndarray, reduction: Reduction) -> np.ndarray:
-    """Return the real state with ghost columns that `reduction` leaves of (2, N) amplitudes."""
+    """Return (2, N) amplitudes as a real state with ghost columns, reduced by `reduction`."""
     kept = amplitudes[: 1 if reduction.synchronised else 2]
     if reduction.even:
         kept = kept[:, kept.shape[1] // 2 :]
@@ -50,7 +50,7 @@ def pack(amplitudes: np.ndarray, reduction: Reduction) -> np.ndarray:
     return y
 
 
-def spread(values: np.ndarray, reduction: Reduction) -> np.ndarray:
+def unfold(values: np.ndarray, reduction: Reduction) -> np.ndarray:
     """Return values of (component, site, ...) on both components of the whole chain."""
     if reduction.even:
         values = np.concatenate([values[:, :0:-1], values], axis=1)
@@ -59,4 +59,4 @@ def spread(values: np.ndarray, reduction: Reduction) -> np.ndarray:
 
 def unpack(y: np.ndarray, reduction: Reduction) -> np.ndarray:
     """Return the complex amplitudes (2, N) of a state."""
-    return spread(y[0::2, 1:-1] + 1j * y[1::2, 1:-1], reduction)
+    return unfold(y[0::2, 1:-1] + 1j * y[1::2, 1:-1], reduction)

@@ -1,4 +1,4 @@
-"""What a run keeps of each output time: norms, the energy, and on request the moduli."""
+"""The observables that a run keeps at each output time: norms, energy, and moduli on request."""
 
 from math import sqrt
 from typing import NamedTuple

@@ -10,12 +10,15 @@ from pendula.models.amplitudes import Chain
 from pendula.problem import Constants, Problem
 
 from .feasibility import find_obstacle
-from .lattice import Reduction, choose_ends, find_reduction, pack, spread, unpack
+from .lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
 from .observables import Record, blank_record
 from .solvers import SOLVERS
 
 FINEST, REFINEMENT = 1e-15, 1e-2
-"""The tightest tolerance that `auto` tries, and by what it multiplies one to get the next."""
+"""The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
+
+CACHE_LINE = 64
+"""Bytes of a line of the cache."""
 
 
 class IntegrationError(RuntimeError):
@@ -23,7 +26,7 @@ class IntegrationError(RuntimeError):
 
 
 class Trajectory(NamedTuple):
-    """What a solver made of a problem; components are A, B and sites -M..M throughout."""
+    """The solution of a problem; components are A and B, sites -M..M, whatever was integrated."""
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
@@ -38,7 +41,7 @@ class Trajectory(NamedTuple):
 def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory:
     """Integrate a problem and reduce it to observables at its output times.
 
-    `reduction` says what of the chain is integrated; left out, it is the least that the exact
+    `reduction` says how much of the chain is integrated; by default it is the least that the exact
     symmetries of the data allow. The solver is one of pendula.simulation.solvers, or
     {"name": "auto", "error": ...}. Raises IntegrationError where the run would not end, the solver
     gives up, or the result is not finite.
@@ -65,17 +68,16 @@ def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory
 
 
 def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:
-    """Return what the kernels take: the constants, and the ends of what is integrated."""
+    """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
     ends = choose_ends(boundary, reduction)
     return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
 
 
-def aligned(shape: tuple[int, ...], bytes_: int = 64) -> np.ndarray:
+def aligned(shape: tuple[int, ...]) -> np.ndarray:
     """Return zeros that start on a cache line: loads that cross lines cost a quarter more."""
     count = int(np.prod(shape))
-    spare = bytes_ // 8
-    memory = np.zeros(count + spare)
-    first = -memory.ctypes.data % bytes_ // 8
+    memory = np.zeros(count + CACHE_LINE // 8)
+    first = -memory.ctypes.data % CACHE_LINE // 8
     return memory[first : first + count].reshape(shape)
 
 
@@ -94,10 +96,10 @@ def _collect(
     both = Reduction(even=False, synchronised=reduction.synchronised)
     return Trajectory(
         times,
-        spread(record.linf, both),
-        spread(record.l2, both),
+        unfold(record.linf, both),
+        unfold(record.l2, both),
         record.energy,
-        spread(record.modulus, reduction),
+        unfold(record.modulus, reduction),
         unpack(y, reduction),
         outcome,
         dict(problem.solver),

@@ -1,4 +1,4 @@
-"""The solvers by name: each integrator given this chain's equations, compiled once and cached."""
+"""The solvers by name: each integrator with the equations of the chain, compiled and cached."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -51,7 +51,7 @@ def run_splitting(chain, y, times, controls, work, record):
 
 
 class Solver(NamedTuple):
-    """A compiled run, its controls in the order in which it takes them, its work arrays."""
+    """A compiled run, the names of its controls in their order, and the number of work arrays."""
 
     run: Callable
     controls: tuple[str, ...]

@@ -1,6 +1,6 @@
 """The energy's drift, the agreement of the solvers and their errors in pictures."""
 
-from pendula.drawing import style
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.measures.difference import VISIBLE
 from pendula.studies.paper import figures
 
@@ -10,7 +10,7 @@ def test_energy_panels_draw_each_solver_and_the_claim(gathered):
     for axes, claim in zip(figure.axes, [1e-6, 1e-4], strict=True):
         *curves, line = axes.get_lines()
         assert axes.get_yscale() == "log"
-        drawn = [style.SOLVER_NAMES[name] for name in gathered["drift"]["solver"].values]
+        drawn = [SOLVER_NAMES[name] for name in gathered["drift"]["solver"].values]
         assert sorted(curve.get_label() for curve in curves) == sorted(drawn)
         assert set(line.get_ydata()) == {claim}
 

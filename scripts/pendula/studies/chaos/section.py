@@ -4,11 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
 from pendula.report.page import Picture
 from pendula.report.results import Results, Section
-from pendula.report.words import SOLVERS, case_of, number, percent, span, with_error
+from pendula.report.words import case_of, number, percent, span, with_error
 
 LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"
 ENSEMBLES = "checks/ensemble_runs"
@@ -29,7 +30,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "visible": percent(float(trust["size"].sel(level="visible"))),
         "end": results.quote(TRUST, float(trust["tau"].max())),
         "head": ["case", "growth, even", "growth, odd",
-                 *(f"{SOLVERS[name]} leaves" for name in solvers), "uneven from"],
+                 *(f"{SOLVER_NAMES[name]} leaves" for name in solvers), "uneven from"],
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
         "lost": {name: lost_by(results, name) for name in solvers},
         "ensembles": [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values],
@@ -58,7 +59,7 @@ def lost_by(results: Results, solver: str) -> dict[str, Any]:
     horizons = results[TRUST]["horizon"].sel(solver=solver, level="visible").values
     known = horizons[np.isfinite(horizons)]
     return {
-        "solver": SOLVERS[solver],
+        "solver": SOLVER_NAMES[solver],
         "any": len(known) > 0,
         "count": results.quote(TRUST, len(known)),
         "kept": results.quote(TRUST, int(np.isinf(horizons).sum())),

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results, Section
-from pendula.report.words import SOLVERS, number, symbols
+from pendula.report.words import number, symbols
 
 SOURCE = "checks/hard_cases"
 
@@ -38,7 +39,7 @@ def _by_solver(results: Results, names: list[str], refused, unsound) -> list[lis
         ended = share[own & ~refused & np.isfinite(share)]
         rows.append(
             [
-                SOLVERS.get(solver, solver),
+                SOLVER_NAMES.get(solver, solver),
                 results.quote(SOURCE, own.sum(), 6),
                 results.quote(SOURCE, (own & refused).sum(), 6),
                 results.quote(SOURCE, ended.max() if ended.size else np.nan, 2),

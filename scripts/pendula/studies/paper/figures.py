@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import panels, style
 from pendula.drawing.panels import NORMS, Below
 from pendula.measures.difference import at_times, difference, divergence_time, is_of_same_case
@@ -130,7 +131,7 @@ def draw_drift(data: xr.Dataset) -> Figure:
 def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
     for solver in sorted(case["solver"].values, key=DRAWN.index):
         curve = panels.positive(case["drift"].sel(solver=solver))
-        look = {"color": style.COLOURS[solver], "label": style.SOLVER_NAMES[solver]}
+        look = {"color": style.COLOURS[solver], "label": SOLVER_NAMES[solver]}
         axes.plot(curve["tau"], curve, **look)
     axes.axhline(
         float(case["stated_drift"]), color="0.45", dashes=(4, 2), lw=1, label="paper's claim"
@@ -151,7 +152,7 @@ def draw_agreement(data: xr.Dataset) -> Figure:
 def _draw_agreement(axes: Axes, case: xr.Dataset) -> None:
     visible = float(case["visible"])
     for pair in case["pair"].values:
-        label = " / ".join(style.SOLVER_NAMES[solver] for solver in pair.split(" - "))
+        label = " / ".join(SOLVER_NAMES[solver] for solver in pair.split(" - "))
         one, look = case.sel(pair=pair), PAIRS[pair]
         _draw_difference(axes, one["difference"], label=label, **look)
         size = PAIR_MARK_SIZES[look["marker"]]
@@ -188,7 +189,7 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
     for solver in case["solver"].values:
         one = case.sel(solver=solver, level="visible")
         look = {"color": style.COLOURS[solver], "marker": MARKERS[solver]}
-        label = style.SOLVER_NAMES[solver]
+        label = SOLVER_NAMES[solver]
         _draw_difference(axes, one["difference"], label=label, markersize=4, **look)
         _mark(axes, one["horizon"], visible, **look)
     _draw_visible(axes, visible)

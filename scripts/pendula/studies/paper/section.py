@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.claim import CHANGE, CONSTANT
 from pendula.ledger.section import Ledger
 from pendula.measures.levels import levelling
@@ -13,7 +14,6 @@ from pendula.report.results import Results, Section
 from pendula.report.words import (
     FIRM,
     NORMS,
-    SOLVERS,
     STATISTICS,
     case_in_words,
     case_of,
@@ -202,7 +202,7 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
     ode45 = data.sel(solver="ode45")
     papers = data["divergence_time"].isel(pair=0)
     apart = int(np.isfinite(papers).sum())
-    solvers = [SOLVERS[str(solver)] for solver in data["solver"].values]
+    solvers = [SOLVER_NAMES[str(solver)] for solver in data["solver"].values]
     return {
         "drift_head": ["case", "as stated", *solvers, "kept by ode45"],
         "drift": [_drift(results, case) for case in cases],
@@ -233,7 +233,7 @@ def _agreement(results: Results, case) -> list:
 
 
 def _pair(names: str) -> str:
-    return " and ".join(SOLVERS[name] for name in names.split(" - "))
+    return " and ".join(SOLVER_NAMES[name] for name in names.split(" - "))
 
 
 def _solver_pictures(results: Results, drifts: np.ndarray, apart: int) -> dict[str, Picture]:

@@ -12,7 +12,7 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, describe_run, shared_by
 from pendula.problem import Problem, by_site
-from pendula.simulation.lattice import Reduction, spread
+from pendula.simulation.lattice import Reduction, unfold
 from pendula.simulation.simulate import IntegrationError
 
 from .multiprecision import Numbers, RealConstants, energy, norms, right_hand_side
@@ -150,7 +150,7 @@ def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
 def _amplitude(run: Run) -> np.ndarray:
     """Return amplitudes (part, component, site, snapshot) on the whole chain, in doubles."""
     rows = run.amplitude.astype(float).transpose(1, 2, 0)
-    return np.stack([spread(rows[part::2], MIRRORED) for part in (0, 1)])
+    return np.stack([unfold(rows[part::2], MIRRORED) for part in (0, 1)])
 
 
 def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
