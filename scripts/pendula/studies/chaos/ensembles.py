@@ -119,8 +119,8 @@ COMPARED = {
     "swept_run": "maximum of the l2 norm of the pair in the paper's run",
     "deviations": "maximum of the paper's run minus the mean, in standard deviations",
     "swept_window": "time window of the maximum",
-    "swept_omega": "detuning Omega of the sweep",
-    "swept_initial": "initial {site: [A, B]} of the sweep",
+    "swept_omega": "detuning Omega",
+    "swept_initial": "initial {site: [A, B]}",
 }
 """What is compared: of the cases the norms over time, of the sweeps the maxima over M."""
 

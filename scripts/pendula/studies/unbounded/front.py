@@ -209,8 +209,8 @@ def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
     spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
     found = [spans == span for span in np.unique(spans)]
     return {
-        "way_tau": Variable(("time",), [tau[s].mean() for s in found], "slow time, mean of a span"),
-        "behind": Variable(("time",), [behind[s].mean() for s in found], "site of front - v tau"),
+        "way_tau": Variable(("span",), [tau[s].mean() for s in found], "slow time, mean of a span"),
+        "behind": Variable(("span",), [behind[s].mean() for s in found], "site of front - v tau"),
         "delay": Variable((), delay, DELAY),
     }
 
