@@ -21,8 +21,9 @@ from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, 
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
+from pendula.studies.chaos import random_tangent
 from pendula.studies.chaos.lyapunov import ROUNDING, SEED, amplification, predict
-from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow, random_tangent
+from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 

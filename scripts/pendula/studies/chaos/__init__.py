@@ -1,1 +1,11 @@
 """Chaos in the chain: how fast small errors grow, and what that leaves to be trusted."""
+
+import numpy as np
+
+PARITIES = ("even", "odd")
+
+
+def random_tangent(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
+    z = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
+    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]

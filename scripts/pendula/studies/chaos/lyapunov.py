@@ -18,7 +18,8 @@ from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import Trajectory, simulate
 
-from .tangent_dynamics import PARITIES, Growth, grow, random_tangent
+from . import PARITIES, random_tangent
+from .tangent_dynamics import Growth, grow
 
 SEED = 20170817
 

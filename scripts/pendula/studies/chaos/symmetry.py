@@ -19,7 +19,7 @@ from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
-from .tangent_dynamics import random_tangent
+from . import random_tangent
 
 BROKEN = 0.01
 """Relative size of the odd part from which on a solution no longer counts as even."""

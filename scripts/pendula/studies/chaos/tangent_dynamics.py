@@ -18,14 +18,6 @@ from pendula.problem import Problem, output_times
 from pendula.simulation.lattice import Reduction, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
-PARITIES = ("even", "odd")
-
-
-def random_tangent(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
-    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
-    z = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
-    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]
-
 
 @kernel
 def inner(chain, u, v):

@@ -24,19 +24,19 @@ def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset
     turned = np.asarray(angles) * np.cos(np.pi * offsets[:, None] / (pairs + 1))
     strings = _project(place, np.array([-OVERHANG, DEPTH + OVERHANG]), 0)
     pivots = _project(place, np.array([0, DEPTH]), 0)
-    pendulum = ("offset", "member", "axis")
-    link = ("link", "member", "point", "axis")
+    hung = ("offset", "pendulum", "axis")
+    link = ("link", "pendulum", "point", "axis")
     return xr.Dataset(
         {
             "string": (("offset", "end", "axis"), strings, _about("ends of a common string")),
-            "pivot": (pendulum, pivots, _about("point from which a pendulum hangs")),
-            "bob": (pendulum, _hang(place, turned), _about("bob of a pendulum")),
-            "rest": (pendulum, _hang(place, 0 * turned), _about("bob of a pendulum at rest")),
+            "pivot": (hung, pivots, _about("point from which a pendulum hangs")),
+            "bob": (hung, _hang(place, turned), _about("bob of a pendulum")),
+            "rest": (hung, _hang(place, 0 * turned), _about("bob of a pendulum at rest")),
             "spring": (link, pivots[:-1, :, None] + _coil(), _about("torsional spring")),
         },
         {
             "offset": ("offset", offsets, _about("place in the chain relative to n")),
-            "member": ("member", ["x", "y"], _about("pendulum of the pair")),
+            "pendulum": ("pendulum", ["x", "y"], _about("pendulum of the pair")),
             "axis": ("axis", ["across", "up"], _about("direction on the page")),
         },
     )
@@ -73,32 +73,32 @@ def draw(data: xr.Dataset) -> Figure:
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.margins(0.02, 0.1)
-    _draw_row(axes, data.sel(member="y"))
+    _draw_row(axes, data.sel(pendulum="y"))
     for string in data["string"].values:
         axes.plot(*string.T, color="black", linewidth=1.2)
-    _draw_row(axes, data.sel(member="x"))
+    _draw_row(axes, data.sel(pendulum="x"))
     _name_couplings(axes, data)
     return figure
 
 
 def _draw_row(axes: Axes, row: xr.Dataset) -> None:
-    member = str(row["member"].values)
+    pendulum = str(row["pendulum"].values)
     for spring in row["spring"].values:
         axes.plot(*spring.T, color="0.35", linewidth=0.8)
     for offset, pendulum in row.groupby("offset"):
         pivot, bob, rest = (pendulum[name].values.squeeze() for name in ("pivot", "bob", "rest"))
         axes.plot(*np.stack([pivot, rest]).T, color="0.5", linewidth=0.7, dashes=(3, 2))
-        axes.plot(*np.stack([pivot, bob]).T, color=COLOURS[member], linewidth=1.5)
-        axes.plot(*bob, "o", color=COLOURS[member], markersize=9, markeredgecolor="black")
+        axes.plot(*np.stack([pivot, bob]).T, color=COLOURS[pendulum], linewidth=1.5)
+        axes.plot(*bob, "o", color=COLOURS[pendulum], markersize=9, markeredgecolor="black")
         axes.plot(*pivot, "o", color="black", markersize=2.5)
-        name = f"${member}_{{n{offset:+d}}}$" if offset else f"${member}_n$"
+        name = f"${pendulum}_{{n{offset:+d}}}$" if offset else f"${pendulum}_n$"
         # on the side to which the pendulum is turned, away from its dashed place of rest
         side, ha = (1, "left") if bob[0] >= rest[0] else (-1, "right")
         axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")
 
 
 def _name_couplings(axes: Axes, data: xr.Dataset) -> None:
-    coil = data["spring"].isel(link=-1, member=1)
+    coil = data["spring"].isel(link=-1, pendulum=1)
     spring = [float(coil[:, 0].mean()), float(coil[:, 1].max())]
     string = data["string"].isel(offset=0, end=1).values
     names = {"springs: coupling $C$": spring, "common strings: coupling $D(t)$": string}

@@ -12,8 +12,6 @@ from matplotlib.lines import Line2D
 
 from pendula.drawing import panels, style
 
-from .long_runs import BAND
-
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-"},
     "fig3_large": {"color": style.BLUE, "ls": "-"},
@@ -89,7 +87,7 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
         both = data[["l2", "linf"]]
         parts = [both.min("member"), both.mean("member"), both.max("member")]
         words = {"long_name": "value over the members of the ensemble"}
-        panel = xr.concat(parts, xr.Variable("band", list(BAND), words))
+        panel = xr.concat(parts, xr.Variable("band", ["lowest", "mean", "highest"], words))
         for name in both:
             panel[name].attrs = both[name].attrs
         found.append(panel.assign(predicted_speed=data["predicted_speed"]).assign_attrs(data.attrs))
