@@ -85,8 +85,8 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
     pendulum = str(row["pendulum"].values)
     for spring in row["spring"].values:
         axes.plot(*spring.T, color="0.35", linewidth=0.8)
-    for offset, pendulum in row.groupby("offset"):
-        pivot, bob, rest = (pendulum[name].values.squeeze() for name in ("pivot", "bob", "rest"))
+    for offset, one in row.groupby("offset"):
+        pivot, bob, rest = (one[name].values.squeeze() for name in ("pivot", "bob", "rest"))
         axes.plot(*np.stack([pivot, rest]).T, color="0.5", linewidth=0.7, dashes=(3, 2))
         axes.plot(*np.stack([pivot, bob]).T, color=COLOURS[pendulum], linewidth=1.5)
         axes.plot(*bob, "o", color=COLOURS[pendulum], markersize=9, markeredgecolor="black")
