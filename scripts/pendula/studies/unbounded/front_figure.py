@@ -89,7 +89,7 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
     """Draw the mean power of the bulk over Omega beside that of the thermal state."""
     axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    axes.errorbar(data["omega"], data["power"], data["power_error"], label="sea", **DOTS)
+    axes.errorbar(data["omega"], data["power"], data["power_error"], label="bulk", **DOTS)
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\Omega$")
     axes.set_ylabel("mean power per site")
