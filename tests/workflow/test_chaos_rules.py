@@ -28,7 +28,7 @@ def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(finished
     edit(clone / "scripts/pendula/models/tangent.py", "Rows of one state", "The rows of one state")
     jobs = planned(clone, finished)
     assert jobs.keys() & MEASURES == {"measure_lyapunov"}
-    assert not jobs.keys() & {"trajectory", "sweep", "claims"}
+    assert not jobs.keys() & {"trajectory", "sweep"}
 
 
 def test_a_new_omega_reruns_the_cases_of_chaos(finished, clone):
