@@ -173,7 +173,7 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     """Draw the norms of the pair (A, B) against the half-width M: l-infinity left, l2 right.
 
     Filled dots are the maximum over `max_window`, hollow dots the mean over `mean_window`. Windows
-    are named as in the dataset; the first one is taken for what is left out. The layout is that of
+    are named as in the dataset; where one is left out, the first is taken. The layout is that of
     Figs 5 and 6 of the paper.
 
     >>> from pendula import Case, sweep

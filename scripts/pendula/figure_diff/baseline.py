@@ -45,7 +45,7 @@ def recorded(folder: Path) -> dict:
 
 
 def compare(names: Iterable[str], made: Path, folder: Path) -> list[Finding]:
-    """Return a finding for each of `names`, below `made`, and for what only the baseline has."""
+    """Return a finding for each file of `names` below `made` or in the baseline alone."""
     record, names, rules = recorded(folder), set(names), read_rules(folder)
     same = record["environment"] == environment()
     method = compare_images.EXACT if same else compare_images.LOOK

@@ -115,7 +115,7 @@ class Curve(NamedTuple):
 
     @property
     def largest(self) -> float:
-        """Return the largest modulus, or infinity for what is exact (words, whole numbers)."""
+        """Return the largest modulus; words and whole numbers are exact and count as infinite."""
         if self.values.dtype.kind != "f":
             return np.inf
         return float(abs(self.values[np.isfinite(self.values)]).max(initial=0))

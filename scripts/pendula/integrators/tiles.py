@@ -1,4 +1,4 @@
-"""A long state in tiles, each of which goes through all stages of a step inside the cache.
+"""A long state in tiles: each tile goes through all stages of a step inside the cache.
 
 The sixteen stages of a long chain do not fit into the cache, and memory would set the pace. A
 stage of an explicit method looks one site further than the one before. So a tile is taken with a

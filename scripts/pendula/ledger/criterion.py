@@ -7,6 +7,7 @@ verdict is computed from a criterion and numbers, never typed.
 
 import math
 import operator
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple
@@ -17,7 +18,25 @@ Measured = Mapping[str, float]
 RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
-class Criterion:
+class Criterion(ABC):
+    """What the numbers called `names` must keep; its text states the limits that decide."""
+
+    names: tuple[str, ...]
+
+    @abstractmethod
+    def failing(self, measured: Measured) -> list[str]:
+        """Return the names whose numbers do not keep the criterion."""
+
+    @abstractmethod
+    def refuted_by(self) -> list[dict[str, float]]:
+        """Return sets of measured numbers; the criterion must refuse every one of these sets."""
+
+    def holds(self, measured: Measured) -> bool:
+        """Return whether all numbers keep the criterion."""
+        return not self.failing(measured)
+
+
+class Limit(Criterion):
     """A limit on measured numbers; all of `names` must keep it.
 
     `says` are the words for them in print, if the names alone do not say what the numbers are.
@@ -26,24 +45,18 @@ class Criterion:
     def __init__(self, limit: float, *names: str, says: str = ""):
         self.limit, self.names, self.says = float(limit), names, says
 
+    @abstractmethod
     def keeps(self, value: float) -> bool:
         """Return whether one number keeps the limit."""
-        raise NotImplementedError
 
+    @abstractmethod
     def wrong(self) -> float:
         """Return a number that does not keep it."""
-        raise NotImplementedError
 
     def failing(self, measured: Measured) -> list[str]:
-        """Return the names whose numbers do not keep the limit."""
         return [name for name in self.names if not self.keeps(measured[name])]
 
-    def holds(self, measured: Measured) -> bool:
-        """Return whether all numbers keep the limit."""
-        return not self.failing(measured)
-
     def refuted_by(self) -> list[dict[str, float]]:
-        """Return measured numbers, each of which the criterion must refuse."""
         return [{name: self.wrong()} for name in self.names]
 
     @property
@@ -52,7 +65,7 @@ class Criterion:
         return self.says or ", ".join(map(in_words, self.names))
 
 
-class Comparison(Criterion):
+class Comparison(Limit):
     """Each number stands in a relation to the limit, which `sign` writes."""
 
     sign: str
@@ -103,7 +116,7 @@ class WithinFactor(Below):
         return f"{plain(1.0 / self.limit)} < {super().__str__()}"
 
 
-class Near(Criterion):
+class Near(Limit):
     """Each number differs from `target` by no more than the limit."""
 
     def __init__(self, target: float, limit: float, *names: str, says: str = ""):
@@ -122,7 +135,7 @@ class Near(Criterion):
         return f"{self.words} within {plain(self.limit)} of {plain(self.target)}"
 
 
-class Levels(Criterion):
+class Levels(Limit):
     """Each half-width from which a curve is level is finite: it does level off."""
 
     def __init__(self, *names: str, says: str = "the half-width where it levels off"):
@@ -172,10 +185,10 @@ class AboveByErrors(Above):
 
 
 class AllOf(Criterion):
-    """Several criteria, all of which must hold."""
+    """Several criteria; every single one must hold."""
 
     def __init__(self, *criteria: Criterion):
-        super().__init__(math.nan, *dict.fromkeys(name for one in criteria for name in one.names))
+        self.names = tuple(dict.fromkeys(name for one in criteria for name in one.names))
         self.criteria = criteria
 
     def failing(self, measured: Measured) -> list[str]:

@@ -46,7 +46,7 @@ ABOUT = {
 
 
 def tiny_tolerances(rtol: float = 1e-9) -> dict:
-    """Return tolerances of which the absolute one is below the tiny data."""
+    """Return tolerances for tiny data: the absolute tolerance lies below these data."""
     return {"rtol": rtol, "atol": rtol * TINY}
 
 
