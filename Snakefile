@@ -45,6 +45,7 @@ rule all:
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
         expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
         "results/claims.json",
+        "results/controls.json",
         "results/tables/solvers.md",
         "results/tables/claims.md",
         "results/tables/trust.md",
@@ -64,6 +65,7 @@ rule theory:
         expand("results/checks/{name}.nc", name=CHECKS),
         expand("results/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
         "results/claims.json",
+        "results/controls.json",
 
 
 rule chaos:

@@ -2,20 +2,26 @@
 
 import json
 from collections import Counter
+from itertools import chain
 from pathlib import Path
 
 from pendula.datasets import complete_or_absent
 from pendula.datasets.checks import broken, deciding, describe
 from pendula.datasets.netcdf import read
-from pendula.ledger.claim import evaluate, needed
+from pendula.ledger.claim import controls_of, evaluate, needed
 from pendula.ledger.criterion import Verdict
 from pendula.report.words import markdown, write_markdown
 
 
 def decide_claims(
-    datasets: list[str], names: list[str], makers: dict[str, str], ledger: str, table: str
+    datasets: list[str],
+    names: list[str],
+    makers: dict[str, str],
+    ledger: str,
+    controls: str,
+    table: str,
 ) -> None:
-    """Write the ledger as JSON and as Markdown, in the order of the paper.
+    """Write the ledger and its controls as JSON, and both as Markdown, in the order of the paper.
 
     `names` are those of `datasets` as the claims know them, `makers` the rule that makes each.
     """
@@ -25,15 +31,20 @@ def decide_claims(
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
     rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources)]
     checks = {name: ds.to_dict() for name, ds in sources.items() if name.startswith("checks/")}
-    write(ledger, json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False))
-    write_markdown(table, *claims_section(rows), *checks_section(checks))
+    fed = controls_of(rows)
+    write(ledger, rows)
+    write(controls, fed)
+    sections = claims_section(rows), cutoffs_section(rows), controls_section(fed)
+    write_markdown(table, *chain(*sections), *checks_section(checks))
     print(", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items()))
+    print(f"{sum(one['passes'] for one in fed)} of {len(fed)} controls came out as they must")
     for name, check in checks.items():
         if broken(check):
             print(describe(name.removeprefix("checks/"), check))
 
 
-def write(path: str, text: str) -> None:
+def write(path: str, rows: list[dict]) -> None:
+    text = json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False)
     with complete_or_absent(path) as partial:
         Path(partial).write_text(f"{text}\n", encoding="utf-8")
 
@@ -67,6 +78,31 @@ def claims_section(rows: list[dict]) -> list[str]:
 
 def shown(value: float | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def cutoffs_section(rows: list[dict]) -> list[str]:
+    """Return every cut-off with its origin, the claims that read it, and those that rest on it."""
+    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
+    lines = [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
+    head = ("cut-off", "where it comes from", "decides", "rest on it")
+    return ["# The cut-offs, each moved by a third either way", markdown(head, lines)]
+
+
+def users(rows: list[dict], key: str) -> dict[tuple, str]:
+    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
+    names: dict[tuple, dict] = {}
+    for row in rows:
+        for cutoff in row[key]:
+            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
+    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
+
+
+def controls_section(controls: list[dict]) -> list[str]:
+    """Return what every deciding function said of the wrong cases that it was fed."""
+    keys = ("claim", "fed", "must", "verdict", "because")
+    lines = [(*(one[key] for key in keys), "yes" if one["passes"] else "NO") for one in controls]
+    head = ("claim", "its function was fed", "must", "verdict", "because", "as it must")
+    return ["# The controls", markdown(head, lines)]
 
 
 def checks_section(checks: dict[str, dict]) -> list[str]:

@@ -67,12 +67,13 @@ rule check_observed:
 
 
 rule claims:
-    "results/claims.json: every sentence of the paper that numbers can decide, with its verdict"
+    "results/claims.json, controls.json: every sentence that numbers can decide, and its verdict"
     input:
         code=code("theory/decide_claims.py", "claims"),
         datasets=expand("results/{name}.nc", name=makers()),
     output:
         ledger="results/claims.json",
+        controls="results/controls.json",
         table="results/tables/claims.md",
     log:
         "results/logs/claims.log",

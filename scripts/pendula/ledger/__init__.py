@@ -2,6 +2,7 @@
 
 `claim`      a claim, as a study declares it above the function that decides it; all their verdicts
 `criterion`  what decides, and prints itself
+`cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `section`    the ledger's part of the report
 
 Each study keeps its claims in its own folder, in modules whose names start with `claims`.

@@ -7,15 +7,16 @@ from typing import NamedTuple
 
 from pendula import studies
 
-from .criterion import Finding, UndecidableError, undecided
+from .criterion import Finding, UndecidableError, Verdict, undecided
+from .cutoff import Cutoff, Flip, flips
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
-# that none is fitted to the numbers of one row. "Comparable", "the same level", "no drastic
-# difference": within a factor of 2; "grows", "mix up" likewise. "Significantly larger", "large":
-# by a factor of 3. "Do not change much", "saturates", "no significant" or "no visible
-# difference": by less than 25 %. "Does not change": by less than 2 %; what changes by more than
-# that in one direction "decreases". "Nearly monotonic": three of four steps.
-FACTOR, MUCH, CHANGE, CONSTANT, NEARLY_ALL = 2.0, 3.0, 0.25, 0.02, 0.75
+# that none is fitted to the numbers of one row.
+FACTOR = Cutoff(2.0, '"comparable", "the same level", "mix up", "grows": a factor of 2')
+MUCH = Cutoff(3.0, '"large", "significantly larger": a factor of 3')
+CHANGE = Cutoff(0.25, '"do not change much", "saturates": by less than a quarter')
+CONSTANT = Cutoff(0.02, '"does not change": by less than 2 %, which a figure of 5 cm hardly shows')
+NEARLY_ALL = Cutoff(0.75, '"nearly monotonic": three of four steps go up', 1.0)
 
 SETTLED = 10.0
 """The paper takes its statistics from here on: its time windows start at tau = 10."""
@@ -23,8 +24,21 @@ FEWEST = 6
 """A sweep with fewer half-widths decides nothing."""
 
 
+class Control(NamedTuple):
+    """A wrong case for a deciding function, which must not confirm the claim by it.
+
+    `fed` says what takes the place of a needed dataset: the name of another dataset, or a function
+    of the right one. `confirms` turns the control round, for a claim that is not reproduced: the
+    function must confirm this right case, or it could not have confirmed anything.
+    """
+
+    says: str
+    fed: Mapping[str, str | Callable]
+    confirms: bool = False
+
+
 class Claim(NamedTuple):
-    """A sentence of the paper, and the function that decides it.
+    """A sentence of the paper, the function that decides it, and the controls of that function.
 
     `needs` names the datasets that decide it: paths below results/ without their ending.
     """
@@ -34,16 +48,19 @@ class Claim(NamedTuple):
     says: str
     needs: tuple[str, ...]
     decide: Callable
+    controls: tuple[Control, ...]
 
 
-def claim(place: str, says: str, needs: tuple[str, ...]) -> Callable:
+def claim(
+    place: str, says: str, needs: tuple[str, ...], controls: tuple[Control, ...] = ()
+) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
     The claim has the name of the function.
     """
 
     def declare(function: Callable) -> Callable:
-        function.claim = Claim(function.__name__, place, says, needs, function)
+        function.claim = Claim(function.__name__, place, says, needs, function, controls)
         return function
 
     return declare
@@ -108,7 +125,11 @@ def all_claims() -> tuple[Claim, ...]:
 
 def needed() -> list[str]:
     """Return every dataset that the ledger reads, once each, in the order of the claims."""
-    return list(dict.fromkeys(name for claim in all_claims() for name in claim.needs))
+    names = []
+    for claim in all_claims():
+        names += claim.needs
+        names += [fed for control in claim.controls for fed in control.fed.values()]
+    return list(dict.fromkeys(name for name in names if isinstance(name, str)))
 
 
 def decide(claim: Claim, sources: Mapping) -> Finding:
@@ -122,13 +143,40 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
         return undecided({}, str(reason))
 
 
+def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
+    """Return the finding of a claim's function on a control."""
+    fed = {name: wrong for name, wrong in control.fed.items() if name in sources}
+    absent = [wrong for wrong in fed.values() if isinstance(wrong, str) and wrong not in sources]
+    if absent:
+        return undecided({}, f"{', '.join(absent)} was not made")
+    wrongs = {
+        name: sources[wrong] if isinstance(wrong, str) else wrong(sources[name])
+        for name, wrong in fed.items()
+    }
+    return decide(claim, {**sources, **wrongs})
+
+
+def passes(control: Control, finding: Finding) -> bool:
+    """Return whether a finding is what the control wants: a refusal, or a confirmation."""
+    confirmed = finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
+    return confirmed if control.confirms else not confirmed
+
+
 def evaluate(sources: Mapping) -> list[dict]:
-    """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}."""
-    return [_row(claim, decide(claim, sources)) for claim in all_claims()]
+    """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
+
+    A verdict that changes where a cut-off moves by a third says so. A claim whose function
+    confirms a wrong case cannot be decided by it.
+    """
+    return [_row(claim, sources) for claim in all_claims()]
 
 
-def _row(claim: Claim, finding: Finding) -> dict:
+def _row(claim: Claim, sources: Mapping) -> dict:
     home = claim.decide.__module__.removeprefix(f"{studies.__name__}.")
+    finding = decide(claim, sources)
+    cutoffs, moved = flips(lambda: str(decide(claim, sources).verdict))
+    controls = [(control, feed(claim, control, sources)) for control in claim.controls]
+    finding = _severe(finding, moved, controls)
     return {
         "name": claim.name,
         "place": claim.place,
@@ -139,6 +187,47 @@ def _row(claim: Claim, finding: Finding) -> dict:
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
+        "cutoffs": [_cutoff_row(cutoff) for cutoff in cutoffs],
+        "rests_on": [
+            _cutoff_row(flip.cutoff) | {"moved_to": plain(flip.value), "verdict": flip.verdict}
+            for flip in moved
+        ],
+        "controls": [_control_row(control, fed) for control, fed in controls],
+    }
+
+
+def controls_of(rows: list[dict]) -> list[dict]:
+    """Return what every claim's function said of its controls, from the rows of the ledger."""
+    return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
+
+
+def _severe(
+    finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
+) -> Finding:
+    """Return the finding with what the moved cut-offs and the controls say against it."""
+    wrong = next((c for c, fed in controls if not c.confirms and not passes(c, fed)), None)
+    if wrong is not None and finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT):
+        return undecided(finding.measured, f"what decides it confirms a wrong case: {wrong.says}")
+    if not moved:
+        return finding
+    rests = f"rests on the cut-off: {'; '.join(map(str, moved))}"
+    because = f"{finding.because}; {rests}" if finding.because else rests
+    kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
+    return finding._replace(because=because, verdict=kept)
+
+
+def _cutoff_row(cutoff: Cutoff) -> dict:
+    return {"value": plain(cutoff.number), "from": cutoff.origin}
+
+
+def _control_row(control: Control, fed: Finding) -> dict:
+    return {
+        "fed": control.says,
+        "must": "be confirmed" if control.confirms else "not be confirmed",
+        "verdict": str(fed.verdict),
+        "because": fed.because,
+        "measured": {name: plain(value) for name, value in fed.measured.items()},
+        "passes": passes(control, fed),
     }
 
 

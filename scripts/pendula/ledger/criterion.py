@@ -10,9 +10,11 @@ import operator
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import NamedTuple
+from typing import NamedTuple, SupportsFloat
 
 import numpy as np
+
+from .cutoff import Cutoff
 
 Measured = Mapping[str, float]
 RELATIONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
@@ -39,10 +41,11 @@ class Criterion(ABC):
 class Limit(Criterion):
     """A limit on measured numbers; all of `names` must keep it.
 
-    `says` are the words for them in print, if the names alone do not say what the numbers are.
+    The limit is a number or a `Cutoff`. `says` are the words for the numbers in print, if their
+    names alone do not say what they are.
     """
 
-    def __init__(self, limit: float, *names: str, says: str = ""):
+    def __init__(self, limit: SupportsFloat, *names: str, says: str = ""):
         self.limit, self.names, self.says = float(limit), names, says
 
     @abstractmethod
@@ -119,7 +122,7 @@ class WithinFactor(Below):
 class Near(Limit):
     """Each number differs from `target` by no more than the limit."""
 
-    def __init__(self, target: float, limit: float, *names: str, says: str = ""):
+    def __init__(self, target: float, limit: SupportsFloat, *names: str, says: str = ""):
         super().__init__(limit, *names, says=says)
         self.target = float(target)
 
@@ -167,7 +170,7 @@ class NeverLevels(Levels):
 class AboveByErrors(Above):
     """A number is greater than the limit by so many of its standard errors."""
 
-    def __init__(self, limit: float, name: str, error: str, errors: float):
+    def __init__(self, limit: SupportsFloat, name: str, error: str, errors: SupportsFloat):
         super().__init__(limit, name)
         self.error, self.errors = error, float(errors)
 
@@ -258,4 +261,10 @@ def undecided(measured: Measured, because: str) -> Finding:
 def within_tolerance(check, *names: str) -> Finding:
     """Return the finding of a check that holds when these variables keep their tolerances."""
     measured = {name: float(np.max(check[name].values)) for name in names}
-    return judge(measured, AllOf(*(AtMost(check[name].attrs["tolerance"], name) for name in names)))
+    limits = [AtMost(tolerance(check, name), name) for name in names]
+    return judge(measured, AllOf(*limits))
+
+
+def tolerance(check, name: str) -> Cutoff:
+    """Return what the check itself allows a variable, which rounding and solvers decide."""
+    return Cutoff(check[name].attrs["tolerance"], f"the check's tolerance of {in_words(name)}")

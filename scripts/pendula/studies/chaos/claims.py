@@ -134,8 +134,10 @@ def ensemble_fig6_grows(ensembles) -> Finding:
     ratio = l2[peak] / l2[0]
     noise = APART * ratio * float(np.hypot(error[peak] / l2[peak], error[0] / l2[0]))
     measured = {"peak_over_first": ratio, "two_errors": noise, "peak_at": m[peak]}
-    if abs(ratio - FACTOR) <= noise:
-        return undecided(measured, f"{ratio:.2f} is told from {FACTOR:g} by less than its error")
+    if abs(ratio - FACTOR.value) <= noise:
+        return undecided(
+            measured, f"{ratio:.2f} is told from {FACTOR.value:g} by less than its error"
+        )
     return judge(measured, Above(FACTOR, "peak_over_first"))
 
 

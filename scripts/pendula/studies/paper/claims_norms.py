@@ -138,7 +138,7 @@ def fig2_separate(large) -> Finding:
     ratio = settled["l2"].sel(component="B").max() / settled["l2"].sel(component="A").min()
     measured = {"smallest_A_kept": share.min(), "B_over_A": ratio}
     kept = Above(KEPT, "smallest_A_kept", says="smallest part of its maximum that A keeps")
-    small = Below(1.0 / MUCH, "B_over_A", says="l2 of B over that of A")
+    small = Below(1.0 / MUCH.value, "B_over_A", says="l2 of B over that of A")
     return judge(measured, AllOf(kept, small))
 
 
@@ -154,7 +154,7 @@ def fig2_alone(large) -> Finding:
     partner = large["linf"].sel(component="B").max() / start
     measured = {"all_other_A": others, "largest_B": partner}
     says = "all other A, largest B over A_0"
-    return judge(measured, Below(1.0 / MUCH, "all_other_A", "largest_B", says=says))
+    return judge(measured, Below(1.0 / MUCH.value, "all_other_A", "largest_B", says=says))
 
 
 @claim(

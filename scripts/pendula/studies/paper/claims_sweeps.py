@@ -112,7 +112,7 @@ def fig5_decreases(sweep) -> Finding:
         "level_from": levelling(m, highest),
     }
     caveat = ""
-    if measured["fall_of_mean"] <= CONSTANT:
+    if measured["fall_of_mean"] <= CONSTANT.value:
         caveat = "for the maximum that the text names, not for the average of the caption"
     return judge(measured, AllOf(Above(CONSTANT, "fall_of_maximum"), Levels("level_from")), caveat)
 
@@ -162,7 +162,7 @@ def fig5_caption(sweep) -> Finding:
 )
 def fig5_not_shown(check) -> Finding:
     l2 = check["l2"].values
-    level = levelling(check["half_width"].values, l2, CONSTANT)
+    level = levelling(check["half_width"].values, l2, CONSTANT.value)
     measured = {"fall": 1.0 - l2[-1] / l2[0], "level_from": level}
     return judge(measured, AllOf(AtLeast(0.0, "fall"), Levels("level_from")))
 
@@ -238,11 +238,11 @@ def fig6_not_technical(case, sweep) -> Finding:
 )
 def fig6_caption(left, right) -> Finding:
     readings = (("max", TEXT_6), ("mean", CAPTION_6))
-    flat = [relative_range(swept(left, "l2", *reading)[1]) < CONSTANT for reading in readings]
+    flat = [relative_range(swept(left, "l2", *reading)[1]) < CONSTANT.value for reading in readings]
     grows = []
     for reading in readings:
         values = swept(right, "l2", *reading)[1]
-        grows.append(values.max() / values[0] > FACTOR)
+        grows.append(values.max() / values[0] > FACTOR.value)
     measured = {"flat_by_text": flat[0], "flat_by_caption": flat[1]}
     measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}
     if flat[0] == flat[1] and grows[0] == grows[1]:

@@ -151,7 +151,7 @@ def _curve(results: Results, name: str, statistic: str, norm: str) -> dict[str, 
         "case": case,
         "told": told,
         "shape": results.say(source, way),
-        "grows": values.max() > (1.0 + CHANGE) * values[0],
+        "grows": values.max() > (1.0 + CHANGE.value) * values[0],
         "level": results.say(source, level),
     }
 
@@ -159,10 +159,10 @@ def _curve(results: Results, name: str, statistic: str, norm: str) -> dict[str, 
 def shape(widths: np.ndarray, values: np.ndarray) -> str:
     """Return in words how a curve goes, by the measures of the claims."""
     peak = int(values.argmax())
-    if values[peak] > (1.0 + CHANGE) * max(values[0], values[-1]):
+    if values[peak] > (1.0 + CHANGE.value) * max(values[0], values[-1]):
         return f"rises to {measured(values[peak])} at M = {widths[peak]} and falls again"
     change = values[-1] / values[0] - 1.0
-    if abs(change) < CONSTANT:
+    if abs(change) < CONSTANT.value:
         return "stays as it is"
     return "grows" if change > 0 else "falls"
 

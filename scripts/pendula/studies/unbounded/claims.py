@@ -223,5 +223,5 @@ def unbounded_window(run) -> Finding:
     measured = {"beyond": np.abs(far - 1.0).max(), "within": near.max()}
     caveat = "only for M below the front's way v T: there it levels off, higher for longer T"
     level = Below(CONSTANT, "beyond", says="relative change of the maxima beyond v T")
-    lower = Below(1.0 - CONSTANT, "within", says="maxima below v T / 2 over the level")
+    lower = Below(1.0 - CONSTANT.value, "within", says="maxima below v T / 2 over the level")
     return judge(measured, AllOf(level, lower), caveat)

@@ -1,0 +1,82 @@
+"""What a wrong case and a moved cut-off do to the row of a claim."""
+
+import pytest
+from pendula.ledger.claim import Claim, Control, controls_of, evaluate, needed, passes
+from pendula.ledger.criterion import Above, Below, Verdict, judge
+from pendula.ledger.cutoff import Cutoff
+
+GROWS = Cutoff(2.0, '"grows"')
+
+
+def grows(run):
+    return judge({"growth": run}, Above(GROWS, "growth"))
+
+
+def anything(run):
+    return judge({"growth": run}, Above(-1e9, "growth"))
+
+
+def shrinks(run):
+    return judge({"growth": run}, Below(0.5, "growth"))
+
+
+@pytest.fixture
+def row(monkeypatch):
+    """Return the row of a claim that a function decides from runs by name, with these controls."""
+
+    def row_of(function, sources, *controls):
+        claim = Claim("it", "Section 0", "It is so.", ("run",), function, controls)
+        monkeypatch.setattr("pendula.ledger.claim.all_claims", lambda: (claim,))
+        (found,) = evaluate(sources)
+        return found
+
+    return row_of
+
+
+def test_a_wrong_case_is_refused_and_the_claim_stands(row):
+    found = row(grows, {"run": 5.0, "flat": 1.0}, Control("a flat run", {"run": "flat"}))
+    assert found["verdict"] == Verdict.CONFIRMED and found["because"] == ""
+    (control,) = controls_of([found])
+    assert control["claim"] == "it" and control["fed"] == "a flat run" and control["passes"]
+    assert control["verdict"] == Verdict.NOT_REPRODUCED
+    assert needed() == ["run", "flat"]
+
+
+def test_a_function_that_confirms_a_wrong_case_decides_nothing(row):
+    found = row(anything, {"run": 5.0, "flat": 1.0}, Control("a flat run", {"run": "flat"}))
+    assert found["verdict"] == Verdict.UNDECIDED and "a flat run" in found["because"]
+    assert not controls_of([found])[0]["passes"]
+
+
+def test_a_dataset_can_be_made_wrong(row):
+    found = row(grows, {"run": 5.0}, Control("a tenth", {"run": lambda run: 0.1 * run}))
+    assert found["controls"][0]["measured"] == {"growth": 0.5}
+
+
+def test_a_refuted_claim_shows_that_its_function_can_confirm(row):
+    right = Control("a falling run", {"run": "falling"}, confirms=True)
+    found = row(shrinks, {"run": 5.0, "falling": 0.1}, right)
+    assert found["verdict"] == Verdict.NOT_REPRODUCED and found["controls"][0]["passes"]
+    assert not passes(right, shrinks(5.0))
+
+
+def test_a_control_without_its_dataset_is_not_decided(row):
+    found = row(grows, {"run": 5.0}, Control("a flat run", {"run": "flat"}))
+    assert found["controls"][0]["verdict"] == Verdict.UNDECIDED
+    assert "flat was not made" in found["controls"][0]["because"]
+
+
+@pytest.mark.parametrize(
+    ("growth", "verdict", "moved"),
+    [
+        (9.0, Verdict.CONFIRMED, []),
+        (2.5, Verdict.CAVEAT, [Verdict.NOT_REPRODUCED]),
+        (1.9, Verdict.NOT_REPRODUCED, [Verdict.CONFIRMED]),
+    ],
+)
+def test_a_row_says_whether_it_rests_on_its_cutoff(row, growth, verdict, moved):
+    found = row(grows, {"run": growth})
+    assert found["verdict"] == verdict
+    assert [rest["verdict"] for rest in found["rests_on"]] == moved
+    assert ("rests on the cut-off" in found["because"]) == bool(moved)
+    assert found["cutoffs"] == [{"value": 2.0, "from": '"grows"'}]

@@ -1,0 +1,53 @@
+"""A cut-off records that it decides, and a verdict that hangs on it is found by moving it."""
+
+import pytest
+from pendula.ledger.criterion import Below, judge
+from pendula.ledger.cutoff import Cutoff, flips, moving, recorded
+
+HALF = Cutoff(0.5, '"about half"')
+WHOLE = Cutoff(0.9, '"nearly all"', ideal=1.0)
+
+
+def verdict_of(value, cutoff=HALF):
+    return lambda: str(judge({"x": value}, Below(cutoff, "x")).verdict)
+
+
+def test_a_cutoff_is_a_number_that_records_its_reading():
+    with recorded() as read:
+        assert float(HALF) == 0.5
+    assert read == {HALF}
+    assert float(WHOLE) == 0.9 and read == {HALF}  # nobody records any more
+
+
+@pytest.mark.parametrize(("cutoff", "low", "high"), [(HALF, 1 / 3, 2 / 3), (WHOLE, 0.9333, 0.8667)])
+def test_a_cutoff_moves_by_a_third_of_its_distance_from_the_ideal(cutoff, low, high):
+    for factor, moved in ((2 / 3, low), (4 / 3, high)):
+        with moving(cutoff, factor):
+            assert float(cutoff) == pytest.approx(moved, abs=1e-4)
+    assert float(cutoff) == cutoff.number
+
+
+def test_only_the_cutoff_that_is_meant_moves():
+    with moving(HALF, 2.0):
+        assert float(WHOLE) == 0.9
+
+
+@pytest.mark.parametrize(
+    ("value", "moved"),
+    [(0.1, []), (0.4, [1 / 3]), (0.6, [2 / 3]), (0.9, [])],
+)
+def test_a_verdict_flips_only_where_the_number_is_near_its_cutoff(value, moved):
+    read, found = flips(verdict_of(value))
+    assert read == [HALF]
+    assert [flip.value for flip in found] == pytest.approx(moved)
+    for flip in found:
+        assert flip.verdict != verdict_of(value)()
+        assert flip.verdict in str(flip) and "in place of 0.5" in str(flip)
+
+
+def test_an_inner_cutoff_counts_though_no_criterion_prints_it():
+    def decide():
+        return "confirmed" if WHOLE.value < 0.92 else "not reproduced"
+
+    (flip,) = flips(decide)[1]
+    assert flip.verdict == "not reproduced" and flip.value == pytest.approx(1 - 0.2 / 3)
