@@ -1,0 +1,125 @@
+"""Confidence limits: of a mean of few members, of a share, of a median, of a mean life.
+
+Quantiles of the distributions are rounded to six digits, because the last bits of the special
+functions behind them differ between machines.
+"""
+
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+from scipy import special
+
+CONFIDENCE = 0.95
+"""Limits enclose the true value in so many of all repetitions, as is the custom."""
+
+
+class Limits(NamedTuple):
+    """An estimate and its confidence limits, numbers or arrays of one shape."""
+
+    value: np.ndarray | float
+    low: np.ndarray | float
+    high: np.ndarray | float
+
+    @property
+    def half(self) -> np.ndarray | float:
+        """Half the distance of the limits."""
+        return 0.5 * (self.high - self.low)
+
+
+def student(freedom: float, confidence: float = CONFIDENCE) -> float:
+    """Return the quantile of Student's t that bounds a mean from both sides."""
+    return _rounded(special.stdtrit(freedom, 0.5 * (1.0 + confidence)))
+
+
+def mean_limits(values, confidence: float = CONFIDENCE) -> Limits:
+    """Return the mean over the members of (member, ...) and its limits by Student's t, (...).
+
+    Members must be independent of each other. One member has no limits: they are infinite.
+    """
+    values = np.asarray(values, dtype=float)
+    members, mean = len(values), values.mean(axis=0)
+    if members < 2:
+        return Limits(mean, mean - np.inf, mean + np.inf)
+    off = student(members - 1, confidence) * values.std(axis=0, ddof=1) / sqrt(members)
+    return Limits(mean, mean - off, mean + off)
+
+
+def difference_limits(one, other, confidence: float = CONFIDENCE) -> Limits:
+    """Return the mean of `one` minus that of `other`, both (member,), with Welch's limits."""
+    one, other = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
+    parts = [values.var(ddof=1) / len(values) for values in (one, other)]
+    difference, error = one.mean() - other.mean(), sqrt(sum(parts))
+    off = student(_welch(parts, (len(one), len(other))), confidence) * error if error else 0.0
+    return Limits(difference, difference - off, difference + off)
+
+
+def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> Limits:
+    """Return the ratio of two means over `members` each, mean[1] / mean[0], and its limits.
+
+    `mean` and `error` hold two means and their standard errors. The limits are Fieller's (Q. J. R.
+    Stat. Soc. B 16 (1954) 175), with the smaller of the two numbers of degrees of freedom; they are
+    infinite where the lower mean cannot be told from zero.
+    """
+    (below, above), t = mean, student(members - 1, confidence)
+    variances = [(t * one) ** 2 for one in error]
+    bottom = below**2 - variances[0]
+    ratio = above / below
+    if bottom <= 0.0:
+        return Limits(ratio, -np.inf, np.inf)
+    root = sqrt(max((above * below) ** 2 - bottom * (above**2 - variances[1]), 0.0))
+    return Limits(ratio, (above * below - root) / bottom, (above * below + root) / bottom)
+
+
+def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Limits:
+    """Return the share of `members` that `count` are, with the exact limits of Clopper and Pearson.
+
+    Their source is Biometrika 26 (1934) 404.
+    """
+    tail = 0.5 * (1.0 - confidence)
+    low = special.betaincinv(count, members - count + 1, tail) if count else 0.0
+    high = special.betaincinv(count + 1, members - count, 1.0 - tail) if count < members else 1.0
+    return Limits(count / members, _rounded(low), _rounded(high))
+
+
+def median_limits(values, confidence: float = CONFIDENCE) -> Limits:
+    """Return the median of (member,) and the order statistics that bound it, whatever the law.
+
+    Values may be infinite: a life that has not ended when watching stops counts as longer than all
+    others. This is the median of Kaplan and Meier where all are watched equally long. A limit is
+    infinite where too few lives have ended.
+    """
+    ordered = np.sort(np.asarray(values, dtype=float))
+    members, tail = len(ordered), 0.5 * (1.0 - confidence)
+    middle = ordered[[(members - 1) // 2, members // 2]]
+    median = middle[1] if np.isinf(middle).any() else middle.mean()
+    rank = np.searchsorted(special.bdtr(np.arange(members, dtype=float), members, 0.5), tail)
+    low = ordered[rank - 1] if rank > 0 else -np.inf
+    high = ordered[members - rank] if rank > 0 else np.inf
+    return Limits(float(median), float(low), float(high))
+
+
+def mean_life(lives, watched: float, confidence: float = CONFIDENCE) -> Limits:
+    """Return the mean life of an exponential law, by the likelihood of lives that may be censored.
+
+    `lives` is (member,), infinite where a life went on after the time `watched`. The limits are
+    those of chi-squared; where no life ended the mean and its upper limit are infinite.
+    """
+    lives = np.asarray(lives, dtype=float)
+    ended = int(np.isfinite(lives).sum())
+    at_risk, tail = float(np.minimum(lives, watched).sum()), 0.5 * (1.0 - confidence)
+    low = 2.0 * at_risk / _rounded(special.chdtri(2 * (ended + 1), tail))
+    if not ended:
+        return Limits(np.inf, low, np.inf)
+    high = 2.0 * at_risk / _rounded(special.chdtri(2 * ended, 1.0 - tail))
+    return Limits(at_risk / ended, low, high)
+
+
+def _welch(parts, members) -> float:
+    """Return the degrees of freedom of a difference, from the squared errors of both means."""
+    below = sum(part**2 / (count - 1) for part, count in zip(parts, members, strict=True))
+    return sum(parts) ** 2 / below if below else np.inf
+
+
+def _rounded(value: float) -> float:
+    return float(f"{float(value):.6g}")

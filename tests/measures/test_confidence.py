@@ -1,0 +1,82 @@
+"""Confidence limits: against SciPy's own, and how often they enclose what is known."""
+
+import numpy as np
+import pytest
+from pendula.measures import confidence
+from scipy import stats
+
+RNG = np.random.default_rng(3)
+
+
+def covered(limits_of, truth, draws=400):
+    found = [limits_of(np.random.default_rng(seed)) for seed in range(draws)]
+    return np.mean([low <= truth <= high for _, low, high in found])
+
+
+def test_limits_of_a_mean_are_student_s():
+    values = RNG.normal(3.0, 2.0, size=(8, 3))
+    mean, low, high = confidence.mean_limits(values)
+    known = stats.ttest_1samp(values, 0.0).confidence_interval(0.95)
+    np.testing.assert_allclose([low, high], [known.low, known.high], rtol=1e-5)
+    np.testing.assert_allclose(mean, values.mean(axis=0))
+
+
+def test_one_member_has_no_limits():
+    assert confidence.mean_limits([4.0]).high == np.inf
+
+
+def test_limits_of_a_difference_are_welch_s():
+    one, other = RNG.normal(1.0, 1.0, 6), RNG.normal(0.0, 5.0, 20)
+    known = stats.ttest_ind(one, other, equal_var=False).confidence_interval(0.95)
+    found = confidence.difference_limits(one, other)
+    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-4)
+
+
+def test_equal_members_have_a_sure_difference():
+    assert confidence.difference_limits([2.0, 2.0], [1.0, 1.0]) == (1.0, 1.0, 1.0)
+
+
+def test_limits_of_a_ratio_enclose_it_as_often_as_they_say():
+    def limits(rng):
+        drawn = rng.normal([[10.0], [20.0]], 3.0, size=(2, 8))
+        return confidence.ratio_limits(drawn.mean(1), drawn.std(1, ddof=1) / np.sqrt(8), 8)
+
+    assert 0.93 < covered(limits, 2.0) <= 0.995
+
+
+def test_a_ratio_to_what_may_be_zero_has_no_limits():
+    assert confidence.ratio_limits((1.0, 5.0), (1.0, 0.1), 8).high == np.inf
+
+
+@pytest.mark.parametrize(("count", "members"), [(0, 10), (3, 10), (10, 10)])
+def test_limits_of_a_share_are_exact(count, members):
+    known = stats.binomtest(count, members).proportion_ci(0.95, "exact")
+    found = confidence.share_limits(count, members)
+    np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-5)
+
+
+def test_limits_of_a_median_enclose_it_at_least_as_often_as_they_say():
+    def limits(rng):
+        return confidence.median_limits(rng.exponential(size=15))
+
+    assert covered(limits, np.log(2.0)) >= 0.95
+
+
+def test_a_median_that_was_not_lived_to_see_is_infinite():
+    median, low, high = confidence.median_limits([1.0] * 10 + [np.inf] * 12)
+    assert (median, low, high) == (np.inf, 1.0, np.inf)
+    assert confidence.median_limits([1.0, 2.0]) == (1.5, -np.inf, np.inf)
+
+
+def test_mean_life_enclosed_though_half_of_the_lives_are_censored():
+    def limits(rng):
+        lives = rng.exponential(5.0, size=40)
+        return confidence.mean_life(np.where(lives < 3.5, lives, np.inf), 3.5)
+
+    assert 0.92 < covered(limits, 5.0) <= 0.99
+
+
+def test_no_death_bounds_the_mean_life_from_below_only():
+    value, low, high = confidence.mean_life([np.inf] * 20, 10.0)
+    assert value == high == np.inf
+    assert low == pytest.approx(200.0 / -np.log(0.025), rel=1e-5)
