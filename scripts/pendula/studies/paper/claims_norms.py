@@ -1,4 +1,4 @@
-"""Section 5, Figs 2 to 4: the energy and the norms against time."""
+"""Section 5, Figs 2 to 4: the norms against time."""
 
 import numpy as np
 
@@ -8,7 +8,6 @@ from pendula.ledger.claim import (
     LARGE,
     MUCH,
     SMALL,
-    checks,
     claim,
     halves,
     late,
@@ -39,39 +38,6 @@ RISE = 0.1
 # ASSUME: "is unstable": grows by e within 3; "many": a quarter; a pendulum is "excited" at a fifth
 # of the largest amplitude; curves are apart at 30 % of scale.
 UNSTABLE, MANY, EXCITED, APART = 3.0, 0.25, 0.2, 0.3
-
-
-def drifts(solvers, size: str) -> Finding:
-    """Return the finding of a claim on the energy over the cases with data of this size."""
-    cases = [str(case) for case in solvers["case"].values if str(case).endswith(size)]
-    if not cases:
-        raise UndecidableError(f"no case has {size} data")
-    chosen = solvers.sel(case=cases, solver="ode45")
-    largest_drifts = chosen["largest_drift"].sel(span="whole").values
-    measured = dict(zip(cases, largest_drifts, strict=True))
-    limit = float(chosen["allowed_drift"].values.max())
-    criterion = AtMost(limit, *cases, says="largest |H - H(0)|")
-    failing = ", ".join(criterion.failing(measured))
-    fails = f"not for {failing}, by a solver whose tolerances the paper does not give"
-    return judge(measured, criterion, fails=fails)
-
-
-@claim(
-    "Section 5",
-    "H is conserved to the order of 1e-6 for the smaller data.",
-    checks("solvers"),
-)
-def energy_small(solvers) -> Finding:
-    return drifts(solvers, "small")
-
-
-@claim(
-    "Section 5",
-    "H is conserved to the order of 1e-4 for the larger data.",
-    checks("solvers"),
-)
-def energy_large(solvers) -> Finding:
-    return drifts(solvers, "large")
 
 
 @claim(

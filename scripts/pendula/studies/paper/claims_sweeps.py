@@ -1,4 +1,4 @@
-"""Section 5, Figs 5 and 6: norms over time windows against the half-width M; the second solver.
+"""Section 5, Figs 5 and 6: norms over time windows against the half-width M.
 
 On a fixed window no norm can diverge with M: by (19) the norm on the infinite chain is finite,
 and once the front does not reach the ends, a longer chain changes nothing.
@@ -10,7 +10,6 @@ from pendula.ledger.claim import (
     CHANGE,
     CONSTANT,
     FACTOR,
-    FEWEST,
     NEARLY_ALL,
     checks,
     claim,
@@ -27,7 +26,6 @@ from pendula.ledger.criterion import (
     Finding,
     Levels,
     NeverLevels,
-    UndecidableError,
     judge,
     undecided,
 )
@@ -45,8 +43,6 @@ WINDOW = "[10, 50]"
 FALLEN = 0.9
 TEXT_6, CAPTION_6 = "[10, 70]", "[10, 40]"
 """Of Fig 6, by the text and by the caption."""
-PAIR = "ode45 - crank_nicolson"
-"""The paper's two solvers."""
 
 
 @claim(
@@ -248,58 +244,3 @@ def fig6_caption(left, right) -> Finding:
     if flat[0] == flat[1] and grows[0] == grows[1]:
         return undecided(measured, "both readings fit what the text says of the figure")
     return judge(measured, AtLeast(1.0, "flat_by_caption", "grows_by_caption"))
-
-
-@claim(
-    "Section 5, end",
-    "Figs 2 to 4 come out of the second solver without significant differences.",
-    checks("solvers"),
-)
-def second_solver(solvers) -> Finding:
-    pair = solvers.sel(pair=PAIR)
-    times = {
-        str(case): float(pair["divergence_time"].sel(case=case)) for case in pair["case"].values
-    }
-    measured = {f"divergence_{case}": time for case, time in times.items()}
-    measured["largest_late_difference"] = pair["late_difference"].max()
-    apart = {case: time for case, time in times.items() if np.isfinite(time)}
-    caveat = ""
-    if apart:
-        level, first = 100 * float(solvers["visible"]), min(apart.values())
-        caveat = (
-            f"{', '.join(apart)} differ by {level:g} % from tau = {first:.3g} on; their means agree"
-        )
-    says = "difference of the mean norms of the second half"
-    return judge(measured, Below(CHANGE, "largest_late_difference", says=says), caveat)
-
-
-@claim(
-    "Section 5, end",
-    "So do Figs 5 and 6.",
-    checks("solvers"),
-)
-def second_solver_sweeps(solvers) -> Finding:
-    measured = {}
-    for name in map(str, solvers["sweep"].values):
-        difference = solvers["sweep_difference"].sel(sweep=name, statistic="max")
-        known = difference.dropna("half_width", how="all")
-        if known.sizes["half_width"] < FEWEST:
-            raise UndecidableError("the sweeps have fewer than six half-widths")
-        measured[f"largest_{name}"] = known.max()
-        measured[f"median_{name}"] = known.median()
-    largest = [name for name in measured if name.startswith("largest_")]
-    criterion = Below(CHANGE, *largest, says="largest difference of a point")
-    visible = [name for name in largest if measured[name] > float(solvers["visible"])]
-    apart = criterion.failing(measured)
-    typical = max((measured[_median(name)] for name in apart), default=0.0)
-    fails = f"points of {_sweeps(apart)} differ by more, half of them below {100 * typical:.2g} %"
-    caveat = f"points of {_sweeps(visible)} differ visibly: the motion is chaotic there"
-    return judge(measured, criterion, caveat if visible else "", fails)
-
-
-def _median(name: str) -> str:
-    return f"median_{name.removeprefix('largest_')}"
-
-
-def _sweeps(names: list[str]) -> str:
-    return ", ".join(name.removeprefix("largest_") for name in names)
