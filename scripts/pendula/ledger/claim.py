@@ -27,14 +27,21 @@ FEWEST = 6
 class Control(NamedTuple):
     """A wrong case for a deciding function, which must not confirm the claim by it.
 
-    `fed` says what takes the place of a needed dataset: the name of another dataset, or a function
-    of the right one. `confirms` turns the control round, for a claim that is not reproduced: the
+    `fed` says what takes the place of a needed dataset: the name of another dataset, a function of
+    the right one, or a pair of both: the name and a function of the right and the other dataset.
+    `confirms` turns the control round, for a claim that is not reproduced: the
     function must confirm this right case, or it could not have confirmed anything.
     """
 
     says: str
-    fed: Mapping[str, str | Callable]
+    fed: Mapping[str, str | Callable | tuple[str, Callable]]
     confirms: bool = False
+
+    @property
+    def names(self) -> list[str]:
+        """The other datasets that it needs."""
+        parts = [wrong if isinstance(wrong, tuple) else (wrong,) for wrong in self.fed.values()]
+        return [part[0] for part in parts if isinstance(part[0], str)]
 
 
 class Claim(NamedTuple):
@@ -125,11 +132,11 @@ def all_claims() -> tuple[Claim, ...]:
 
 def needed() -> list[str]:
     """Return every dataset that the ledger reads, once each, in the order of the claims."""
-    names = []
+    names: list[str] = []
     for claim in all_claims():
         names += claim.needs
-        names += [fed for control in claim.controls for fed in control.fed.values()]
-    return list(dict.fromkeys(name for name in names if isinstance(name, str)))
+        names += [name for control in claim.controls for name in control.names]
+    return list(dict.fromkeys(names))
 
 
 def decide(claim: Claim, sources: Mapping) -> Finding:
@@ -145,15 +152,20 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
 
 def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     """Return the finding of a claim's function on a control."""
-    fed = {name: wrong for name, wrong in control.fed.items() if name in sources}
-    absent = [wrong for wrong in fed.values() if isinstance(wrong, str) and wrong not in sources]
+    absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
-    wrongs = {
-        name: sources[wrong] if isinstance(wrong, str) else wrong(sources[name])
-        for name, wrong in fed.items()
-    }
-    return decide(claim, {**sources, **wrongs})
+    fed = {name: _wrong(wrong, sources[name], sources) for name, wrong in control.fed.items()}
+    return decide(claim, {**sources, **fed})
+
+
+def _wrong(wrong: str | Callable | tuple[str, Callable], right, sources: Mapping):
+    if isinstance(wrong, str):
+        return sources[wrong]
+    if isinstance(wrong, tuple):
+        other, change = wrong
+        return change(right, sources[other])
+    return wrong(right)
 
 
 def passes(control: Control, finding: Finding) -> bool:

@@ -30,14 +30,19 @@ from pendula.models.bounds import theorem_1_bound, theorem_3_bound
 
 SECTION = 5
 
-# ASSUME: "decreases": to less than half; "oscillates between": squares of norms correlated below
-# -0.8; "effectively separated": three quarters of A are kept.
-HALF, ANTICORRELATED, KEPT = 0.5, -0.8, 0.75
+# ASSUME: the paper's words as numbers; the origin of each says what the word stands for.
+HALF = Cutoff(0.5, '"decreases": to less than half')
+MOST = Cutoff(0.5, '"excites others": most of P is on other sites')
+ANTICORRELATED = Cutoff(-0.8, '"oscillates between": |A|^2 falls where |B|^2 rises', -1.0)
+KEPT = Cutoff(0.75, '"effectively separated": A keeps three quarters of its maximum', 1.0)
+FOLDED = Cutoff(1.0 / 3.0, '"is unstable": amplitudes grow by e within tau = 3')
 # ASSUME: a rise of 10 % is worth a caveat.
 RISE = 0.1
-# ASSUME: "is unstable": grows by e within 3; "many": a quarter; a pendulum is "excited" at a fifth
-# of the largest amplitude; curves are apart at 30 % of scale.
-UNSTABLE, MANY, EXCITED, APART = 3.0, 0.25, 0.2, 0.3
+UNSTABLE = 3.0
+"""The time over which a growth is taken: before the small data are large."""
+# ASSUME: "many": a quarter; a pendulum is "excited" at a fifth of the largest amplitude; curves are
+# apart at 30 % of scale.
+MANY, EXCITED, APART = 0.25, 0.2, 0.3
 
 
 @claim(
