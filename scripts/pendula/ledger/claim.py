@@ -80,6 +80,24 @@ def _in(folder: str) -> Callable[..., tuple[str, ...]]:
 
 checks, runs = _in("checks"), _in("trajectories")
 sweeps, unbounded = _in("sweeps"), _in("unbounded")
+
+
+def _wrong_in(folder: str) -> Callable[..., Control]:
+    """Return a function that makes a control from names, without their folder, of datasets."""
+
+    def control(says: str, confirms: bool = False, **fed: str | Callable | tuple) -> Control:
+        def named(wrong):
+            if isinstance(wrong, tuple):
+                return (named(wrong[0]), wrong[1])
+            return f"{folder}/{wrong}" if isinstance(wrong, str) else wrong
+
+        return Control(says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms)
+
+    return control
+
+
+wrong_check, wrong_run = _wrong_in("checks"), _wrong_in("trajectories")
+wrong_sweep, wrong_unbounded = _wrong_in("sweeps"), _wrong_in("unbounded")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 

@@ -238,16 +238,17 @@ class Finding(NamedTuple):
     because: str
 
 
-def judge(
-    measured: Measured, criterion: Criterion, caveat: str = "", fails: str = "not within its limit"
-) -> Finding:
+def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str = "") -> Finding:
     """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
 
+    Without words of its own a finding that fails tells the numbers that do not keep the criterion.
     If it holds and `caveat` is not empty, the claim is confirmed with that caveat.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     if not criterion.holds(numbers):
-        return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails)
+        off = dict.fromkeys(criterion.failing(numbers))
+        told = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
+        return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or told)
     verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED
     return Finding(numbers, criterion, verdict, caveat)
 
