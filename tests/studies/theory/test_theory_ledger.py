@@ -24,18 +24,24 @@ def sources(checked):
     return checks | paper_trajectories() | paper_sweeps() | unbounded_runs()
 
 
-def test_rows_are_many_named_once_and_need_what_exists(sources):
-    assert len(CLAIMS) >= 30
+def made(sources):
+    """Return the claims whose datasets are made up here."""
+    return [claim for claim in CLAIMS if set(claim.needs) <= set(sources)]
+
+
+def test_rows_are_many_and_named_once(sources):
+    assert len(made(sources)) >= 30
     assert len(CLAIM) == len(CLAIMS)
-    assert set(needed()) <= set(sources)
+    assert {name for claim in CLAIMS for name in claim.needs} <= set(needed())
 
 
 def test_rows_are_ready_for_json_and_verdicts_from_the_enumeration(sources):
     rows = json.loads(json.dumps(evaluate(sources), allow_nan=False))
     assert [row["name"] for row in rows] == [claim.name for claim in CLAIMS]
+    known = {claim.name for claim in made(sources)}
     for row in rows:
         assert row["verdict"] in set(Verdict)
-        assert row["measured"], row["name"]
+        assert bool(row["measured"]) == (row["name"] in known), row["name"]
         assert (row["verdict"] == Verdict.CONFIRMED) == (row["because"] == ""), row
 
 
@@ -160,7 +166,7 @@ FLIPS = {
     "fig5_maximum": ("sweeps/fig5_right", replaced("linf", 5.0 + np.arange(8.0))),
     "fig5_decreases": ("sweeps/fig5_left", replaced("l2", 1.0 + 0.1 * np.arange(8.0))),
     "fig5_theorem_2": ("sweeps/fig5_left", replaced("l2", 5.0 + np.zeros(8))),
-    "fig5_caption": ("sweeps/fig5_left", replaced("l2", 1.2 + np.zeros(8))),
+    "fig5_caption": ("sweeps/fig5_left", scaled("l2", 0.9, statistic="mean")),
     "fig5_not_shown": ("checks/not_shown", replaced("l2", np.arange(1.0, 10.0))),
     "fig6_constant": ("sweeps/fig6_left", replaced("l2", 5.0 + np.arange(8.0))),
     "fig6_theorem_1": ("sweeps/fig6_left", replaced("l2", 20.0 + np.zeros(8))),
@@ -201,9 +207,9 @@ def test_claim_holds_and_flips_when_its_numbers_change(name, sources):
 
 
 def test_every_criterion_refuses_some_number_and_what_is_none(sources):
-    found = [decide(claim, sources) for claim in CLAIMS]
+    found = [decide(claim, sources) for claim in made(sources)]
     judged = [finding for finding in found if finding.criterion is not None]
-    assert len(judged) >= len(CLAIMS) - 3  # what no number can settle has no criterion
+    assert len(judged) >= len(found) - 3  # what no number can settle has no criterion
     for measured, criterion, *_ in judged:
         assert str(criterion)
         wrongs = criterion.refuted_by()
@@ -235,9 +241,12 @@ def test_claims_of_misprints_flip_when_the_misprint_is_mended(sources):
 
 
 def test_every_claim_can_fall_or_says_that_no_number_can_settle_it():
+    """A claim falls here by other numbers, or in every run by a wrong case that it is fed."""
     always_open = {"one_integral", "fig6_caption"}
     mended = {"theorem_3_proof", "printed_time"}
-    assert set(CLAIM) == set(FLIPS) | always_open | mended
+    controlled = {claim.name for claim in CLAIMS if claim.controls}
+    assert set(FLIPS) <= set(CLAIM)
+    assert set(CLAIM) == set(FLIPS) | controlled | always_open | mended
 
 
 def test_region_word_changes_with_the_data(sources):

@@ -8,6 +8,7 @@ from pendula.ledger.claim import (
     LARGE,
     MUCH,
     SMALL,
+    checks,
     claim,
     halves,
     late,

@@ -30,6 +30,7 @@ from pendula.ledger.criterion import (
     Finding,
     Levels,
     NeverLevels,
+    UndecidableError,
     judge,
     undecided,
 )
