@@ -3,6 +3,8 @@
 `difference`  how far two runs differ, and from when on (the divergence time)
 `norms`       measures of one run: P, largest amplitude, drift of the energy, margin to (19)
 `levels`      curves against a parameter: levelling off, range, rising steps; bands and means
+`spreading`   lines through l2^2, exponents of tau with an offset, each with its limits
+`laws`        bounded and growing laws of a slow curve, compared
 `growth`      exponents of power laws and of tangent vectors, each with its error; what is chaotic
 
 Whatever is published is measured here, stored by a study below results/checks/, and read from there

@@ -1,0 +1,64 @@
+"""Lines through l2^2, exponents with an offset, and the limits of both."""
+
+import numpy as np
+import pytest
+from pendula.measures.spreading import exponent_with_offset, fit_exponent, fit_line, lay_line
+
+TAU = np.linspace(0.0, 400.0, 1601)
+START = 50.0
+
+
+def remembering(members, memory=40, seed=5):
+    """Return noise (member, tau) of unit size that remembers itself for ten units of tau."""
+    white = np.random.default_rng(seed).normal(size=(members, TAU.size + memory - 1))
+    window = np.ones(memory) / np.sqrt(memory)
+    return np.array([np.convolve(series, window, "valid") for series in white])
+
+
+@pytest.mark.parametrize("q", [-0.5, 0.1, 0.25, 0.5, 0.9])
+def test_an_exponent_is_found_whatever_the_offset(q):
+    tau = TAU[TAU >= START]
+    for offset in (-3.0, 0.0, 70.0):
+        assert exponent_with_offset(tau, 5.0 * tau ** (2.0 * q) + offset) == pytest.approx(q, 1e-6)
+
+
+def test_a_logarithm_has_the_exponent_zero():
+    tau = TAU[TAU >= START]
+    assert exponent_with_offset(tau, 3.0 * np.log(tau) - 1.0) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_power_without_offset_is_off_where_there_is_one():
+    """The mistake that the offset mends: a curve that is exactly linear seems to bend."""
+    squares = 100.0 * TAU - 450.0
+    kept = TAU >= START
+    power = lay_line(np.log(TAU[kept]), 0.5 * np.log(squares[kept])).slope
+    assert power > 0.505
+    assert fit_exponent(TAU, np.sqrt(np.maximum(squares, 1.0))[None], START).value == pytest.approx(
+        0.5, abs=1e-6
+    )
+
+
+@pytest.mark.parametrize("members", [1, 4])
+def test_limits_hold_the_true_slope_in_as_many_draws_as_they_say(members):
+    """Noise that remembers itself would fool an error that takes all points as independent."""
+    held, draws = 0, 200
+    for draw in range(draws):
+        values = 3.0 * TAU + 7.0 + 40.0 * remembering(members, seed=draw)
+        slope = fit_line(TAU, values, START).slope
+        held += slope.low < 3.0 < slope.high
+    assert 0.87 < held / draws < 0.995
+
+
+def test_the_relative_growth_of_a_line():
+    found = fit_line(TAU, np.array([TAU, TAU]), 100.0)
+    assert found.relative.value == pytest.approx(300.0 / 250.0)
+    assert found.offset == pytest.approx(0.0, abs=1e-9)
+    still = fit_line(TAU, 5.0 + 0.01 * remembering(4), 100.0).relative
+    assert still.low < 0.0 < still.high < 0.01
+
+
+def test_limits_of_an_exponent_widen_with_fewer_members_and_need_two():
+    noisy = np.sqrt(100.0 * TAU + 5000.0 + 300.0 * remembering(8))
+    many, few = (fit_exponent(TAU, noisy[:n], START) for n in (8, 2))
+    assert many.low < 0.5 < many.high and many.half < few.half
+    assert np.isinf(fit_exponent(TAU, noisy[:1], START).high)
