@@ -188,7 +188,7 @@ NUMBERS_BY = [
     *("theory/check_observed.py", "hard_cases/run_hard_cases.py"),
     *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
     *("chaos/compare_ensembles.py", "paper/measure_solvers.py", "paper/measure_trust.py"),
-    *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/sample_thermal.py"),
+    *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/solve_thermal.py"),
     "unbounded/measure_growth.py",
 ]
 

@@ -79,7 +79,7 @@ use rule map_windows as long_map_windows with:
 
 rule thermal:
     input:
-        code=code("unbounded/sample_thermal.py"),
+        code=code("unbounded/solve_thermal.py"),
     output:
         data="results/unbounded/thermal.nc",
     log:
@@ -91,10 +91,13 @@ rule thermal:
         epsilon=SETTINGS.cases["fig4_small"].epsilon,
         gamma=SETTINGS.cases["fig4_small"].gamma,
         omegas=SETTINGS.unbounded.thermal.omegas,
+        warm_omega=SETTINGS.cases[SETTINGS.unbounded.thermal.warm.case].omega,
+        energies=SETTINGS.unbounded.thermal.warm.energies,
+        nodes=SETTINGS.unbounded.thermal.nodes,
     message:
-        "Sampling the thermal states without energy"
+        "Solving the thermal states that the bulk is compared with"
     script:
-        "../../scripts/unbounded/sample_thermal.py"
+        "../../scripts/unbounded/solve_thermal.py"
 
 
 rule measure_growth:

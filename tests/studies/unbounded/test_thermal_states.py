@@ -1,65 +1,143 @@
-"""The thermal state of zero energy: its energy is (8), its temperature that of equipartition."""
+"""The thermal states by the transfer operator, against exact cases and against sampled rings."""
 
 import numpy as np
 import pytest
-from oracle import hamiltonian
-from pendula.studies.unbounded.bulk import ring_energies, sample, site_energy, zero_energy
+from metropolis import energy_of, mean_and_error, sample
+from oracle import hamiltonian, random_chain
+from pendula.studies.unbounded.bulk import TERMS, spectrum
+from pendula.studies.unbounded.thermal import (
+    correlation_length,
+    density_of,
+    products_of,
+    rounded,
+    spectrum_of,
+    state_of_energy,
+    terms_of,
+    thermal_variables,
+)
 from problems import constants_of
 
-NUMBERS = (0.8, 0.6, -1.5)  # epsilon, gamma, Omega
-CONSTANTS = constants_of(NUMBERS)
+CELLS = np.linspace(0.0, 12.0, 81)
 
 
-def random_ring(sites=7):
-    return np.random.default_rng(3).normal(scale=2.0, size=(4, sites))
+@pytest.fixture(scope="module", params=[0.0, 4.0])
+def both(request):
+    """A state of no energy, and rings sampled at its temperature.
+
+    The rings must be much longer than the correlations, which reach over 90 sites at Omega = 5.
+    """
+    constants = constants_of((1.0, 1.0, request.param))
+    state = state_of_energy(constants)
+    return state, sample(constants, state.beta)
 
 
-def as_amplitudes(state):
-    return np.array([state[0] + 1j * state[1], state[2] + 1j * state[3]])
+def test_the_energy_of_the_sampled_rings_is_that_of_the_paper():
+    numbers = (0.8, 0.6, -1.5)
+    a, b = random_chain(7)
+    found = energy_of(constants_of(numbers), a[None], b[None])[0]
+    assert found == pytest.approx(hamiltonian(np.array([a, b]), numbers, "periodic"), rel=1e-12)
 
 
-def test_the_energy_of_a_ring_is_that_of_the_paper():
-    state = random_ring()
-    expected = hamiltonian(as_amplitudes(state), NUMBERS, "periodic")
-    assert 7 * ring_energies(state[None], CONSTANTS)[0] == pytest.approx(expected, rel=1e-12)
+def test_sampled_rings_have_the_power_and_no_energy(both):
+    state, (powers, energies, _) = both
+    power, error = mean_and_error(powers)
+    assert error < 0.006 * power
+    assert abs(power - state.power) < 3.0 * error
+    energy, error = mean_and_error(energies)
+    assert abs(energy - state.energy) < 3.0 * error
+    other = state_of_energy(state.operator.constants.scaled(1.05)).power  # a wrong case
+    assert abs(power - other) > 3.0 * mean_and_error(powers)[1]
 
 
-def test_a_change_of_one_site_changes_the_energy_by_its_terms():
-    old = random_ring()
-    new = old.copy()
-    new[:, 2] += [0.3, -0.2, 0.5, 0.1]
-    left, right = old[:, 1], old[:, 3]
-    change = site_energy(NUMBERS, *new[:, 2], left, right)
-    change -= site_energy(NUMBERS, *old[:, 2], left, right)
-    energies = [hamiltonian(as_amplitudes(state), NUMBERS, "periodic") for state in (old, new)]
-    assert change == pytest.approx(energies[1] - energies[0], rel=1e-9)
+def test_sampled_rings_have_its_distribution(both):
+    state, (_, _, moduli) = both
+    width = CELLS[1] - CELLS[0]
+    counts = np.array([np.histogram(ring, CELLS)[0] for ring in moduli.swapaxes(0, 1)])
+    sampled = counts / counts.sum(axis=1, keepdims=True) / width
+    errors = sampled.std(axis=0, ddof=1) / np.sqrt(len(sampled))
+    density = density_of(state, CELLS)
+    seen = counts.sum(axis=0) > 300
+    off = (sampled.mean(axis=0) - density)[seen] / errors[seen]
+    assert np.abs(off).max() < 4.5 and np.mean(off**2) < 2.0
 
 
-def test_the_sampled_temperature_obeys_equipartition():
-    """<y dH/dy> is four over beta a site: four times the cubic energy, twice the rest."""
-    found = sample(CONSTANTS, 0.2)
-    density = np.abs(found.states[:, 0::2] + 1j * found.states[:, 1::2]) ** 2
-    cubic = 0.25 * (density**2).sum(axis=1).mean()
-    assert 4.0 * cubic + 2.0 * (found.energies.mean() - cubic) == pytest.approx(4.0 / 0.2, rel=0.05)
+def test_a_pair_alone_is_a_plain_integral():
+    """Without bonds the mean over a site is an integral over the four parts of A and B."""
+    constants = constants_of((0.0, 0.7, -1.5))
+    state = state_of_energy(constants, 2.0)
+    x = np.linspace(-7.0, 7.0, 57)
+    a, b, c, d = np.ix_(x, x, x, x)
+    first, second = a * a + b * b, c * c + d * d
+    energy = 0.25 * (first * first + second * second) - 1.5 * (first + second)
+    energy = energy - 0.7 * ((a - c) ** 2 - (b - d) ** 2)
+    weight = np.exp(-state.beta * energy)
+    assert np.average(energy, weights=weight) == pytest.approx(2.0, rel=1e-6)
+    power = np.average(np.broadcast_to(first + second, energy.shape), weights=weight)
+    assert state.power == pytest.approx(power, abs=max(3.0 * state.power_error, 1e-6))
+    assert np.abs(products_of(state, 8)[:, 1:]).max() < 1e-9  # the sites know nothing of each other
 
 
-def test_no_energy_and_the_same_numbers_every_time():
-    found, again = (zero_energy(constants_of((1.0, 1.0, 2.0)), halvings=7) for _ in range(2))
-    assert np.array_equal(found.states, again.states)
-    assert abs(found.energies.mean()) < 1.5  # of cubic energies of twenty
-    power = found.at_zero_energy((found.states**2).sum(axis=1).mean(axis=1))
-    assert power == pytest.approx(11.3, rel=0.02)
+def test_cold_states_of_a_stable_chain_are_those_of_its_waves():
+    """Without a cubic term a wave k has the mean square 1 / (2 beta) over its coefficient in H."""
+    omega, gamma, epsilon = 12.0, 1.0, 1.0
+    state = state_of_energy(constants_of((epsilon, gamma, omega)), 1e-4)
+    k = 2.0 * np.pi * np.arange(1024) / 1024
+    shift = omega - 4.0 * epsilon * np.sin(0.5 * k) ** 2
+    square = 0.5 * (2.0 / shift + 1.0 / (shift - 2.0 * gamma) + 1.0 / (shift + 2.0 * gamma))
+    assert state.beta == pytest.approx(2.0 / 1e-4, rel=1e-4)
+    assert state.power == pytest.approx(square.mean() / state.beta, rel=1e-4)
+    # The slowest wave is k = pi of A - B: its shift is 6 less 2 (1 + cos k), so e^-x + e^x = 2 + 6.
+    length = correlation_length(products_of(state, 64))
+    assert length == pytest.approx(1.0 / np.arccosh(4.0), rel=1e-3)
+    # Sums over a piece spread each wave by the width of the piece.
+    lags = np.arange(64)
+    kept = (1.0 - lags / 64) * (np.cos(np.outer(lags, k)) @ square) / 1024
+    expected = (2.0 * kept @ np.cos(np.outer(lags, k[::16])) - kept[0]) / state.beta / 2.0
+    np.testing.assert_allclose(spectrum_of(products_of(state, 64)), expected, rtol=2e-4)
+
+
+@pytest.mark.parametrize("omega", [-1.5, 2.0, 5.5])
+def test_the_error_is_that_of_the_grid(omega):
+    constants = constants_of((1.0, 1.0, omega))
+    coarse, fine = (state_of_energy(constants, nodes=nodes) for nodes in (12, 20))
+    assert abs(coarse.power - fine.power) < 3.0 * coarse.power_error
+    assert fine.power_error < coarse.power_error < 1e-3 * coarse.power
+
+
+def test_the_bonds_hold_the_energy_that_the_virial_says():
+    """The energy comes from one site alone; the bonds are told by the correlation of two."""
+    state = state_of_energy(constants_of((0.9, 0.8, 1.3)), 1.0)
+    here, beside = products_of(state, 2).sum(axis=0)
+    assert here == pytest.approx(state.power, rel=1e-9)
+    bonds = -0.9 * 2.0 * (here - beside)
+    assert terms_of(state)[TERMS.index("bonds")] == pytest.approx(bonds, rel=1e-6)
+
+
+def test_power_spectrum_and_density_tell_one_power():
+    state = state_of_energy(constants_of((1.0, 1.0, 3.0)))
+    assert spectrum_of(products_of(state, 64)).mean() == pytest.approx(state.power / 2.0, rel=1e-9)
+    fine = np.linspace(0.0, 8.0, 801)
+    density, middle = density_of(state, fine), 0.5 * (fine[1:] + fine[:-1])
+    assert density.sum() * 0.01 == pytest.approx(1.0, abs=1e-8)
+    assert (density * middle**2).sum() * 0.01 == pytest.approx(state.power / 2.0, rel=1e-4)
+    waves = np.exp(2j * np.pi * np.arange(64) / 64)
+    assert spectrum(waves, 64).argmax() == 1  # its k are those of `bulk.spectrum`
+
+
+def test_the_states_are_hotter_with_more_energy():
+    constants = constants_of((1.0, 1.0, -4.0))
+    betas = [state_of_energy(constants, energy, nodes=10).beta for energy in (0.0, 3.0, 6.0)]
+    assert betas[0] > betas[1] > betas[2]
 
 
 def test_where_every_state_has_energy_there_is_none():
-    with pytest.raises(ValueError, match="without energy"):
-        zero_energy(constants_of((1.0, 1.0, 8.0)))
+    with pytest.raises(ValueError, match="has this energy"):
+        state_of_energy(constants_of((1.0, 1.0, 8.0)))
 
 
-def test_the_error_of_a_mean_is_that_of_other_seeds():
-    """Their scatter is known to a quarter or so from eight seeds."""
-    drawn = [sample(CONSTANTS, 0.2, seed) for seed in range(8)]
-    powers = [(one.states**2).sum(axis=1).mean(axis=1) for one in drawn]
-    means = [one.at_zero_energy(power) for one, power in zip(drawn, powers, strict=True)]
-    errors = [one.error_at_zero_energy(power) for one, power in zip(drawn, powers, strict=True)]
-    assert 0.5 < np.std(means, ddof=1) / np.mean(errors) < 2.0
+def test_what_is_published_is_rounded():
+    states = [state_of_energy(constants_of((1.0, 1.0, 2.0)), nodes=8)]
+    variables = thermal_variables(states, states)
+    assert variables["power"].values[0] == float(f"{states[0].power:.7g}")
+    assert variables["power_error"].values[0] >= 0.5e-7 * states[0].power
+    assert rounded([1234.56789, -0.00123456789], 4).tolist() == [1235.0, -0.001235]

@@ -46,10 +46,19 @@ class Size(Model):
     maps: Maps
 
 
-class Thermal(Model):
-    """The thermal states that the bulk is compared with."""
+class Warm(Model):
+    """Thermal states at the Omega of a case, each with an energy per site."""
 
+    case: Name
+    energies: Annotated[list[Number], Field(min_length=3)]
+
+
+class Thermal(Model):
+    """The thermal states that the bulk is compared with: at each Omega without energy, and warm."""
+
+    nodes: Annotated[Whole, Field(ge=8)]
     omegas: Annotated[list[Number], Field(min_length=1)]
+    warm: Warm
 
 
 class Settings(Model):

@@ -1,0 +1,143 @@
+"""The transfer operator of a bond of the infinite chain at a given temperature.
+
+A bond couples neighbours alone, so the sum over all states of a ring is the trace of a power of one
+operator, which multiplies by the weight of a site and smooths over its four coordinates. With
+A_n -> (-1)^n A_n and B_n -> (-1)^n B_n its kernel is positive, sqrt(w(y)) exp(-beta epsilon
+|y - y'|^2) sqrt(w(y')), so that the largest eigenvalue is single; the square of its eigenvector psi
+is the distribution of a site of the infinite chain.
+
+The coordinates are y = (s, t, p, q) = (Re, Re, Im, Im) of (A + B, A - B, A + B, A - B) / sqrt 2. In
+them P = |y|^2, the quartic term is (P^2 + 4 (st + pq)^2) / 8 and the drive -2 gamma (t^2 - q^2).
+A bond is a product of four factors, one a coordinate, so that an integral over a site is four
+small sums. They are taken by the midpoint rule, which converges exponentially for smooth functions
+that decay. H keeps its value under changes of signs that keep the sign of s t p q. Therefore the
+nodes with s, t, p, q > 0 suffice, with two values at each: that of (s, t, p, q), and that of
+(s, t, p, -q).
+"""
+
+from dataclasses import astuple
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.compiled import kernel
+from pendula.problem import Constants
+
+TAIL = 1e-9
+"""A grid ends where the density of a coordinate falls below this part of its largest value."""
+
+SETTLED = 1e-11
+"""The power iteration ends when the mean quartic energy changes by less than this part of it."""
+
+
+class Operator(NamedTuple):
+    """The operator at one beta on m^4 nodes; an array (2, m, m, m, m) holds both signs of q."""
+
+    constants: Constants
+    beta: float
+    nodes: np.ndarray  # (coordinate, m), the positive half of each
+    bonds: np.ndarray  # (parity, coordinate, m, m), even and odd
+    roots: np.ndarray  # square roots of the weights
+    quartic: np.ndarray  # quartic energy of a site
+    power: np.ndarray  # (m, m, m, m): |y|^2
+
+
+def half_nodes(reach: np.ndarray, count: int) -> np.ndarray:
+    """Return `count` midpoints between 0 and each of `reach`, (coordinate, count)."""
+    return np.multiply.outer(reach, (np.arange(count) + 0.5) / count)
+
+
+def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Return the factors of a bond on even and odd functions, (parity, coordinate, to, node)."""
+    step = 2.0 * nodes[:, 0, None, None]  # the midpoint rule
+    apart, across = to[:, :, None] - nodes[:, None, :], to[:, :, None] + nodes[:, None, :]
+    near, far = (step * np.exp(-beta * epsilon * d * d) for d in (apart, across))
+    return np.array([near + far, near - far])
+
+
+def site_terms(constants: Constants, nodes: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return P, the quartic energy, and the whole energy of a site after the change of signs."""
+    epsilon, gamma, omega = astuple(constants)
+    s, t, p, q = np.ix_(*nodes)
+    power = s * s + t * t + p * p + q * q
+    products = np.array([s * t + p * q, s * t - p * q])
+    quartic = (power * power + 4.0 * products * products) / 8.0
+    whole = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
+    return power, quartic, whole
+
+
+def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Operator:
+    """Return the operator on given nodes."""
+    power, quartic, whole = site_terms(constants, nodes)
+    roots = np.exp(-0.5 * beta * (whole - whole.min()))
+    bonds = bonds_between(beta, constants.epsilon, nodes, nodes)
+    return Operator(constants, beta, nodes, bonds, roots, quartic, power)
+
+
+@kernel
+def pass_through(bond, values, result):
+    """Put the sum over j of bond[i, j] values[j, r] into result[r, i]: the first axis goes last."""
+    row = np.empty(values.shape[1])
+    for i in range(bond.shape[0]):
+        row[:] = 0.0
+        for j in range(bond.shape[1]):
+            factor = bond[i, j]
+            for r in range(row.size):
+                row[r] += factor * values[j, r]
+        for r in range(row.size):
+            result[r, i] = row[r]
+
+
+EVEN = (0, 0, 0, 0)
+"""Parity in s, t, p, q of the part of a function that is even in q, of psi itself. The part that is
+odd in q has the opposite parities."""
+
+
+def smoothed(bonds: np.ndarray, values: np.ndarray, parity: tuple[int, ...] = EVEN) -> np.ndarray:
+    """Return the integral of a bond times a function over a site."""
+    parts = 0.5 * (values[0] + values[1]), 0.5 * (values[0] - values[1])
+    done = []
+    for odd, part in enumerate(parts):
+        for axis in range(4):
+            bond = bonds[parity[axis] ^ odd, axis]
+            result = np.empty((part.size // part.shape[0], len(bond)))
+            pass_through(bond, np.ascontiguousarray(part).reshape(len(part), -1), result)
+            part = result.reshape(*part.shape[1:], len(bond))
+        done.append(part)
+    return np.array([done[0] + done[1], done[0] - done[1]])
+
+
+def applied(operator: Operator, values: np.ndarray, parity: tuple[int, ...] = EVEN) -> np.ndarray:
+    """Return the operator applied to a function of the given parity."""
+    return operator.roots * smoothed(operator.bonds, operator.roots * values, parity)
+
+
+def normalised(vector: np.ndarray) -> np.ndarray:
+    """Return the vector over the root of the sum of its squares."""
+    return vector / np.sqrt(np.sum(vector * vector))
+
+
+def leading(operator: Operator, vector: np.ndarray | None = None, most: int = 2000) -> np.ndarray:
+    """Return the eigenvector of the largest eigenvalue, by iteration from `vector`.
+
+    Raises ArithmeticError if `most` iterations are not enough.
+    """
+    vector, before = normalised(operator.roots if vector is None else vector), 0.0
+    for _ in range(most):
+        vector = normalised(applied(operator, vector))
+        quartic = float(np.sum(vector * vector * operator.quartic))
+        if abs(quartic - before) < SETTLED * quartic:
+            return vector
+        before = quartic
+    raise ArithmeticError("the transfer operator has no gap that an iteration can use")
+
+
+def reach_of(operator: Operator, vector: np.ndarray) -> np.ndarray:
+    """Return for each coordinate the node beyond which its density is below TAIL of its largest."""
+    chance = (vector * vector).sum(axis=0)
+    found = []
+    for axis, nodes in enumerate(operator.nodes):
+        along = chance.sum(axis=tuple(other for other in range(4) if other != axis))
+        last = np.flatnonzero(along > TAIL * along.max()).max()
+        found.append(nodes[min(last + 1, len(nodes) - 1)])
+    return np.array(found)

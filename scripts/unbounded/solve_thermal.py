@@ -1,0 +1,35 @@
+"""Solve the thermal states with which the bulk behind the front is compared."""
+
+from pendula.datasets.netcdf import write
+from pendula.problem import Constants
+from pendula.studies.unbounded.thermal import state_of_energy, thermal_variables
+
+
+def solve_thermal(
+    data: str,
+    epsilon: float,
+    gamma: float,
+    omegas: list[float],
+    warm_omega: float,
+    energies: list[float],
+    nodes: int,
+) -> None:
+    """Write the states without energy at all `omegas`, and those of `energies` at `warm_omega`."""
+
+    def solve(omega: float, energy: float = 0.0):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        return state_of_energy(constants, energy, nodes)
+
+    states = [solve(omega) for omega in omegas]
+    warm = [solve(warm_omega, energy) for energy in energies]
+    attributes = {
+        "title": "Thermal states of the infinite chain, by its transfer operator",
+        "epsilon": epsilon, "gamma": gamma, "warm_omega": warm_omega, "nodes": 2 * nodes,
+    }  # fmt: skip
+    write(data, thermal_variables(states, warm), attributes)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(solve_thermal, snakemake)  # noqa: F821
