@@ -10,6 +10,7 @@ from pendula.datasets.checks import broken, deciding, describe
 from pendula.datasets.netcdf import read
 from pendula.ledger.claim import controls_of, evaluate, needed
 from pendula.ledger.criterion import Verdict
+from pendula.ledger.section import cutoff_lines
 from pendula.report.words import markdown, write_markdown
 
 
@@ -82,19 +83,8 @@ def shown(value: float | str) -> str:
 
 def cutoffs_section(rows: list[dict]) -> list[str]:
     """Return every cut-off with its origin, the claims that read it, and those that rest on it."""
-    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
-    lines = [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
     head = ("cut-off", "where it comes from", "decides", "rest on it")
-    return ["# The cut-offs, each moved by a third either way", markdown(head, lines)]
-
-
-def users(rows: list[dict], key: str) -> dict[tuple, str]:
-    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
-    names: dict[tuple, dict] = {}
-    for row in rows:
-        for cutoff in row[key]:
-            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
-    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
+    return ["# The cut-offs, each moved by a third either way", markdown(head, cutoff_lines(rows))]
 
 
 def controls_section(controls: list[dict]) -> list[str]:

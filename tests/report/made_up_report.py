@@ -50,6 +50,18 @@ def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **chang
         "criterion": "largest rate <= 0.001",
         "verdict": verdict,
         "because": "",
+        "cutoffs": [{"value": 0.001, "from": "rounding"}],
+        "rests_on": [],
+        "controls": [
+            {
+                "fed": "an unstable run",
+                "must": "not be confirmed",
+                "verdict": "not reproduced",
+                "because": "it grows",
+                "measured": {"largest_rate": 0.5},
+                "passes": True,
+            }
+        ],
         **changes,
     }
 

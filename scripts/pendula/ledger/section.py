@@ -7,6 +7,7 @@ from typing import Any
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
+from .claim import controls_of
 from .criterion import Verdict
 
 LEDGER = "claims.json"
@@ -21,11 +22,40 @@ def gather(results: Results) -> dict[str, Any]:
     """Return the rows as the page shows them, and the count of each verdict."""
     rows = load(results)
     counted = Counter(row["verdict"] for row in rows)
+    fed = controls_of(rows)
     return {
         "rows": [_shown(row, results) for row in rows],
         "total": results.say(LEDGER, str(len(rows))),
         "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in Verdict],
+        "resting": results.say(LEDGER, str(sum(bool(row["rests_on"]) for row in rows))),
+        "controls": results.say(LEDGER, str(len(fed))),
+        "failing": results.say(LEDGER, str(sum(not one["passes"] for one in fed))),
+        "cutoffs": [[plainly_said(cell) for cell in line] for line in cutoff_lines(rows)],
+        "fed": [[plainly_said(one[key]) for key in FED] for one in fed],
     }
+
+
+FED = ("claim", "fed", "must", "verdict", "because")
+
+
+def plainly_said(cell: float | str) -> str:
+    """Return a cell of a table as the page shows it."""
+    return symbols(cell) if isinstance(cell, str) else number(cell)
+
+
+def cutoff_lines(rows: list[dict]) -> list[tuple]:
+    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
+    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
+    return [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
+
+
+def users(rows: list[dict], key: str) -> dict[tuple, str]:
+    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
+    names: dict[tuple, dict] = {}
+    for row in rows:
+        for cutoff in row[key]:
+            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
+    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
 
 
 def _shown(row: dict, results: Results) -> dict:
