@@ -49,6 +49,7 @@ def makers():
     """Return the rule that makes each dataset below results/, by its name without the ending."""
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
+        "measure_lyapunov": checks("lyapunov"),
         "measure_ensembles": checks("ensembles"),
         "compare_ensembles": checks("ensemble_runs"),
         "measure_solvers": checks("solvers"),
