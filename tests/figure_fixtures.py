@@ -65,7 +65,7 @@ def trajectories(make_trajectory):
 def make_sweep():
     """Return a function: a sweep whose every number tells where in the dataset it stands."""
 
-    def make(omega=-4.0):
+    def make(omega=-4.0, case="fig5_left"):
         dims = ("half_width", "quantity", "statistic", "window")
         coordinates = (HALF_WIDTHS, ["A", "B", "pair"], ["max", "mean"], WINDOWS)
         shape = tuple(len(values) for values in coordinates)
@@ -77,7 +77,7 @@ def make_sweep():
                 for dim, values in zip(dims, coordinates, strict=True)
             },
             {key: PARAMETERS[key] for key in ("epsilon", "gamma", "boundary", "initial")}
-            | {"omega": omega},
+            | {"omega": omega, "case": case},
         )
 
     return make
@@ -110,7 +110,10 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
 
     pair = (make_trajectory(), make_trajectory("fig2_large", scale=5.0))
     true = make_trajectory(end_time=5.0, scale=1.02)
-    panels = (make_sweep(-4.0), make_sweep(0.0))
+    panels = (make_sweep(-4.0), make_sweep(0.0, "fig5_right"))
+    leaving = (pair[0], make_trajectory("fig4_large", omega=0.0, scale=5.0))
+    left = [pair[0], make_trajectory("fig4_large", omega=0.0, scale=5.1)]
+    ensembles = made_up_chaos.ensembles()
     long, short = chart(), short_chart()
     references = {"fig2_small": true, "fig2_large": true}
     by_solvers = solvers.compare(trajectories, swept_pairs)
@@ -118,7 +121,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     of_cases = dict(zip(made_up_chaos.CASES, pair, strict=True))
     of_sweeps = dict(zip(made_up_chaos.SWEEPS, panels, strict=True))
     named = dict(zip(made_up_chaos.SWEEPS, ["[10, 50]", "[10, 70]"], strict=True))
-    compared = compare(made_up_chaos.ensembles(), of_cases, of_cases, of_sweeps, named)
+    compared = compare(ensembles, of_cases, of_cases, of_sweeps, named)
     runs = {"fig4_small": spread(0.5), "fig2_large": spread(0.0, members=1, omegas=(8.0,))}
     omegas = spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0))
     large = spread(0.5, omegas=(-4.0,))
@@ -127,19 +130,19 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "agreement": figures.gather_agreement(by_solvers),
         "chain": chain_figure.gather(),
         "drift": figures.gather_drift(by_solvers),
-        "norms": figures.gather_norms(pair, [true, true]),
+        "norms": figures.gather_norms(leaving, left, ensembles),
         "spacetime": figures.gather_spacetime(*pair),
         "own_norms": own.gather_norms(pair[0], own_checks(true)),
         "own_spacetime": own.gather_spacetime(pair[0]),
         "own_sweep": own.gather_sweep(panels[0], mean_window="[10, 40]"),
-        "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]"),
+        "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]", ensembles=ensembles),
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": theory.gather_bounds(cases(), sweeps(), samples(), worst()),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
-        "ensembles": chaos.gather_ensembles(made_up_chaos.ensembles(), compared),
+        "ensembles": chaos.gather_ensembles(ensembles, compared),
         "growth_law": measure_growth(runs, thermal()),
         "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
         "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),

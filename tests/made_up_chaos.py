@@ -58,7 +58,7 @@ def ensembles() -> xr.Dataset:
     swept = ("sweep", "half_width", "quantity", "statistic", "window")
     shape = (2, 2, 3, 2, 3)
     mean = 1.0 + np.arange(np.prod(shape)).reshape(shape)
-    return dataset(
+    made = dataset(
         {
             "case": CASES, "tau": tau, "quantile": quantile, "quantity": quantity,
             "sweep": SWEEPS, "half_width": half_width, "statistic": ["max", "mean"],
@@ -66,6 +66,10 @@ def ensembles() -> xr.Dataset:
         },
         **LABELS,
         l2=(("case", "quantile", "quantity", "tau"), np.array([bands, 2 * bands])),
+        linf=(("case", "quantile", "quantity", "tau"), np.array([bands, bands])),
         l2_mean=(swept, mean),
         l2_deviation=(swept, mean / 10),
+        linf_mean=(swept, mean / 2),
+        linf_deviation=(swept, mean / 20),
     )  # fmt: skip
+    return made.assign_attrs(members=3, swept_members=2)

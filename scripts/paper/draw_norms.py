@@ -9,6 +9,7 @@ def draw_norms(
     small: str,
     large: str,
     references: list[str],
+    ensembles: list[str],
     png: str,
     pdf: str,
     data: str,
@@ -16,9 +17,13 @@ def draw_norms(
     spacetime_pdf: str,
     spacetime_data: str,
 ) -> None:
-    """Draw small and large data with the true norms of `references`, and write what was drawn."""
+    """Draw small and large data with the true norms of `references`, and write what was drawn.
+
+    `ensembles` names the dataset with the ensemble of either case, if there is one.
+    """
     trajectories = [read(small), read(large)]
-    drawn = figures.gather_norms(trajectories, [read(path) for path in references])
+    bands = read(ensembles[0]) if ensembles else None
+    drawn = figures.gather_norms(trajectories, [read(path) for path in references], bands)
     save(figures.draw_norms(drawn), drawn, png, pdf, data)
     drawn = figures.gather_spacetime(*trajectories)
     save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)

@@ -11,12 +11,17 @@ def draw_sweeps(
     text_window: str,
     caption_window: str,
     norms: list[str],
+    ensembles: list[str],
     png: str,
     pdf: str,
     data: str,
 ) -> None:
-    """Draw two sweeps, read as the text and as the caption say, and write what was drawn."""
-    drawn = figures.gather_sweeps(read(left), read(right), text_window, caption_window, norms)
+    """Draw two sweeps, read as the text and as the caption say, and write what was drawn.
+
+    `ensembles` names the dataset with the ensemble of either sweep, if there is one.
+    """
+    bars = read(ensembles[0]) if ensembles else None
+    drawn = figures.gather_sweeps(read(left), read(right), text_window, caption_window, norms, bars)
     save(figures.draw_sweeps(drawn), drawn, png, pdf, data)
 
 

@@ -7,20 +7,20 @@ from pendula.drawing import style
 from pendula.own_cases import figures
 
 
-def test_norms_stand_in_one_row_above_the_second_run(gathered, make_trajectory):
-    figure = figures.draw_norms(gathered["own_norms"])
-    run = make_trajectory()
-    for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
-        lines = axes.get_lines()
-        assert [line.get_color() for line in lines[2:4]] == [style.RED, style.BLUE]
-        for line, component in zip(lines[2:4], ["A", "B"], strict=True):
-            assert np.array_equal(line.get_ydata(), run[name].sel(component=component))
-        assert lines[4].get_xdata() == [2.0]
-        assert axes.get_xlabel() == r"$\tau$"
+def test_the_second_run_stands_below_the_first_where_they_diverge(gathered, make_trajectory):
+    grid = np.reshape(figures.draw_norms(gathered["own_norms"]).axes, (2, 2))
+    for row, run in zip(grid, [make_trajectory(), make_trajectory(scale=1.02)], strict=True):
+        for axes, name in zip(row, ["linf", "l2"], strict=True):
+            lines = axes.get_lines()
+            assert [line.get_color() for line in lines[:2]] == [style.RED, style.BLUE]
+            for line, component in zip(lines[:2], ["A", "B"], strict=True):
+                assert np.array_equal(line.get_ydata(), run[name].sel(component=component))
+            assert lines[2].get_xdata()[0] == 2.0
+    assert [axes.get_xlabel() for axes in grid[1]] == [r"$\tau$"] * 2
 
 
 def test_titles_say_every_parameter(gathered):
-    left, right = figures.draw_norms(gathered["own_norms"]).axes
+    left, right = figures.draw_norms(gathered["own_norms"]).axes[:2]
     for sign, value in {r"\Omega": 8, r"\gamma": 1, r"\epsilon": 1, "M": 2}.items():
         assert f"${sign} = {value}$" in left.get_title("left")
     assert right.get_title("left") == "$(A_{0}, B_{0}) = (1, 0.1)$,  ends at rest"

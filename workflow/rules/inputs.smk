@@ -168,6 +168,12 @@ def symmetry_params(given):
     }
 
 
+def ensembles_of(*names):
+    """Return the dataset of the ensembles if one of these cases or sweeps has one, else nothing."""
+    made = {*ENSEMBLE_CASES, *ENSEMBLE_SWEEPS}
+    return checks("ensembles") if made & set(names) else []
+
+
 def ensemble_params(given):
     end_time = longest(given.cases)
     return {

@@ -25,6 +25,7 @@ rule fig2:
         small="results/trajectories/fig2_small.nc",
         large="results/trajectories/fig2_large.nc",
         references=references("fig2_small", "fig2_large"),
+        ensembles=ensembles_of("fig2_small", "fig2_large"),
     output:
         **figure("fig2"),
         **figure("fig2_spacetime", "spacetime_"),
@@ -44,6 +45,7 @@ use rule fig2 as fig3 with:
         small="results/trajectories/fig3_small.nc",
         large="results/trajectories/fig3_large.nc",
         references=references("fig3_small", "fig3_large"),
+        ensembles=ensembles_of("fig3_small", "fig3_large"),
     output:
         **figure("fig3"),
         **figure("fig3_spacetime", "spacetime_"),
@@ -59,6 +61,7 @@ use rule fig2 as fig4 with:
         small="results/trajectories/fig4_small.nc",
         large="results/trajectories/fig4_large.nc",
         references=references("fig4_small", "fig4_large"),
+        ensembles=ensembles_of("fig4_small", "fig4_large"),
     output:
         **figure("fig4"),
         **figure("fig4_spacetime", "spacetime_"),
@@ -74,6 +77,7 @@ rule fig5:
         code=code("paper/draw_sweeps.py"),
         left="results/sweeps/fig5_left.nc",
         right="results/sweeps/fig5_right.nc",
+        ensembles=ensembles_of("fig5_left", "fig5_right"),
     output:
         **figure("fig5"),
     log:
@@ -94,6 +98,7 @@ use rule fig5 as fig6 with:
         code=code("paper/draw_sweeps.py"),
         left="results/sweeps/fig6_left.nc",
         right="results/sweeps/fig6_right.nc",
+        ensembles=ensembles_of("fig6_left", "fig6_right"),
     output:
         **figure("fig6"),
     log:

@@ -1,7 +1,6 @@
-"""Panels that figures of several studies share: one for each case, norms, moduli, sweeps."""
+"""Panels that figures of several studies share: one for each case, moduli, sweeps."""
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -13,13 +12,13 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from . import style
-
-NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
-PALE = {"A": "#f0a79f", "B": "#9db2de"}
-"""Colours of the curves that lie below the drawn run: the reference, or a second run."""
+from .strips import NORMS
 
 MARKERS = {"l2": "o", "linf": "s"}  # the shapes tell the norms apart in grey too
 SIZES = {"text": 3.6, "caption": 2.4}
+BAR = {"color": "black", "marker": "_", "markersize": 4, "mew": 0.7, "linestyle": "none"}
+BESIDE = 1.06
+"""Bars of ensembles stand so far beside the dots: a factor on the half-width."""
 TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 
@@ -53,36 +52,6 @@ def _case_panels(figure: Figure, data: xr.Dataset) -> list[Axes]:
 def positive(curve: xr.DataArray) -> xr.DataArray:
     """Return the part of a curve that a logarithmic axis can show."""
     return curve.where(curve > 0).dropna("tau")
-
-
-class Below(NamedTuple):
-    """The curves below a run, and the mark at the divergence time.
-
-    `prefix` is how the names of their variables begin, `label` and `mark` stand in the legend.
-    """
-
-    prefix: str
-    label: str
-    mark: str
-
-
-def draw_norm(axes: Axes, case: xr.Dataset, name: str, below: Below) -> None:
-    """Draw one norm of A and B, and below them the curves of `below`, if the case has any."""
-    for component in case["component"].values if f"{below.prefix}_{name}" in case else ():
-        other = case[f"{below.prefix}_{name}"].sel(component=component)
-        axes.plot(other["tau"], other, color=PALE[component], label=f"{below.label} ${component}$")
-    for component in case["component"].values:
-        curve = case[name].sel(component=component).dropna("tau")
-        colour = style.COLOURS[component]
-        axes.plot(curve["tau"], curve, color=colour, label=f"${component}$", alpha=0.9)
-    if "divergence_time" in case:
-        look = {"marker": "v", "color": "black", "linestyle": "none", "markersize": 4}
-        top = axes.get_xaxis_transform()
-        time = case["divergence_time"]
-        axes.plot(time, 1.0, transform=top, clip_on=False, label=below.mark, **look)
-    axes.set_xlim(0, float(case["tau"].max()))
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(f"{NORMS[name]} norm")
 
 
 def over_time(run: xr.Dataset) -> xr.Dataset:
@@ -143,14 +112,17 @@ def _read(sweep: xr.Dataset, readings: dict[str, tuple[str, str]]) -> xr.Dataset
 
 
 def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
-    """Draw the norms that one panel holds against the half-width."""
+    """Draw the norms that one panel holds against the half-width, and bars of their ensembles."""
     norms = [name for name in reversed(NORMS) if name in panel]
     for name in norms:
         for reading in panel["reading"].values:
             dots = panel[name].sel(reading=reading).dropna("half_width")
             axes.plot(dots["half_width"], dots, **_sweep_look(name, reading))
+    for name in norms if "members" in panel else ():
+        for reading in panel["reading"].values:
+            _draw_bars(axes, panel.sel(reading=reading), name)
     half_width_axis(axes)
-    axes.set_ylim(*_limits(panel[norms]))
+    axes.set_ylim(bottom=0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
     axes.set_ylabel(f"{' and '.join(NORMS[name] for name in norms)} of $(A, B)$")
     axes.set_title(style.name_case(panel), loc="left")
@@ -164,11 +136,12 @@ def half_width_axis(axes: Axes, ticks: Sequence[float] = TICKS) -> None:
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
 
 
-def _limits(norms: xr.Dataset) -> tuple[float, float]:
-    values = norms.to_dataarray()
-    low, high = float(values.min()), float(values.max())
-    # the axis starts at zero, unless that would leave the panel empty below a band of dots
-    return (0 if low < 0.85 * high else 0.8 * low), 1.08 * high
+def _draw_bars(axes: Axes, panel: xr.Dataset, name: str) -> None:
+    bars = panel[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
+    if not bars.sizes["half_width"]:
+        return
+    middles, halves = bars[f"{name}_mean"], bars[f"{name}_deviation"]
+    axes.errorbar(BESIDE * bars["half_width"], middles, halves, elinewidth=0.8, **BAR)
 
 
 def _sweep_look(name: str, reading: str) -> dict:
@@ -184,16 +157,23 @@ def _sweep_look(name: str, reading: str) -> dict:
 
 
 def sweep_legend(data: xr.Dataset) -> list[Line2D]:
-    """Return one entry for each norm and reading."""
+    """Return one entry for each norm and reading, and one for the bars of ensembles."""
     names = {
         str(reading): "{} on {}".format(
             *(str(data[key].sel(reading=reading).values) for key in ("statistic", "window"))
         )
         for reading in data["reading"].values
     }
-    return [
+    dots = [
         Line2D([], [], label=f"{NORMS[name]}, {names[reading]}", **_sweep_look(name, reading))
         for name in reversed(NORMS)
         if name in data
         for reading in names
+    ]
+    if "members" not in data:
+        return dots
+    label = f"bars: mean and standard deviation of {int(data['members'])} runs"
+    return [
+        *dots,
+        Line2D([], [], label=label, **{**BAR, "marker": "|", "markersize": 8, "mew": 0.8}),
     ]

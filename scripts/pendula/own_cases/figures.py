@@ -7,14 +7,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pendula.drawing import panels, style
-from pendula.drawing.panels import NORMS, Below
+from pendula.drawing import panels, strips, style
+from pendula.drawing.strips import NORMS, Strip
 from pendula.measures.difference import VISIBLE
 
 FEW = 8
 """Ticks for so many half-widths fit below a panel."""
 
-SECOND = Below("second", "second run,", f"the runs differ by {100 * VISIBLE:g} %")
+RUNS = [Strip("", "the run"), Strip("second_", "second run, by another method")]
+DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
 ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
 LONGEST = 46
 """A formula with more characters leaves no room for the rest of a title."""
@@ -51,18 +52,13 @@ def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Datase
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, A red and B blue.
 
-    The second run is drawn only where the two runs diverge: elsewhere it would lie hidden.
+    Where the two runs diverge the second has strips of its own below; elsewhere it is not drawn.
     """
-    figure = style.new_figure(style.DOUBLE, 2.5)
-    if "divergence_time" not in data or not np.isfinite(data["divergence_time"]):
-        data = data[list(NORMS)]
-    row = figure.subplots(1, 2, sharex=True)
-    for axes, name in zip(row, NORMS, strict=True):
-        panels.draw_norm(axes, data, name, SECOND)
-        axes.set_xlabel(r"$\tau$")
-    row[0].set_title(name_parameters(data.attrs), loc="left")
-    row[1].set_title(name_data_and_ends(data.attrs), loc="left")
-    style.name_legend(figure, row[0])
+    parts = strips.diverges(data)
+    figure, (grid,) = strips.draw_cases([data], [RUNS if parts else [Strip("", "")]])
+    grid[0, 0].set_title(name_parameters(data.attrs), loc="left")
+    grid[0, 1].set_title(name_data_and_ends(data.attrs), loc="left")
+    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "")
     return figure
 
 

@@ -1,5 +1,6 @@
 """Figures 2 to 6 and the pictures beside them."""
 
+import made_up_chaos
 import numpy as np
 import pytest
 from pendula.drawing import style
@@ -8,7 +9,14 @@ from pendula.studies.paper import figures
 
 @pytest.fixture(scope="module")
 def panels(gathered):
-    return np.reshape(figures.draw_norms(gathered["norms"]).axes, (2, 2))
+    """Return the axes by strip and norm: a run alone, and a run above two strips."""
+    return np.reshape(figures.draw_norms(gathered["norms"]).axes, (4, 2))
+
+
+@pytest.fixture
+def ensembles():
+    """Return an ensemble of fig4_large alone."""
+    return made_up_chaos.ensembles().isel(case=[1])
 
 
 def test_gather_returns_what_the_trajectories_hold(make_trajectory):
@@ -21,37 +29,61 @@ def test_gather_returns_what_the_trajectories_hold(make_trajectory):
 
 def test_panels_stand_as_in_the_paper(gathered, panels):
     data = gathered["norms"]
-    for row, size in enumerate(["small", "large"]):
+    for row, size in ((0, "small"), (1, "large")):
         for column, name in enumerate(["linf", "l2"]):
-            lines = panels[row, column].get_lines()[2:4]  # above the true ones
-            assert [line.get_color() for line in lines] == [style.RED, style.BLUE]
-            for line, component in zip(lines, ["A", "B"], strict=True):
+            lines = panels[row, column].get_lines()
+            drawn = [lines[-2:], lines[:2]][row]  # the small run lies above its reference
+            assert [line.get_color() for line in drawn] == [style.RED, style.BLUE]
+            for line, component in zip(drawn, ["A", "B"], strict=True):
                 expected = data[name].sel(initial_size=size, component=component)
                 assert np.array_equal(line.get_ydata(), expected)
 
 
 def test_axes_say_what_they_show(panels):
     assert [axes.get_ylabel() for axes in panels[0]] == [r"$\ell^\infty$ norm", r"$\ell^2$ norm"]
-    assert [axes.get_xlabel() for axes in panels[1]] == [r"$\tau$"] * 2
-    assert all(r"\Omega = 8" in axes.get_title("left") for axes in panels.flat)
+    assert [axes.get_xlabel() for axes in panels[-1]] == [r"$\tau$"] * 2
+    titled = [axes.get_title("left") for axes in panels[[0, 1]].flat]
+    assert [r"\Omega = 8" in title for title in titled] == [True, True, False, False]
+    labels = [row[0].texts[0].get_text() for row in panels]
+    assert "ode45; the reference lies under it" in labels[0] and "one run" in labels[1]
+    assert "reference" in labels[2] and "3 runs" in labels[3]
 
 
-def test_no_curve_leaves_its_panel(gathered, panels):
+def test_no_curve_leaves_its_panel(panels):
     for axes in panels.flat:
         low, high = axes.get_ylim()
-        values = np.concatenate([line.get_ydata() for line in axes.get_lines()[:4]])
-        assert low <= values.min() and values.max() <= high
+        curves = [line.get_ydata() for line in axes.get_lines() if len(line.get_ydata()) == 11]
+        values = np.concatenate(curves)
+        assert len(curves) >= 2 and low <= values.min() and values.max() <= high
 
 
-def test_true_curves_lie_below_and_a_mark_shows_where_they_part(make_trajectory):
+def test_where_a_run_leaves_its_reference_both_stand_apart_and_a_line_shows_when(make_trajectory):
     run, true = make_trajectory(), make_trajectory()
     true["l2"][0, 4:] *= 1.5
     figure = figures.draw_norms(figures.gather_norms([run, run], [true, run]))
-    for axes, expected in zip(figure.axes, [2.0, 2.0, np.inf, np.inf], strict=True):
-        assert np.array_equal(axes.get_lines()[4].get_xdata(), [expected], equal_nan=True)
-    lines = figure.axes[1].get_lines()
-    assert np.array_equal(lines[0].get_ydata(), true["l2"].sel(component="A"))
-    assert lines[0].get_zorder() <= lines[2].get_zorder()
+    assert len(figure.axes) == 6
+    for axes in figure.axes[:4]:
+        assert axes.get_lines()[2].get_xdata()[0] == 2.0
+    assert np.array_equal(figure.axes[3].get_lines()[0].get_ydata(), true["l2"].sel(component="A"))
+    for axes in figure.axes[4:]:
+        assert len(axes.get_lines()) == 4  # and no line: the reference lies under the run
+
+
+def test_the_legend_names_what_is_seen_alone(make_trajectory):
+    run, true = make_trajectory(), make_trajectory()
+    true["l2"][0, 4:] *= 1.5
+    for reference, entries in ((run, ["$A$", "$B$"]), (true, ["$A$", "$B$", figures.DIVERGED])):
+        figure = figures.draw_norms(figures.gather_norms([run, run], [reference, run]))
+        assert [text.get_text() for text in figure.legends[0].get_texts()] == entries
+
+
+def test_a_band_is_drawn_from_the_ensemble_of_its_case(make_trajectory, ensembles):
+    runs = [make_trajectory(), make_trajectory("fig4_large", omega=0.0, scale=5.0)]
+    data = figures.gather_norms(runs, runs, ensembles)
+    small, large = (data.sel(initial_size=size) for size in figures.SIZES)
+    assert small["band_l2"].isnull().all() and int(large["members"]) == 3
+    expected = ensembles["l2"].isel(case=0).sel(quantity="B", quantile=0.95)
+    assert np.array_equal(large["band_l2"].sel(component="B", quantile=0.95), expected)
 
 
 def test_another_case_than_the_reference_stands_alone(make_trajectory):
@@ -64,6 +96,7 @@ def test_runs_of_different_lengths_are_drawn_whole(make_trajectory):
     pair = [make_trajectory(), make_trajectory(end_time=7.0)]
     figure = figures.draw_norms(figures.gather_norms(pair, pair))
     ends = [axes.get_lines()[2].get_xdata()[-1] for axes in figure.axes]
+    assert [axes.get_xlim()[1] for axes in figure.axes] == ends
     assert ends == [5.0, 5.0, 7.0, 7.0]
 
 
@@ -88,6 +121,31 @@ def test_gather_reads_the_window_and_statistic_of_text_and_caption(make_sweep):
         caption = pair.sel(statistic="mean", window="[10, 40]")
         assert np.array_equal(data[name].sel(reading="text"), text)
         assert np.array_equal(data[name].sel(reading="caption"), caption)
+
+
+def test_bars_are_the_mean_and_deviation_of_the_ensemble_of_the_same_sweep(make_sweep):
+    sweeps = [make_sweep(case="fig5_left"), make_sweep(0.0, "fig5_right")]
+    ensembles = made_up_chaos.ensembles()
+    data = figures.gather_sweeps(*sweeps, "[10, 70]", "[10, 40]", ensembles=ensembles)
+    assert data["l2_mean"].sel(panel="left").isnull().all()
+    at = {"quantity": "pair", "statistic": "mean", "window": "[10, 40]"}
+    expected = ensembles.sel(sweep="fig5_right", **at)
+    bars = data.sel(panel="right", reading="caption").dropna("half_width")
+    assert np.array_equal(bars["half_width"], ensembles["half_width"])
+    for name in ("l2_mean", "l2_deviation", "linf_mean"):
+        assert np.array_equal(bars[name], expected[name])
+    left, right = figures.draw_sweeps(data).axes
+    drawn = [segment for bars in right.collections for segment in bars.get_segments()]
+    low, high = expected["l2_mean"] - expected["l2_deviation"], expected["l2_mean"] * 1.1
+    assert [list(segment[:, 1]) for segment in drawn[2:4]] == [
+        pytest.approx([float(a), float(b)]) for a, b in zip(low, high, strict=True)
+    ]
+    assert not left.collections
+
+
+def test_every_axis_of_norms_starts_at_zero(gathered):
+    for name, draw in (("norms", figures.draw_norms), ("sweeps", figures.draw_sweeps)):
+        assert {axes.get_ylim()[0] for axes in draw(gathered[name]).axes} == {0.0}
 
 
 def test_a_window_that_no_sweep_has_is_refused(make_sweep):

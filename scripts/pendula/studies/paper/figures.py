@@ -6,21 +6,27 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.datasets.registry import SOLVER_NAMES
-from pendula.drawing import panels, style
-from pendula.drawing.panels import NORMS, Below
+from pendula.drawing import panels, strips, style
+from pendula.drawing.strips import NORMS, Strip
 from pendula.measures.difference import at_times, difference, divergence_time, is_of_same_case
 
-REFERENCE = Below("true", "true", "off by 1 % from here on")
 SIZES = ["small", "large"]
+BAND = [0.05, 0.5, 0.95]
+"""The quantiles of an ensemble that are drawn: the ends of its band, and its middle."""
+DIVERGED = "from here on the run is off by 1 %"
 
 
-def gather_norms(runs: list[xr.Dataset], references: list[xr.Dataset]) -> xr.Dataset:
+def gather_norms(
+    runs: list[xr.Dataset], references: list[xr.Dataset], ensembles: xr.Dataset | None = None
+) -> xr.Dataset:
     """Return the norms of two trajectories, of small and of large data, beside the references.
 
     A trajectory whose parameters are not those of its reference stands alone: there the norms of
-    the reference are NaN.
+    the reference are NaN. Of cases that have an ensemble, its BAND is beside them as well.
     """
     cases = [_beside(run, true) for run, true in zip(runs, references, strict=True)]
+    if ensembles is not None:
+        cases = [case.assign(_bands(case, ensembles)) for case in cases]
     return style.join(cases, SIZES, "initial_size")
 
 
@@ -32,6 +38,18 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
         drawn[f"true_{name}"] = true[name].where(known).assign_attrs(long_name=long_name)
     apart = difference(run, reference) if known else xr.full_like(run["tau"], np.nan)
     drawn["divergence_time"] = divergence_time(apart)
+    drawn["solver"] = (), run.attrs["solver"]
+    return drawn
+
+
+def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
+    """Return the bands of a case, NaN where it has no ensemble, and the number of their runs."""
+    drawn = xr.Dataset({"members": _members(ensembles, "members")})
+    every = ensembles.sel(quantity=run["component"].values, quantile=BAND)
+    every = every.rename(quantity="component").reindex(case=[run.attrs["case"]]).isel(case=0)
+    for name in NORMS:
+        band = every[name].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
+        drawn[f"band_{name}"] = band.drop_vars("case")
     return drawn
 
 
@@ -39,20 +57,31 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
 def draw_norms(data: xr.Dataset) -> Figure:
     """Draw l-infinity left and l2 right, small data above and large below, A red and B blue.
 
-    The curves of the reference lie below in pale colours, and a mark shows the divergence time.
+    A run that leaves its reference has the reference and the ensemble in strips of their own below
+    it, and a dashed line shows the divergence time. Elsewhere the reference lies under the run.
     """
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    grid = figure.subplots(2, 2, sharex=True)
-    for row, size in zip(grid, data["initial_size"].values, strict=True):
-        case = data.sel(initial_size=size)
-        for axes, name in zip(row, NORMS, strict=True):
-            panels.draw_norm(axes, case, name, REFERENCE)
+    cases = [data.sel(initial_size=size) for size in data["initial_size"].values]
+    figure, drawn = strips.draw_cases(cases, [_strips(case) for case in cases])
+    for case, grid in zip(cases, drawn, strict=True):
+        for axes in grid[0]:
             axes.set_title(style.name_case(case), loc="left")
-    for axes in grid[-1]:
-        axes.set_xlabel(r"$\tau$")
-    style.name_legend(figure, grid[0, 0])
-    figure.align_ylabels()
+    parts = any(strips.diverges(case) for case in cases)
+    strips.name_legend(figure, data["component"].values, DIVERGED if parts else "")
     return figure
+
+
+def _strips(case: xr.Dataset) -> list[Strip]:
+    run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
+    known = bool(case["true_l2"].notnull().any())
+    if known and not strips.diverges(case):
+        return [Strip("", f"{run}; the reference lies under it", under="true_")]
+    found = [Strip("", run)]
+    if known:
+        found.append(Strip("true_", "reference, in multiprecision"))
+    if "band_l2" in case and case["band_l2"].notnull().any():
+        runs = f"{int(case['members'])} runs from almost equal data"
+        found.append(Strip("band_", f"{runs}: median, and 5 to 95 %"))
+    return found
 
 
 def gather_spacetime(small: xr.Dataset, large: xr.Dataset) -> xr.Dataset:
@@ -82,24 +111,44 @@ def gather_sweeps(
     text_window: str,
     caption_window: str,
     norms: tuple[str, ...] = ("l2", "linf"),
+    ensembles: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Return the pair's norms of two sweeps: the maximum over one window, the mean over another.
 
     The paper's text speaks of the maximum, its captions of the average, over windows of their own.
-    The windows are named as in the sweeps, such as "[10, 50]"; `norms` are those to be drawn.
+    The windows are named as in the sweeps, such as "[10, 50]"; `norms` are those to be drawn. Of
+    sweeps that have an ensemble, its mean and standard deviation are beside them.
     """
     sweeps = {"left": left, "right": right}
-    return panels.join_sweeps(sweeps, text_window, caption_window, list(norms))
+    data = panels.join_sweeps(sweeps, text_window, caption_window, list(norms))
+    if ensembles is not None:
+        data["members"] = _members(ensembles, "swept_members")
+        moments = [f"{name}_{moment}" for name in norms for moment in ("mean", "deviation")]
+        every = ensembles.sel(quantity="pair", drop=True).reindex(half_width=data["half_width"])
+        every = every[moments].reindex(sweep=[sweep.attrs["case"] for sweep in sweeps.values()])
+        read = every.sel(statistic=data["statistic"], window=data["window"])
+        for name in moments:
+            values = read[name].transpose("sweep", "reading", "half_width").values
+            data[name] = ("panel", "reading", "half_width"), values, every[name].attrs
+    return data
+
+
+def _members(ensembles: xr.Dataset, of: str) -> xr.Variable:
+    about = {"long_name": "number of runs in the ensemble", "units": "1"}
+    return xr.Variable((), ensembles.attrs[of], about)
 
 
 @style.styled
 def draw_sweeps(data: xr.Dataset) -> Figure:
-    """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow."""
-    figure = style.new_figure(style.DOUBLE, 2.7)
+    """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow.
+
+    Beside the dots of a chaotic sweep, each of which is one draw, stand the bars of its ensemble.
+    """
+    figure = style.new_figure(style.DOUBLE, 2.8)
     for axes, name in zip(figure.subplots(1, 2), data["panel"].values, strict=True):
         panels.draw_sweep(axes, data.sel(panel=name))
     handles = panels.sweep_legend(data)
-    figure.legend(handles=handles, loc="outside upper center", ncols=4, columnspacing=1.2)
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, columnspacing=1.2)
     return figure
 
 

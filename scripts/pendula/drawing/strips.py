@@ -1,0 +1,118 @@
+"""Norms of A and B against time: a run, and in strips below it what it must be told apart from.
+
+After two chaotic runs have diverged, their curves in one panel cannot be read. So each stands in a
+strip of its own, all on the same scales, and a dashed line shows from when on they differ.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from . import style
+
+NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
+PALE = {"A": "#f0a79f", "B": "#9db2de"}
+"""Colours of bands, and of curves that lie under others."""
+TALL, LOW = 1.5, 0.8
+"""Heights in inches: of a panel that stands alone, and of a strip."""
+HEADROOM = 1.3
+"""The axis ends so far above the largest value: the name of the strip stands there."""
+MARK = {"color": "black", "marker": "v", "markersize": 4, "linestyle": "none"}
+BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+LABEL = {"ha": "right", "va": "top", "fontsize": 7, "bbox": BEHIND, "zorder": 4}
+DIVERGED = {"color": "black", "lw": 0.6, "dashes": (4, 2), "zorder": 3}
+
+
+class Strip(NamedTuple):
+    """One strip: its variables are named `prefix` and the norm; those of `under` may lie below.
+
+    Variables over "quantile" are bands from the first to the last, with a line in the middle.
+    """
+
+    prefix: str
+    label: str
+    under: str = ""
+
+
+def draw_cases(cases: Sequence[xr.Dataset], strips: Sequence[Sequence[Strip]]) -> tuple:
+    """Return a new figure and its axes by case, (strip, norm): l-infinity left and l2 right.
+
+    `cases` hold norms over component and tau, and may hold the `divergence_time` that is marked.
+    """
+    heights = [TALL if len(of_case) == 1 else LOW * len(of_case) for of_case in strips]
+    figure = style.new_figure(style.DOUBLE, sum(heights) + 0.25 * len(heights) + 0.5)
+    figure.get_layout_engine().set(h_pad=0.03)
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, hspace=0.06)
+    drawn = [
+        _draw_case(grid[row, 0].subgridspec(len(of_case), 2, hspace=0.04), case, of_case)
+        for row, (case, of_case) in enumerate(zip(cases, strips, strict=True))
+    ]
+    for axes in drawn[-1][-1]:
+        axes.set_xlabel(r"$\tau$")
+    figure.align_ylabels()
+    return figure, drawn
+
+
+def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np.ndarray:
+    grid = place.subplots(sharex=True, sharey="col", squeeze=False)
+    for row, strip in zip(grid, strips, strict=True):
+        for axes, name in zip(row, NORMS, strict=True):
+            _draw_strip(axes, case, name, strip)
+            axes.text(0.985, 0.93, strip.label, transform=axes.transAxes, **LABEL)
+    for axes, name in zip(grid[0], NORMS, strict=True):
+        shown = [f"{strip.prefix}{name}" for strip in strips]
+        axes.set_ylim(0, HEADROOM * max(float(case[curves].max()) for curves in shown))
+        axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))
+        axes.yaxis.set_major_locator(MaxNLocator(5 if len(strips) == 1 else 3))
+        grid[len(strips) // 2, list(NORMS).index(name)].set_ylabel(f"{NORMS[name]} norm")
+    return grid
+
+
+def _draw_strip(axes: Axes, case: xr.Dataset, name: str, strip: Strip) -> None:
+    if strip.under:
+        _draw_curves(axes, case[f"{strip.under}{name}"], PALE)
+    curves = case[f"{strip.prefix}{name}"]
+    draw = _draw_bands if "quantile" in curves.dims else _draw_curves
+    draw(axes, curves, style.COLOURS)
+    if diverges(case):
+        time = float(case["divergence_time"])
+        axes.axvline(time, **DIVERGED)
+        if axes.get_subplotspec().is_first_row():
+            axes.plot(time, 1.0, transform=axes.get_xaxis_transform(), clip_on=False, **MARK)
+
+
+def _draw_curves(axes: Axes, curves: xr.DataArray, colours: dict) -> None:
+    for component in curves["component"].values:
+        curve = curves.sel(component=component).dropna("tau")
+        axes.plot(curve["tau"], curve, color=colours[component], label=f"${component}$", alpha=0.9)
+
+
+def _draw_bands(axes: Axes, bands: xr.DataArray, colours: dict) -> None:
+    for component in bands["component"].values:
+        low, middle, high = bands.sel(component=component).dropna("tau")
+        look = {"color": PALE[component], "lw": 0, "alpha": 0.6}
+        axes.fill_between(middle["tau"], low, high, **look)
+        axes.plot(middle["tau"], middle, color=colours[component])
+
+
+def diverges(case: xr.Dataset) -> bool:
+    """Return whether a time is known from when on the case's curves differ."""
+    return "divergence_time" in case and bool(np.isfinite(case["divergence_time"]))
+
+
+def name_legend(figure: Figure, components: Sequence[str], mark: str = "") -> None:
+    """Put one legend above all: the components, and in words what the dashed line marks."""
+    lines = [
+        Line2D([], [], color=style.COLOURS[one], label=f"${one}$", lw=1.6) for one in components
+    ]
+    if mark:
+        dashed = DIVERGED | {"lw": 1.0}
+        lines.append(Line2D([], [], **MARK | {"linestyle": "-"} | dashed, label=mark))
+    figure.legend(handles=lines, loc="outside upper center", ncols=len(lines))
