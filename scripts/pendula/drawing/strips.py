@@ -66,12 +66,14 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
         for axes, name in zip(row, NORMS, strict=True):
             _draw_strip(axes, case, name, strip)
             axes.text(0.985, 0.93, strip.label, transform=axes.transAxes, **LABEL)
+    named = grid if len(strips) < 3 else grid[1:2]
+    for axes, name in zip(named.flat, len(named) * list(NORMS), strict=True):
+        axes.set_ylabel(f"{NORMS[name]} norm")
     for axes, name in zip(grid[0], NORMS, strict=True):
         shown = [f"{strip.prefix}{name}" for strip in strips]
         axes.set_ylim(0, HEADROOM * max(float(case[curves].max()) for curves in shown))
         axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))
         axes.yaxis.set_major_locator(MaxNLocator(5 if len(strips) == 1 else 3))
-        grid[len(strips) // 2, list(NORMS).index(name)].set_ylabel(f"{NORMS[name]} norm")
     return grid
 
 

@@ -29,6 +29,7 @@ DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
 TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
+ENSEMBLES = "checks/ensembles"
 COMPARED = "checks/solvers"
 
 
@@ -42,6 +43,10 @@ def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
         "verdicts": {which: ledger.counts(f"Fig {which}") for which in range(1, 7)},
         "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
         "visible": _visible(results),
+        "ensemble": {
+            "runs": results.quote(ENSEMBLES, int(results[ENSEMBLES].attrs["members"])),
+            "share": results.say(SAMPLES, percent(float(results[SAMPLES]["band_share"]))),
+        },
     }
 
 
@@ -182,11 +187,11 @@ def _samples(results: Results, which: int) -> list[dict[str, Any]]:
 
 
 def _sample(results: Results, last) -> dict[str, Any]:
-    off, members = float(last["deviations"]), results["checks/ensembles"].attrs["swept_members"]
+    off, members = float(last["deviations"]), results[ENSEMBLES].attrs["swept_members"]
     return {
         "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
         "width": results.quote(SAMPLES, int(last["half_width"]), 6),
-        "runs": results.quote("checks/ensembles", int(members)),
+        "runs": results.quote(ENSEMBLES, int(members)),
         "mean": results.say(SAMPLES, measured(float(last["l2_mean"]))),
         "deviation": results.quote(SAMPLES, float(last["l2_deviation"]), 2),
         "run": results.say(SAMPLES, measured(float(last["swept_run"]))),
