@@ -1,0 +1,117 @@
+"""What this project says beyond the paper about chaos and trust; the same rules hold for it."""
+
+import numpy as np
+
+from pendula.ledger.claim import checks, claim, wrong_check
+from pendula.ledger.criterion import (
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    UndecidableError,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+
+SECTION = 7
+PLACE = "Beyond the paper"
+
+SAME = Cutoff(3.0, "two measured numbers are the same up to three standard errors of both")
+
+
+def chaotic_cases(lyapunov) -> np.ndarray:
+    """Return the names of the chaotic cases, of which there must be one."""
+    found = lyapunov["case"].values[lyapunov["chaotic"].values == 1]
+    if not len(found):
+        raise UndecidableError("no case is chaotic")
+    return found
+
+
+def with_even_exponents_shifted(lyapunov):
+    """Return the exponents with those of even perturbations from the next case."""
+    shifted = lyapunov["exponent"].roll(case=1, roll_coords=False)
+    even = lyapunov["parity"] == "even"
+    return lyapunov.assign(exponent=lyapunov["exponent"].where(~even, shifted))
+
+
+@claim(
+    PLACE,
+    "Perturbations that are odd in n grow as fast as even ones.",
+    checks("lyapunov"),
+    controls=(
+        wrong_check("odd and even exponents of two cases", lyapunov=with_even_exponents_shifted),
+    ),
+)
+def odd_as_even(lyapunov) -> Finding:
+    chosen = lyapunov.sel(case=chaotic_cases(lyapunov))
+    even, odd = (chosen["exponent"].sel(parity=parity) for parity in ("even", "odd"))
+    error = np.sqrt((chosen["exponent_error"] ** 2).sum("parity"))
+    measured = {
+        "difference": np.abs(even - odd).max(),
+        "over_error": (abs(even - odd) / error).max(),
+    }
+    says = "largest difference of the exponents over its standard error"
+    return judge(measured, Below(SAME, "over_error", says=says))
+
+
+@claim(
+    PLACE,
+    "Where sums depend on the side, rounding alone makes the chaotic solutions visibly uneven.",
+    checks("symmetry", "lyapunov"),
+    controls=(
+        wrong_check(
+            "the odd parts of the cases in reverse order",
+            symmetry=lambda check: check.assign_coords(case=check["case"].values[::-1]),
+        ),
+    ),
+)
+def evenness_lost(symmetry, lyapunov) -> Finding:
+    chaotic = symmetry["case"].isin(chaotic_cases(lyapunov))
+    times = symmetry["rounded_time"]
+    measured = {
+        "first": times.where(chaotic).min(),
+        "chaotic_that_stay_even": (chaotic & ~np.isfinite(times)).sum(),
+        "regular_that_turn_uneven": (~chaotic & np.isfinite(times)).sum(),
+    }
+    return judge(measured, AtMost(0, "chaotic_that_stay_even", "regular_that_turn_uneven"))
+
+
+@claim(
+    PLACE,
+    "Every solver leaves the true trajectory of every chaotic case.",
+    checks("trust", "lyapunov"),
+    controls=(
+        wrong_check(
+            "the horizons of the cases in reverse order",
+            trust=lambda check: check.assign_coords(case=check["case"].values[::-1]),
+        ),
+    ),
+)
+def no_solver_stays(trust, lyapunov) -> Finding:
+    horizon = trust["horizon"].sel(level="visible", case=chaotic_cases(lyapunov))
+    if np.isnan(horizon.values).any():
+        raise UndecidableError("no reference of these cases tells the errors")
+    measured = {"first": horizon.min(), "last": horizon.max(), "runs": horizon.size}
+    measured["staying"] = (~np.isfinite(horizon)).sum()
+    return judge(measured, AllOf(AtMost(0, "staying"), AtLeast(1, "runs")))
+
+
+@claim(
+    PLACE,
+    "Data rounded to doubles lead away from the data as printed, such as 0.1.",
+    checks("trust"),
+    controls=(
+        wrong_check(
+            "trajectories that stay together",
+            trust=lambda check: check.assign(decimal_horizon=check["decimal_horizon"] + np.inf),
+        ),
+    ),
+)
+def decimal_data(trust) -> Finding:
+    times, end = trust["decimal_horizon"].values, float(trust["tau"][-1])
+    if np.isnan(times).any():
+        raise UndecidableError("no reference of these cases tells the errors")
+    measured = {"first_seen": times[0], "visible": times[-1]}
+    says = "tau at which the difference is visible"
+    return judge(measured, AtMost(end, "visible", says=says))
