@@ -17,7 +17,11 @@ from .peer import Peer, Solve
 from .timing import timed
 
 TOLERANCES = 10.0 ** -np.arange(4.0, 15.5)
-STEPS = {"splitting": 0.2 / 2.0 ** np.arange(7), "crank_nicolson": 0.04 / 2.0 ** np.arange(6)}
+ITERATED = ("crank_nicolson", "delfour_fortin_payre")
+STEPS = {
+    "splitting": 0.2 / 2.0 ** np.arange(7),
+    **{name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED},
+}
 
 PEERS: dict[str, Peer] = {
     "scipy_rk45_numpy": peers_in_python.RK45_NUMPY,
@@ -47,7 +51,7 @@ class Contestant(NamedTuple):
 
 def controls(name: str, accuracy: float) -> dict:
     """Return the controls of one of our solvers for a tolerance or a step."""
-    if name == "crank_nicolson":
+    if name in ITERATED:
         return {"name": name, "step": accuracy, "tolerance": 1e-13, "iterations": 50}
     if name == "splitting":
         return {"name": name, "step": accuracy}
@@ -66,7 +70,7 @@ def _prepare_own(name: str, problem: Problem) -> Solve:
 
 OURS = {
     name: Contestant(name, STEPS.get(name, TOLERANCES), partial(_prepare_own, name))
-    for name in ("ode45", "crank_nicolson", "dop853", "taylor", "splitting")
+    for name in ("ode45", *ITERATED, "dop853", "taylor", "splitting")
 }
 
 

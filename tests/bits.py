@@ -16,8 +16,14 @@ from pendula.simulation.lattice import Reduction
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.solvers import SOLVERS
 
-TOLERANCES = {"taylor": 1e-14, "dop853": 1e-12}
-RUNS = [(name, even) for name in TOLERANCES for even in (True, False)]
+TIGHT = {"taylor": 1e-14, "dop853": 1e-12}
+ITERATED = {"step": 0.0025, "tolerance": 1e-13, "iterations": 50}
+CONTROLS = {
+    **{name: {"rtol": value, "atol": value} for name, value in TIGHT.items()},
+    "crank_nicolson": ITERATED,
+    "delfour_fortin_payre": ITERATED,
+}
+RUNS = [(name, even) for name in CONTROLS for even in (True, False)]
 
 
 def digest(trajectory: Trajectory) -> str:
@@ -32,7 +38,7 @@ def run(name: str, even: bool) -> str:
     plain = {
         "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
         "initial": {0: (5.0, 1.0)}, "end_time": 3.0, "output_step": 0.1,
-        "solver": {"name": name, "rtol": TOLERANCES[name], "atol": TOLERANCES[name]},
+        "solver": {"name": name, **CONTROLS[name]},
     }  # fmt: skip
     return digest(simulate(Problem.of(plain), Reduction(even=even, synchronised=False)))
 
@@ -40,8 +46,8 @@ def run(name: str, even: bool) -> str:
 def main(threads: int) -> dict:
     with ThreadPoolExecutor(threads) as pool:
         hashes = list(pool.map(lambda task: run(*task), RUNS * threads))
-    cached = {name: sum(SOLVERS[name].run.stats.cache_hits.values()) for name in TOLERANCES}
-    found = {name: set() for name in TOLERANCES}
+    cached = {name: sum(SOLVERS[name].run.stats.cache_hits.values()) for name in CONTROLS}
+    found = {name: set() for name in CONTROLS}
     for (name, _), value in zip(RUNS * threads, hashes, strict=True):
         found[name].add(value)
     return {"hashes": {name: sorted(values) for name, values in found.items()}, "cached": cached}

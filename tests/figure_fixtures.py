@@ -52,8 +52,10 @@ def make_trajectory():
 
 @pytest.fixture(scope="session")
 def trajectories(make_trajectory):
-    """Return two cases by three solvers, of which Crank-Nicolson is 2 % off from the start."""
-    scales = {"ode45": 1.001, "crank_nicolson": 1.02, "dop853": 1.0}
+    """Return two cases by four solvers, of which the implicit ones are 2 % off from the start."""
+    scales = {
+        "ode45": 1.001, "crank_nicolson": 1.02, "delfour_fortin_payre": 1.02, "dop853": 1.0,
+    }  # fmt: skip
     return {
         (case, solver): make_trajectory(case, scale=scale, solver=solver)
         for case in ("fig2_small", "fig2_large")

@@ -13,11 +13,9 @@ SOLVERS = {
     "dop853": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
     "taylor": {"name": "taylor", "rtol": 1e-12, "atol": 1e-12},
     "splitting": {"name": "splitting", "step": 0.005},
-    "crank_nicolson": {
-        "name": "crank_nicolson",
-        "step": 0.005,
-        "tolerance": 1e-14,
-        "iterations": 50,
+    **{
+        name: {"name": name, "step": 0.005, "tolerance": 1e-14, "iterations": 50}
+        for name in ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
     },
 }
 CASES = {  # Omega, (A_0, B_0)

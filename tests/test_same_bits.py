@@ -1,4 +1,4 @@
-"""The promise of taylor and dop853: the same bits whatever the code was compiled for.
+"""The promise of most solvers: the same bits whatever the code was compiled for.
 
 Not ode45, whose powers of 1/5 are the C library's, and not splitting, whose sines and cosines are.
 """
@@ -13,7 +13,12 @@ import bits
 import pytest
 from llvmlite import binding
 
-HASHES = {"taylor": "f71cfb065655de7a", "dop853": "38b2cde420d22b67"}
+HASHES = {
+    "taylor": "f71cfb065655de7a",
+    "dop853": "38b2cde420d22b67",
+    "crank_nicolson": "1fa411e98fd3a6a9",
+    "delfour_fortin_payre": "24e783140ae11f55",
+}
 """Bits that every machine must get. A change of the equations' or a solver's arithmetic changes
 them: if it was meant, put here what `python tests/bits.py` prints, and say why in the commit."""
 

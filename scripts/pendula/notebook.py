@@ -37,8 +37,8 @@ class Case(schema.Case):
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
     snapshot_step: in tau; how often the moduli on all sites are kept, whole output steps.
         Left out, 200 to 400 snapshots are spread over the run.
-    solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson" or "auto", or a dict with the
-        controls, such as {"name": "auto", "error": 1e-9}.
+    solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
+        or a dict with the controls, such as {"name": "auto", "error": 1e-9}.
 
     Raises ConfigurationError, with every fault in words.
 

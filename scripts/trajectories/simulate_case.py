@@ -12,7 +12,7 @@ def simulate_case(
     """Simulate each of `problems` (plain values of a Problem) and write its observables."""
     for path, problem in zip(datasets, map(Problem.of, problems), strict=True):
         result = simulate(problem)
-        if problem.solver["name"] == "crank_nicolson" and result.outcome.rejected:
+        if "iterations" in problem.solver and result.outcome.rejected:
             cut = result.outcome.rejected
             print(f"{name}: the iteration did not contract; {cut} steps were cut")
         write(path, *trajectory_contents(name, problem, result))

@@ -2,12 +2,18 @@
 
 The oscillator of van der Pol, x'' = mu (1 - x^2) x' - x, is one complex component z = x + i x';
 large mu has sudden turns, and negative mu blows up. The Riccati equation x' = p x + q x^2 has
-solutions in closed form, and so has Crank-Nicolson for q = 0.
+solutions in closed form, and so have the implicit schemes for q = 0.
 """
 
 import numpy as np
 from pendula.compiled import uncached
-from pendula.integrators import crank_nicolson, dop853, ode45, taylor
+from pendula.integrators import (
+    crank_nicolson,
+    delfour_fortin_payre,
+    dop853,
+    ode45,
+    taylor,
+)
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER
 from pendula.simd import LANES
 from scipy.integrate import solve_ivp
@@ -37,10 +43,16 @@ def continue_oscillation(mu, series):
 
 
 @uncached
-def riccati(factors, old, new, middle, dy):
+def riccati(factors, y, dy):
     for row in range(2):
-        mean = 0.5 * (old[row, 1] + new[row, 1])
-        dy[row, 1] = factors[0] * mean + factors[1] * mean * mean
+        dy[row, 1] = factors[0] * y[row, 1] + factors[1] * y[row, 1] * y[row, 1]
+
+
+@uncached
+def mean_riccati(factors, old, new, middle, dy):
+    for row in range(2):
+        middle[row, 1] = 0.5 * (old[row, 1] + new[row, 1])
+    riccati(factors, middle, dy)
 
 
 @uncached
@@ -53,6 +65,8 @@ solve_ode45 = ode45.build(oscillate, keep)
 solve_dop853 = dop853.build(oscillate, keep)
 solve_taylor = taylor.build(continue_oscillation, keep)
 solve_crank_nicolson = crank_nicolson.build(riccati, keep)
+solve_implicit_midpoint = crank_nicolson.build_midpoint(riccati, keep)
+solve_delfour_fortin_payre = delfour_fortin_payre.build(mean_riccati, keep)
 
 
 @uncached
@@ -75,11 +89,23 @@ def run_crank_nicolson(system, y, times, controls, work, record):
     return solve_crank_nicolson(system, y, times, controls, work, record)
 
 
+@uncached
+def run_implicit_midpoint(system, y, times, controls, work, record):
+    return solve_implicit_midpoint(system, y, times, controls, work, record)
+
+
+@uncached
+def run_delfour_fortin_payre(system, y, times, controls, work, record):
+    return solve_delfour_fortin_payre(system, y, times, controls, work, record)
+
+
 METHODS = {
     "ode45": (run_ode45, ode45.WORK),
     "dop853": (run_dop853, dop853.WORK),
     "taylor": (run_taylor, taylor.WORK),
     "crank_nicolson": (run_crank_nicolson, crank_nicolson.WORK),
+    "implicit_midpoint": (run_implicit_midpoint, crank_nicolson.WORK),
+    "delfour_fortin_payre": (run_delfour_fortin_payre, delfour_fortin_payre.WORK),
 }
 
 

@@ -22,7 +22,7 @@ def test_ordinary_runs_meet_no_obstacle(name):
     assert obstacle(name, size=100.0) is None
 
 
-@pytest.mark.parametrize("name", ["splitting", "crank_nicolson"])
+@pytest.mark.parametrize("name", ["splitting", "crank_nicolson", "delfour_fortin_payre"])
 def test_runs_of_more_than_a_milliard_steps_are_refused(name):
     assert obstacle(name, step=50e-9) is None
     assert obstacle(name, step=49e-9) == (

@@ -37,7 +37,7 @@ except ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
-COMPARED = [*PAPER_SOLVERS, "dop853"]  # in the figures of the paper's claims about its solvers
+COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]

@@ -7,11 +7,11 @@ from pydantic import BaseModel, ValidationError, create_model
 
 from pendula.studies import modules
 
-from .schema import Auto, Configuration, CrankNicolson, Dop853, Ode45, Taylor
+from .schema import Auto, Configuration, CrankNicolson, DelfourFortinPayre, Dop853, Ode45, Taylor
 
 SOLVERS = {
     model.model_fields["name"].default: model
-    for model in (Ode45, CrankNicolson, Dop853, Taylor, Auto)
+    for model in (Ode45, CrankNicolson, DelfourFortinPayre, Dop853, Taylor, Auto)
 }
 HINTS = {
     "N": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",

@@ -78,13 +78,24 @@ class Auto(Model):
     error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
 
 
-class CrankNicolson(Model):
-    """The energy-conserving Crank-Nicolson scheme with fixed-point iteration."""
+class Iterated(Model):
+    """Controls of an implicit scheme that is solved by fixed-point iteration."""
 
-    name: Literal["crank_nicolson"] = "crank_nicolson"
     step: Positive = 0.0025
     tolerance: Annotated[Positive, Field(ge=1e-14, lt=1)] = 1e-13
     iterations: Annotated[Whole, Field(ge=2, le=1000)] = 50
+
+
+class CrankNicolson(Iterated):
+    """The trapezoidal rule, the paper's second solver."""
+
+    name: Literal["crank_nicolson"] = "crank_nicolson"
+
+
+class DelfourFortinPayre(Iterated):
+    """The variant of Crank-Nicolson that conserves the energy."""
+
+    name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
 
 
 class Solvers(Model):
@@ -92,12 +103,16 @@ class Solvers(Model):
 
     ode45: Ode45 = Ode45()
     crank_nicolson: CrankNicolson = CrankNicolson()
+    delfour_fortin_payre: DelfourFortinPayre = DelfourFortinPayre()
     dop853: Dop853 = Dop853()
     taylor: Taylor = Taylor()
     auto: Auto = Auto()
 
 
-Solver = Annotated[Ode45 | CrankNicolson | Dop853 | Taylor | Auto, Field(discriminator="name")]
+Solver = Annotated[
+    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto,
+    Field(discriminator="name"),
+]
 
 Window = tuple[Number, Number]
 

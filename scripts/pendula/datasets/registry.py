@@ -58,6 +58,8 @@ NAMES = {
 SOLVER_NAMES = {
     "ode45": "ode45",
     "crank_nicolson": "Crank\N{EN DASH}Nicolson",
+    "implicit_midpoint": "implicit midpoint",
+    "delfour_fortin_payre": "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre",
     "dop853": "DOP853",
     "taylor": "Taylor",
     "splitting": "BM6 splitting",

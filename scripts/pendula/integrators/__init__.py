@@ -3,8 +3,8 @@
     build(rates, observe) -> solve
     solve(system, y, times, controls, work, record) -> Outcome
 
-`rates(system, y, dy)` is the right-hand side (Crank-Nicolson takes its mean over a step, Taylor the
-rule of a power series instead), `observe(system, y, i, record)` reduces the state at output i.
+`rates(system, y, dy)` is the right-hand side (`delfour_fortin_payre` takes its mean over a step,
+Taylor the rule of a power series), `observe(system, y, i, record)` reduces the state at output i.
 `work` holds as many arrays of the size of `y` as the module's WORK says. `y` holds pairs of rows
 (real and imaginary parts) with one ghost column at each side; it starts as the initial state and
 ends as the final one. `times` are those of the outputs, from the start on. Nothing is allocated in
@@ -40,5 +40,5 @@ class Outcome(NamedTuple):
     status: int
     time: float
     steps: int  # taken
-    rejected: int  # tried in vain; for Crank-Nicolson how often a step was halved
+    rejected: int  # tried in vain; for a fixed-point iteration how often a step was halved
     evaluations: int  # of the right-hand side; of the orders of a series for Taylor

@@ -1,162 +1,60 @@
-"""Crank-Nicolson in its energy-conserving form, solved by fixed-point iteration.
+"""Crank-Nicolson, solved by fixed-point iteration: the paper's second solver, in two readings.
 
-new = old + h G(old, new), where G is the mean right-hand side of Delfour, Fortin and Payre
-(J. Comput. Phys. 44 (1981) 277): second order, symmetric in time, and the energy is conserved up
-to the tolerance of the iteration. It is the second method of the replication, for it shares no step
-control and no error estimate with the others.
+`build` is the trapezoidal rule, new = old + h/2 (F(old) + F(new)): Crank and Nicolson (Proc. Camb.
+Phil. Soc. 43 (1947) 50) average the right-hand side over the two ends of a step. `build_midpoint`
+is the implicit midpoint rule, new = old + h F((old + new) / 2), which has the name too.
 
-The iteration starts from the extrapolation of the last six steps by a polynomial, and stops when
-the largest change of a part (real or imaginary) falls below tolerance * |y|, where |y| is the
-largest part at the last output. Where the changes do not shrink, or not far enough within the
-allowed count, the step is halved until they do: each halving is counted as a rejected step, and the
-run ends with a fault where halving does not help.
+Both are of second order and symmetric in time, and neither keeps the quartic energy (8). Half a
+step of the explicit Euler method carries each solution of the first into one of the second, so that
+neither is better in the long run; the dataset checks/second_solver.nc compares their errors. The
+variant that conserves (8) is `delfour_fortin_payre`.
 """
+# ASSUME: the paper says "a Crank-Nicholson scheme with the fixed-point iteration method" and no
+# more. It is read as the trapezoidal rule, the scheme of Crank and Nicolson's own paper.
 
-import numpy as np
+from pendula.compiled import uncached
 
-from pendula.compiled import copy, inlined_by_numba, kernel, uncached
-from pendula.simd import largest_in_rows
-
-from . import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
-
-PAST = 6
-"""Increments that the first guess is extrapolated from."""
-WORK = 3 + PAST
-"""Work arrays of the size of a state."""
-SMALLEST_FRACTION = 2.0**-20
-"""The part of a step below which halving it is given up."""
+from . import fixed_point
+from .fixed_point import WORK as WORK
 
 
-@kernel
-def update(old, h, slope, new):
-    """Set new = old + h slope; return the largest change of a part, NaN where there is one.
-
-    `slope` is overwritten by the changes.
-    """
+@uncached
+def advance(old, h, slope, new):
+    """Set new = old + h slope, ghosts left alone."""
     for row in range(old.shape[0]):
         for j in range(1, old.shape[1] - 1):
-            value = old[row, j] + h * slope[row, j]
-            slope[row, j] = abs(value - new[row, j])
-            new[row, j] = value
-    return largest_in_rows(slope, old.shape[0])
+            new[row, j] = old[row, j] + h * slope[row, j]
 
 
-@kernel
-def size(y):
-    """Return the largest absolute value of a part."""
-    largest = 0.0
-    for row in range(y.shape[0]):
-        for j in range(1, y.shape[1] - 1):
-            largest = max(largest, abs(y[row, j]))
-    return largest
-
-
-@kernel
-def extrapolate(old, past, latest, new):
-    """Guess `new` from the last six increments; `latest` is the place of the newest in the ring.
-
-    A polynomial of degree five through six increments gives the next one the binomial weights
-    6, -15, 20, -15, 6, -1. Before six steps are taken the missing increments are zero: the guess is
-    worse, which costs a few iterations. Terms of one sign are summed first, in pairs.
-    """
-    a, b, c = past[latest], past[latest - 1], past[latest - 2]
-    d, e, f = past[latest - 3], past[latest - 4], past[latest - 5]
-    for row in range(old.shape[0]):
-        for j in range(old.shape[1]):
-            odd = 6.0 * (a[row, j] + e[row, j]) + 20.0 * c[row, j]
-            even = 15.0 * (b[row, j] + d[row, j]) + f[row, j]
-            new[row, j] = old[row, j] + (odd - even)
-
-
-@kernel
-def accept(old, new, increment):
-    """Keep the increment of this step for later guesses, and move `old` on to `new`."""
-    for row in range(old.shape[0]):
-        for j in range(old.shape[1]):
-            increment[row, j] = new[row, j] - old[row, j]
-            old[row, j] = new[row, j]
-
-
-@kernel
-def is_finite(y):
-    """Return whether no part of `y` is infinite or NaN."""
-    for row in range(y.shape[0]):
-        for j in range(y.shape[1]):
-            if not abs(y[row, j]) < np.inf:
-                return False
-    return True
-
-
-def build(mean_rates, observe):
-    """Return the solver of y' = rates, given their mean over a step; see the package.
-
-    The distance between two outputs is covered in equal steps, none longer than `step`.
-    """
+def build(rates, observe):
+    """Return the solver of y' = rates by the trapezoidal rule; see the package."""
 
     @uncached
-    def iterate(system, old, new, h, scratch, enough, most):
-        """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
-        last = np.inf
-        for count in range(1, most + 1):
-            mean_rates(system, old, new, scratch[0], scratch[1])
-            change = update(old, h, scratch[1], new)
-            if change <= enough:
-                return True, count
-            # the first change is that of the guess, which may be anything
-            if not change < np.inf or (count > 2 and change >= last):
-                return False, count
-            last = change
-        return False, most
+    def begin(system, old, h, scratch):
+        """Half a step of the explicit Euler method; half a step of the implicit one remains."""
+        rates(system, old, scratch)
+        advance(old, 0.5 * h, scratch, scratch)
+        return scratch, 0.5 * h, 1
 
     @uncached
-    def halve(system, old, new, h, scratch, enough, most):
-        """Cover `h` in equal parts, halved until the iteration contracts.
+    def slope(system, old, new, scratch, dy):
+        rates(system, new, dy)
 
-        Return whether that worked, the number of halvings, and the evaluations.
-        """
-        fraction, covered = 0.5, 0.0
-        halvings, evaluations = 1, 0
-        while covered < 1.0:
-            copy(old, new)
-            good, count = iterate(system, old, new, fraction * h, scratch, enough, most)
-            evaluations += count
-            if good:
-                copy(new, old)
-                covered += fraction
-            else:
-                fraction *= 0.5
-                halvings += 1
-                if fraction < SMALLEST_FRACTION:
-                    return False, halvings, evaluations
-        return True, halvings, evaluations
+    return fixed_point.build(begin, slope, observe)
 
-    @inlined_by_numba
-    def solve(system, y, times, controls, work, record):
-        step, tolerance, most = controls
-        new, scratch, past = work[0], work[1:3], work[3:]
-        next_past = steps = rejected = evaluations = 0
-        for i in range(times.size):
-            span = times[i] - times[max(i - 1, 0)]
-            parts = int(np.ceil(span / step * (1.0 - 1e-12)))
-            enough = tolerance * size(y)
-            for part in range(parts):
-                h = span / parts
-                extrapolate(y, past, next_past - 1, new)
-                good, count = iterate(system, y, new, h, scratch, enough, int(most))
-                evaluations += count
-                if good:
-                    accept(y, new, past[next_past])
-                    next_past = (next_past + 1) % PAST
-                else:
-                    good, halvings, count = halve(system, y, new, h, scratch, enough, int(most))
-                    rejected += halvings
-                    evaluations += count
-                if not good:
-                    status = NO_CONTRACTION if is_finite(y) else NOT_FINITE
-                    at = times[i - 1] + part * span / parts
-                    return Outcome(status, at, steps, rejected, evaluations)
-                steps += 1
-            observe(system, y, i, record)
-        return Outcome(DONE, times[-1], steps, rejected, evaluations)
 
-    return solve
+def build_midpoint(rates, observe):
+    """Return the solver of y' = rates by the implicit midpoint rule."""
+
+    @uncached
+    def begin(system, old, h, scratch):
+        return old, h, 0
+
+    @uncached
+    def slope(system, old, new, middle, dy):
+        for row in range(old.shape[0]):
+            for j in range(1, old.shape[1] - 1):
+                middle[row, j] = 0.5 * (old[row, j] + new[row, j])
+        rates(system, middle, dy)
+
+    return fixed_point.build(begin, slope, observe)

@@ -4,7 +4,7 @@
                   + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
 
 and the same with A and B exchanged. What stands here: the state and the ends of the chain, the
-right-hand side, the parts into which splitting and Crank-Nicolson take it, and the energy.
+right-hand side, the parts into which splitting and `delfour_fortin_payre` take it, and the energy.
 
 State. A real array `y[row, 1 + site]` with the rows Re A, Im A, Re B, Im B, or the first two alone
 where A = B. The sites are -M..M, or 0..M where the data are even in n. The first and the last
@@ -175,7 +175,7 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
-# --- Its parts: for splitting methods and for Crank-Nicolson ------------------------------------
+# --- Its parts: for splitting methods and for the scheme that conserves the energy --------------
 
 
 @inlined_by_llvm

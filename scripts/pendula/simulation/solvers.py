@@ -4,7 +4,14 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from pendula.compiled import kernel
-from pendula.integrators import crank_nicolson, dop853, ode45, splitting, taylor
+from pendula.integrators import (
+    crank_nicolson,
+    delfour_fortin_payre,
+    dop853,
+    ode45,
+    splitting,
+    taylor,
+)
 from pendula.models.amplitudes import (
     can_be_tiled,
     chain_of_tile,
@@ -20,7 +27,9 @@ from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
 solve_dop853 = dop853.build(rates, observe, can_be_tiled, chain_of_tile)
-solve_crank_nicolson = crank_nicolson.build(midpoint_rates, observe)
+solve_crank_nicolson = crank_nicolson.build(rates, observe)
+solve_implicit_midpoint = crank_nicolson.build_midpoint(rates, observe)
+solve_delfour_fortin_payre = delfour_fortin_payre.build(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
 solve_splitting = splitting.build(linear_rates, linear_radius, nonlinear_flow, observe)
 
@@ -41,6 +50,16 @@ def run_crank_nicolson(chain, y, times, controls, work, record):
 
 
 @kernel
+def run_implicit_midpoint(chain, y, times, controls, work, record):
+    return solve_implicit_midpoint(chain, y, times, controls, work, record)
+
+
+@kernel
+def run_delfour_fortin_payre(chain, y, times, controls, work, record):
+    return solve_delfour_fortin_payre(chain, y, times, controls, work, record)
+
+
+@kernel
 def run_taylor(chain, y, times, controls, work, record):
     return solve_taylor(chain, y, times, controls, work, record)
 
@@ -58,11 +77,14 @@ class Solver(NamedTuple):
     work: int
 
 
+ITERATED = "step", "tolerance", "iterations"
+"""The controls of the schemes that are solved by fixed-point iteration."""
+
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
-    "crank_nicolson": Solver(
-        run_crank_nicolson, ("step", "tolerance", "iterations"), crank_nicolson.WORK
-    ),
+    "crank_nicolson": Solver(run_crank_nicolson, ITERATED, crank_nicolson.WORK),
+    "implicit_midpoint": Solver(run_implicit_midpoint, ITERATED, crank_nicolson.WORK),
+    "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, delfour_fortin_payre.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
     "splitting": Solver(run_splitting, ("step",), splitting.WORK),

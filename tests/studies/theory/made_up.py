@@ -150,7 +150,7 @@ def compared_solvers() -> xr.Dataset:
     runs = {
         (name.removeprefix("trajectories/"), solver): run
         for name, run in trajectories.items()
-        for solver in ("ode45", "crank_nicolson", "dop853")
+        for solver in ("ode45", "crank_nicolson", "delfour_fortin_payre", "dop853")
     }
     pairs = {name.removeprefix("sweeps/"): (sweep, sweep) for name, sweep in sweeps.items()}
     return compare(runs, pairs)

@@ -21,7 +21,9 @@ MEASURES = (
 class AnySolver(Model):
     """A solver and its controls, sound or not."""
 
-    name: Literal["ode45", "crank_nicolson", "dop853", "taylor", "splitting"]
+    name: Literal[
+        "ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor", "splitting"
+    ]
     rtol: float | None = None
     atol: float | None = None
     step: float | None = None

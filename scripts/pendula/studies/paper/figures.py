@@ -155,15 +155,21 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
 # --- The solvers side by side ---------------------------------------------------------------------
 
 LABELS = ["omega", "initial"]
-DRAWN = ["ode45", "dop853", "crank_nicolson"]  # the noisy curve lies below the smooth one
+DRAWN = ["ode45", "dop853", "delfour_fortin_payre", "crank_nicolson"]  # noisy below smooth
 # two of the curves nearly coincide: the first is a broad light band under the thin second
 PAIRS = {
     "ode45 - crank_nicolson": {"color": "#f2b824", "linewidth": 2.4, "marker": "s"},
-    "crank_nicolson - dop853": {"color": "#111111", "linewidth": 0.6, "marker": "^"},
+    "ode45 - delfour_fortin_payre": {"color": "#111111", "linewidth": 0.6, "marker": "^"},
     "ode45 - dop853": {"color": "#16876b", "linewidth": 0.6, "marker": "o"},
 }
 PAIR_MARK_SIZES = {"s": 8, "^": 4.5, "o": 4.5}
-MARKERS = {"ode45": "o", "crank_nicolson": "s", "dop853": "^", "taylor": "D"}
+MARKERS = {
+    "ode45": "o",
+    "crank_nicolson": "s",
+    "delfour_fortin_payre": "v",
+    "dop853": "^",
+    "taylor": "D",
+}
 
 
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:

@@ -1,0 +1,131 @@
+"""What the schemes with a fixed-point iteration share: order, reversal, steps that are halved."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import systems
+from on_chains import data_of, integrate
+from oracle import SOLVERS, random_chain
+from pendula.integrators import DONE
+from pendula.simulation.lattice import find_reduction
+from pendula.simulation.simulate import IntegrationError
+
+NUMBERS = (1.0, 1.0, -4.0)
+SCHEMES = ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
+each_scheme = pytest.mark.parametrize("scheme", SCHEMES)
+
+
+def run(scheme, z, end, outputs=1, numbers=NUMBERS, **controls):
+    solver = SOLVERS[scheme] | controls
+    return integrate(z, solver, end, outputs, find_reduction(z), numbers=numbers)
+
+
+def large():
+    return data_of("fig3_large")
+
+
+def exact_final(end):
+    """Return what the large data become, by a solver of order eight."""
+    return integrate(large(), "dop853", end, numbers=NUMBERS).final
+
+
+@each_scheme
+def test_later_steps_solve_it_too(scheme):
+    z, h = random_chain(3), 0.05
+    at_once = run(scheme, z, 3 * h, step=h).final
+    one_by_one = z
+    for _ in range(3):
+        one_by_one = run(scheme, one_by_one, h, step=h).final
+    np.testing.assert_allclose(at_once, one_by_one, atol=1e-12)
+
+
+@each_scheme
+def test_the_last_two_steps_spare_iterations_in_the_next(scheme):
+    z = random_chain(3)
+    costs = [run(scheme, z, n * 0.005).outcome.evaluations for n in (1, 40)]
+    assert costs[1] / 40 < costs[0] - 0.5
+
+
+@each_scheme
+def test_the_order_is_two(scheme):
+    finals = [run(scheme, large(), 2.0, step=h).final for h in (0.01, 0.005, 0.0025, 0.00125)]
+    changes = [np.linalg.norm(coarse - fine) for coarse, fine in pairwise(finals)]
+    assert changes[0] / changes[1] == pytest.approx(4.0, abs=0.1)
+    assert changes[1] / changes[2] == pytest.approx(4.0, abs=0.02)
+
+
+@each_scheme
+def test_halving_the_step_leads_to_the_solution(scheme):
+    accurate = exact_final(2.0)
+    coarse, fine = (run(scheme, large(), 2.0, step=h).final for h in (0.0025, 0.00125))
+    extrapolated = (4 * fine - coarse) / 3
+    np.testing.assert_allclose(extrapolated, accurate, atol=1e-5)
+
+
+@each_scheme
+def test_conjugation_reverses_even_inaccurate_steps(scheme):
+    z = random_chain(2)
+    there = run(scheme, z, 2.0, step=0.02)
+    assert there.outcome.rejected == 0
+    back = np.conj(run(scheme, np.conj(there.final), 2.0, step=0.02).final)
+    np.testing.assert_allclose(back, z, atol=1e-9)
+
+
+@each_scheme
+@pytest.mark.parametrize(
+    ("step", "steps"), [(1.0, 3), (0.5, 3), (0.5 / 3, 9), (0.16, 12), (0.5 / 7, 21)]
+)
+def test_outputs_are_reached_in_equal_steps_none_longer_than_asked(scheme, step, steps):
+    outcome = run(scheme, 0.1 * random_chain(1), 1.5, 3, (0.1, 0.1, 0.1), step=step).outcome
+    assert (outcome.steps, outcome.rejected) == (steps, 0)
+
+
+@each_scheme
+def test_unequal_outputs_do_not_disturb_the_scheme(scheme):
+    system, controls = (-1.0, 0.2), (0.1, 1e-14, 50)
+    finals = [
+        systems.run(scheme, system, times, controls, 1 + 0j)[1]
+        for times in ([0.0, 0.1, 0.4, 0.5], [0.0, 0.5])
+    ]
+    assert finals[0] == pytest.approx(finals[1], rel=1e-13)
+
+
+@each_scheme
+@pytest.mark.parametrize(("step", "halvings"), [(1.5, 0), (3.0, 1), (6.0, 2), (13.0, 3)])
+def test_a_step_that_does_not_contract_is_halved_and_reported(scheme, step, halvings):
+    """For x' = -x the iteration contracts below h = 2, and a step divides by (2 + h) / (2 - h)."""
+    factors, times, controls = (-1.0, 0.0), [0.0, 2 * step], (step, 1e-13, 500)
+    _, final, outcome = systems.run(scheme, factors, times, controls, 1 + 0j)
+    h = step / 2**halvings
+    assert (outcome.steps, outcome.rejected) == (2, 2 * halvings)
+    assert final.real == pytest.approx(((2 - h) / (2 + h)) ** (2 * 2**halvings), abs=1e-12)
+
+
+@each_scheme
+def test_too_few_iterations_halve_the_step_as_well(scheme):
+    accurate = exact_final(1.0)
+    halved = run(scheme, large(), 1.0, step=0.002, iterations=5)
+    whole = run(scheme, large(), 1.0, step=0.002)
+    assert halved.outcome.rejected > whole.outcome.rejected == 0
+    error, usual = (np.abs(r.final - accurate).max() for r in (halved, whole))
+    assert error <= usual
+
+
+@each_scheme
+@pytest.mark.parametrize(("amplitude", "iterations"), [(1e6, 50), (1.0, 1)])
+def test_where_halving_does_not_help_the_run_ends(scheme, amplitude, iterations):
+    with pytest.raises(IntegrationError, match=rf"^{scheme} stopped at tau = 0: .* contract"):
+        run(scheme, amplitude * random_chain(1), 1e-4, iterations=iterations)
+
+
+@each_scheme
+def test_a_solution_that_blows_up_is_reported_where_it_does(scheme):
+    """x' = x^2 from 1 ends at t = 1."""
+    times = np.linspace(0.0, 2.0, 41)
+    controls = 0.01, 1e-12, 50
+    values, _, outcome = systems.run(scheme, (0.0, 1.0), times, controls, 1 + 0j)
+    assert outcome.status != DONE
+    assert outcome.time == pytest.approx(1.0, abs=0.02)
+    assert outcome.rejected > 0
+    np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)
