@@ -87,6 +87,10 @@ def ledger(baseline: Baseline) -> dict:
         "open": str(verdicts.count("cannot be decided")),
         "told": told,
         "ensemble": str(sum(row["name"].startswith("ensemble") for row in rows)),
+        "own": str(sum(row["place"] == "Beyond the paper" for row in rows)),
+        "resting": str(sum(bool(row["rests_on"]) for row in rows)),
+        "controls": str(sum(len(row["controls"]) for row in rows)),
+        "failing": str(sum(not one["passes"] for row in rows for one in row["controls"])),
     }
 
 
