@@ -32,25 +32,45 @@ def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.nd
     return initial * factors[np.abs(np.arange(-reach, reach + 1))].T
 
 
-def draw_members(problem: Problem, size: float, members: int, seed: int) -> list[Problem]:
+def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
+    """Return data (2, 2r + 3): each amplitude times 1 + size (x + iy), and neighbours not at rest.
+
+    Sites n and -n are perturbed independently. What is at rest, out to the sites beside the data,
+    gets size (x + iy) times the largest amplitude.
+    """
+    # ASSUME: what breaks evenness in an ordinary solver is the rounding of its first steps, when
+    # the excited site and its neighbours move and the rest of the chain is exactly at rest.
+    wider = np.pad(initial, ((0, 0), (1, 1)))
+    scale = np.where(wider == 0, np.abs(initial).max(), np.abs(wider))
+    return wider + size * scale * (rng.normal(size=wider.shape) + 1j * rng.normal(size=wider.shape))
+
+
+PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}
+"""The kinds of ensembles. The solution of even data is even, and its ensemble is that of even runs;
+an ordinary solver loses evenness by rounding, and what it draws is one of the uneven runs."""
+
+
+def draw_members(
+    problem: Problem, size: float, members: int, seed: int, kind: str = "even"
+) -> list[Problem]:
     """Return as many copies of `problem` with perturbed data."""
-    rng = np.random.default_rng(seed)
-    return [problem.changed(initial=perturb(problem.initial, size, rng)) for _ in range(members)]
+    rng, perturbed = np.random.default_rng(seed), PERTURBATIONS[kind]
+    return [problem.changed(initial=perturbed(problem.initial, size, rng)) for _ in range(members)]
 
 
 def run_members(
-    problem: Problem, size: float, members: int, seed: int = 0
+    problem: Problem, size: float, members: int, seed: int = 0, kind: str = "even"
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the norms l2 and l-infinity of each member, both (member, quantity, time)."""
-    runs = [simulate(member) for member in draw_members(problem, size, members, seed)]
+    runs = [simulate(member) for member in draw_members(problem, size, members, seed, kind)]
     return np.array([pair_l2(run) for run in runs]), np.array([pair_linf(run) for run in runs])
 
 
 def sweep_members(
-    problem: Problem, half_widths, windows, size: float, members: int, seed: int = 0
+    problem: Problem, half_widths, windows, size: float, members: int, seed: int = 0, kind="even"
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the swept l2 and l-infinity of each member, both (member, *shape of a Sweep)."""
-    drawn = draw_members(problem, size, members, seed)
+    drawn = draw_members(problem, size, members, seed, kind)
     sweeps = [sweep(member, half_widths, windows) for member in drawn]
     return np.array([s.l2 for s in sweeps]), np.array([s.linf for s in sweeps])
 
@@ -63,9 +83,11 @@ MOMENTS = {
 }
 
 
-def case_bands(problems: dict[str, Problem], size: float, members: int, seed: int) -> Contents:
+def case_bands(
+    problems: dict[str, Problem], size: float, members: int, seed: int, kind: str = "even"
+) -> Contents:
     """Return quantile bands of the norms of each case by name."""
-    results = [run_members(problem, size, members, seed) for problem in problems.values()]
+    results = [run_members(problem, size, members, seed, kind) for problem in problems.values()]
     grid = ("case", "quantile", "quantity", "tau")
     described, shared = describe_cases(problems)
     variables = {
@@ -82,11 +104,12 @@ def case_bands(problems: dict[str, Problem], size: float, members: int, seed: in
 
 
 def sweep_moments(
-    problems: dict[str, Problem], half_widths, windows, size: float, members: int, seed: int
+    problems: dict[str, Problem], half_widths, windows, size: float, members: int, seed: int,
+    kind: str = "even",
 ) -> dict[str, Variable]:
     """Return mean, deviation and standard error of every swept norm of each sweep by name."""
     results = [
-        sweep_members(problem, half_widths, windows, size, members, seed)
+        sweep_members(problem, half_widths, windows, size, members, seed, kind)
         for problem in problems.values()
     ]
     variables = {
