@@ -11,6 +11,8 @@ include: "workflow/rules/common.smk"
 CHAOS_FIGURES = [
     # How fast small errors grow, how evenness is lost, and what runs from almost equal data share
     *("lyapunov", "symmetry", "ensembles"),
+    # How long a large amplitude keeps the central pendulum to itself
+    "lifetimes",
 ]
 FIGURES = [
     # Fig 1: the chain of coupled pendula pairs

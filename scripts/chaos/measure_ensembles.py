@@ -15,11 +15,18 @@ def measure_ensembles(
     swept_members: int,
     size: float,
     seed: int,
+    kind: str = "even",
     kernels: list[str] | tuple = (),
 ) -> None:
-    """Run `members` of each case and `swept_members` of each sweep, perturbed by `size`."""
-    cases, shared = case_bands(by_name(problems), size, members, seed)
-    sweeps = sweep_moments(by_name(swept_problems), half_widths, windows, size, swept_members, seed)
+    """Run `members` of each case and `swept_members` of each sweep, perturbed by `size`.
+
+    `kind` is that of the ensemble, "even" in n or "uneven".
+    """
+    drawn = {"size": size, "seed": seed, "kind": kind}
+    cases, shared = case_bands(by_name(problems), members=members, **drawn)
+    swept = by_name(swept_problems)
+    sweeps = sweep_moments(swept, half_widths, windows, members=swept_members, **drawn)
+    shared["ensemble"] = f"{kind} in n"
     counts = {"members": members, "swept_members": swept_members}
     write(data, cases | sweeps, {**shared, "perturbation": size, "seed": seed, **counts})
 

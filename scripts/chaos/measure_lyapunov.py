@@ -11,18 +11,18 @@ def measure_lyapunov(
     end_time: float,
     tolerances: list[float],
     short_problems: dict[str, dict],
-    short_end_time: float,
+    short_end_times: dict[int, float],
     kernels: list[str] | tuple = (),
 ) -> None:
-    """Follow `problems` to `end_time`, and all changes of `short_problems` to their own."""
-    cases, short_cases = by_name(problems), by_name(short_problems)
+    """Follow `problems` to `end_time`; then all changes of `short_problems` on short chains.
+
+    `short_end_times` are by the half-width of these chains.
+    """
+    cases = by_name(problems)
     growth, attributes = largest_exponents(cases, end_time)
     times = divergence_times(cases, tolerances, growth)
-    short = {
-        "spectrum_half_width": next(iter(short_cases.values())).half_width,
-        "spectrum_end_time": short_end_time,
-    }
-    write(data, growth | times | spectra(short_cases, short_end_time), attributes | short)
+    short = spectra(by_name(short_problems), short_end_times)
+    write(data, growth | times | short, attributes)
 
 
 if __name__ == "__main__":

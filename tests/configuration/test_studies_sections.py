@@ -47,8 +47,8 @@ def test_a_study_has_a_section_of_its_own(study, whole):
             "theory.energy_drift.solver.rtoll: is not a known key; did you mean 'rtol'?",
         ),
         (
-            ("chaos", "lyapunov", "spectrum", "half_widht"), 1,
-            "chaos.lyapunov.spectrum.half_widht: is not a known key; did you mean 'half_width'?",
+            ("chaos", "lyapunov", "spectrum", "lenghts"), 1,
+            "chaos.lyapunov.spectrum.lenghts: is not a known key; did you mean 'lengths'?",
         ),
         (("chaos", "ensembles", "seed"), "one", "chaos.ensembles.seed: is 'one', not a whole"),
         (

@@ -45,20 +45,80 @@ rule measure_ensembles:
     "Chaotic cases and sweeps from data that differ in their last digits"
     input:
         code=code("chaos/measure_ensembles.py"),
-        kernels=kernels("dop853"),
+        kernels=kernels("taylor"),
     output:
-        data="results/checks/ensembles.nc",
+        data="results/checks/ensembles{kind}.nc",
     log:
-        "results/logs/checks/ensembles.log",
+        "results/logs/checks/ensembles{kind}.log",
+    wildcard_constraints:
+        kind="|_uneven",
     priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
+        kind=lambda wildcards: wildcards.kind.removeprefix("_") or "even",
         **ensemble_params(SETTINGS.chaos.ensembles),
     message:
         "Running ensembles of the chaotic cases and sweeps"
     script:
         "../../scripts/chaos/measure_ensembles.py"
+
+
+rule measure_members:
+    "Members of ensembles of every case, reduced to the numbers that sentences are about"
+    input:
+        code=code("chaos/measure_members.py"),
+        kernels=kernels("taylor"),
+    output:
+        data="results/checks/members.nc",
+    log:
+        "results/logs/checks/members.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **member_params(SETTINGS.chaos.members),
+    message:
+        "Running ensembles of every case, even in n and not"
+    script:
+        "../../scripts/chaos/measure_members.py"
+
+
+rule measure_lifetimes:
+    "How long the central pendulum stays localised, against its initial amplitude"
+    input:
+        code=code("chaos/measure_lifetimes.py"),
+        kernels=kernels("taylor"),
+    output:
+        data="results/checks/lifetimes.nc",
+    log:
+        "results/logs/checks/lifetimes.log",
+    priority: 8
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **lifetime_params(SETTINGS.chaos.lifetimes),
+    message:
+        "Measuring how long the central pendulum stays localised"
+    script:
+        "../../scripts/chaos/measure_lifetimes.py"
+
+
+rule lifetimes_figure:
+    "How long the central pendulum stays localised, against its initial amplitude"
+    input:
+        code=code("chaos/draw_lifetimes.py"),
+        lifetimes="results/checks/lifetimes.nc",
+    output:
+        **figure("lifetimes"),
+    log:
+        "results/logs/figures/lifetimes.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Drawing how long the central pendulum stays localised"
+    script:
+        "../../scripts/chaos/draw_lifetimes.py"
 
 
 rule chaos_figures:

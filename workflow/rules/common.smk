@@ -47,7 +47,10 @@ OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 SOLVER_CHECKS = ["solvers", "trust"]
-CHAOS_CHECKS = ["lyapunov", "symmetry", "ensembles", "ensemble_runs"]
+CHAOS_CHECKS = [
+    *("lyapunov", "symmetry", "ensembles", "ensembles_uneven", "ensemble_runs"),
+    *("members", "lifetimes"),
+]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 
 absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]

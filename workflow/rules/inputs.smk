@@ -50,7 +50,9 @@ def makers():
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
         "measure_lyapunov": checks("lyapunov"),
-        "measure_ensembles": checks("ensembles"),
+        "measure_ensembles": checks("ensembles", "ensembles_uneven"),
+        "measure_members": checks("members"),
+        "measure_lifetimes": checks("lifetimes"),
         "compare_ensembles": checks("ensemble_runs"),
         "measure_solvers": checks("solvers"),
         "measure_trust": checks("trust"),
@@ -125,8 +127,8 @@ def growth_inputs(folder):
 
 
 # Chaos: cases and sweeps as plain values of a Problem, and the choices of config/chaos.yaml.
-def followed(cases, tolerance, **changes):
-    solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+def followed(cases, tolerance, solver="dop853", **changes):
+    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
     plain = {"solver": solver, "snapshot_every": 0, **changes}
     return {case: {**SETTINGS.problem(case), **plain} for case in cases}
 
@@ -143,18 +145,19 @@ def in_any(sweeps, key):
 def swept(sweeps, tolerance):
     cases = {name: SETTINGS.sweeps[name].case for name in sweeps}
     end_time = max(end for _, end in in_any(sweeps, "windows"))
-    problems = followed(cases.values(), tolerance, end_time=end_time)
+    problems = followed(cases.values(), tolerance, "taylor", end_time=end_time)
     return {name: problems[case] for name, case in cases.items()}
 
 
 def lyapunov_params(given):
     short = given.spectrum
+    longest_short = longest(short.cases)
     return {
         "problems": followed(PAPER_CASES, given.tolerance),
         "end_time": given.lengths * longest(PAPER_CASES),
         "tolerances": given.diverging_tolerances,
-        "short_problems": followed(short.cases, given.tolerance, half_width=short.half_width),
-        "short_end_time": short.lengths * longest(short.cases),
+        "short_problems": followed(short.cases, short.tolerance),
+        "short_end_times": {m: times * longest_short for m, times in short.lengths.items()},
     }
 
 
@@ -177,7 +180,7 @@ def ensembles_of(*names):
 def ensemble_params(given):
     end_time = longest(given.cases)
     return {
-        "problems": followed(given.cases, given.tolerance, end_time=end_time),
+        "problems": followed(given.cases, given.tolerance, "taylor", end_time=end_time),
         "members": given.members,
         "swept_problems": swept(given.sweeps, given.tolerance),
         "half_widths": in_any(given.sweeps, "half_widths")[:: given.every],
@@ -188,12 +191,37 @@ def ensemble_params(given):
     }
 
 
+def member_params(given):
+    end_time = max(end for _, end in given.windows)
+    changes = {"end_time": end_time, "snapshot_every": given.every}
+    return {
+        "problems": followed(PAPER_CASES, given.tolerance, "taylor", **changes),
+        "windows": given.windows,
+        "members": given.members,
+        "size": given.size,
+        "seed": given.seed,
+    }
+
+
+def lifetime_params(given):
+    changes = {"end_time": given.end_time, "output_step": given.output_step}
+    (problem,) = followed([given.case], given.tolerance, "taylor", **changes).values()
+    plain = ("amplitudes", "ratio", "size", "members", "settled", "seed")
+    return {
+        "problem": problem,
+        "compared": given.compared.amplitude,
+        "choices": given.compared.choices,
+        **{name: getattr(given, name) for name in plain},
+    }
+
+
 # The report.
 # The code that makes the numbers; the report shows the hashes of their records.
 NUMBERS_BY = [
     *("trajectories/simulate_case.py", "sweeps/sweep_case.py", "theory/run_checks.py"),
     *("theory/check_observed.py", "hard_cases/run_hard_cases.py"),
     *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
+    *("chaos/measure_members.py", "chaos/measure_lifetimes.py"),
     *("chaos/compare_ensembles.py", "paper/measure_solvers.py", "paper/measure_trust.py"),
     *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/solve_thermal.py"),
     "unbounded/measure_growth.py",

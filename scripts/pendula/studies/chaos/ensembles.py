@@ -104,7 +104,12 @@ def case_bands(
 
 
 def sweep_moments(
-    problems: dict[str, Problem], half_widths, windows, size: float, members: int, seed: int,
+    problems: dict[str, Problem],
+    half_widths,
+    windows,
+    size: float,
+    members: int,
+    seed: int,
     kind: str = "even",
 ) -> dict[str, Variable]:
     """Return mean, deviation and standard error of every swept norm of each sweep by name."""

@@ -14,7 +14,8 @@ COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 WIDTHS = {"small": 0.7, "large": 1.5}
 DASHES = {"even": (None, None), "odd": (3, 1.5)}
 MARKERS = ["o", "s", "^", "D"]
-DRAWN = ["running", "exponents", "divergence_predicted", "divergence_measured", "omega", "initial"]
+DRAWN = ["running", "exponents", "exponents_error", "divergence_predicted", "divergence_measured"]
+DRAWN += ["omega", "initial"]
 LIGHT = "#f2a15f"
 BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
 MEDIAN = {"color": style.RED, "lw": 1.3}
@@ -80,18 +81,35 @@ def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
 
 
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
-    for marker, case in zip(MARKERS, data["spectrum_case"].values, strict=False):
-        rates = data["exponents"].sel(spectrum_case=case)
-        colour = _look(data, case)["color"]
-        look = {"color": colour, "marker": marker, "markersize": 2.8, "linestyle": "none"}
-        omega = float(data["omega"].sel(case=case))
-        axes.plot(rates["index"], rates, label=rf"$\Omega = {omega:g}$", **look)
     axes.axhline(0.0, color="0.5", lw=0.6)
-    half_width = data.attrs["spectrum_half_width"]
-    axes.set_title(f"all changes, $M = {half_width}$", loc="left")
-    axes.set_xlabel("number of the exponent")
+    lengths = data["spectrum_half_width"].values
+    for case in data["spectrum_case"].values:
+        for marker, half_width in zip(MARKERS, lengths, strict=False):
+            one = {"spectrum_case": case, "spectrum_half_width": half_width}
+            rates, errors = data["exponents"].sel(one), data["exponents_error"].sel(one)
+            place = (rates["index"] - 0.5) / float(rates.notnull().sum())
+            look = {"color": _look(data, case)["color"], "marker": marker, "markersize": 2.2}
+            axes.errorbar(place, rates, errors, linestyle="none", elinewidth=0.6, mew=0, **look)
+    axes.set_xlim(0, 1)
+    axes.set_title("all changes, short chains", loc="left")
+    axes.set_xlabel("number of the exponent over $4N$")
     axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
-    axes.legend(loc="upper right", handletextpad=0.1)
+    axes.legend(handles=_spectrum_legend(data), loc="upper right", handletextpad=0.1)
+
+
+def _spectrum_legend(data: xr.Dataset) -> list[Line2D]:
+    dot = {"linestyle": "none", "markersize": 3.5, "mew": 0}
+    lengths = zip(MARKERS, data["spectrum_half_width"].values, strict=False)
+    chains = [
+        Line2D([], [], color="0.4", marker=marker, label=f"$M = {half_width}$", **dot)
+        for marker, half_width in lengths
+    ]
+    cases = [
+        Line2D([], [], color=_look(data, case)["color"], lw=2,
+               label=rf"$\Omega = {float(data['omega'].sel(case=case)):g}$")
+        for case in data["spectrum_case"].values
+    ]  # fmt: skip
+    return chains + cases
 
 
 def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:

@@ -12,8 +12,9 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.measures.confidence import Limits, student
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
-from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
+from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import Trajectory, simulate
@@ -169,15 +170,41 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     }
 
 
-def spectra(problems: dict[str, Problem], end_time: float) -> dict[str, Variable]:
-    """Return all exponents of the cases, over the last three quarters of time."""
-    runs = [follow_all(p, end_time, tolerance=p.solver["rtol"]) for p in problems.values()]
-    rates = [mean_rate(run.tau, run.log_growth, end_time / 4) for run in runs]
-    along, index = ("spectrum_case", "index"), np.arange(1, 1 + len(rates[0]))
+def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[str, Variable]:
+    """Return all exponents of the cases on chains of each half-width in `end_times`.
+
+    Rates are over the last three quarters of time, their errors from parts of that time. Shorter
+    chains have fewer exponents, so that their rows end in NaN.
+    """
+    most = 4 * (2 * max(end_times) + 1)
+    shape = (len(problems), len(end_times), most)
+    rates, errors = np.full(shape, np.nan), np.full(shape, np.nan)
+    vanishing = np.zeros(shape[:2], int)
+    for i, problem in enumerate(problems.values()):
+        for j, (half_width, end_time) in enumerate(end_times.items()):
+            short = problem.changed(half_width=half_width)
+            run = follow_all(short, end_time, tolerance=problem.solver["rtol"])
+            found = spectrum_of(run, end_time / 4)
+            count = len(found.value)
+            rates[i, j, :count], errors[i, j, :count] = found.value, found.half
+            vanishing[i, j] = ((found.low <= 0.0) & (found.high >= 0.0)).sum()
+    along = ("spectrum_case", "spectrum_half_width", "index")
+    words = "all Lyapunov exponents of a short chain, per unit of tau"
     return {
-        "spectrum_case": Variable(along[:1], list(problems), "case, on a short chain"),
-        "index": Variable(along[1:], index, "number of the exponent"),
-        "exponents": Variable(
-            along, rates, "all Lyapunov exponents of a short chain, per unit of tau"
+        along[0]: Variable(along[:1], list(problems), "case, on a short chain"),
+        along[1]: Variable(along[1:2], list(end_times), "half-width of the short chain"),
+        along[2]: Variable(along[2:], np.arange(1, 1 + most), "number of the exponent"),
+        "spectrum_end_time": Variable(
+            along[1:2], list(end_times.values()), "end time of the runs on the short chain"
         ),
+        "exponents": Variable(along, rates, words),
+        "exponents_error": Variable(along, errors, f"{words}: half of the confidence interval"),
+        "vanishing": Variable(along[:2], vanishing, "exponents that cannot be told from zero"),
     }
+
+
+def spectrum_of(run: Growth, start: float) -> Limits:
+    """Return all exponents from `start` on, with limits by Student's t over PARTS of the time."""
+    rates = mean_rate(run.tau, run.log_growth, start)
+    off = student(PARTS - 1) * mean_rate_error(run.tau, run.log_growth, start)
+    return Limits(rates, rates - off, rates + off)

@@ -1,0 +1,17 @@
+"""How long the central pendulum stays localised, against its initial amplitude."""
+
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+from pendula.studies.chaos.lifetimes_figure import draw_lifetimes, gather_lifetimes
+
+
+def draw(lifetimes: str, png: str, pdf: str, data: str) -> None:
+    """Draw the figure, and write what was drawn."""
+    drawn = gather_lifetimes(read(lifetimes))
+    save(draw_lifetimes(drawn), drawn, png, pdf, data)
+
+
+if __name__ == "__main__":
+    from job import run
+
+    run(draw, snakemake)  # noqa: F821

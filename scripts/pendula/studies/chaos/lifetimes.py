@@ -1,0 +1,174 @@
+"""How long the central pendulum keeps to itself, against its initial amplitude.
+
+Zero is unstable, so that the chain around the centre is always set in motion; a large enough
+oscillation stays localised in it for some time, which differs from run to run. The transition is
+over when the central pair holds no more than an even share of P, which is P over the number of
+pairs: a definition without any number to choose. Lives that outlast the run are censored.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.measures.confidence import Limits, mean_life, median_limits, share_limits
+from pendula.measures.norms import drift
+from pendula.problem import Problem, output_times
+from pendula.simulation.simulate import simulate
+
+from .ensembles import draw_members
+
+SPAN = 10.0
+"""Units of tau from one look at the centre to the next: a run ends with the life that it follows.
+Pieces of a run start from the state alone."""
+
+
+class Life(NamedTuple):
+    """One run up to its transition, or to its end."""
+
+    time: float  # first output time at which the centre holds no more than its share; else infinite
+    drift: float  # largest |H - H(0)| over |H(0)|
+    work: int  # right-hand sides; of the Taylor method, series of the solution
+
+
+def follow(problem: Problem) -> Life:
+    """Follow one run at its output times until the centre holds no more than an even share of P."""
+    spans = max(1, round(problem.end_time / SPAN))
+    piece = problem.changed(end_time=problem.end_time / spans, snapshot_every=1)
+    energies, work = [], 0
+    for done in range(spans):
+        run = simulate(piece)
+        energies.append(run.energy)
+        work += run.outcome.evaluations
+        ended = np.flatnonzero(shares_alike(run.modulus))
+        if ended.size:
+            return Life(float(done * piece.end_time + run.tau[ended[0]]), _drift(energies), work)
+        piece = piece.changed(initial=run.final)
+    return Life(np.inf, _drift(energies), work)
+
+
+def shares_alike(modulus: np.ndarray) -> np.ndarray:
+    """Return whether the central pair holds no more than an even share of P, (time,).
+
+    `modulus` is (component, site, time), with an odd number of sites.
+    """
+    power = (modulus**2).sum(axis=0)
+    return power[len(power) // 2] <= power.mean(axis=0)
+
+
+def _drift(energies: list[np.ndarray]) -> float:
+    energy = np.concatenate(energies)
+    return float(drift(energy).max() / abs(energy[0]))
+
+
+# --- Many lives -----------------------------------------------------------------------------------
+
+
+def localised(problem: Problem, amplitude: float, ratio: float) -> Problem:
+    """Return the problem with A_0 = `amplitude` and B_0 = `ratio` A_0 on the central pair alone."""
+    return problem.changed(initial=np.array([[amplitude], [ratio * amplitude]], complex))
+
+
+def follow_members(
+    problem: Problem, size: float, members: int, seed: int, kind: str = "even"
+) -> list[Life]:
+    """Follow the members of an ensemble of `problem`, one Life each."""
+    return [follow(member) for member in draw_members(problem, size, members, seed, kind)]
+
+
+def rate_after(lives: np.ndarray, settled: float, end_time: float) -> Limits:
+    """Return the rate of transitions a unit of tau among those localised at `settled`.
+
+    Lives are (member,), infinite where they outlast `end_time`. The law is exponential, which is
+    what chaos without memory leaves; its likelihood counts what is censored. Where no member is
+    localised any more the rate is infinite.
+    """
+    left = lives[lives > settled] - settled
+    if not left.size:
+        return Limits(np.inf, 0.0, np.inf)
+    life = mean_life(left, end_time - settled)
+    return Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
+
+
+def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
+    """Return the share of members still localised at each tau, with exact limits, all (time,).
+
+    No life is censored before the runs end, so that this is the estimate of Kaplan and Meier.
+    """
+    counts = (lives[:, None] > tau).sum(axis=0)
+    known = {int(count): share_limits(int(count), len(lives)) for count in np.unique(counts)}
+    return Limits(*np.array([known[int(count)] for count in counts]).T)
+
+
+NUMBERS = {
+    "median": "median life, from order statistics",
+    "rate": "rate of transitions, per unit of tau, of members localised at the settled time",
+}
+ENDS = {"value": "", "low": ", lower confidence limit", "high": ", upper confidence limit"}
+
+
+def measure_lives(
+    problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int,
+    settled: float, seed: int,
+) -> Contents:  # fmt: skip
+    """Return the lives of `members` from each amplitude A_0 with B_0 = `ratio` A_0."""
+    runs = [follow_members(localised(problem, a0, ratio), size, members, seed) for a0 in amplitudes]
+    lives = np.array([[life.time for life in row] for row in runs])
+    tau = output_times(problem.end_time, 0.5)
+    shares = [surviving(row, tau) for row in lives]
+    medians = [median_limits(row) for row in lives]
+    rates = [rate_after(row, settled, problem.end_time) for row in lives]
+    over, share = ("amplitude",), "share of members that are still localised"
+    variables = {
+        "amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the central pendulum"),
+        "tau": Variable(("tau",), tau),
+        "life": Variable((*over, "member"), lives, "time of the transition, infinite if later"),
+        "energy_drift": Variable(
+            over, [max(life.drift for life in row) for row in runs],
+            "largest relative error of the energy in any member",
+        ),
+        **_limits("surviving", (*over, "tau"), shares, share),
+        **_limits("median", over, medians, NUMBERS["median"]),
+        **_limits("rate", over, rates, NUMBERS["rate"]),
+    }  # fmt: skip
+    _, shared = describe_cases({"centre": problem})
+    about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "settled": settled}
+    about |= {"perturbation": size, "members": members, "seed": seed}
+    title = "How long the central pendulum stays localised, against its initial amplitude"
+    return variables, {**shared, "title": title, **about}
+
+
+def compare_numerics(
+    problem: Problem, choices: list[tuple[float, str]], size: float, members: int,
+    settled: float, seed: int,
+) -> dict[str, Variable]:  # fmt: skip
+    """Return the rate of transitions, its error and its cost, for (tolerance, kind of ensemble)."""
+    found, rates = [], []
+    for tolerance, kind in choices:
+        solver = {**problem.solver, "rtol": tolerance, "atol": tolerance}
+        lives = follow_members(problem.changed(solver=solver), size, members, seed, kind)
+        found.append((max(life.drift for life in lives), sum(life.work for life in lives)))
+        times = np.array([life.time for life in lives])
+        rates.append(rate_after(times, settled, problem.end_time))
+    over = ("choice",)
+    drifts, work = zip(*found, strict=True)
+    a0 = float(np.abs(problem.initial[0]).max())
+    return {
+        "compared_amplitude": Variable((), a0, "initial amplitude A_0 of the compared ensembles"),
+        "choice_tolerance": Variable(over, [one for one, _ in choices], "tolerance of the solver"),
+        "choice_kind": Variable(over, [kind for _, kind in choices], "kind of the ensemble"),
+        "choice_drift": Variable(over, drifts, "largest relative error of the energy"),
+        "choice_work": Variable(over, work, "work of the ensemble, right-hand sides"),
+        **_limits("choice_rate", over, rates, NUMBERS["rate"]),
+    }
+
+
+def _limits(name: str, dimensions, limits: list[Limits], words: str) -> dict[str, Variable]:
+    """Return an estimate and its two limits as three variables."""
+    return {
+        f"{name}_{end}" if end != "value" else name: Variable(
+            dimensions, np.array([getattr(one, end) for one in limits]), words + said
+        )
+        for end, said in ENDS.items()
+    }

@@ -1,0 +1,90 @@
+"""How long the central pendulum stays localised, in a picture: survival, and median lives."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pendula.drawing import style
+
+DRAWN = ["surviving", "surviving_low", "surviving_high", "median", "median_low", "median_high"]
+DRAWN += ["rate", "rate_low", "rate_high"]
+COLOURS = colormaps["viridis"]
+
+
+def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
+    """Return the shares that survive, median lives and rates, all with their limits."""
+    return lifetimes[DRAWN]
+
+
+@style.styled
+def draw_lifetimes(data: xr.Dataset) -> Figure:
+    """Draw the share that is still localised against tau, and the life against A_0."""
+    figure = style.new_figure(style.DOUBLE, 2.9)
+    shares, lives = figure.subplots(1, 2, width_ratios=(1.2, 1))
+    _draw_shares(shares, data)
+    _draw_lives(lives, data)
+    return figure
+
+
+def _slow(data: xr.Dataset) -> list[int]:
+    """Return where the lives of members differ at all: before chaos sets in they are all alike."""
+    return [i for i in range(data.sizes["amplitude"]) if np.isfinite(data["rate"][i])]
+
+
+def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
+    tau, slow = data["tau"], _slow(data)
+    fast = [i for i in range(data.sizes["amplitude"]) if i not in slow]
+    for i in fast:
+        label = _range(data["amplitude"].values[fast]) if i == fast[0] else None
+        axes.plot(tau, data["surviving"][i], color="0.6", lw=0.8, label=label)
+    for k, i in enumerate(slow):
+        colour = COLOURS(0.9 * k / max(1, len(slow) - 1))
+        low, high = data["surviving_low"][i], data["surviving_high"][i]
+        axes.fill_between(tau, low, high, color=colour, alpha=0.2, lw=0)
+        label = f"$A_0 = {float(data['amplitude'][i]):g}$"
+        axes.plot(tau, data["surviving"][i], color=colour, lw=1.3, label=label)
+    axes.set_xlim(0, float(tau[-1]))
+    axes.set_ylim(0, 1.03)
+    axes.set_xlabel(r"$\tau$")
+    axes.set_ylabel("share of runs still localised")
+    axes.set_title("(a)", loc="left")
+    axes.legend(loc="center left", bbox_to_anchor=(0.02, 0.42), fontsize=6.5)
+
+
+def _range(amplitudes: np.ndarray) -> str:
+    return f"$A_0 = {amplitudes[0]:g}$ to {amplitudes[-1]:g}"
+
+
+def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
+    a0, end = data["amplitude"].values, float(data["tau"][-1])
+    middle, low, high = (data[f"median{part}"].values for part in ("", "_low", "_high"))
+    known = np.isfinite(middle)
+    above = np.where(np.isfinite(high), high, end)
+    bars = np.abs([middle[known] - low[known], above[known] - middle[known]])
+    look = {"color": style.BLUE, "marker": "o", "markersize": 3.5, "elinewidth": 0.8, "capsize": 2}
+    axes.errorbar(a0[known], middle[known], bars, linestyle="none", label="median", **look)
+    later = np.where(np.isfinite(low), low, end)[~known]
+    axes.plot(
+        a0[~known], later, color=style.BLUE, marker="^", markersize=5, linestyle="none",
+        markerfacecolor="white", label="median at least",
+    )  # fmt: skip
+    lives = [1.0 / np.where(rate > 0, rate, np.nan) for rate in _rates(data)]
+    seen = np.isfinite(data["rate"].values) & (data["rate"].values > 0)
+    value, least, most = (life[seen] for life in lives)
+    look |= {"color": style.RED, "marker": "s"}
+    axes.errorbar(
+        a0[seen] + 0.12, value, [value - least, most - value], linestyle="none",
+        label="mean further life", **look,
+    )  # fmt: skip
+    axes.set_yscale("log")
+    axes.set_xlabel("initial amplitude $A_0$")
+    axes.set_ylabel("life, units of $\\tau$")
+    axes.set_title("(b)", loc="left")
+    axes.legend(loc="upper left", handletextpad=0.3)
+
+
+def _rates(data: xr.Dataset):
+    """Return the rate, then its upper and its lower limit: those of the shortest life first."""
+    return (data[f"rate{part}"].values for part in ("", "_high", "_low"))
