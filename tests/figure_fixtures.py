@@ -102,6 +102,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     """Return what every figure draws, by the name of the figure."""
     from pendula.own_cases import figures as own
     from pendula.studies.chaos import figures as chaos
+    from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solvers
     from pendula.studies.theory import figures as theory
@@ -145,6 +146,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
         "ensembles": chaos.gather_ensembles(ensembles, compared),
+        "lifetimes": lifetimes_figure.gather_lifetimes(made_up_chaos.lifetimes()),
         "growth_law": measure_growth(runs, thermal()),
         "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
         "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),

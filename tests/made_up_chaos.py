@@ -17,11 +17,14 @@ SIZE = 1e-12
 def lyapunov() -> xr.Dataset:
     """Return exponents of changes that grow at RATES, on solutions of constant size."""
     tau, rtol = np.linspace(0.0, 20.0, 81), [1e-6, 1e-9, 1e-12]
-    spectrum = np.array([np.linspace(2.0, -2.0, 12)])
+    spectrum = np.full((1, 2, 20), np.nan)
+    spectrum[0, 0, :12], spectrum[0, 1] = np.linspace(2, -2, 12), np.linspace(2, -2, 20)
     divergence_time = np.array([[np.inf] * 3, [8.0, 12.0, 16.0]])
     coordinates = {"case": CASES, "parity": ["even", "odd"], "tau": tau, "rtol": rtol}
-    coordinates |= {"spectrum_case": CASES[1:], "index": np.arange(1, 13)}
-    made = dataset(
+    coordinates |= {"spectrum_case": CASES[1:], "index": np.arange(1, 21)}
+    coordinates |= {"spectrum_half_width": [1, 2]}
+    along = ("spectrum_case", "spectrum_half_width", "index")
+    return dataset(
         coordinates,
         **LABELS,
         log_growth=(("case", "parity", "tau"), RATES[:, :, None] * tau),
@@ -29,9 +32,35 @@ def lyapunov() -> xr.Dataset:
         exponent=(("case", "parity"), RATES),
         divergence_predicted=(("case", "rtol"), divergence_time),
         divergence_measured=(("case", "rtol"), divergence_time + 1),
-        exponents=(("spectrum_case", "index"), spectrum),
+        exponents=(along, spectrum),
+        exponents_error=(along, 0.0 * spectrum + 0.1),
     )
-    return made.assign_attrs(spectrum_half_width=1)
+
+
+def lifetimes() -> xr.Dataset:
+    """Return lives of one amplitude that changes over at once, of one that may, of one that won't.
+
+    The middle one changes over at tau = 50 in half of the runs.
+    """
+    tau = np.linspace(0.0, 100.0, 201)
+    half = np.where(tau < 50.0, 1.0, 0.5)
+    shares = np.array([np.where(tau < 5.0, 1.0, 0.0), half, 1.0 + 0.0 * tau])
+    ends = {"": 0.0, "_low": -0.1, "_high": 0.1}
+    infinite = np.inf
+    medians = {
+        "": [5.0, 50.0, infinite], "_low": [5.0, 50.0, infinite], "_high": [5.0, infinite, infinite]
+    }  # fmt: skip
+    rates = {"": [infinite, 0.01, 0.0], "_low": [0.0, 0.005, 0.0], "_high": [infinite, 0.02, 0.001]}
+    series = {
+        f"surviving{end}": (("amplitude", "tau"), np.clip(shares + off, 0.0, 1.0))
+        for end, off in ends.items()
+    }
+    numbers = {
+        f"{name}{end}": (("amplitude",), values)
+        for name, by_end in (("median", medians), ("rate", rates))
+        for end, values in by_end.items()
+    }
+    return dataset({"amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
 
 
 def symmetry() -> xr.Dataset:

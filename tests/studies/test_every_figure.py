@@ -10,6 +10,7 @@ from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.own_cases import figures as own
 from pendula.studies.chaos import figures as chaos
+from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -29,6 +30,7 @@ DRAWN_BY = {
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,
     "ensembles": chaos.draw_ensembles,
+    "lifetimes": lifetimes_figure.draw_lifetimes,
     "growth_law": unbounded.draw_growth_law,
     "front": front_figure.draw_front,
     "window_map": unbounded.draw_window_map,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from made_up_chaos import RATES, SIZE
-from pendula.studies.chaos import figures
+from pendula.studies.chaos import figures, lifetimes_figure
 
 
 def test_the_running_rate_is_growth_over_time(gathered):
@@ -15,7 +15,9 @@ def test_the_running_rate_is_growth_over_time(gathered):
 def test_every_case_and_parity_has_a_line_of_its_own(gathered):
     running, spectrum, divergence_time = figures.draw_lyapunov(gathered["lyapunov"]).axes
     assert len(running.get_lines()) == RATES.size
-    assert spectrum.get_lines()[0].get_ydata().tolist() == np.linspace(2, -2, 12).tolist()
+    _, short, longer = (line.get_ydata() for line in spectrum.get_lines())
+    np.testing.assert_array_equal(short[:12], np.linspace(2, -2, 12))
+    np.testing.assert_array_equal(longer, np.linspace(2, -2, 20))
     dots = [line for line in divergence_time.get_lines() if line.get_linestyle() == "None"]
     assert [*dots[-1].get_xdata(), *dots[-1].get_ydata()] == [16.0, 17.0]
 
@@ -62,3 +64,13 @@ def test_swept_means_are_drawn_with_their_deviation_beside_the_run(gathered):
         below.get_lines()[-1].get_ydata().tolist()
         == data["swept_run"].isel(sweep=1).values.tolist()
     )
+
+
+def test_lives_are_drawn_where_they_are_known_and_as_bounds_where_they_are_not(gathered):
+    shares, lives = lifetimes_figure.draw_lifetimes(gathered["lifetimes"]).axes
+    assert len(shares.get_lines()) == 3
+    medians, rates = lives.containers
+    np.testing.assert_array_equal(medians.lines[0].get_xydata(), [[1.0, 5.0], [7.0, 50.0]])
+    np.testing.assert_allclose(rates.lines[0].get_ydata(), [100.0])
+    (bounds,) = [line for line in lives.get_lines() if line.get_marker() == "^"]
+    np.testing.assert_array_equal(bounds.get_xydata(), [[10.0, 100.0]])

@@ -44,3 +44,19 @@ def test_a_swept_ensemble_has_the_shape_of_a_sweep_for_each_member():
     l2, linf = ensembles.sweep_members(PROBLEM, [2, 4], [(1.0, 3.0)], 1e-3, 3)
     assert l2.shape == linf.shape == (3, 2, 3, 2, 1)
     assert np.all(l2.std(axis=0) > 0)
+
+
+def test_uneven_data_are_not_even_and_their_neighbours_move_a_little():
+    initial = on_sites({0: (5, 1)})
+    drawn = ensembles.perturb_unevenly(initial, 1e-6, np.random.default_rng(0))
+    assert drawn.shape == (2, 3)
+    np.testing.assert_allclose(drawn[:, 1], initial[:, 0], rtol=1e-5)
+    beside = np.abs(drawn[:, [0, 2]])
+    assert (beside > 1e-8).all() and (beside < 5e-5).all() and len(np.unique(beside)) == 4
+
+
+def test_uneven_members_leave_the_even_ones():
+    even, uneven = (
+        ensembles.run_members(PROBLEM, 1e-3, 2, seed=5, kind=kind)[0] for kind in ("even", "uneven")
+    )
+    assert even.shape == uneven.shape and not np.allclose(even, uneven, rtol=1e-6)

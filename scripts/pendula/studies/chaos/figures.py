@@ -89,9 +89,14 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
             rates, errors = data["exponents"].sel(one), data["exponents_error"].sel(one)
             place = (rates["index"] - 0.5) / float(rates.notnull().sum())
             look = {"color": _look(data, case)["color"], "marker": marker, "markersize": 2.2}
-            axes.errorbar(place, rates, errors, linestyle="none", elinewidth=0.6, mew=0, **look)
-    axes.set_xlim(0, 1)
-    axes.set_title("all changes, short chains", loc="left")
+            axes.fill_between(
+                place, rates - errors, rates + errors, color=look["color"], alpha=0.2, lw=0
+            )
+            axes.plot(place, rates, linestyle="none", mew=0, **look)
+    # the other half are the same with the opposite sign
+    axes.set_xlim(0, 0.52)
+    axes.set_ylim(-0.2, None)
+    axes.set_title("all changes: the upper half", loc="left")
     axes.set_xlabel("number of the exponent over $4N$")
     axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
     axes.legend(handles=_spectrum_legend(data), loc="upper right", handletextpad=0.1)

@@ -11,6 +11,8 @@ from pendula.drawing import style
 DRAWN = ["surviving", "surviving_low", "surviving_high", "median", "median_low", "median_high"]
 DRAWN += ["rate", "rate_low", "rate_high"]
 COLOURS = colormaps["viridis"]
+LINE = 0.075
+"""The height of a line of text, as a share."""
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
@@ -37,20 +39,24 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
     tau, slow = data["tau"], _slow(data)
     fast = [i for i in range(data.sizes["amplitude"]) if i not in slow]
     for i in fast:
-        label = _range(data["amplitude"].values[fast]) if i == fast[0] else None
-        axes.plot(tau, data["surviving"][i], color="0.6", lw=0.8, label=label)
+        axes.plot(tau, data["surviving"][i], color="0.6", lw=0.8)
+    free = -np.inf
     for k, i in enumerate(slow):
-        colour = COLOURS(0.9 * k / max(1, len(slow) - 1))
+        colour = COLOURS(0.85 * k / max(1, len(slow) - 1))
         low, high = data["surviving_low"][i], data["surviving_high"][i]
-        axes.fill_between(tau, low, high, color=colour, alpha=0.2, lw=0)
+        axes.fill_between(tau, low, high, color=colour, alpha=0.15, lw=0)
+        axes.plot(tau, data["surviving"][i], color=colour, lw=1.3)
+        free = max(free + LINE, float(data["surviving"][i, -1]))
         label = f"$A_0 = {float(data['amplitude'][i]):g}$"
-        axes.plot(tau, data["surviving"][i], color=colour, lw=1.3, label=label)
+        axes.text(1.02 * float(tau[-1]), free, label, color=colour, va="center", fontsize=7)
+    if fast:
+        words = _range(data["amplitude"].values[fast])
+        axes.text(0.105 * float(tau[-1]), 0.04, words, color="0.45", fontsize=7)
     axes.set_xlim(0, float(tau[-1]))
     axes.set_ylim(0, 1.03)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("share of runs still localised")
-    axes.set_title("(a)", loc="left")
-    axes.legend(loc="center left", bbox_to_anchor=(0.02, 0.42), fontsize=6.5)
+    axes.set_title("(a) runs that have not changed over", loc="left")
 
 
 def _range(amplitudes: np.ndarray) -> str:
@@ -81,7 +87,7 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     axes.set_yscale("log")
     axes.set_xlabel("initial amplitude $A_0$")
     axes.set_ylabel("life, units of $\\tau$")
-    axes.set_title("(b)", loc="left")
+    axes.set_title("(b) how long it takes", loc="left")
     axes.legend(loc="upper left", handletextpad=0.3)
 
 

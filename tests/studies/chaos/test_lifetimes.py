@@ -1,0 +1,66 @@
+"""Lifetimes: when the centre has its share, and what censored lives say."""
+
+import numpy as np
+import pytest
+from pendula.datasets.netcdf import as_xarray
+from pendula.simulation.simulate import simulate
+from pendula.studies.chaos import lifetimes
+from problems import problem_of
+
+SOLVER = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
+
+
+def problem(**changes):
+    return problem_of(
+        "fig4_small", **{"solver": SOLVER, "end_time": 20.0, "output_step": 0.1} | changes
+    )
+
+
+def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
+    modulus = np.ones((2, 5, 3))
+    modulus[:, 2] = [3.0, 1.0, 0.5]
+    assert lifetimes.shares_alike(modulus).tolist() == [False, True, True]
+
+
+def test_a_life_is_the_same_in_pieces_as_in_one_run():
+    case = lifetimes.localised(problem(), 2.0, 0.2)
+    whole = simulate(case.changed(end_time=10.0, snapshot_every=1))
+    first = np.flatnonzero(lifetimes.shares_alike(whole.modulus))[0]
+    life = lifetimes.follow(case)
+    assert life.time == pytest.approx(whole.tau[first]) and 0 < life.time < 10
+    assert 0 < life.drift < 1e-5 and life.work > 0
+
+
+def test_a_large_centre_outlasts_the_run_and_a_stable_one_too():
+    assert lifetimes.follow(lifetimes.localised(problem(), 10.0, 0.2)).time == np.inf
+    stable = problem_of("fig2_large", solver=SOLVER, end_time=20.0, output_step=0.1)
+    assert lifetimes.follow(stable).time == np.inf
+
+
+def test_rates_count_only_who_was_localised_and_what_was_censored():
+    lives = np.array([3.0, 12.0, 14.0, np.inf])
+    rate, low, high = lifetimes.rate_after(lives, 10.0, 20.0)
+    assert rate == pytest.approx(2.0 / (2.0 + 4.0 + 10.0))
+    assert low < rate < high
+    assert lifetimes.rate_after(np.array([3.0, 4.0]), 10.0, 20.0).value == np.inf
+
+
+def test_survival_falls_with_each_transition():
+    lives, tau = np.array([1.0, 2.5, np.inf, np.inf]), np.arange(4.0)
+    share, low, high = lifetimes.surviving(lives, tau)
+    assert share.tolist() == [1.0, 0.75, 0.75, 0.5]
+    assert (low < share).all() and (high >= share).all()
+
+
+def test_the_dataset_has_every_amplitude_and_every_choice():
+    given = problem(end_time=12.0)
+    contents = lifetimes.measure_lives(given, [2.0, 7.0], 0.2, 1e-7, 3, 10.0, 1)
+    choices = [(1e-6, "even"), (1e-6, "uneven")]
+    numerics = lifetimes.compare_numerics(
+        lifetimes.localised(given, 7.0, 0.2), choices, 1e-7, 3, 10.0, 1
+    )
+    data = as_xarray(contents[0] | numerics, contents[1])
+    assert data["life"].shape == (2, 3) and np.isfinite(data["life"][0]).all()
+    assert data["median"][0] < data["median"][1]
+    assert data["choice_kind"].values.tolist() == ["even", "uneven"]
+    assert data["compared_amplitude"] == 7.0

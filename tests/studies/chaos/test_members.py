@@ -1,0 +1,79 @@
+"""Members of ensembles: what each is reduced to, and the widths of bands with their errors."""
+
+import numpy as np
+import pytest
+from pendula.datasets.netcdf import as_xarray
+from pendula.simulation.simulate import simulate
+from pendula.studies.chaos import members
+from problems import problem_of
+
+SOLVER = {"name": "dop853", "rtol": 1e-9, "atol": 1e-9}
+WINDOWS = [(1.0, 2.0), (2.0, 4.0)]
+PROBLEM = problem_of(
+    "fig4_small", half_width=6, end_time=4.0, output_step=0.25, solver=SOLVER, snapshot_every=2
+)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(PROBLEM)
+
+
+def test_levels_and_peaks_are_those_of_the_window(run):
+    found = members.reduce_run(run, WINDOWS, 2)
+    late = run.tau >= 2.0
+    pair = np.sqrt((run.l2**2).sum(axis=0))
+    assert found["l2_level"][2, 1] == pytest.approx(pair[late].mean())
+    assert found["linf_peak"][0, 1] == run.linf[0, late].max()
+    square = (pair / run.linf.max(axis=0)) ** 2
+    assert found["in_motion"][0] == pytest.approx(square[4:9].mean())
+
+
+def test_mean_squares_of_all_pendula_add_up_to_the_power(run):
+    found = members.reduce_run(run, WINDOWS, 2)
+    times = (run.tau >= 1.0) & (run.tau <= 2.0)
+    power = (run.l2[:, times][:, ::2] ** 2).sum(axis=0).mean()
+    assert (found["rms"][0] ** 2).sum() == pytest.approx(power)
+
+
+def test_correlation_is_that_of_numpy_and_none_of_a_constant():
+    one, other = np.random.default_rng(0).normal(size=(2, 50))
+    expected = np.corrcoef(one, other)[0, 1]
+    assert members.correlation(one, other) == pytest.approx(expected)
+    assert members.correlation(one, 0 * other) == 0.0
+
+
+def test_the_spread_is_the_variance_and_its_error_that_of_repetitions():
+    rng = np.random.default_rng(1)
+
+    def draw():  # the times of a member are correlated: 20 of them count as one
+        return np.repeat(rng.normal(size=(24, 5)), 20, axis=1)
+
+    found = [members.measure_spread(draw()) for _ in range(200)]
+    variances = np.array([one.variance for one in found])
+    assert variances.mean() == pytest.approx(1.0, abs=0.05)
+    relative = np.mean([one.error for one in found])
+    assert relative == pytest.approx(variances.std() / variances.mean(), rel=0.2)
+
+
+def test_the_ratio_of_widths_is_root_two_where_independent_halves_are_added():
+    rng = np.random.default_rng(2)
+    left, right = rng.normal(size=(2, 64, 400))
+    even, uneven = members.measure_spread(2 * left), members.measure_spread(left + right)
+    ratio, low, high = members.width_ratio(even, uneven, 64)
+    assert low < np.sqrt(2.0) < high and high - low < 0.2
+    assert ratio == pytest.approx(np.sqrt(2.0), abs=0.1)
+
+
+def test_every_case_has_all_numbers_of_both_kinds():
+    contents = members.member_numbers({"a": PROBLEM, "b": PROBLEM}, WINDOWS, 1e-3, 3, 7)
+    data = as_xarray(*contents)
+    assert data["rms"].dims == ("kind", "case", "member", "window", "component", "site")
+    assert data["kind"].values.tolist() == ["even", "uneven"]
+    assert data["window"].values.tolist() == ["[1, 2]", "[2, 4]"]
+    assert (data["width"] > 0).all() and data["l2_start"][0] == pytest.approx(np.hypot(1, 0.1))
+    np.testing.assert_array_equal(data["l2_level"].sel(case="a"), data["l2_level"].sel(case="b"))
+    even = data["rms"].sel(kind="even").values
+    np.testing.assert_array_equal(even, even[..., ::-1])
+    uneven = data["rms"].sel(kind="uneven").values
+    assert not np.array_equal(uneven, uneven[..., ::-1])
