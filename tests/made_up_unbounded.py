@@ -7,13 +7,15 @@ TAU = np.linspace(0.0, 200.0, 401)
 PIECES = TAU[4::4]
 LEVELS = [1e-6, 1e-2, 1.0, 4.0]
 SITES = 400
+POWER, TERMS = 16.0, (64.0, -30.0, -8.0, -24.0)
+"""P of the bulk, and the terms of its energy a site: two in all."""
 
 
 def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, amplitudes=(1.0,)):
     """Return runs whose l2 norm is tau^power (one power for all variants, or one for each)."""
     powers = np.broadcast_to(power, variants)
     wobble = 1.0 + 0.002 * np.sin(np.arange(members)[:, None] + TAU)
-    l2 = 5.0 * np.maximum(TAU, 1.0) ** powers[:, None, None] * wobble
+    l2 = np.sqrt(2.0 * speed * POWER) * np.maximum(TAU, 1.0) ** powers[:, None, None] * wobble
     linf = np.broadcast_to((600.0 + 100.0 * np.log(np.maximum(TAU, 1.0))) ** 0.25, l2.shape)
     way = np.floor(speed * PIECES - delay * np.log(PIECES))
     front = np.broadcast_to(way[:, None], (variants, members, len(PIECES), len(LEVELS)))
@@ -26,6 +28,14 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
             "energy": ((*run, "tau"), 0.0 * l2),
             "front": ((*run, "piece_tau", "front_power"), front),
             "width": ((*run, "piece_tau"), front[..., 0] + 64.0),
+            "bulk_power": (
+                (*run, "piece_tau", "front_power"),
+                POWER * (1.0 + 0.01 * rng.normal(size=front.shape)),
+            ),
+            "bulk_terms": (
+                (*run, "piece_tau", "front_power", "term"),
+                np.array(TERMS) * (1.0 + 0.001 * rng.normal(size=(*front.shape, 4))),
+            ),
             "state": (
                 (*run, "row", "site"),
                 rng.normal(scale=2.0, size=(variants, members, 4, SITES)),
@@ -35,7 +45,12 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
             "predicted_speed": ("variant", np.full(variants, speed)),
             "predicted_delay": ("variant", np.full(variants, delay)),
         },
-        {"tau": TAU, "piece_tau": PIECES, "front_power": LEVELS},
+        {
+            "tau": TAU,
+            "piece_tau": PIECES,
+            "front_power": LEVELS,
+            "term": ["cubic", "detuning", "drive", "bonds"],
+        },
         {"epsilon": 1.0, "gamma": 1.0, "omega": omegas[0], "initial": '{"0": [1.0, 0.1]}'},
     )
     return named(data)
@@ -71,12 +86,20 @@ def thermal():
     omegas, waves, moduli = np.array([-1.0, 0.0, 2.0, 5.0]), np.arange(64), np.linspace(0.1, 8, 40)
     data = xr.Dataset(
         {
-            "power": ("omega", np.full(4, 16.0)),
+            "power": ("omega", np.full(4, POWER)),
+            "power_error": ("omega", np.full(4, 1e-4)),
+            "warm_power": ("site_energy", POWER + 0.1 * np.array([-2.0, 0.0, 2.0])),
+            "warm_terms": (("site_energy", "term"), np.array([TERMS] * 3)),
             "density": (("omega", "modulus"), np.tile(np.exp(-moduli), (4, 1))),
             "spectrum": (("omega", "wave"), np.full((4, 64), 8.0)),
             "wave_number": ("wave", 2.0 * np.pi * waves / 64),
         },
-        {"omega": omegas, "modulus": moduli},
+        {
+            "omega": omegas,
+            "modulus": moduli,
+            "site_energy": [0.0, 2.0, 4.0],
+            "term": ["cubic", "detuning", "drive", "bonds"],
+        },
     )
     return named(data)
 

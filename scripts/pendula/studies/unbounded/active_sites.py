@@ -28,6 +28,8 @@ from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 from pendula.simulation.solvers import SOLVERS
 from pendula.sources import digest_of_modules
 
+from .bulk import bulk_means
+
 BLOCK, GUARD = 64, 32
 """Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
 sites within a piece of a few units of tau."""
@@ -108,6 +110,7 @@ class LongRun(NamedTuple):
     piece_tau: np.ndarray  # (piece,)
     front: np.ndarray  # (piece, level): outermost site above each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
+    bulk: np.ndarray  # (piece, level, 5): means of P and of the terms of H behind each front
     state: np.ndarray  # (row, 1 + site) at the end
 
 
@@ -133,6 +136,8 @@ def run_long(
         times = problem.output_step * np.arange(piece * outputs, (piece + 1) * outputs + 1)
         done = advance(problem.constants, state, times, problem.solver)
         _add(series, times, done, first=piece == 0)
+        means = bulk_means(done.state, problem.constants, series["front"][-1])
+        series["bulk"].append(means)
         if keep_at and (piece + 1) % keep_every == 0:
             keep_checkpoint(keep_at, description, {**_joined(series), "state": state})
     return LongRun(**_joined(series), state=state)

@@ -10,10 +10,13 @@ integral, and the front leaves none behind, which fixes beta. Nothing is fitted.
 """
 
 from dataclasses import astuple
+from itertools import pairwise
 
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.measures.confidence import CONFIDENCE, Limits
+from pendula.measures.spreading import fit_line
 from pendula.problem import Constants
 
 TERMS = ("cubic", "detuning", "drive", "bonds")
@@ -30,9 +33,9 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
     epsilon, gamma, omega = astuple(constants)
     a, b = complex_pair(state)
-    squares = np.abs([a, b]) ** 2
+    squares = np.array([_square(a), _square(b)])
     difference = a - b
-    bonds = np.abs(np.diff([[*a, 0.0], [*b, 0.0]], axis=1)) ** 2
+    bonds = _square(np.diff(np.pad([a, b], ((0, 0), (0, 1))), axis=1))
     return np.array(
         [
             0.25 * (squares**2).sum(axis=0),
@@ -41,6 +44,11 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
             -epsilon * bonds.sum(axis=0),
         ]
     )
+
+
+def _square(z: np.ndarray) -> np.ndarray:
+    """Return |z|^2 without the root that np.abs takes, whose last bits differ between machines."""
+    return z.real**2 + z.imag**2
 
 
 def complex_pair(state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -58,6 +66,13 @@ def with_ghosts(sites: np.ndarray) -> np.ndarray:
 def bulk_of(state: np.ndarray, front: int) -> slice:
     """Return the sites of the bulk: well behind the front, the centre left out."""
     return slice(1, max(2, int(SHARE * front)))
+
+
+def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> np.ndarray:
+    """Return the means of P and of the terms of (8) over the bulk behind each front, (front, 5)."""
+    power = sum(_square(z) for z in complex_pair(state))
+    values = np.array([power, *energy_terms(state, constants)])
+    return np.array([values[:, bulk_of(state, front)].mean(axis=1) for front in fronts])
 
 
 def end_of_bulk(sites: np.ndarray, level: float = 1.0) -> int:
@@ -98,19 +113,66 @@ def distribution(moduli: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.histogram(moduli, edges, density=True)[0]
 
 
-def mean_powers(runs, level: float = 1e-2) -> np.ndarray:
-    """Return the mean power in the bulk at the end of runs (a dataset), (variant, member)."""
-    fronts = runs["front"].isel(piece_tau=-1).sel(front_power=level).transpose("variant", "member")
-    states = runs["state"].transpose("variant", "member", "row", "site").values
-    return np.array(
-        [
-            [
-                (state[:, bulk_of(state, int(front))] ** 2).sum(axis=0).mean()
-                for state, front in zip(*pair, strict=True)
-            ]
-            for pair in zip(states, fronts.values, strict=True)
-        ]
-    )
+# --- Means over the late part of runs -------------------------------------------------------------
+
+LATE = 0.5
+"""The part of a run, at its end, that means over time are taken of."""
+
+FIRST_OF_LINE = 0.25
+"""The line through l2^2 starts at this part of a run."""
+
+
+def late_means(values, run, spans: int = 1) -> np.ndarray:
+    """Return the means of values (..., piece_tau) of a run over the late part, (span, ...).
+
+    The late part may be cut into several spans.
+    """
+    tau = run["piece_tau"].values
+    edges = np.linspace(1.0 - LATE, 1.0, spans + 1) * tau[-1]
+    late = [(tau > first) & (tau <= last) for first, last in pairwise(edges)]
+    return np.array([values[..., span].mean(axis=-1) for span in late])
+
+
+def bulk_powers(run, level: float) -> np.ndarray:
+    """Return P of the bulk behind a front at every look, (variant, member, piece_tau)."""
+    powers = run["bulk_power"].sel(front_power=level)
+    return powers.transpose("variant", "member", "piece_tau").values
+
+
+def mean_powers(run, level: float = 1e-2) -> np.ndarray:
+    """Return P of the bulk, mean over the late part of a run, (variant, member)."""
+    return late_means(bulk_powers(run, level), run)[0]
+
+
+def mean_terms(run, level: float) -> np.ndarray:
+    """Return the terms of H a site of the bulk, late means, (variant, member, term)."""
+    terms = run["bulk_terms"].sel(front_power=level)
+    values = terms.transpose("variant", "member", "term", "piece_tau").values
+    return late_means(values, run)[0]
+
+
+def slope_powers(run, confidence: float = CONFIDENCE) -> list[Limits]:
+    """Return P of each variant from the slope of l2^2, with limits over the members.
+
+    A pulled front of the speed v has passed v tau - delay log tau + const sites on either side, so
+    l2^2 is P times twice that and a constant. NaN where no front is pulled.
+    """
+    tau = run["tau"].values
+    kept = tau >= FIRST_OF_LINE * tau[-1]
+    found = []
+    for variant in range(run.sizes["variant"]):
+        one = run.isel(variant=variant)
+        speed, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
+        sites = 2.0 * (speed * tau[kept] - delay * np.log(tau[kept]))
+        squares = one["l2"].transpose("member", "tau").values[:, kept] ** 2
+        slope = fit_line(sites, squares, sites[0], confidence).slope
+        found.append(slope if delay > 0.0 else Limits(np.nan, np.nan, np.nan))
+    return found
+
+
+def thermal_powers(thermal, omegas: np.ndarray) -> np.ndarray:
+    """Return P of the thermal states of no energy at each Omega, NaN where none was solved."""
+    return thermal["power"].reindex(omega=omegas, method="nearest", tolerance=1e-9).values
 
 
 def statistics_of(spectra, densities, cells: np.ndarray, along: tuple = ()) -> dict[str, Variable]:

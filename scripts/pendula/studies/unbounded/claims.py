@@ -7,7 +7,7 @@ front that stops, would refute the paper.
 
 import numpy as np
 
-from pendula.ledger.claim import CHANGE, CONSTANT, FEWEST, claim, unbounded
+from pendula.ledger.claim import CONSTANT, FEWEST, claim, unbounded
 from pendula.ledger.criterion import (
     AboveByErrors,
     AllOf,
@@ -19,7 +19,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.measures.growth import fit_exponent, fit_rise, local_exponents
 
-from .bulk import end_of_bulk, mean_powers, tail_scale
+from .bulk import end_of_bulk, tail_scale
 from .front import speeds
 
 SECTION = 5
@@ -27,9 +27,9 @@ SECTION = 5
 # ASSUME: l2 "grows" as tau^(1/2), as a bulk of fixed height that spreads steadily does, if its
 # exponent is within 0.1 of that, and "grows" at all if it is above 0.3; a front is pulled if it has
 # the speed of linear spreading to one per cent; l-infinity "remains finite" if its exponent is
-# below 0.1, which no power law of spreading could be; a state is thermal to five per cent.
+# below 0.1, which no power law of spreading could be;
 # A growth is told from its limit by three standard errors.
-HALF, NEAR_HALF, GROWING, PULLED, SLOW, NEAR_THERMAL = 0.5, 0.1, 0.3, 0.01, 0.1, 0.05
+HALF, NEAR_HALF, GROWING, PULLED, SLOW = 0.5, 0.1, 0.3, 0.01, 0.1
 ERRORS = 3.0
 SHORTEST = 100.0
 """Runs that end before are no test of growth in time."""
@@ -114,25 +114,6 @@ def unbounded_front(run) -> Finding:
     measured = {"least": ratio.min(), "largest": ratio.max(), "error": errors.max()}
     says = "speeds over those of linear spreading"
     return judge(measured, Near(1.0, PULLED, "least", "largest", says=says))
-
-
-@claim(
-    "Introduction",
-    "A dynamical equilibrium is reached where each pendulum oscillates at a finite amplitude.",
-    unbounded("omegas", "thermal"),
-)
-def unbounded_equilibrium(run, thermal) -> Finding:
-    times_of(run)
-    expected = thermal["power"].sel(omega=run["omega"].values, method="nearest").values
-    ratio = mean_powers(run).mean(axis=1) / expected
-    measured = {"least": ratio.min(), "largest": ratio.max(), "mean": ratio.mean()}
-    says = "mean P of a site of the bulk over that of exp(-beta H) at H = 0"
-    off = np.abs(ratio - 1.0)
-    apart = ", ".join(f"{omega:g}" for omega in run["omega"].values[off > NEAR_THERMAL])
-    caveat = f"off the thermal state of no energy by more than 5 % at Omega = {apart}"
-    return judge(
-        measured, Near(1.0, CHANGE, "least", "largest", says=says), caveat if apart else ""
-    )
 
 
 @claim(

@@ -17,6 +17,7 @@ import xarray as xr
 
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.trajectories import shared_by
+from pendula.measures.confidence import mean_limits
 from pendula.problem import Constants
 
 from .bulk import (
@@ -29,8 +30,10 @@ from .bulk import (
     energy_terms,
     mean_powers,
     profile,
+    slope_powers,
     spectrum,
     statistics_of,
+    thermal_powers,
     with_ghosts,
 )
 
@@ -152,7 +155,8 @@ def measure_front(
     corrected, corrected_error = speeds(omegas, corrected=True)
     line_speeds = [linear_front(replace(constants, omega=value)).speed for value in line]
     power, power_error = _powers(omegas)
-    known = thermal["power"].reindex(omega=omega, method="nearest", tolerance=1e-9).values
+    known = thermal_powers(thermal, omega)
+    slopes = slope_powers(omegas)
 
     def over_omega(values, long_name: str = "") -> Variable:
         return Variable(("omega",), values, long_name)
@@ -165,8 +169,14 @@ def measure_front(
         "corrected_speed_error": over_omega(corrected_error, "standard error of that speed"),
         "predicted_speed": over_omega(omegas["predicted_speed"].values, PREDICTED_SPEED),
         "power": over_omega(power, POWER),
-        "power_error": over_omega(power_error, f"standard error of the {POWER}"),
+        "power_error": over_omega(power_error, f"half of the 95 % limits of the {POWER}"),
         "expected_power": over_omega(known, f"{POWER} in the thermal state at the same Omega"),
+        "slope_power": over_omega(
+            [slope.value for slope in slopes], f"{POWER}, from the slope of l2^2"
+        ),
+        "slope_power_error": over_omega(
+            [slope.half for slope in slopes], "half of the 95 % limits of that from the slope"
+        ),
         "line_omega": Variable(("line_omega",), line, "detuning Omega, on a finer grid"),
         "line_speed": Variable(("line_omega",), line_speeds, PREDICTED_SPEED),
         **_ways(omegas, large),
@@ -180,9 +190,9 @@ def measure_front(
 
 
 def _powers(omegas: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean powers over the members, and their standard errors."""
-    found = mean_powers(omegas)
-    return found.mean(axis=1), found.std(axis=1) / np.sqrt(max(1, found.shape[1] - 1))
+    """Return the mean powers over the members, and half of their limits."""
+    limits = mean_limits(mean_powers(omegas).T)
+    return limits.value, limits.half
 
 
 def _ways(omegas: xr.Dataset, large: xr.Dataset) -> dict[str, Variable]:

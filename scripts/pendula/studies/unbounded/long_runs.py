@@ -17,6 +17,7 @@ from pendula.measures.growth import local_exponents
 from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_long
+from .bulk import POWER, TERMS
 from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, SITE_OF_FRONT, linear_front
 
 SIZE, SEED = 1e-6, 2017
@@ -67,6 +68,7 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "energy": series("energy", ("tau",)),
         "front": series("front", ("piece_tau", "front_power"), SITE_OF_FRONT),
         "width": series("width", ("piece_tau",), "last site that is integrated, W"),
+        **_bulk(np.array([[run.bulk for run in members] for members in runs])),
         "state": Variable(
             ("variant", "member", "row", "site"),
             _padded([[run.state[:, 1:-1] for run in members] for members in runs]),
@@ -74,6 +76,17 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         ),
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
         "predicted_delay": of_variants([front.delay for front in predicted], DELAY),
+    }
+
+
+def _bulk(means: np.ndarray) -> dict[str, Variable]:
+    """Return as variables the means behind the front, (variant, member, piece, level, 5)."""
+    axes = ("variant", "member", "piece_tau", "front_power")
+    place = "over the bulk behind the front"
+    return {
+        "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
+        "bulk_power": Variable(axes, means[..., 0], f"{POWER}, {place}"),
+        "bulk_terms": Variable((*axes, "term"), means[..., 1:], f"terms of H per site, {place}"),
     }
 
 
