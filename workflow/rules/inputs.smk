@@ -50,6 +50,7 @@ def makers():
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
         "check_observed": checks(*OBSERVED),
         "measure_lyapunov": checks("lyapunov"),
+        "measure_symmetry": checks("symmetry"),
         "measure_ensembles": checks("ensembles", "ensembles_uneven"),
         "measure_members": checks("members"),
         "measure_lifetimes": checks("lifetimes"),
