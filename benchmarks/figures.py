@@ -7,56 +7,95 @@ from matplotlib.figure import Figure
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import style
 
-MARKERS = "osD^vP*X<>hdp8"
+ACCURACY = ["accuracy", "seconds", "error", "title", "horizon", "target", "omega", "initial"]
+RATIOS = ["ratio", "ratio_least", "ratio_most"]
+PEERS = {"color": "0.7", "lw": 0.6, "marker": ".", "markersize": 2, "zorder": 1}
+ROWS = [
+    {"marker": "o", "color": "black", "markersize": 3.5},
+    {"marker": "s", "color": "black", "markersize": 3.5, "markerfacecolor": "white"},
+]
+"""How the cases of a regime look in the rows of the peers."""
+ROW = 0.155
+"""The height of a row in inches."""
 
 
 def gather_work_precision(measured: xr.Dataset, regime: str) -> xr.Dataset:
-    """Return the times and errors of the cases of one regime."""
+    """Return the times and errors of the cases of one regime, and how peers compare with them."""
     chosen = measured.isel(case=measured["regime"].values == regime)
-    names = ["accuracy", "seconds", "least", "most", "error", "title", "horizon", "target"]
-    return chosen[names].assign_attrs(regime=regime)
+    compared = RATIOS if "peer" in measured.dims else []
+    return chosen[[*ACCURACY, *compared]].assign_attrs(regime=regime)
 
 
 @style.styled
 def draw_work_precision(data: xr.Dataset) -> Figure:
-    """Draw time over error, both logarithmic: the lower left corner is where one wants to be."""
-    figure = style.new_figure(style.DOUBLE, 3.6)
-    panels = figure.subplots(1, data.sizes["case"], sharey=True, squeeze=False)[0]
+    """Draw time over error above, both logarithmic: the lower left corner is the best place.
+
+    Below, each peer has a row with its time over that of the fastest solver here, by case.
+    """
+    heights = [2.3, ROW * (data.sizes["peer"] + 1)] if "peer" in data.dims else [2.3]
+    figure = style.new_figure(style.DOUBLE, sum(heights) + 0.6 * len(heights))
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights)
+    above = grid[0].subgridspec(1, data.sizes["case"])
+    panels = above.subplots(sharex=True, sharey=True, squeeze=False)[0]
     for i, axes in enumerate(panels):
         _draw_case(axes, data.isel(case=i))
     panels[0].set_ylabel("time of a run (ms)")
+    if len(heights) > 1:
+        _draw_peers(figure.add_subplot(grid[1]), data)
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right upper")
+    figure.legend(handles, labels, loc="outside upper center", ncols=4)
     return figure
 
 
 def _draw_case(axes: Axes, case: xr.Dataset) -> None:
-    peers = [name for name in case["contestant"].values if name not in SOLVER_NAMES]
-    greys = np.linspace(0.35, 0.75, max(len(peers), 1))
+    named = "solvers of other people"
     for name in case["contestant"].values:
         curve = case.sel(contestant=name)
         if curve["error"].isnull().all():
-            continue  # too slow for a single point
-        look = {"markersize": 3, "label": str(curve["title"].values)}
-        if name in peers:
-            i = peers.index(name)
-            look |= {
-                "color": str(greys[i]),
-                "marker": MARKERS[i % len(MARKERS)],
-                "lw": 0.6,
-                "zorder": 1,
-            }
-            look |= {"markerfacecolor": "white", "markeredgewidth": 0.6}
+            continue  # too slow for a single point, or its points were not kept
+        look = PEERS | {"label": named}
+        if name in SOLVER_NAMES:
+            look = _look(name) | {"lw": 1.2, "zorder": 2}
         else:
-            look |= {"color": style.COLOURS[name], "marker": ".", "lw": 1.2, "zorder": 2}
-            look |= {"label": SOLVER_NAMES[name], "markersize": 5}
+            named = None  # one entry of the legend names them all
         axes.plot(curve["error"], 1e3 * curve["seconds"], **look)
-    axes.axvline(float(case["target"]), color="0.6", lw=0.6, dashes=(4, 2), zorder=0)
+    look = {"color": "0.45", "lw": 0.8, "dashes": (4, 2), "zorder": 0}
+    axes.axvline(float(case["target"]), label="compared within this error", **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(right=1.0)
     axes.set_xlabel(rf"error of an amplitude at $\tau = {float(case['horizon']):g}$")
-    axes.set_title(str(case["case"].values))
+    axes.set_title(style.name_case(case), loc="left")
+
+
+def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the ratios, the fastest peer below; a peer that never came so close has no mark."""
+    data = data.isel(peer=data["ratio"].mean("case").fillna(np.inf).argsort().values)
+    rows = np.arange(data.sizes["peer"])
+    for i, look in zip(range(data.sizes["case"]), ROWS, strict=False):
+        case = data.isel(case=i)
+        ratio, least, most = (case[name].values for name in RATIOS)
+        spread = np.nan_to_num([ratio - least, most - ratio])
+        look = look | {"linestyle": "none", "elinewidth": 0.8, "label": style.name_case(case)}
+        axes.errorbar(ratio, rows + 0.15 - 0.3 * i, xerr=spread, **look)
+    axes.axvline(1.0, color="0.45", lw=0.8)
+    axes.set_yticks(rows, _name_peers(data))
+    axes.set_ylim(-0.7, rows[-1] + 0.7)
+    axes.grid(axis="y", color="0.9", lw=0.6)
+    axes.set_axisbelow(True)
+    axes.set_xscale("log")
+    within = f"within an error of $10^{{{np.log10(float(data['target'][0])):.0f}}}$"
+    axes.set_xlabel(f"time over that of the fastest solver here, {within}")
+    axes.legend(loc="lower right")
+
+
+def _name_peers(data: xr.Dataset) -> list[str]:
+    titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
+    missed = data["ratio"].isnull().all("case").values
+    return [
+        f"{titles[peer]} (never so close)" if gone else str(titles[peer])
+        for peer, gone in zip(data["peer"].values, missed, strict=True)
+    ]
 
 
 def gather_cost(cost: xr.Dataset) -> xr.Dataset:
@@ -79,36 +118,40 @@ def gather_cost(cost: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_cost(data: xr.Dataset) -> Figure:
     """Draw the cost over sites and over time, and the throughput with its limits."""
-    figure = style.new_figure(style.DOUBLE, 2.4)
+    figure = style.new_figure(style.DOUBLE, 2.6)
     sites, time, throughput = figure.subplots(1, 3)
     _draw_cost_along(sites, data["seconds"], "sites")
     _draw_cost_along(time, data["long_seconds"], "end_time")
     sites.set_xlabel("number of sites $N$")
+    sites.set_ylabel(r"time per site and unit of $\tau$ (µs)")
     time.set_xlabel(r"end time $\tau$")
-    sites.legend()
     _draw_throughput(throughput, data)
+    handles = [*sites.get_lines(), *throughput.get_lines()[1:]]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure
 
 
 def _draw_cost_along(axes: Axes, seconds: xr.DataArray, dim: str) -> None:
     for solver in seconds["solver"].values:
-        look = {"color": style.COLOURS[solver], "label": SOLVER_NAMES[solver]}
-        axes.plot(seconds[dim], 1e6 * seconds.sel(solver=solver), marker=".", **look)
+        axes.plot(seconds[dim], 1e6 * seconds.sel(solver=solver), **_look(solver))
     axes.set_xscale("log")
     axes.set_ylim(bottom=0)
-    axes.set_ylabel(r"time per site and unit of $\tau$ (µs)")
+
+
+def _look(solver: str) -> dict:
+    look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver], "markersize": 3.5}
+    return look | {"label": SOLVER_NAMES[solver]}
 
 
 def _draw_throughput(axes: Axes, data: xr.Dataset) -> None:
-    look = {"color": style.COLOURS["dop853"], "label": SOLVER_NAMES["dop853"]}
     carried = data["carried"].sel(solver="dop853")
-    axes.plot(carried["sites"], carried, marker=".", **look)
+    axes.plot(carried["sites"], carried, **_look("dop853"))
     limits = {"arithmetic_limit": ("arithmetic", (4, 2)), "memory_limit": ("memory", (1, 1))}
-    for name, (label, dashes) in limits.items():
+    for name, (by, dashes) in limits.items():
         # half of an even chain is integrated, so that each site computed counts for two
-        axes.axhline(2 * float(data[name]), color="0.4", lw=0.8, dashes=dashes, label=label)
+        look = {"color": "0.4", "lw": 0.8, "dashes": dashes, "label": f"limit set by {by}"}
+        axes.axhline(2 * float(data[name]), **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("number of sites $N$")
     axes.set_ylabel(r"sites $\times$ steps per second")
-    axes.legend(loc="lower right")

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import describe_cases
 from pendula.problem import Problem
 from pendula.simulation.simulate import Trajectory, simulate
 
@@ -58,7 +59,8 @@ def measure(
             watched[case, name] = [watch(problem, exact, name, point) for point in points]
         for name, peer in peers.items():
             pairs[case, name] = compare(problem, target, (peer, found[case, name]), own)
-    return assemble(list(problems), contestants, found, watched, pairs)
+    named, _ = describe_cases(problems)
+    return {**assemble(list(problems), contestants, found, watched, pairs), **named}
 
 
 def assemble(

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from pendula.datasets.netcdf import read, write
+from pendula.drawing import style
 from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation.simulate import simulate
 
@@ -36,7 +37,7 @@ def measured(tmp_path_factory):
         variables = work_precision.measure({"fig3_small": problem}, references, peer, said.append)
     path = tmp_path_factory.mktemp("work") / "work.nc"
     write(path, variables, {"absent": "another one is not installed"})
-    assert said[0] == "fig3_small: ode45" and len(said) == 6
+    assert said[0] == "fig3_small: ode45" and len(said) == len(OURS) + 1
     return read(path)
 
 
@@ -82,3 +83,22 @@ def test_the_figure_draws_every_contestant(measured):
     axes = figure.axes[0]
     assert len(axes.get_lines()) == len(OURS) + 1 + 1  # a peer, and the line of the target
     assert axes.get_xscale() == axes.get_yscale() == "log"
+    assert axes.get_title("left") == style.name_case(data.isel(case=0))
+
+
+def test_the_figure_has_a_row_for_each_peer_with_its_ratio_and_the_scatter(measured):
+    data = figures.gather_work_precision(measured, "regular")
+    rows = figures.draw_work_precision(data).axes[1]
+    assert [label.get_text() for label in rows.get_yticklabels()] == ["ode45"]
+    ratios = rows.get_lines()[0].get_xdata()
+    assert ratios == data["ratio"].values.ravel() and ratios > 1.0
+    (bar,) = rows.collections[0].get_segments()
+    np.testing.assert_allclose(bar[:, 0], [data["ratio_least"].item(), data["ratio_most"].item()])
+
+
+def test_a_peer_that_never_comes_so_close_is_named_without_a_mark(measured):
+    data = figures.gather_work_precision(measured, "regular")
+    for name in figures.RATIOS:
+        data[name] = np.nan * data[name]
+    rows = figures.draw_work_precision(data).axes[1]
+    assert [label.get_text() for label in rows.get_yticklabels()] == ["ode45 (never so close)"]

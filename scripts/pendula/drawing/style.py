@@ -34,6 +34,16 @@ COLOURS = {
     "splitting": "#5aa7d6",
 }
 
+MARKERS = {
+    "ode45": "o",
+    "crank_nicolson": "s",
+    "delfour_fortin_payre": "v",
+    "dop853": "^",
+    "taylor": "D",
+    "splitting": "P",
+}
+"""The solvers' marks, which tell them apart in grey too."""
+
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
     "font.family": "DejaVu Sans",

@@ -163,13 +163,6 @@ PAIRS = {
     "ode45 - dop853": {"color": "#16876b", "linewidth": 0.6, "marker": "o"},
 }
 PAIR_MARK_SIZES = {"s": 8, "^": 4.5, "o": 4.5}
-MARKERS = {
-    "ode45": "o",
-    "crank_nicolson": "s",
-    "delfour_fortin_payre": "v",
-    "dop853": "^",
-    "taylor": "D",
-}
 
 
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
@@ -184,10 +177,14 @@ def draw_drift(data: xr.Dataset) -> Figure:
 
 
 def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
-    for solver in sorted(case["solver"].values, key=DRAWN.index):
+    for i, solver in enumerate(sorted(case["solver"].values, key=DRAWN.index)):
         curve = panels.positive(case["drift"].sel(solver=solver))
-        look = {"color": style.COLOURS[solver], "label": SOLVER_NAMES[solver]}
-        axes.plot(curve["tau"], curve, **look)
+        look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver]}
+        look |= {"markersize": 4, "markeredgecolor": "white", "markeredgewidth": 0.5}
+        every = max(curve.size // 4, 1)
+        marked = every * (i + 1) // 6, every  # the marks of the solvers stand apart
+        label = SOLVER_NAMES[solver]
+        axes.plot(curve["tau"], curve, label=label, markevery=marked, **look)
     axes.axhline(
         float(case["stated_drift"]), color="0.45", dashes=(4, 2), lw=1, label="paper's claim"
     )
@@ -243,7 +240,7 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
     visible = float(case["size"].sel(level="visible"))
     for solver in case["solver"].values:
         one = case.sel(solver=solver, level="visible")
-        look = {"color": style.COLOURS[solver], "marker": MARKERS[solver]}
+        look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver]}
         label = SOLVER_NAMES[solver]
         _draw_difference(axes, one["difference"], label=label, markersize=4, **look)
         _mark(axes, one["horizon"], visible, **look)
