@@ -172,7 +172,8 @@ def slope_powers(run, confidence: float = CONFIDENCE) -> list[Limits]:
 
 def thermal_powers(thermal, omegas: np.ndarray) -> np.ndarray:
     """Return P of the thermal states of no energy at each Omega, NaN where none was solved."""
-    return thermal["power"].reindex(omega=omegas, method="nearest", tolerance=1e-9).values
+    found = thermal["power"].reindex(omega=np.atleast_1d(omegas), method="nearest", tolerance=1e-9)
+    return found.values.reshape(np.shape(omegas))
 
 
 def statistics_of(spectra, densities, cells: np.ndarray, along: tuple = ()) -> dict[str, Variable]:

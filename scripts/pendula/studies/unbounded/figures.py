@@ -9,6 +9,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from pendula.drawing import panels, style
 
@@ -23,45 +24,68 @@ NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
 
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
-    """Draw l2 with its law, the exponents of l2 over octaves of time, and l-infinity."""
-    figure = style.new_figure(style.DOUBLE, 2.9)
-    l2, exponents, linf = figure.subplots(1, 3)
-    for axes, name in ((l2, "l2"), (linf, "linf")):
-        _draw_norm(axes, data, name)
-    _draw_law(l2, data)
+    """Draw l2^2 / tau beside its law, what is left over, exponents over octaves, l-infinity."""
+    figure = style.new_figure(style.DOUBLE, 4.4)
+    (rate, rest), (exponents, linf) = figure.subplots(2, 2, sharex=True)
+    _draw_rates(rate, data)
+    _draw_rest(rest, data)
     _draw_exponents(exponents, data)
-    l2.set_yscale("log")
-    exponents.set_xlim(8.0, l2.get_xlim()[1])
-    handles, labels = linf.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=2)
+    _draw_linf(linf, data)
+    rate.set_xscale("log")
+    for axes, letter in zip((rate, rest, exponents, linf), "abcd", strict=True):
+        axes.set_title(f"({letter})", loc="left", fontsize=8)
+    for axes in (exponents, linf):
+        axes.set_xlabel(r"$\tau$")
+    handles, labels = rate.get_legend_handles_labels()
+    handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), _bar()]
+    labels += [LAW_NAME, OFFSET_NAME, "lowest to highest member", "95 % limits of their mean"]
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 
 
-def _draw_norm(axes: Axes, data: xr.Dataset, name: str) -> None:
-    for case in data["case"].values:
-        one = data.sel(case=case)
-        look = {"label": style.name_case(one), "lw": 1.1, **LOOKS[str(case)]}
-        axes.plot(one["tau"], one[name].sel(band="mean"), **look)
-        low, high = (one[name].sel(band=bound) for bound in ("lowest", "highest"))
-        axes.fill_between(one["tau"], low, high, color=look["color"], alpha=0.25, lw=0)
-    axes.set_xscale("log")
-    axes.set_xlabel(r"$\tau$")
-    axes.set_ylabel(f"{NORMS[name]} of $(A, B)$")
-    if name == "linf":
-        axes.set_ylim(bottom=0)
+LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
+LAW_NAME = r"$2 v^* P$, less the front's delay"
+OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
+OFFSET_NAME = r"law with an offset (fitted)"
 
 
-def _draw_law(axes: Axes, data: xr.Dataset) -> None:
+def _bar() -> Line2D:
+    return Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
+
+
+def _look(case: str) -> dict:
+    return {"lw": 1.1, **LOOKS[case]}
+
+
+def _draw_rates(axes: Axes, data: xr.Dataset) -> None:
     for case in data["case"].values:
-        one = data.sel(case=case)
-        if np.isfinite(one["law"]):
-            law = float(one["law"]) * np.sqrt(one["tau"])
-            axes.plot(one["tau"], law, color="black", lw=0.9, ls=(0, (4, 2)))
-            middle = data.sizes["point"] // 2
-            place = float(one["tau"][middle]), float(law[middle])
-            axes.annotate(
-                r"$(2 v^* P\,\tau)^{1/2}$", place, (-3, 5), textcoords="offset points", ha="right"
-            )
+        one, look = data.sel(case=case), _look(str(case))
+        axes.plot(one["span_tau"], one["rate"].sel(band="mean"), label=style.name_case(one), **look)
+        _shade(axes, one["span_tau"], one["rate"], look["color"])
+        axes.plot(one["span_tau"], one["law_rate"], **LAW)
+    axes.set_yscale("log")
+    axes.set_ylabel(r"$(\ell^2)^2 / \tau$")
+
+
+def _shade(axes: Axes, tau: xr.DataArray, bands: xr.DataArray, colour: str) -> None:
+    low, high = (bands.sel(band=bound) for bound in ("lowest", "highest"))
+    axes.fill_between(tau, low, high, color=colour, alpha=0.3, lw=0)
+
+
+def _draw_rest(axes: Axes, data: xr.Dataset) -> None:
+    """Draw by how many per cent l2^2 differs from its law, where there is a law."""
+    axes.axhline(0.0, **LAW)
+    for case in data["case"].values:
+        one, colour = data.sel(case=case), LOOKS[str(case)]["color"]
+        if not np.isfinite(one["law"]):
+            continue
+        off = 100.0 * (one["rate"] / one["law_rate"] - 1.0)
+        _shade(axes, one["span_tau"], off, colour)
+        axes.plot(one["span_tau"], 100.0 * one["offset_rate"] / one["law_rate"], **OFFSET)
+        bars = 100.0 * one["rate_limits"] / one["law_rate"]
+        dots = {"color": colour, "marker": "o", "ms": 2.5, "lw": 0, "elinewidth": 0.9}
+        axes.errorbar(one["span_tau"], off.sel(band="mean"), bars, **dots)
+    axes.set_ylabel(r"$(\ell^2)^2$ off its law (%)")
 
 
 def _draw_exponents(axes: Axes, data: xr.Dataset) -> None:
@@ -72,9 +96,17 @@ def _draw_exponents(axes: Axes, data: xr.Dataset) -> None:
         aside = 1.0 + 0.04 * (i - 1.5)  # so that error bars stand beside each other
         look = {"color": LOOKS[str(case)]["color"], "marker": "osD^"[i], "ms": 3.5, "lw": 0}
         axes.errorbar(aside * one["octave_tau"], exponent, error, elinewidth=0.9, capsize=2, **look)
-    axes.set_xscale("log")
-    axes.set_xlabel(r"$\tau$ (octaves)")
-    axes.set_ylabel(r"power of $\tau$ in $\ell^2$")
+    axes.set_ylabel(r"exponent of $\tau$ in $\ell^2$")
+
+
+def _draw_linf(axes: Axes, data: xr.Dataset) -> None:
+    for case in data["case"].values:
+        one, look = data.sel(case=case), _look(str(case))
+        late = one["tau"] >= float(data["span_tau"].min())
+        axes.plot(one["tau"].where(late), one["linf"].sel(band="mean"), **look)
+        _shade(axes, one["tau"].where(late), one["linf"], look["color"])
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(NORMS["linf"])
 
 
 def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> xr.Dataset:

@@ -5,6 +5,7 @@ thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v 
 """
 
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +14,12 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import describe_run, shared_by
+from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
 from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_long
-from .bulk import POWER, TERMS
+from .bulk import FIRST_OF_LINE, POWER, TERMS, thermal_powers
 from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, SITE_OF_FRONT, linear_front
 
 SIZE, SEED = 1e-6, 2017
@@ -135,11 +137,7 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
         "l2_exponent_error": Variable(
             octave, [one[2] for one in local], "standard error of the exponent of tau in l2"
         ),
-        "law": Variable(
-            case,
-            [_law(run, thermal) for run in first],
-            "coefficient of tau^(1/2) by linear spreading and the thermal bulk",
-        ),
+        **_rates(first, thermal),
     }
     shared = shared_by([run.attrs for run in first])
     return as_xarray(variables, {**shared, "title": "Growth of the norms on chains without ends"})
@@ -163,12 +161,69 @@ def _exponents(run: xr.Dataset) -> tuple[np.ndarray, ...]:
     return middles, *np.array(fits).T
 
 
+# --- l2^2 against the law 2 v P tau ---------------------------------------------------------------
+
+FIRST, SPANS = 10.0, 16
+"""Where the comparison with the law begins, and its spans, equally long in log tau."""
+
+
+def _rates(runs: list[xr.Dataset], thermal: xr.Dataset) -> dict[str, Variable]:
+    """Return l2^2 / tau over spans of time and its law, in which no constant is fitted.
+
+    Where the law begins is not known, so that an offset of l2^2 is fitted beside it.
+    """
+    found = [_rate(run, thermal) for run in runs]
+    axes, of = ("case", "span"), "l2^2 / tau, mean over a span of time"
+    banded = ("case", "band", "span")
+    return {
+        "span_tau": Variable(axes, [one["tau"] for one in found], "middle of a span of tau"),
+        "rate": Variable(banded, [one["rate"] for one in found], of),
+        "rate_limits": Variable(
+            axes, [one["limits"] for one in found], f"half of the 95 % limits of the mean {of}"
+        ),
+        "law": Variable(
+            ("case",), [_law(run, thermal) for run in runs],
+            "2 v P: l2^2 / tau by linear spreading and the thermal bulk, for long times",
+        ),
+        "law_rate": Variable(
+            axes, [one["law"] for one in found], "that law with the delay of a pulled front"
+        ),
+        "offset_rate": Variable(
+            axes, [one["offset"] for one in found], "b / tau, with the offset b of l2^2 fitted"
+        ),
+    }  # fmt: skip
+
+
+def _rate(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, np.ndarray]:
+    """Return l2^2 / tau of one ensemble over SPANS of time: its BAND, limits, and law."""
+    tau = run["tau"].values
+    squares = run["l2"].transpose("member", "tau").values ** 2
+    edges = np.geomspace(FIRST, tau[-1], SPANS + 1)
+    spans = [(tau >= a) & (tau <= b) for a, b in pairwise(edges)]
+    means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans])
+    passed = tau - _delay(run) * np.log(np.maximum(tau, 1.0))
+    law = [_law(run, thermal) * (passed[span] / tau[span]).mean() for span in spans]
+    late = tau >= FIRST_OF_LINE * tau[-1]
+    offset = (squares.mean(axis=0) - _law(run, thermal) * passed)[late].mean()
+    limits = mean_limits(means.T).half
+    return {
+        "tau": np.sqrt(edges[:-1] * edges[1:]),
+        "rate": np.array([means.min(axis=1), means.mean(axis=1), means.max(axis=1)]),
+        "limits": np.where(np.isfinite(limits), limits, np.nan),
+        "law": np.array(law),
+        "offset": np.array([offset * (1.0 / tau[span]).mean() for span in spans]),
+    }
+
+
 def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
-    """Return (2 v P)^(1/2), NaN where the chain at rest is stable or no state was sampled."""
-    near = thermal.sel(omega=run["omega"], method="nearest")
-    if not (run["predicted_delay"] > 0 and abs(near["omega"] - run["omega"]) < 1e-9):
-        return float("nan")
-    return float(np.sqrt(2.0 * run["predicted_speed"] * near["power"]))
+    """Return 2 v P, NaN where the chain at rest is stable or no state was solved."""
+    power = float(thermal_powers(thermal, run["omega"].values))
+    return 2.0 * float(run["predicted_speed"]) * power if run["predicted_delay"] > 0 else np.nan
+
+
+def _delay(run: xr.Dataset) -> float:
+    """Return the time that a pulled front loses per unit of log tau."""
+    return float(run["predicted_delay"] / run["predicted_speed"])
 
 
 # --- Maxima over [10, T] on chains of half-width M ------------------------------------------------

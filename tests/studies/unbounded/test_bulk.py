@@ -1,0 +1,108 @@
+"""The bulk in runs: means over its sites and over time, P from the slope of l2^2, and its law."""
+
+import numpy as np
+import pytest
+from made_up_unbounded import POWER, TAU, TERMS, spread, thermal
+from oracle import random_chain
+from pendula.ledger.criterion import Verdict
+from pendula.studies.unbounded.active_sites import run_long
+from pendula.studies.unbounded.bulk import (
+    bulk_means,
+    bulk_powers,
+    energy_terms,
+    late_means,
+    mean_powers,
+    mean_terms,
+    slope_powers,
+    thermal_powers,
+)
+from pendula.studies.unbounded.claims_bulk import (
+    at_energy,
+    unbounded_equilibrium,
+    unbounded_slope,
+    unbounded_warm,
+)
+from pendula.studies.unbounded.long_runs import measure_growth
+from problems import constants_of, problem_of
+
+CONSTANTS = constants_of((1.2, 0.7, -3.0))
+
+
+def exact(**changes):
+    """Return runs whose l2^2 is 2 v P tau less the delay, and an offset of -50."""
+    run = spread(0.5, **changes)
+    passed = 2.9 * TAU - 1.4 * np.log(np.maximum(TAU, 1.0))
+    return run.assign(l2=0.0 * run["l2"] + np.sqrt(np.maximum(2.0 * POWER * passed - 50.0, 1.0)))
+
+
+def test_means_of_the_bulk_are_those_of_its_sites():
+    half = random_chain(12, even=True)[:, 12:]
+    state = np.zeros((4, half.shape[1] + 2))
+    state[:, 1:-1] = half[0].real, half[0].imag, half[1].real, half[1].imag
+    (power, *terms), again = bulk_means(state, CONSTANTS, np.array([10.0, 10.9]))
+    assert power == pytest.approx((np.abs(half[:, 1:9]) ** 2).sum(axis=0).mean())
+    np.testing.assert_allclose(terms, energy_terms(state, CONSTANTS)[:, 1:9].mean(axis=1))
+    assert again[0] == power
+
+
+def test_a_run_keeps_the_means_of_its_bulk():
+    problem = problem_of("fig4_small", half_width=None, end_time=6.0)
+    run = run_long(problem, 1e-20)
+    found = bulk_means(run.state, problem.constants, run.front[-1])
+    np.testing.assert_array_equal(run.bulk[-1], found)
+    assert run.bulk.shape == (3, 4, 5)
+
+
+def test_late_means_are_taken_of_the_late_half():
+    run = spread(0.5)
+    tau = run["piece_tau"].values
+    assert late_means(tau, run)[0] == pytest.approx(tau[tau > 100.0].mean())
+    np.testing.assert_allclose(late_means(tau, run, 2), [125.0, 175.0], atol=1.5)
+    assert mean_powers(run) == pytest.approx(POWER, rel=0.01)
+    assert bulk_powers(run, 4.0).shape == (1, 2, len(tau))
+    np.testing.assert_allclose(mean_terms(run, 4.0)[0, 0], TERMS, rtol=1e-3)
+
+
+def test_the_slope_gives_the_power_whatever_the_offset_and_the_delay():
+    assert slope_powers(exact())[0].value == pytest.approx(POWER, rel=1e-9)
+    assert np.isnan(slope_powers(exact(delay=0.0))[0].value)
+
+
+def test_thermal_powers_are_unknown_where_none_was_solved():
+    found = thermal_powers(thermal(), np.array([2.0, 3.0]))
+    assert found[0] == POWER and np.isnan(found[1])
+    assert thermal_powers(thermal(), np.array(5.0)) == POWER
+    assert at_energy(thermal(), 3.0)["power"] == pytest.approx(POWER + 0.1)
+
+
+def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
+    one = measure_growth({"fig4_small": exact()}, thermal()).isel(case=0)
+    assert one["law"] == pytest.approx(2.0 * 2.9 * POWER)
+    left = one["rate"].sel(band="mean") - one["law_rate"]
+    np.testing.assert_allclose(left, one["offset_rate"], rtol=1e-6)
+    np.testing.assert_allclose(one["offset_rate"] * one["span_tau"], -50.0, rtol=0.02)
+
+
+def test_verdicts_on_the_bulk_follow_from_its_errors():
+    band = exact(variants=3, omegas=(-1.0, 2.0, 5.0), members=4)
+    assert unbounded_equilibrium(band, thermal()).verdict == Verdict.CONFIRMED
+    off = band.assign(
+        bulk_power=band["bulk_power"] * np.array([1.0, 0.9, 1.0])[:, None, None, None]
+    )
+    finding = unbounded_equilibrium(off, thermal())
+    assert finding.verdict == Verdict.CAVEAT and "2 (-10" in finding.because
+    centre = exact(members=4)
+    assert unbounded_slope(centre, band, thermal()).measured["centre"] == pytest.approx(1.0)
+    steeper = centre.assign(l2=1.05 * centre["l2"])
+    assert unbounded_slope(steeper, band, thermal()).verdict == Verdict.NOT_REPRODUCED
+
+
+def test_a_bulk_with_energy_is_held_to_the_state_of_that_energy():
+    warm = spread(0.5, omegas=(-4.0,), members=4)
+    finding = unbounded_warm(warm, thermal())
+    assert finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
+    assert finding.measured["energy"] == pytest.approx(sum(TERMS), abs=0.05)
+    cold = warm.assign(bulk_terms=warm["bulk_terms"] - sum(TERMS) / 4.0)
+    assert unbounded_warm(cold, thermal()).verdict == Verdict.NOT_REPRODUCED
+    thin = warm.assign(bulk_power=0.9 * warm["bulk_power"])
+    assert unbounded_warm(thin, thermal()).verdict == Verdict.NOT_REPRODUCED
