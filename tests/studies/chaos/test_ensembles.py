@@ -60,3 +60,9 @@ def test_uneven_members_leave_the_even_ones():
         ensembles.run_members(PROBLEM, 1e-3, 2, seed=5, kind=kind)[0] for kind in ("even", "uneven")
     )
     assert even.shape == uneven.shape and not np.allclose(even, uneven, rtol=1e-6)
+
+
+def test_half_widths_have_draws_of_their_own():
+    long = PROBLEM.changed(end_time=1.0)  # before the ends matter
+    l2, _ = ensembles.sweep_members(long, [12, 13], [(0.5, 1.0)], 1e-3, 2)
+    assert not np.allclose(l2[:, 0], l2[:, 1], rtol=1e-9)

@@ -18,6 +18,7 @@ from pendula.problem import Problem, name_window
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
 
+NORMS = ("l2", "linf")
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -51,9 +52,9 @@ an ordinary solver loses evenness by rounding, and what it draws is one of the u
 
 
 def draw_members(
-    problem: Problem, size: float, members: int, seed: int, kind: str = "even"
+    problem: Problem, size: float, members: int, seed: int | list[int], kind: str = "even"
 ) -> list[Problem]:
-    """Return as many copies of `problem` with perturbed data."""
+    """Return as many copies of `problem` with perturbed data; `seed` is that of NumPy."""
     rng, perturbed = np.random.default_rng(seed), PERTURBATIONS[kind]
     return [problem.changed(initial=perturbed(problem.initial, size, rng)) for _ in range(members)]
 
@@ -69,13 +70,22 @@ def run_members(
 def sweep_members(
     problem: Problem, half_widths, windows, size: float, members: int, seed: int = 0, kind="even"
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the swept l2 and l-infinity of each member, both (member, *shape of a Sweep)."""
-    drawn = draw_members(problem, size, members, seed, kind)
-    sweeps = [sweep(member, half_widths, windows) for member in drawn]
-    return np.array([s.l2 for s in sweeps]), np.array([s.linf for s in sweeps])
+    """Return the swept l2 and l-infinity of each member, both (member, *shape of a Sweep).
+
+    Each half-width has draws of its own. The same data would give the same motion on all chains
+    that are too long for the front, so that their means would not be independent of each other.
+    """
+    columns = []
+    for half_width in half_widths:
+        drawn = draw_members(problem, size, members, [seed, half_width], kind)
+        columns.append([sweep(member, [half_width], windows) for member in drawn])
+    l2, linf = (
+        np.concatenate([[getattr(one, norm) for one in column] for column in columns], axis=1)
+        for norm in NORMS
+    )
+    return l2, linf
 
 
-NORMS = ("l2", "linf")
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",

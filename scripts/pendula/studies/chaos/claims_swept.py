@@ -1,0 +1,244 @@
+"""What the paper says of Figs 5 and 6, right, of ensembles at each half-width M.
+
+A single sweep is one draw at each M, and its points scatter by what chaos makes of the last digits.
+The means over the ensembles do not, and Student's t says how far they can be trusted. As in
+`claims`, a sentence must hold in both kinds of ensembles.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.ledger.claim import (
+    CHANGE,
+    FACTOR,
+    FEWEST,
+    NEARLY_ALL,
+    Control,
+    checks,
+    claim,
+    wrong_check,
+)
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    Below,
+    Finding,
+    NeverLevels,
+    UndecidableError,
+    judge,
+)
+from pendula.measures.confidence import Limits, ratio_limits, student
+from pendula.measures.levels import levelling_of_means
+from pendula.models.bounds import theorem_2_constants
+from pendula.problem import Constants
+
+from .claims import LEVEL, nearby
+
+SECTION = 5
+NEEDS = checks("ensembles", "ensembles_uneven")
+TEXT_5, TEXT_6 = "[10, 50]", "[10, 70]"
+"""The windows of the maxima in the text."""
+
+
+class Means(NamedTuple):
+    """Means over the members at each half-width, and their standard errors, all (half_width,)."""
+
+    half_width: np.ndarray
+    mean: np.ndarray
+    error: np.ndarray
+    members: int
+
+    @property
+    def off(self) -> np.ndarray:
+        """Half of each confidence interval."""
+        return student(self.members - 1, LEVEL.value) * self.error
+
+
+def maxima(ensembles, sweep: str, norm: str, window: str) -> Means:
+    """Return the means of the maxima of the pair's norm over a window."""
+    if ensembles.sizes["half_width"] < FEWEST or window not in ensembles["window"].values:
+        raise UndecidableError("the ensemble has fewer than six half-widths, or not the window")
+    chosen = {"sweep": sweep, "quantity": "pair", "statistic": "max", "window": window}
+    kept, members = ensembles.sel(chosen), int(ensembles.attrs["swept_members"])
+    values = (kept[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))
+    return Means(*values, members)
+
+
+def both(even, uneven, sweep: str, norm: str, window: str) -> dict[str, Means]:
+    """Return the means of both kinds of ensembles."""
+    kinds = {"even": even, "uneven": uneven}
+    return {kind: maxima(data, sweep, norm, window) for kind, data in kinds.items()}
+
+
+def over(means: Means, below: slice, above: slice) -> Limits:
+    """Return the mean over some half-widths over that of others, `above` / `below`."""
+    value = [means.mean[part].mean() for part in (below, above)]
+    counts = [len(means.mean[part]) for part in (below, above)]
+    error = [
+        np.sqrt((means.error[part] ** 2).sum()) / count
+        for part, count in zip((below, above), counts, strict=True)
+    ]
+    return ratio_limits(value, error, means.members, LEVEL.value)
+
+
+# --- Wrong cases ----------------------------------------------------------------------------------
+
+
+def with_sweep(name: str):
+    """Return a function of an ensemble and a sweep: the sweep's maxima in place of those means."""
+
+    def change(ensembles, sweep):
+        own = sweep["l2"].sel(half_width=ensembles["half_width"]).transpose(
+            *ensembles["l2_mean"].dims[1:]
+        )  # fmt: skip
+        right = ensembles["sweep"] == name
+        return ensembles.assign(l2_mean=ensembles["l2_mean"].where(~right, own))
+
+    return change
+
+
+def stable(right: str, *wrongs: str) -> tuple[Control, ...]:
+    """Return controls: single sweeps of stable cases, which have nothing to scatter."""
+    words = {
+        "fig5_left": "the small data at Omega = -4",
+        "fig6_left": "the large data at Omega = 8",
+    }
+    return tuple(
+        Control(words[name], {NEEDS[0]: (f"sweeps/{name}", with_sweep(right))}) for name in wrongs
+    )
+
+
+def renamed(right: str, wrong: str, longest: int | None = None):
+    """Return a function of an ensemble: sweep `wrong` under the name `right`, up to `longest`."""
+
+    def change(ensembles):
+        chosen = [wrong if name == right else name for name in ensembles["sweep"].values]
+        other = ensembles.sel(sweep=chosen, half_width=slice(None, longest))
+        return other.assign_coords(sweep=ensembles["sweep"].values)
+
+    return change
+
+
+def with_maxima_of_l2(ensembles):
+    """Return an ensemble with the l2 norms, which grow with M, in place of the l-infinity norms."""
+    return ensembles.assign(linf_mean=ensembles["l2_mean"], linf_error=ensembles["l2_error"])
+
+
+# --- Fig 5, right ---------------------------------------------------------------------------------
+
+
+@claim(
+    "Section 5, Fig 5 right, in ensembles",
+    "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
+    NEEDS,
+    controls=(
+        *stable("fig5_right", "fig5_left", "fig6_left"),
+        wrong_check(
+            "the large data at Omega = -4, which fall again",
+            ensembles=renamed("fig5_right", "fig6_right"),
+        ),
+    ),
+)
+def ensemble_fig5_grows(even, uneven) -> Finding:
+    growth, rising, levels = {}, {}, []
+    for kind, means in both(even, uneven, "fig5_right", "l2", TEXT_5).items():
+        growth[f"{kind}_growth_low"] = over(means, slice(1), slice(-1, None)).low
+        apart = student(2 * (means.members - 1), LEVEL.value)
+        noise = apart * np.hypot(means.error[1:], means.error[:-1])
+        rising[f"{kind}_rising"] = np.mean(np.diff(means.mean) > noise)
+        levels.append(levelling_of_means(means.half_width, means.mean, means.error, least=2))
+    first = min(levels)
+    caveat = f"up to M = {first:.0f}, where it levels off" if np.isfinite(first) else ""
+    criterion = AllOf(
+        Above(FACTOR, *growth, says="lower limits of the longest chain over the shortest"),
+        Above(NEARLY_ALL, *rising, says="shares of steps up by more than their limits"),
+    )
+    return judge(growth | rising | {"level_from": first}, criterion, caveat)
+
+
+@claim(
+    "Section 5, Fig 5 right, in ensembles",
+    "The l-infinity norm saturates to the same level independently of M.",
+    NEEDS,
+    controls=(wrong_check("the l2 norm, which grows with M", ensembles=with_maxima_of_l2),),
+)
+def ensemble_fig5_maximum(even, uneven) -> Finding:
+    measured = {}
+    for kind, means in both(even, uneven, "fig5_right", "linf", TEXT_5).items():
+        span = (means.mean + means.off).max() - (means.mean - means.off).min()
+        measured[f"{kind}_range"] = span / means.mean.mean()
+    says = "range over M, limits included, over the mean"
+    return judge(measured, Below(CHANGE, *measured, says=says))
+
+
+# --- Fig 6, right ---------------------------------------------------------------------------------
+
+
+@claim(
+    "Section 5, Fig 6 right, in ensembles",
+    "At Omega = -4, large data, the maximal l2 norm grows with M.",
+    NEEDS,
+    controls=stable("fig6_right", "fig6_left", "fig5_left"),
+)
+def ensemble_fig6_grows(even, uneven) -> Finding:
+    measured, lows, back = {}, {}, []
+    for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
+        ratio = over(means, slice(1), slice(1, None))
+        measured |= {f"{kind}_ratio": ratio.value, f"{kind}_high": ratio.high}
+        lows[f"{kind}_low"] = ratio.low
+        peak = int(np.argmax(means.mean))
+        measured[f"{kind}_peak_at"] = means.half_width[peak]
+        back.append(over(means, slice(peak, peak + 1), slice(-3, None)).value)
+    peak_at = max(measured[f"{kind}_peak_at"] for kind in ("even", "uneven"))
+    caveat = (
+        f"up to M = {peak_at:.0f}: the three longest chains have {min(back):.2f} to {max(back):.2f}"
+        f" of the peak; {nearby(even)}"
+    )
+    says = "lower limits of the mean over all longer chains over that of the shortest"
+    return judge(measured | lows, Above(1.0, *lows, says=says), caveat)
+
+
+@claim(
+    "Section 5, Fig 6 right, in ensembles",
+    "It apparently diverges as N goes to infinity.",
+    NEEDS,
+    controls=(
+        Control(
+            "Omega = 0 on chains that its front still crosses",
+            dict.fromkeys(NEEDS, renamed("fig6_right", "fig5_right", longest=100)),
+            confirms=True,
+        ),
+    ),
+)
+def ensemble_fig6_diverges(even, uneven) -> Finding:
+    measured = {}
+    for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
+        level = levelling_of_means(means.half_width, means.mean, means.error)
+        measured |= {f"{kind}_level_from": level, f"{kind}_last": means.mean[-1]}
+        measured[f"{kind}_off"] = means.off[-1]
+    levels = [f"{kind}_level_from" for kind in ("even", "uneven")]
+    fails = (
+        f"from M = {max(measured[name] for name in levels):.0f} on all means are the same to two"
+        " standard errors, as they must be where the front does not reach the ends"
+    )
+    return judge(measured, NeverLevels(*levels), fails=fails)
+
+
+@claim(
+    "Section 5, Fig 6 right, in ensembles",
+    "That Theorem 2 is limited to small data is not a technical shortfall.",
+    NEEDS,
+    controls=stable("fig6_right", "fig6_left", "fig5_left"),
+)
+def ensemble_fig6_not_technical(even, uneven) -> Finding:
+    omega = float(even["omega"].sel(case="fig3_large"))
+    c_0 = theorem_2_constants(Constants.of({**even.attrs, "omega": omega}))[1]
+    start = float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0]) ** 2
+    lows = {
+        f"{kind}_low": (means.mean[-1] - means.off[-1]) ** 2 / start
+        for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items()
+    }
+    caveat = f"growth without bound in time is not decided by a fixed window; {nearby(even)}"
+    says = "lower limits of the largest P over that of the data"
+    return judge({**lows, "C_0": c_0}, Above(c_0, *lows, says=says), caveat)
