@@ -4,6 +4,7 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
+from made_up_chaos import lifetimes
 from pendula.ledger import section as claims
 from pendula.studies.chaos import section as chaos
 from pendula.studies.paper import section as paper
@@ -36,6 +37,11 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
         **{name: ("case", [value]) for name, value in inside.items()},
         band_share=0.9,
     )
+    widths = {"width_ratio": 1.4, "width_ratio_low": 1.2, "width_ratio_high": 1.6}
+    members = made_up.by_case(
+        {"fig3_large": (-4.0, made_up.LARGE)},
+        **{name: ("case", [value]) for name, value in widths.items()},
+    )
     rounded = made_up.by_case(rounded_time=("case", [np.inf, np.inf, np.inf, 6.5]))
     run = xr.Dataset(attrs={"omega": 0.0})
     return made_up.MadeUp(
@@ -45,9 +51,25 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
             "checks/trust": trust.assign_coords(coords),
             "checks/ensemble_runs": ensembles.assign_attrs(members=32, perturbation=1e-7),
             "checks/symmetry": rounded,
+            "checks/members": members,
+            "checks/lifetimes": lives(),
             "trajectories/fig4_small": run,
         },
     )
+
+
+def lives() -> xr.Dataset:
+    """Return the made-up lives of the figure, and the same rates by two tolerances."""
+    by_choice = {"choice_rate": 0.01, "choice_rate_low": 0.005, "choice_rate_high": 0.02}
+    made = lifetimes().assign(
+        compared_amplitude=7.0,
+        choice_tolerance=("choice", [1e-5, 1e-8]),
+        choice_kind=("choice", ["even", "uneven"]),
+        choice_drift=("choice", [1e-4, 1e-7]),
+        choice_work=("choice", [100, 200]),
+        **{name: ("choice", [value, value]) for name, value in by_choice.items()},
+    )
+    return made.assign_attrs(members=64, settled=10.0)
 
 
 def gathered(results: made_up.MadeUp) -> dict:
@@ -75,6 +97,20 @@ def test_a_band_is_as_wide_as_its_quantiles(tmp_path):
     (band,) = gathered(chaotic_results(tmp_path, 2.5, 4.5))["ensembles"]
     assert (str(band["width"]), str(band["middle"])) == ("30 %", "10")
     assert (str(band["share"]), str(band["inside"])) == ("90 %", "88 %")
+
+
+def test_the_ratio_of_widths_stands_with_its_limits(tmp_path):
+    (one,) = gathered(chaotic_results(tmp_path, 2.5, 4.5))["widths"]
+    assert (str(one["ratio"]), str(one["limits"])) == ("1.4", "1.20 to 1.60")
+
+
+def test_a_life_that_outlasts_the_runs_is_bounded(tmp_path):
+    found = gathered(chaotic_results(tmp_path, 2.5, 4.5))["lives"]
+    at_once, some, never = ([str(cell) for cell in row] for row in found["rows"])
+    assert at_once == ["1", "5", "5", "0 %", "none", "none"]
+    assert some[1:4] == ["50", "50 to over 100", "50 %"] and some[4] == "0.01"
+    assert never[1:4] == ["over 100", "over 100", "100 %"] and never[4] == "0"
+    assert [str(cell) for cell in found["choices"][1]][:2] == ["10⁻⁸", "uneven in n"]
 
 
 def growing_results(folder, last: float, **measured) -> made_up.MadeUp:

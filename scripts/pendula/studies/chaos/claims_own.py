@@ -4,6 +4,7 @@ import numpy as np
 
 from pendula.ledger.claim import checks, claim, wrong_check
 from pendula.ledger.criterion import (
+    Above,
     AllOf,
     AtLeast,
     AtMost,
@@ -13,6 +14,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
+from pendula.measures.confidence import student
 
 SECTION = 7
 PLACE = "Beyond the paper"
@@ -95,6 +97,38 @@ def no_solver_stays(trust, lyapunov) -> Finding:
     measured = {"first": horizon.min(), "last": horizon.max(), "runs": horizon.size}
     measured["staying"] = (~np.isfinite(horizon)).sum()
     return judge(measured, AllOf(AtMost(0, "staying"), AtLeast(1, "runs")))
+
+
+def with_kinds_exchanged(members):
+    """Return the members with the widths of even ensembles as those of uneven ones."""
+    inverse = {
+        "width_ratio": 1.0 / members["width_ratio"],
+        "width_ratio_low": 1.0 / members["width_ratio_high"],
+        "width_ratio_high": 1.0 / members["width_ratio_low"],
+    }
+    return members.assign(inverse)
+
+
+@claim(
+    PLACE,
+    "Bands of ensembles that are even in n are wider by the root of two than those of uneven ones.",
+    checks("members", "lyapunov"),
+    controls=(wrong_check("the two kinds exchanged", members=with_kinds_exchanged),),
+)
+def even_bands_wider(members, lyapunov) -> Finding:
+    chosen = members.sel(case=chaotic_cases(lyapunov))
+    low, high = chosen["width_ratio_low"], chosen["width_ratio_high"]
+    error = 0.5 * (high - low) / student(members.sizes["member"] - 1)
+    off = abs(chosen["width_ratio"] - np.sqrt(2.0)) / error
+    measured = {
+        f"ratio_{case}": chosen["width_ratio"].sel(case=case) for case in chosen["case"].values
+    }
+    measured |= {"least_limit": low.min(), "off": off.max()}
+    criterion = AllOf(
+        Above(1.0, "least_limit", says="lower limits of the ratio of widths"),
+        Below(SAME, "off", says="distance from the root of two over the standard error"),
+    )
+    return judge(measured, criterion)
 
 
 @claim(

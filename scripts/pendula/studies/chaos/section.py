@@ -12,7 +12,7 @@ from pendula.report.results import Results, Section
 from pendula.report.words import case_of, number, percent, span, with_error
 
 LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"
-ENSEMBLES = "checks/ensemble_runs"
+ENSEMBLES, MEMBERS, LIVES = "checks/ensemble_runs", "checks/members", "checks/lifetimes"
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -34,6 +34,8 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
         "lost": {name: lost_by(results, name) for name in solvers},
         "ensembles": [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values],
+        "widths": [widths_of(results, case) for case in results[ENSEMBLES]["case"].values],
+        "lives": lives_of(results),
         "decimal": not_a_tenth(results),
         "pictures": _pictures(results),
         "members": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["members"]),
@@ -90,8 +92,72 @@ def ensemble_of(results: Results, name: str) -> dict[str, Any]:
     }
 
 
+def widths_of(results: Results, name: str) -> dict[str, Any]:
+    """Return by how much the band of even runs is wider than that of uneven ones."""
+    case = results[MEMBERS].sel(case=name)
+    low, high = (float(case[f"width_ratio_{end}"]) for end in ("low", "high"))
+    return {
+        "case": case_of(case),
+        "ratio": results.quote(MEMBERS, float(case["width_ratio"])),
+        "limits": results.say(MEMBERS, span([low, high], 3)),
+    }
+
+
+def lives_of(results: Results) -> dict[str, Any]:
+    """Return how long each initial amplitude stays localised, and what other tolerances find."""
+    lives = results[LIVES]
+    end = float(lives["tau"].max())
+    return {
+        "members": results.quote(LIVES, lives.attrs["members"]),
+        "settled": results.quote(LIVES, lives.attrs["settled"]),
+        "end": results.quote(LIVES, end),
+        "head": ["initial amplitude", "median life", "its limits", "still localised at the end",
+                 "transitions per unit of τ", "their limits"],
+        "rows": [_life(results, float(a0), end) for a0 in lives["amplitude"].values],
+        "amplitude": results.quote(LIVES, float(lives["compared_amplitude"])),
+        "choices_head": ["tolerance", "ensemble", "transitions per unit of τ", "their limits",
+                         "largest error of the energy", "right-hand sides"],
+        "choices": [_choice(results, k) for k in range(lives.sizes["choice"])],
+    }  # fmt: skip
+
+
+def _life(results: Results, a0: float, end: float) -> list:
+    one = results[LIVES].sel(amplitude=a0)
+    left = results.say(LIVES, percent(float(one["surviving"][-1])))
+    times = [float(one[f"median{part}"]) for part in ("", "_low", "_high")]
+    median, low, high = (_time(tau, end) for tau in times)
+    limits = low if low == high else f"{low} to {high}"
+    told = [results.say(LIVES, text) for text in (median, limits)]
+    return [number(a0), *told, left, *_rate(results, one, "rate")]
+
+
+def _time(tau: float, end: float) -> str:
+    """Return a time in words; few members do not bound it from below, censored ones from above."""
+    if tau == -np.inf:
+        return "any time"
+    return number(tau) if np.isfinite(tau) else f"over {number(end)}"
+
+
+def _choice(results: Results, k: int) -> list:
+    one = results[LIVES].isel(choice=k)
+    names = ("choice_tolerance", "choice_drift", "choice_work")
+    tolerance, drift, work = (results.quote(LIVES, float(one[name])) for name in names)
+    kind = f"{one['choice_kind'].item()} in n"
+    return [tolerance, kind, *_rate(results, one, "choice_rate"), drift, work]
+
+
+def _rate(results: Results, one, name: str) -> list:
+    """Return a rate and its limits, or none where no run outlasted the settled time."""
+    if not np.isfinite(float(one[name])):
+        return ["none", "none"]
+    limits = (number(float(one[f"{name}_{end}"])) for end in ("low", "high"))
+    return [results.quote(LIVES, float(one[name])), results.say(LIVES, " to ".join(limits))]
+
+
 def _pictures(results: Results) -> dict[str, Picture]:
-    """Return the four pictures by name."""
+    """Return the five pictures by name."""
+    lives = results[LIVES]
+    amplitudes = span(lives["amplitude"].values, 3)
     growth, trust = results[LYAPUNOV].sel(parity="even"), results[TRUST]
     lost = [lost_by(results, str(name)) for name in trust["solver"].values]
     rates = [
@@ -107,6 +173,9 @@ def _pictures(results: Results) -> dict[str, Picture]:
         "lyapunov": f"Growth of small changes. Rates: {'; '.join(rates)}",
         "symmetry": "The odd part of even solutions against τ. By rounding alone it becomes "
         f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",
+        "lifetimes": f"Share of runs that are still localised against τ, and median lives, for A_0 "
+        f"of {amplitudes}. {int((lives['surviving'][:, -1] > 0).sum())} of "
+        f"{lives.sizes['amplitude']} amplitudes have runs that stay localised to the end",
         "ensembles": "Bands of runs from almost equal data. "
         + "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands),
     }  # fmt: skip
