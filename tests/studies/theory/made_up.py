@@ -117,33 +117,6 @@ def paper_sweeps() -> dict[str, xr.Dataset]:
     return {f"sweeps/{name}": ds for name, ds in made.items()}
 
 
-def ensembles() -> xr.Dataset:
-    """Return bands that grow and settle, and swept maxima as the paper describes them."""
-    tau, quantile = np.linspace(0.0, 50.0, 501), np.array([0.05, 0.5, 0.95])
-    cases, swept = ["fig3_large", "fig4_small", "fig4_large"], ["fig5_right", "fig6_right"]
-    grown = np.array([settling(start, 23.0)(tau) for start in (5.0, 1.0, 5.0)])
-    bands = np.array([0.9, 1.0, 1.1])[None, :, None, None] * grown[:, None, None, :]
-    growing = np.array([15.0, 20.0, 28.0, 40.0, 55.0, 60.0, 65.0, 70.0])
-    shape = (2, len(HALF_WIDTHS), 1, 1, len(WINDOWS))
-    maxima = np.broadcast_to(growing[:, None, None, None], shape)
-    dims = ("sweep", "half_width", "quantity", "statistic", "window")
-    series = ("case", "quantile", "quantity", "tau")
-    return xr.Dataset(
-        {
-            "l2": (series, bands.copy()),
-            "linf": (series, bands / 4.0),
-            "l2_mean": (dims, maxima.copy()),
-            "l2_error": (dims, np.full(shape, 0.3)),
-            "linf_mean": (dims, np.full(shape, 6.0)),
-            "linf_error": (dims, np.full(shape, 0.1)),
-        },
-        {
-            "case": cases, "quantile": quantile, "quantity": ["pair"], "tau": tau, "sweep": swept,
-            "half_width": HALF_WIDTHS, "statistic": ["max"], "window": WINDOWS,
-        },
-    )  # fmt: skip
-
-
 def compared_solvers() -> xr.Dataset:
     """Return the comparison of solvers that all give the same, with drifts of the stated orders."""
     trajectories, sweeps = paper_trajectories(), paper_sweeps()

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import compared_solvers, ensembles, paper_sweeps, paper_trajectories
+from made_up import compared_solvers, paper_sweeps, paper_trajectories
 from made_up_unbounded import spread, unbounded_runs
 from pendula.ledger.claim import all_claims, decide, evaluate, needed
 from pendula.ledger.criterion import Verdict
@@ -19,7 +19,6 @@ CLAIM = {claim.name: claim for claim in CLAIMS}
 @pytest.fixture(scope="module")
 def sources(checked):
     checks = {f"checks/{name}": xr.Dataset.from_dict(checked(name)) for name in CHECKS}
-    checks["checks/ensembles"] = ensembles()
     checks["checks/solvers"] = compared_solvers()
     return checks | paper_trajectories() | paper_sweeps() | unbounded_runs()
 
@@ -63,19 +62,6 @@ def test_short_runs_and_sweeps_do_not_decide(sources):
     assert finding.verdict == Verdict.UNDECIDED and "[10, 50]" in finding.because
 
 
-def test_an_ensemble_that_cannot_tell_says_so(sources):
-    noisy = sources[ENSEMBLES].copy(deep=True)
-    noisy["l2_error"] = noisy["l2_error"] + 20.0
-    finding = decide(CLAIM["ensemble_fig6_grows"], sources | {ENSEMBLES: noisy})
-    assert finding.verdict == Verdict.UNDECIDED and "less than its error" in finding.because
-    few = sources[ENSEMBLES].isel(half_width=slice(0, 3))
-    finding = decide(CLAIM["ensemble_fig5_grows"], sources | {ENSEMBLES: few})
-    assert finding.verdict == Verdict.UNDECIDED and "six" in finding.because
-    fewer = sources[ENSEMBLES].sel(case=["fig3_large"])
-    finding = decide(CLAIM["ensemble_fig4_alike"], sources | {ENSEMBLES: fewer})
-    assert finding.verdict == Verdict.UNDECIDED and "fig4_small" in finding.because
-
-
 def scaled(name, factor, **selection):
     """Return a change of a dataset: one variable times a factor, at some coordinates or all."""
 
@@ -117,7 +103,7 @@ def window_map_without_level(data):
     return data.assign(l2=data["l2"] * data["half_width"] ** 0.2)
 
 
-ENSEMBLES, SOLVERS = "checks/ensembles", "checks/solvers"
+SOLVERS = "checks/solvers"
 FLIPS = {
     "hamiltonian": ("checks/gradient", scaled("gradient_error", 1e6)),
     "conserved": ("checks/conservation", scaled("energy_drift", 10.0)),
@@ -173,13 +159,6 @@ FLIPS = {
     "fig6_grows": ("sweeps/fig6_right", replaced("l2", 15.0 + np.zeros(8))),
     "fig6_diverges": ("sweeps/fig6_right", replaced("l2", 15.0 + np.zeros(8))),
     "fig6_not_technical": ("sweeps/fig6_right", replaced("l2", 2.0 + np.zeros(8))),
-    "ensemble_fig3": (ENSEMBLES, scaled("l2", 0.2, tau=slice(10, None))),
-    "ensemble_fig4_settles": (ENSEMBLES, scaled("linf", 2.0, tau=slice(30, None))),
-    "ensemble_fig4_alike": (ENSEMBLES, scaled("l2", 2.0, case="fig4_large")),
-    "ensemble_fig5_grows": (ENSEMBLES, scaled("l2_mean", 0.4, half_width=slice(30, 40))),
-    "ensemble_fig5_maximum": (ENSEMBLES, scaled("linf_mean", 2.0, half_width=slice(60, None))),
-    "ensemble_fig6_grows": (ENSEMBLES, scaled("l2_mean", 0.4, half_width=slice(20, None))),
-    "ensemble_fig6_diverges": (ENSEMBLES, scaled("l2_error", 99.0, half_width=slice(40, None))),
     "second_solver": (SOLVERS, replaced("late_difference", np.full(6, 0.3))),
     "second_solver_sweeps": (SOLVERS, replaced("sweep_difference", np.full(4, 0.3))),
     "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),
