@@ -134,7 +134,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "chain": chain_figure.gather(),
         "drift": figures.gather_drift(by_solvers),
         "norms": figures.gather_norms(leaving, left, ensembles),
-        "spacetime": figures.gather_spacetime(*pair),
+        "spacetime": figures.gather_spacetime(pair, figures.gather_norms(pair, [true, pair[1]])),
         "own_norms": own.gather_norms(pair[0], own_checks(true)),
         "own_spacetime": own.gather_spacetime(pair[0]),
         "own_sweep": own.gather_sweep(panels[0], mean_window="[10, 40]"),

@@ -25,7 +25,7 @@ def draw_norms(
     bands = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_norms(trajectories, [read(path) for path in references], bands)
     save(figures.draw_norms(drawn), drawn, png, pdf, data)
-    drawn = figures.gather_spacetime(*trajectories)
+    drawn = figures.gather_spacetime(trajectories, drawn)
     save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
 
 

@@ -84,20 +84,29 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     return found
 
 
-def gather_spacetime(small: xr.Dataset, large: xr.Dataset) -> xr.Dataset:
-    """Return the moduli |A_n| and |B_n| of two trajectories over sites and snapshots."""
-    cases = [panels.over_time(case) for case in (small, large)]
-    return style.join(cases, SIZES, "initial_size")
+def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
+    """Return the moduli |A_n| and |B_n| of two trajectories over sites and snapshots.
+
+    Beside them is when the runs leave their references, from what `gather_norms` returns of them.
+    """
+    cases = [panels.over_time(case) for case in runs]
+    data = style.join(cases, SIZES, "initial_size")
+    return data.assign(divergence_time=norms["divergence_time"])
 
 
 @style.styled
 def draw_spacetime(data: xr.Dataset) -> Figure:
-    """Draw |A_n| left and |B_n| right, small data above and large below, one scale a row."""
+    """Draw |A_n| left and |B_n| right, small data above and large below, one scale a row.
+
+    A dashed line shows when a run has left its reference.
+    """
     figure = style.new_figure(style.DOUBLE, 4.2)
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
     for row, size in zip(grid, data["initial_size"].values, strict=True):
         case = data.sel(initial_size=size)
         panels.draw_moduli(figure, row, case, 2 * [style.name_case(case)])
+        for axes in row if strips.diverges(case) else ():
+            axes.axvline(float(case["divergence_time"]), color="white", lw=1.0, dashes=(4, 2))
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
     for axes in grid[:, 0]:
@@ -217,12 +226,12 @@ def _draw_difference(axes: Axes, difference: xr.DataArray, **look) -> None:
     axes.plot(curve["tau"], curve, markevery=[], **look)
 
 
-def _mark(axes: Axes, time: xr.DataArray, visible: float, **look) -> None:
-    axes.plot(float(time), visible, **look, markeredgecolor="white", zorder=3)
+def _mark(axes: Axes, time: xr.DataArray, height: float | xr.DataArray, **look) -> None:
+    axes.plot(float(time), float(height), **look, markeredgecolor="white", zorder=3)
 
 
 def _draw_visible(axes: Axes, visible: float) -> None:
-    axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{visible:.0%} (visible)")
+    axes.axhline(visible, color="0.45", dashes=(4, 2), lw=1, label=f"{100 * visible:g} % (visible)")
 
 
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
@@ -232,7 +241,10 @@ def gather_trust(trust: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_trust(data: xr.Dataset) -> Figure:
-    """Draw one panel a case, one line a solver, a mark where its curve is visibly another."""
+    """Draw one panel a case, one line a solver, a mark where its curve is visibly another.
+
+    A curve that never is has its mark at the end, so that marks tell the curves apart everywhere.
+    """
     return panels.draw_cases(data, _draw_trust, "error relative to full scale")
 
 
@@ -243,6 +255,10 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         look = {"color": style.COLOURS[solver], "marker": style.MARKERS[solver]}
         label = SOLVER_NAMES[solver]
         _draw_difference(axes, one["difference"], label=label, markersize=4, **look)
-        _mark(axes, one["horizon"], visible, **look)
+        curve = panels.positive(one["difference"])
+        if np.isfinite(one["horizon"]) or not curve.size:
+            _mark(axes, one["horizon"], visible, **look)
+        else:
+            _mark(axes, curve["tau"][-1], curve[-1], **look, clip_on=False)
     _draw_visible(axes, visible)
     axes.set_ylim(1e-17, 3.0)

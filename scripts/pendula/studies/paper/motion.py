@@ -7,7 +7,7 @@ import numpy as np
 
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results
-from pendula.report.words import case_in_words, measured, number
+from pendula.report.words import case_in_words, measured, number, percent
 
 SIZES = ("small", "large")
 
@@ -23,6 +23,7 @@ def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         "pictures": [_spacetime(results, which) for which in (2, 3, 4)],
         "played": played(results, f"trajectories/{PLAYED}"),
+        "visible": percent(float(results["checks/trust"]["size"].sel(level="visible"))),
     }
 
 
