@@ -21,7 +21,9 @@ sys.path[:0] = [str(ROOT / "scripts")]
 import job  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
-from pendula.measures.growth import fit_exponent  # noqa: E402
+from pendula.measures.confidence import mean_limits  # noqa: E402
+from pendula.measures.laws import compare, span_means  # noqa: E402
+from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers  # noqa: E402
 from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
 
@@ -66,6 +68,7 @@ def keep_long_study(results: Path, folder: Path) -> None:
         **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
         **_amplitudes(read(long / "amplitudes.nc")),
         **_tolerances(read(long / "tolerances.nc")),
+        **_laws(read(long / "fig4_small.nc")),
     }
     tolerance = GIVEN["tolerance"]
     solver = {"solver": "dop853", "solver_rtol": tolerance, "solver_atol": tolerance}
@@ -78,16 +81,27 @@ def _write(path: Path, title: str, variables: dict[str, Variable], **attributes)
     write(path, variables, {"title": title, **attributes, "version": __version__})
 
 
-def _exponent(run: xr.Dataset, variant: int = 0, octaves: int = 1):
-    """Return the exponent of tau that l2 follows in the last octaves of time, with its error."""
+OCTAVES = 2
+"""The exponents hold for so many of the last octaves of time, as in the ledger."""
+
+
+def _exponent(run: xr.Dataset, variant: int = 0):
+    """Return the exponent of tau in l2, and what l2^2 gains meanwhile, both with their limits.
+
+    One member alone tells as much as all where the run is regular; else its limits are infinite.
+    """
     values = run["l2"].isel(variant=variant).transpose("member", "tau").values
     tau = run["tau"].values
-    return fit_exponent(tau, values, tau[-1] * 0.5**octaves)
+    start = tau[-1] * 0.5**OCTAVES
+    return fit_exponent(tau, values, start), fit_line(tau, values[:1] ** 2, start).relative
 
 
-def _varied_exponents(run: xr.Dataset) -> list[float]:
-    """Return the exponent of each variant over the last two octaves, as the ledger takes it."""
-    return [_exponent(run, variant, 2).value for variant in range(run.sizes["variant"])]
+def _varied(run: xr.Dataset, start: float = 10.0) -> tuple[list[float], list[float]]:
+    """Return the exponent of each variant, and the least factor by which l2 grew from `start`."""
+    l2 = run["l2"].transpose("variant", "member", "tau").values
+    factors = l2[:, :, -1] / l2[:, :, np.searchsorted(run["tau"].values, start)]
+    found = [_exponent(run, variant)[0].value for variant in range(run.sizes["variant"])]
+    return found, list(factors.min(axis=1))
 
 
 def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
@@ -99,11 +113,13 @@ def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
             "end": "slow time at the end",
             "members": "members of the ensemble",
             "sites": "sites that the front has passed at the end",
-            "exponent": "exponent of tau in the l2 norm over the last octave",
-            "exponent_error": "its standard error",
+            "exponent": "exponent of tau in the l2 norm over the last octaves",
+            "exponent_error": "its 95 % limits by Student's t, to each side",
+            "growth": "relative growth of l2 over the last octaves, of a line through its square",
+            "growth_error": "its 95 % limits, to each side",
             "linf": "l-infinity norm at the end, mean over the members",
             "speed": "speed of the front, sites per unit of tau",
-            "speed_error": "its standard error",
+            "speed_error": "its 95 % limits, or what the places of the front resolve",
             "predicted_speed": "speed of linear spreading, sites per unit of tau",
             "bulk_power": "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
         }.items()
@@ -111,7 +127,7 @@ def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
 
 
 def _case(run: xr.Dataset) -> dict[str, float]:
-    exponent = _exponent(run)
+    exponent, gained = _exponent(run)
     # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
     pulled = bool(run["predicted_delay"][0] > 0)
     speed, error = speeds(run, FRONT if pulled else BULK, corrected=pulled)
@@ -120,7 +136,9 @@ def _case(run: xr.Dataset) -> dict[str, float]:
         "members": run.sizes["member"],
         "sites": 2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
         "exponent": exponent.value,
-        "exponent_error": exponent.error,
+        "exponent_error": exponent.half,
+        "growth": 0.5 * gained.value,
+        "growth_error": 0.5 * gained.half,
         "linf": float(run["linf"].isel(variant=0, tau=-1).mean()),
         "speed": speed[0],
         "speed_error": error[0],
@@ -135,11 +153,11 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     values = {
         "varied_omega": (omegas, "detuning Omega"),
         "omega_exponent": (
-            _varied_exponents(run),
+            _varied(run)[0],
             "exponent of tau in the l2 norm over the last two octaves",
         ),
         "omega_speed": (speed, "speed of the front, its known delay added back"),
-        "omega_speed_error": (error, "its standard error"),
+        "omega_speed_error": (error, "its 95 % limits, or what the places of the front resolve"),
         "omega_predicted_speed": (run["predicted_speed"].values, "speed of linear spreading"),
         "omega_bulk_power": (
             mean_powers(run).mean(axis=1),
@@ -158,22 +176,45 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
 
 def _amplitudes(run: xr.Dataset) -> dict[str, Variable]:
     along, sizes = ("amplitude",), run["central_modulus"].values
-    title = "exponent of tau in the l2 norm over the last two octaves"
+    title = "factor by which l2 grew since tau = 10, the least of the members"
     return {
         "amplitude": Variable(along, sizes, "initial |A_0| = 5 |B_0| at Omega = -4"),
-        "amplitude_exponent": Variable(along, _varied_exponents(run), title),
+        "amplitude_factor": Variable(along, _varied(run)[1], title),
         "amplitude_end": Variable((), float(run["tau"][-1]), "slow time at the end of these runs"),
     }
 
 
 def _tolerances(run: xr.Dataset) -> dict[str, Variable]:
     along, powers = ("tolerance",), mean_powers(run)
-    error = powers.std(axis=1, ddof=1) / np.sqrt(powers.shape[1])
+    limits = mean_limits(powers.T)
     title = "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"
     return {
         "tolerance": Variable(along, run["tolerance"].values, "tolerance of dop853"),
-        "tolerance_bulk_power": Variable(along, powers.mean(axis=1), title),
-        "tolerance_bulk_power_error": Variable(along, error, "its standard error"),
+        "tolerance_bulk_power": Variable(along, limits.value, title),
+        "tolerance_bulk_power_error": Variable(along, limits.half, "its 95 % limits, to each side"),
+    }
+
+
+AHEAD = 1e6
+"""The tau at which the laws of the largest amplitude say what they predict."""
+
+
+def _laws(run: xr.Dataset, start: float = 10.0) -> dict[str, Variable]:
+    """Return bounded and growing laws of l-infinity, laid through means over spans of log tau."""
+    curves = run["linf"].isel(variant=0).transpose("member", "tau").values
+    means = span_means(run["tau"].values, curves, start)
+    bounded, growing = compare(means)
+    laws = {**bounded, **growing}
+    along = ("law",)
+    return {
+        "law": Variable(along, list(laws), "law of the l-infinity norm"),
+        "law_grows": Variable(along, [int(name in growing) for name in laws], "1: without a bound"),
+        "law_chi2": Variable(
+            along, [fit.chi2 for fit in laws.values()], "chi-squared of the means"
+        ),
+        "law_ahead": Variable(along, [fit.at(AHEAD) for fit in laws.values()], "value far ahead"),
+        "law_spans": Variable((), len(means.values), "spans of log tau"),
+        "law_tau": Variable((), AHEAD, "slow time far ahead"),
     }
 
 

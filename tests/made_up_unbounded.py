@@ -44,6 +44,7 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
             "central_modulus": ("variant", np.resize(amplitudes, variants)),
             "predicted_speed": ("variant", np.full(variants, speed)),
             "predicted_delay": ("variant", np.full(variants, delay)),
+            "predicted_rest": ("variant", np.zeros(variants)),
         },
         {
             "tau": TAU,
@@ -52,7 +53,7 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
             "term": ["cubic", "detuning", "drive", "bonds"],
         },
         {"epsilon": 1.0, "gamma": 1.0, "omega": omegas[0], "initial": '{"0": [1.0, 0.1]}'},
-    )
+    ).assign_attrs(perturbation=1e-6)
     return named(data)
 
 
@@ -107,7 +108,7 @@ def thermal():
 def unbounded_runs() -> dict[str, xr.Dataset]:
     """Return the datasets that the claims read, as a growing sea would make them."""
     made = {
-        "fig4_small": spread(0.5),
+        "fig4_small": spread(0.5, members=6),
         "fig3_large": spread(0.5, omegas=(-4.0,)),
         "fig3_small": spread(0.0, omegas=(-4.0,)),
         "fig2_large": spread(0.0, omegas=(8.0,)),

@@ -40,11 +40,14 @@ def test_the_long_study_is_reduced_to_its_numbers(results, tmp_path):
     keep.main(results, tmp_path / "quoted")
     assert [path.name for path in (tmp_path / "quoted").iterdir()] == ["unbounded.nc"]
     with xr.open_dataset(tmp_path / "quoted/unbounded.nc") as kept:
-        assert kept["exponent"].values == pytest.approx([0.5, 0.51, 0.0, 0.0], abs=0.02)
+        assert kept["exponent"].values[:2] == pytest.approx([0.5, 0.51], abs=0.02)
+        assert kept["growth"].values[2:] == pytest.approx([0.0, 0.0], abs=1e-3)
         assert kept["speed"].values[:2] == pytest.approx([2.9, 0.4], abs=0.03)
         assert kept["omega_speed"].values == pytest.approx(2.9, abs=0.03)
         assert kept["omega_thermal_power"].values == pytest.approx(16.0)
-        assert kept["amplitude_exponent"].values == pytest.approx([0.0, 0.5], abs=0.02)
+        assert kept["amplitude_factor"].values == pytest.approx([1.0, 20.0**0.5], abs=0.05)
+        assert set(kept["law"].values) >= {"constant", "log_tau"}
+        assert kept["law_ahead"].sel(law="constant") < kept["law_ahead"].sel(law="log_tau")
         assert kept["tolerance_bulk_power"].values == pytest.approx(16.0, rel=0.2)
         for name, variable in kept.variables.items():
             assert variable.attrs["long_name"] and variable.attrs["units"], name

@@ -5,7 +5,7 @@
 `levels`      curves against a parameter: levelling off, range, rising steps; bands and means
 `spreading`   lines through l2^2, exponents of tau with an offset, each with its limits
 `laws`        bounded and growing laws of a slow curve, compared
-`growth`      exponents of power laws and of tangent vectors, each with its error; what is chaotic
+`growth`      local exponents of time, rates of tangent vectors with their errors; what is chaotic
 
 Whatever is published is measured here, stored by a study below results/checks/, and read from there
 by figures, tables, claims and the report.

@@ -1,9 +1,11 @@
-"""Growth: exponents of power laws and of tangent vectors, with their errors; what is chaotic."""
+"""Growth: local exponents of time, rates of tangent vectors with their errors; what is chaotic."""
 
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
+
+from .confidence import mean_limits
+from .spreading import lay_line
 
 POINTS = 60
 """Points of a fit, equally spaced in log tau, so that no decade of time outweighs another."""
@@ -16,63 +18,18 @@ ERRORS = 3.0
 PARTS = 8
 
 
-class Exponent(NamedTuple):
-    """values ~ tau^value, with the standard error of the exponent."""
-
-    value: float
-    error: float
-
-
-def slope(tau: np.ndarray, values: np.ndarray, start: float) -> float:
-    """Return the slope of log values over log tau from `start` on."""
-    x, y = _log_points(tau, values, start)
-    return float(np.polyfit(x, y, 1)[0])
-
-
-def fit_exponent(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
-    """Return the exponent of tau that values (member, time) follow from `start` on.
-
-    Its error is the standard error of the mean over the members, or that of a block bootstrap if
-    there is only one member.
-    """
-    slopes = np.array([slope(tau, series, start) for series in values])
-    if len(slopes) > 1:
-        return Exponent(slopes.mean(), slopes.std(ddof=1) / np.sqrt(len(slopes)))
-    return Exponent(slopes[0], bootstrap_error(tau, values[0], start))
-
-
-def fit_rise(tau: np.ndarray, values: np.ndarray, start: float) -> Exponent:
-    """Return the mean slope of the members' values over log tau, and its standard error."""
-    x = np.linspace(np.log(start), np.log(tau[-1]), POINTS)
-    kept = tau > 0
-    drawn = [np.interp(x, np.log(tau[kept]), series[kept]) for series in values]
-    slopes = np.polyfit(x, np.array(drawn).T, 1)[0]
-    error = slopes.std(ddof=1) / np.sqrt(len(slopes)) if len(slopes) > 1 else np.inf
-    return Exponent(float(slopes.mean()), float(error))
-
-
-def bootstrap_error(
-    tau: np.ndarray, values: np.ndarray, start: float, blocks: int = 10, draws: int = 400
-) -> float:
-    """Return the standard error of a slope by a block bootstrap of its residuals.
-
-    Blocks keep the correlation of neighbouring residuals.
-    """
-    x, y = _log_points(tau, values, start)
-    line = np.polyval(np.polyfit(x, y, 1), x)
-    residuals = (y - line).reshape(blocks, -1)
-    rng = np.random.default_rng(2017)
-    chosen = rng.integers(blocks, size=(draws, blocks))
-    return float(np.polyfit(x, (line + residuals[chosen].reshape(draws, -1)).T, 1)[0].std())
-
-
 def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
-    """Return the middle time of each of the last octaves, and the Exponent there."""
+    """Return the middle time of each of the last octaves, and the exponent there, as Limits.
+
+    It is the mean slope of log values (member, time) over log tau, with its limits over the
+    members. An offset bends it: a curve that is steady from some time on has it at the end only.
+    """
     edges = tau[-1] * 0.5 ** np.arange(octaves, -1, -1)
     found = []
     for first, last in pairwise(edges):
         kept = tau <= last * (1.0 + 1e-9)
-        found.append(fit_exponent(tau[kept], values[:, kept], first))
+        lines = [lay_line(*_log_points(tau[kept], series[kept], first)) for series in values]
+        found.append(mean_limits([line.slope for line in lines]))
     return np.sqrt(edges[:-1] * edges[1:]), found
 
 

@@ -89,6 +89,22 @@ def replaced(name, values):
     return change
 
 
+def after_start(name, factor):
+    return lambda run: run.assign({name: run[name].where(run["tau"] == 0.0, factor * run[name])})
+
+
+def centre_times(factor):
+    return lambda run: run.assign(
+        state=run["state"] * np.where(np.arange(run.sizes["site"]) < 8, factor, 1.0)
+    )
+
+
+def one_member_times(factor):
+    return lambda run: run.assign(
+        l2=run["l2"] * np.where(np.arange(run.sizes["member"]) == 1, factor, 1.0)[:, None]
+    )
+
+
 def keeping_attributes(change):
     def changed(ds):
         result = change(ds)
@@ -165,10 +181,9 @@ FLIPS = {
     "unbounded_band": ("unbounded/omegas", lambda _: spread([0.5, 0.0, 0.5], variants=3)),
     "unbounded_front": ("unbounded/omegas", scaled("predicted_speed", 0.9)),
     "unbounded_equilibrium": ("unbounded/thermal", scaled("power", 0.5)),
-    "unbounded_maximum": (
-        "unbounded/fig4_small",
-        lambda run: run.assign(linf=run["linf"] * (run["tau"] + 1.0) ** 0.2),
-    ),
+    "unbounded_large_maximum": ("unbounded/fig3_large", after_start("linf", 3.0)),
+    "unbounded_many": ("unbounded/fig4_small", centre_times(10.0)),
+    "unbounded_determined": ("unbounded/fig2_large", one_member_times(1.5)),
     "unbounded_large": ("unbounded/fig3_large", lambda _: spread(0.1)),
     "unbounded_small": ("unbounded/fig3_small", lambda _: spread(0.1)),
     "unbounded_stable": ("unbounded/fig2_large", lambda _: spread(0.1)),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from oracle import hamiltonian, random_chain
+from pendula.studies.unbounded.active_sites import LEVELS, find_front
 from pendula.studies.unbounded.bulk import (
     complex_pair,
     distribution,
@@ -12,7 +13,7 @@ from pendula.studies.unbounded.bulk import (
     spectrum,
     with_ghosts,
 )
-from pendula.studies.unbounded.front import growth_rate, linear_front, speeds
+from pendula.studies.unbounded.front import growth_rate, linear_front, resolution, speeds
 from problems import constants_of
 
 
@@ -67,19 +68,56 @@ def test_a_linear_front_bounds_the_linear_chain():
     assert abs(reached - (front.speed * tau - front.delay * np.log(tau))) < 2.0
 
 
+def test_the_curvature_at_the_saddle_is_that_of_the_rate():
+    for omega in (-1.5, 0.0, 2.0, 5.5):
+        front = linear_front(constants(omega))
+        k, step = front.wave_number + 1j * front.decay, 1e-3
+
+        def branch(k, omega=omega):
+            s = np.sqrt(4.0 - (2.0 * (1.0 - np.cos(k)) - omega) ** 2 + 0j)
+            return s if s.real > 0 else -s
+
+        second = (branch(k + step) - 2.0 * branch(k) + branch(k - step)) / step**2
+        assert front.diffusion == pytest.approx(-0.5 * second, rel=1e-4)
+
+
+def front_of(way, tau, rest=0.0):
+    """Return a run of the shape that `speeds` reads, with the places `way` of its front."""
+    front = (("variant", "member", "piece_tau", "front_power"), way[None, None, :, None])
+    predicted = {"predicted_delay": ("variant", [1.4]), "predicted_rest": ("variant", [rest])}
+    return xr.Dataset({"front": front} | predicted, {"piece_tau": tau, "front_power": [1e-2]})
+
+
 def test_the_speed_of_a_made_up_front():
     tau = np.arange(2.0, 202.0, 2.0)
-    way = np.floor(2.5 * tau - 1.4 * np.log(tau))
-    run = xr.Dataset(
-        {
-            "front": (("variant", "member", "piece_tau", "front_power"), way[None, None, :, None]),
-            "predicted_delay": ("variant", [1.4]),
-        },
-        {"piece_tau": tau, "front_power": [1e-2]},
-    )
+    run = front_of(2.5 * tau - 1.4 * np.log(tau) - 3.0 / np.sqrt(tau), tau, rest=3.0)
     plain, error = speeds(run)
     corrected, _ = speeds(run, corrected=True)
-    assert plain[0] < 2.495 and corrected[0] == pytest.approx(2.5, abs=error[0])
+    assert plain[0] < 2.495 and corrected[0] == pytest.approx(2.5, abs=1e-9)
+    assert error[0] == resolution(tau) == pytest.approx(1.5 / 133.3, rel=1e-3)
+
+
+def test_no_half_site_to_and_fro_moves_a_speed_by_more_than_the_resolution():
+    """The worst case is a front half a site behind at first, and half a site ahead later."""
+    tau = np.arange(2.0, 202.0, 2.0)
+    middle = 0.5 * (tau[-1] + tau[-1] / 3.0)
+    worst = front_of(2.5 * tau + 0.5 * np.sign(tau - middle), tau)
+    off = abs(speeds(worst)[0][0] - 2.5)
+    assert 0.95 * resolution(tau) < off < 1.02 * resolution(tau)
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        noisy = front_of(2.5 * tau + rng.uniform(-0.5, 0.5, tau.size), tau)
+        assert abs(speeds(noisy)[0][0] - 2.5) < resolution(tau)
+
+
+def test_a_front_is_found_between_two_sites():
+    power = 4.0 * np.exp(-2.0 * np.arange(12.0))
+    state = np.zeros((4, 14))
+    state[0, 1:-1] = np.sqrt(power)
+    found = find_front(state)
+    exact = np.log(4.0 / LEVELS) / 2.0
+    np.testing.assert_allclose(found[:-1], exact[:-1], atol=6e-4)
+    assert found[-1] == -1.0
 
 
 def test_terms_of_the_energy_add_up_to_it():

@@ -96,6 +96,9 @@ def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: 
 LEVELS = np.array([1e-6, 1e-2, 1.0, 4.0])
 """Powers |A|^2 + |B|^2 at which the front is found: its leading edge, and where it breaks."""
 
+DIGITS = 3
+"""Digits that are kept of the place of the front between two sites."""
+
 PIECE = 2.0
 """Units of tau between two looks at the last sites."""
 
@@ -108,7 +111,7 @@ class LongRun(NamedTuple):
     linf: np.ndarray  # (time,)
     energy: np.ndarray  # (time,)
     piece_tau: np.ndarray  # (piece,)
-    front: np.ndarray  # (piece, level): outermost site above each of LEVELS, -1 if none
+    front: np.ndarray  # (piece, level): where the power falls below each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
     bulk: np.ndarray  # (piece, level, 5): means of P and of the terms of H behind each front
     state: np.ndarray  # (row, 1 + site) at the end
@@ -144,9 +147,21 @@ def run_long(
 
 
 def find_front(state: np.ndarray) -> np.ndarray:
-    """Return the outermost site whose power is above each of LEVELS, -1 where there is none."""
+    """Return the site where the power falls below each of LEVELS for good, -1 if none is above.
+
+    Between two sites the logarithm of the power tells. It is rounded to a thousandth of a site,
+    since its last bits differ between machines.
+    """
     power = site_powers(state)
-    return np.array([np.flatnonzero(power > level).max(initial=-1) for level in LEVELS])
+    return np.array([_outermost(power, level) for level in LEVELS])
+
+
+def _outermost(power: np.ndarray, level: float) -> float:
+    site = int(np.flatnonzero(power > level).max(initial=-1))
+    if site < 0 or site + 1 == power.size or power[site + 1] == 0.0:
+        return float(site)
+    beyond = np.log(power[site] / level) / np.log(power[site] / power[site + 1])
+    return site + round(float(beyond), DIGITS)
 
 
 def _start(problem: Problem) -> tuple[dict, np.ndarray]:

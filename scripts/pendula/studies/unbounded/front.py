@@ -7,9 +7,13 @@ its path may be moved to Im k = decay: |D_n| <= C exp(t max Re s - decay n). The
 max Re s / decay is the speed of linear spreading; there k is a saddle point, s'(k) = -i v, where
 Re s = v decay (van Saarloos, Physics Reports 386 (2003) 29). Where the chain at rest is stable, no
 front is pulled, and the fastest group velocity takes its place.
+
+A pulled front comes to v from below, in a way that the saddle point tells as well (Ebert and van
+Saarloos, Physica D 146 (2000) 1): its place is v tau - delay log tau - rest tau^(-1/2) and an
+offset, with delay = 3 / (2 decay), rest = 3 pi^(1/2) Re(D^(-1/2)) / decay^2 and D = -s''(k) / 2.
 """
 
-from dataclasses import asdict, replace
+from dataclasses import asdict, astuple, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -39,7 +43,9 @@ from .bulk import (
 
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau"
 DELAY = "sites lost per unit of log tau on the way to that speed"
+REST = "sites yet to be lost on that way, times tau^(1/2)"
 PIECE_TAU, SITE_OF_FRONT = "slow time at the end of a piece of the run", "site of the front"
+RESOLVES = "limits, to each side: what the places of a front between two sites resolve"
 """What these quantities are called in every dataset of this study."""
 
 
@@ -49,11 +55,20 @@ class LinearFront(NamedTuple):
     speed: float
     decay: float  # zero where the chain at rest is stable
     wave_number: float
+    diffusion: complex = 0.0
+    """-s''(k) / 2 at the saddle point, in sites^2 per unit of tau."""
 
     @property
     def delay(self) -> float:
         """Sites lost per unit of log tau on the way to v: the speed is v - 3 / (2 decay tau)."""
         return 1.5 / self.decay if self.decay else 0.0
+
+    @property
+    def rest(self) -> float:
+        """Sites times tau^(1/2): at tau the front has yet to lose `rest` tau^(-1/2) sites."""
+        if not self.decay:
+            return 0.0
+        return float(3.0 * np.sqrt(np.pi) * (1.0 / np.sqrt(self.diffusion)).real / self.decay**2)
 
 
 def is_unstable(constants: Constants) -> bool:
@@ -75,7 +90,18 @@ def linear_front(constants: Constants) -> LinearFront:
         box = np.linspace(-1.0, 1.0, 21)
         speed, wave, decay = _least(wave + q_span * box, decay + d_span * box, constants)
         q_span, d_span = 0.3 * q_span, 0.3 * d_span
-    return LinearFront(speed, decay, wave)
+    return LinearFront(speed, decay, wave, _diffusion(wave + 1j * decay, constants))
+
+
+def _diffusion(k: complex, constants: Constants) -> complex:
+    """Return -s''(k) / 2 of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
+    epsilon, gamma, omega = astuple(constants)
+    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - omega
+    slope, curvature = 2.0 * epsilon * np.sin(k), 2.0 * epsilon * np.cos(k)
+    s = np.sqrt(4.0 * gamma**2 - kappa**2 + 0j)
+    s = s if s.real > 0.0 else -s
+    first = -kappa * slope / s
+    return complex((slope**2 + kappa * curvature + first**2) / (2.0 * s))
 
 
 def growth_rate(k, constants: Constants):
@@ -122,22 +148,31 @@ def speed_of(tau: np.ndarray, front: np.ndarray) -> float:
     return float(np.polyfit(tau[late], front[late], 1)[0])
 
 
-def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """Return the speeds of each variant of a dataset of runs, mean over members, and their errors.
+def resolution(tau: np.ndarray) -> float:
+    """Return how well the speed of a front can be known from its places at `tau`.
 
-    `corrected` adds back what a pulled front loses on its way, `predicted_delay` log tau. The
-    error is one site over the time of the fit at least: a front stands on sites.
+    A front lies between two sites, and waves at its edge move it to and fro between them. Places
+    that are off by half a site either way change the slope of least squares by at most 3/2 sites
+    over the time of the fit. All members of an ensemble have one front, so they make it no better.
+    """
+    return 1.5 / ((1.0 - SETTLED) * float(tau[-1]))
+
+
+def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Return the speeds of each variant of a dataset of runs, mean over members, and their limits.
+
+    `corrected` adds back what a pulled front loses on its way. The limits are those of the mean by
+    Student's t, and no less than the `resolution`.
     """
     tau = run["piece_tau"].values
     way = run["front"].sel(front_power=level).transpose("variant", "member", "piece_tau").values
     if corrected:
-        way = way + run["predicted_delay"].values[:, None, None] * np.log(tau)
+        delay, rest = (run[f"predicted_{name}"].values[:, None, None] for name in ("delay", "rest"))
+        way = way + delay * np.log(tau) + rest / np.sqrt(tau)
     found = np.array([[speed_of(tau, series) for series in members] for members in way])
-    least = 1.0 / ((1.0 - SETTLED) * tau[-1])
-    if found.shape[1] == 1:
-        return found[:, 0], np.full(len(found), least)
-    error = found.std(axis=1, ddof=1) / np.sqrt(found.shape[1])
-    return found.mean(axis=1), np.maximum(error, least)
+    limits = mean_limits(found.T)
+    half = np.where(np.isfinite(limits.half), limits.half, 0.0)
+    return limits.value, np.maximum(half, resolution(tau))
 
 
 def measure_front(
@@ -164,9 +199,9 @@ def measure_front(
     variables = {
         "omega": over_omega(omega),
         "speed": over_omega(plain, "measured speed of the front, in sites per unit of tau"),
-        "speed_error": over_omega(plain_error, "standard error of the speed of the front"),
+        "speed_error": over_omega(plain_error, f"{RESOLVES} of that speed"),
         "corrected_speed": over_omega(corrected, "speed of the front, its delay added back"),
-        "corrected_speed_error": over_omega(corrected_error, "standard error of that speed"),
+        "corrected_speed_error": over_omega(corrected_error, f"{RESOLVES} of that speed"),
         "predicted_speed": over_omega(omegas["predicted_speed"].values, PREDICTED_SPEED),
         "power": over_omega(power, POWER),
         "power_error": over_omega(power_error, f"half of the 95 % limits of the {POWER}"),
@@ -190,9 +225,9 @@ def measure_front(
 
 
 def _powers(omegas: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean powers over the members, and half of their limits."""
+    """Return the mean powers over the members, and their limits; NaN for one member."""
     limits = mean_limits(mean_powers(omegas).T)
-    return limits.value, limits.half
+    return limits.value, np.where(np.isfinite(limits.half), limits.half, np.nan)
 
 
 def _ways(omegas: xr.Dataset, large: xr.Dataset) -> dict[str, Variable]:

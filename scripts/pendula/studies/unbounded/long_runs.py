@@ -20,7 +20,7 @@ from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_long
 from .bulk import FIRST_OF_LINE, POWER, TERMS, thermal_powers
-from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, SITE_OF_FRONT, linear_front
+from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, REST, SITE_OF_FRONT, linear_front
 
 SIZE, SEED = 1e-6, 2017
 """Relative size of the differences: grown to order one within some ten units of tau by chaos."""
@@ -78,6 +78,7 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         ),
         "predicted_speed": of_variants([front.speed for front in predicted], PREDICTED_SPEED),
         "predicted_delay": of_variants([front.delay for front in predicted], DELAY),
+        "predicted_rest": of_variants([front.rest for front in predicted], REST),
     }
 
 
@@ -135,7 +136,9 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
         "octave_tau": Variable(octave, [one[0] for one in local], "middle of an octave of tau"),
         "l2_exponent": Variable(octave, [one[1] for one in local], "exponent of tau in l2"),
         "l2_exponent_error": Variable(
-            octave, [one[2] for one in local], "standard error of the exponent of tau in l2"
+            octave,
+            [one[2] for one in local],
+            "95 % limits of the exponent of tau in l2 by Student's t, to each side",
         ),
         **_rates(first, thermal),
     }
@@ -155,10 +158,11 @@ def _series(run: xr.Dataset, name: str) -> list[np.ndarray]:
 
 
 def _exponents(run: xr.Dataset) -> tuple[np.ndarray, ...]:
-    """Return the middles of the last octaves, the exponents of l2 there, and their errors."""
+    """Return the middles of the last octaves, the exponents of l2 there, and their limits."""
     values = run["l2"].transpose("member", "tau").values
     middles, fits = local_exponents(run["tau"].values, values, OCTAVES)
-    return middles, *np.array(fits).T
+    halves = [fit.half if np.isfinite(fit.half) else np.nan for fit in fits]
+    return middles, np.array([fit.value for fit in fits]), np.array(halves)
 
 
 # --- l2^2 against the law 2 v P tau ---------------------------------------------------------------
