@@ -47,7 +47,8 @@ class Baseline:
 
 def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[str, dict]:
     """Return the facts of every topic; the last two are config.yaml and chaos.yaml as read."""
-    topics = (ledger, solvers, chaos, ensembles, unbounded, theory, references, speed, hard_cases)
+    topics = (ledger, solvers, chaos, ensembles, lifetimes, unbounded, theory, references)
+    topics += (speed, hard_cases)
     return {topic.__name__: topic(baseline) for topic in topics} | {
         "configured": configured(configuration, chaos_study)
     }
@@ -174,6 +175,7 @@ def chaos(baseline: Baseline) -> dict:
 def ensembles(baseline: Baseline) -> dict:
     """Return the widths of the bands of the ensembles, and the sweep of Fig 6, right."""
     bands, moments = baseline["checks/ensemble_runs"], baseline["checks/ensembles"]
+    members = baseline["checks/members"]
     swept = moments.sel(sweep="fig6_right", quantity="pair", statistic="max", window="[10, 70]")
     late = swept.where(swept["half_width"] >= LATE, drop=True)
     peak = swept.isel(half_width=int(swept["l2_mean"].values.argmax()))
@@ -185,6 +187,8 @@ def ensembles(baseline: Baseline) -> dict:
                 "case": case_of(bands.sel(case=case)),
                 "middle": number(bands["band_middle"].sel(case=case)),
                 "width": percent(bands["band_width"].sel(case=case)),
+                "ratio": number(members["width_ratio"].sel(case=case)),
+                "limits": _limits(members.sel(case=case), "width_ratio"),
             }
             for case in bands["case"].values
         ],
@@ -195,6 +199,39 @@ def ensembles(baseline: Baseline) -> dict:
         "late": span(late["l2_mean"].values, 2),
         "late_error": span(late["l2_error"].values, 1),
         "scatter": f"{percent(scatter.min())} to {percent(scatter.max())}",
+    }
+
+
+def _limits(data: xr.Dataset, name: str) -> str:
+    """Return confidence limits; a time that no run lived to see is infinite."""
+    low, high = (float(data[f"{name}_{end}"]) for end in ("low", "high"))
+    return f"{number(low)} to {number(high)}" if np.isfinite(high) else f"over {number(low)}"
+
+
+def lifetimes(baseline: Baseline) -> dict:
+    """Return how long the central pendulum stays localised, by its initial amplitude."""
+    lives = baseline["checks/lifetimes"]
+    differ = np.isfinite(lives["rate"].values)
+    slow, fast = lives.isel(amplitude=differ), lives["median"].isel(amplitude=~differ)
+    coarse = lives.isel(choice=int(lives["choice_tolerance"].values.argmax()))
+    return {
+        "from": number(slow["amplitude"].min()),
+        "end": number(lives["tau"].max()),
+        "fast": span(fast.values, 2),
+        "settled": number(lives.attrs["settled"]),
+        "rows": [
+            {
+                "case": number(a0),
+                "kept": percent(slow["surviving"].sel(amplitude=a0)[-1]),
+                "rate": number(slow["rate"].sel(amplitude=a0), 2),
+                "limits": _limits(slow.sel(amplitude=a0), "rate"),
+            }
+            for a0 in slow["amplitude"].values
+        ],
+        "coarse": number(coarse["choice_tolerance"]),
+        "coarse_drift": number(coarse["choice_drift"], 1),
+        "coarse_rate": number(coarse["choice_rate"], 2),
+        "compared": number(lives["compared_amplitude"]),
     }
 
 

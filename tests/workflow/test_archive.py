@@ -15,7 +15,15 @@ from pendula import __version__
 
 NAME = f"pendula-{__version__}"
 ARCHIVE = f"results/archive/{NAME}.tar.gz"
-DRAWING = {"bounds", "chaos_figures", "ensembles_figure", "front", "growth_law", "window_map"} | {
+DRAWING = {
+    "bounds",
+    "chaos_figures",
+    "ensembles_figure",
+    "lifetimes_figure",
+    "front",
+    "growth_law",
+    "window_map",
+} | {
     *("figures", "solver_figures", "stability_figures", "trust_horizons"),
     *(f"fig{n}" for n in range(1, 7)),
 }
