@@ -16,7 +16,7 @@ from llvmlite import binding
 HASHES = {
     "taylor": "f71cfb065655de7a",
     "dop853": "38b2cde420d22b67",
-    "crank_nicolson": "1fa411e98fd3a6a9",
+    "crank_nicolson": "6f9d6c6adde79234",
     "delfour_fortin_payre": "24e783140ae11f55",
 }
 """Bits that every machine must get. A change of the equations' or a solver's arithmetic changes

@@ -26,15 +26,30 @@ def advance(old, h, slope, new):
             new[row, j] = old[row, j] + h * slope[row, j]
 
 
+@uncached
+def reflect(old, base):
+    """Set base = 2 old - base, ghosts left alone."""
+    for row in range(old.shape[0]):
+        for j in range(1, old.shape[1] - 1):
+            base[row, j] = 2.0 * old[row, j] - base[row, j]
+
+
 def build(rates, observe):
     """Return the solver of y' = rates by the trapezoidal rule; see the package."""
 
     @uncached
-    def begin(system, old, h, scratch):
-        """Half a step of the explicit Euler method; half a step of the implicit one remains."""
-        rates(system, old, scratch)
-        advance(old, 0.5 * h, scratch, scratch)
-        return scratch, 0.5 * h, 1
+    def begin(system, old, h, follows, base):
+        """Half a step of the explicit Euler method; half a step of the implicit one remains.
+
+        The step before ended where old = base + h/2 F(old) for its own base, so that the new one,
+        old + h/2 F(old), needs no right-hand side.
+        """
+        if follows:
+            reflect(old, base)
+            return base, 0.5 * h, 0
+        rates(system, old, base)
+        advance(old, 0.5 * h, base, base)
+        return base, 0.5 * h, 1
 
     @uncached
     def slope(system, old, new, scratch, dy):
@@ -47,7 +62,7 @@ def build_midpoint(rates, observe):
     """Return the solver of y' = rates by the implicit midpoint rule."""
 
     @uncached
-    def begin(system, old, h, scratch):
+    def begin(system, old, h, follows, scratch):
         return old, h, 0
 
     @uncached

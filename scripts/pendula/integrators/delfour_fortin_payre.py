@@ -19,7 +19,7 @@ def build(mean_rates, observe):
     """
 
     @uncached
-    def begin(system, old, h, scratch):
+    def begin(system, old, h, follows, scratch):
         return old, h, 0
 
     return fixed_point.build(begin, mean_rates, observe)

@@ -22,6 +22,8 @@ PAST = 6
 """Increments that the first guess is extrapolated from."""
 WORK = 4 + PAST
 """Work arrays of the size of a state."""
+SAME = 1e-12
+"""Steps whose lengths differ by this part are one length, since times of outputs are rounded."""
 SMALLEST_FRACTION = 2.0**-20
 """The part of a step below which halving it is given up."""
 
@@ -89,17 +91,18 @@ def is_finite(y):
 def build(begin, slope, observe):
     """Return the solver whose step, new = base + part G(new), two functions describe.
 
-    begin(system, old, h, scratch) returns `base` and `part`, which are then kept for all iterations
-    of the step, and how many right-hand sides that took; `base` may be `scratch`.
+    begin(system, old, h, follows, scratch) returns `base` and `part`, which are then kept for all
+    iterations of the step, and how many right-hand sides that took. `base` may be `scratch`, which
+    holds what it held after the step before if this step `follows` one of the same length.
     slope(system, old, new, scratch, dy) writes G(new) into dy; its `scratch` is another array.
 
     The distance between two outputs is covered in equal steps, none longer than `step`.
     """
 
     @uncached
-    def iterate(system, old, new, h, scratch, enough, most):
+    def iterate(system, old, new, h, follows, scratch, enough, most):
         """Iterate `new` to the solution; return whether it contracted, and the evaluations."""
-        base, part, evaluations = begin(system, old, h, scratch[0])
+        base, part, evaluations = begin(system, old, h, follows, scratch[0])
         last = np.inf
         for count in range(1, most + 1):
             slope(system, old, new, scratch[1], scratch[2])
@@ -122,7 +125,7 @@ def build(begin, slope, observe):
         halvings, evaluations = 1, 0
         while covered < 1.0:
             copy(old, new)
-            good, count = iterate(system, old, new, fraction * h, scratch, enough, most)
+            good, count = iterate(system, old, new, fraction * h, False, scratch, enough, most)
             evaluations += count
             if good:
                 copy(new, old)
@@ -139,6 +142,7 @@ def build(begin, slope, observe):
         step, tolerance, most = controls
         new, scratch, past = work[0], work[1:4], work[4:]
         next_past = steps = rejected = evaluations = 0
+        last = 0.0  # length of the step before; 0 if there was none, or if it was halved
         for i in range(times.size):
             span = times[i] - times[max(i - 1, 0)]
             parts = int(np.ceil(span / step * (1.0 - 1e-12)))
@@ -146,14 +150,15 @@ def build(begin, slope, observe):
             for part in range(parts):
                 h = span / parts
                 extrapolate(y, past, next_past - 1, new)
-                good, count = iterate(system, y, new, h, scratch, enough, int(most))
+                follows = abs(h - last) <= SAME * h
+                good, count = iterate(system, y, new, h, follows, scratch, enough, int(most))
                 evaluations += count
                 if good:
                     accept(y, new, past[next_past])
-                    next_past = (next_past + 1) % PAST
+                    next_past, last = (next_past + 1) % PAST, h
                 else:
                     good, halvings, count = halve(system, y, new, h, scratch, enough, int(most))
-                    rejected += halvings
+                    rejected, last = rejected + halvings, 0.0
                     evaluations += count
                 if not good:
                     status = NO_CONTRACTION if is_finite(y) else NOT_FINITE
