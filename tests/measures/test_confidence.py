@@ -80,3 +80,15 @@ def test_no_death_bounds_the_mean_life_from_below_only():
     value, low, high = confidence.mean_life([np.inf] * 20, 10.0)
     assert value == high == np.inf
     assert low == pytest.approx(200.0 / -np.log(0.025), rel=1e-5)
+
+
+def test_one_more_draw_has_every_chance_alike():
+    draws = RNG.normal(2.0, 3.0, size=(9, 4000))
+    members, new = draws[:8], draws[8]
+    moments = members.mean(axis=0), members.std(axis=0, ddof=1)
+    chances = confidence.chance_of_draw(new, *moments, 8)
+    for level in (0.05, 0.5, 0.9):
+        assert np.mean(chances < level) == pytest.approx(level, abs=0.025)
+    assert confidence.chance_of_draw(2.0, 2.0, 3.0, 8) == 1.0
+    known = 2.0 * stats.t.sf(3.0 / np.sqrt(1.125), 7)
+    assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == pytest.approx(known, abs=1e-6)

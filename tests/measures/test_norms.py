@@ -1,9 +1,9 @@
-"""What is read off one run: P, drift, late means, and the margin to the bound (19)."""
+"""What is read off one run: P, drift, and the margin to the bound (19)."""
 
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.measures.norms import drift, growth_margin, largest, late_difference, mean, total_power
+from pendula.measures.norms import drift, growth_margin, largest, mean, total_power
 
 
 def run(a=3.0, b=4.0, count=11):
@@ -21,15 +21,6 @@ def test_p_is_the_square_of_both_norms_and_the_pair_is_as_large_as_the_larger():
 def test_the_drift_is_absolute_and_starts_at_zero():
     assert drift([-2.0, -2.5, -1.0]).tolist() == [0.0, 0.5, 1.0]
     assert drift([[1.0, 1.0], [5.0, 4.0]]).max(axis=1).tolist() == [0.0, 1.0]
-
-
-def test_late_means_forget_what_happened_early():
-    other = run()
-    other["l2"][:, :5] = 100.0
-    assert late_difference(run(), other) == 0.0
-    assert late_difference(run(), run(6.0, 8.0)) == pytest.approx(1.0)
-    other["linf"][:, 5:] = 5.0
-    assert late_difference(run(), other) == pytest.approx(0.25)
 
 
 def test_growth_at_the_bound_has_no_margin_and_beyond_it_less():

@@ -56,8 +56,8 @@ rule measure_ensembles:
     conda:
         "../envs/pinned.yaml"
     params:
-        kind=lambda wildcards: wildcards.kind.removeprefix("_") or "even",
         **ensemble_params(SETTINGS.chaos.ensembles),
+        kind=lambda wildcards: wildcards.kind.removeprefix("_") or "even",
     message:
         "Running ensembles of the chaotic cases and sweeps"
     script:

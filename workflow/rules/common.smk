@@ -46,7 +46,7 @@ ENSEMBLE_SWEEPS = SETTINGS.chaos.ensembles.sweeps
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
-SOLVER_CHECKS = ["solvers", "trust"]
+SOLVER_CHECKS = ["solvers", "second_solver", "trust"]
 CHAOS_CHECKS = [
     *("lyapunov", "symmetry", "ensembles", "ensembles_uneven", "ensemble_runs"),
     *("members", "lifetimes"),

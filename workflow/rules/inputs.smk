@@ -56,8 +56,11 @@ def makers():
         "measure_lifetimes": checks("lifetimes"),
         "compare_ensembles": checks("ensemble_runs"),
         "measure_solvers": checks("solvers"),
+        "measure_second_solver": checks("second_solver"),
         "measure_trust": checks("trust"),
-        "trajectory": trajectories() + trajectories(".crank_nicolson"),
+        "trajectory": [
+            path for solver in ("", *ALL_SOLVERS) for path in trajectories(solver and f".{solver}")
+        ],
         "sweep": sweeps() + sweeps(".crank_nicolson"),
         "spread": [f"results/unbounded/{study}.nc" for study in SETTINGS.unbounded.names],
         "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
@@ -224,6 +227,7 @@ NUMBERS_BY = [
     *("chaos/measure_lyapunov.py", "chaos/measure_symmetry.py", "chaos/measure_ensembles.py"),
     *("chaos/measure_members.py", "chaos/measure_lifetimes.py"),
     *("chaos/compare_ensembles.py", "paper/measure_solvers.py", "paper/measure_trust.py"),
+    "paper/measure_second_solver.py",
     *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/solve_thermal.py"),
     "unbounded/measure_growth.py",
 ]

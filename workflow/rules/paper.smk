@@ -135,6 +135,26 @@ rule measure_solvers:
         "../../scripts/paper/measure_solvers.py"
 
 
+rule measure_second_solver:
+    "What the scheme and the step of the second solver decide, of which the paper says little"
+    input:
+        code=code("paper/measure_second_solver.py"),
+        kernels=kernels("crank_nicolson", "delfour_fortin_payre"),
+        firsts=expand("results/trajectories/{case}.nc", case=PAPER_CASES),
+    output:
+        data="results/checks/second_solver.nc",
+    log:
+        "results/logs/checks/second_solver.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        problems={case: SETTINGS.problem(case, "crank_nicolson") for case in PAPER_CASES},
+    message:
+        "Measuring what the scheme and the step of the second solver decide"
+    script:
+        "../../scripts/paper/measure_second_solver.py"
+
+
 rule solver_figures:
     "How well each solver conserves the energy, and until when they draw the same curves"
     input:

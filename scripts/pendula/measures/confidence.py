@@ -54,6 +54,16 @@ def difference_limits(one, other, confidence: float = CONFIDENCE) -> Limits:
     return Limits(difference, difference - off, difference + off)
 
 
+def chance_of_draw(value, mean, deviation, members: int):
+    """Return the chance that one more draw is at least as far from the mean as `value`.
+
+    `mean` and `deviation` are those of `members` normal draws, numbers or arrays of one shape; the
+    chance is that of Student's t with the error of the mean included.
+    """
+    score = np.abs(value - mean) / (deviation * sqrt(1.0 + 1.0 / members))
+    return np.round(2.0 * special.stdtr(members - 1, -score), 6)
+
+
 def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> Limits:
     """Return the ratio of two means over `members` each, mean[1] / mean[0], and its limits.
 

@@ -34,18 +34,6 @@ def drift(energy) -> np.ndarray:
     return np.abs(energy - energy[..., :1])
 
 
-def late_difference(one, other) -> float:
-    """Return the relative difference of two runs' mean norms over the second half of the time.
-
-    Two chaotic runs that have diverged may still be alike in this sense. The norms are l2 and
-    l-infinity of the pair, and the larger difference counts.
-    """
-    half = one["tau"].values >= 0.5 * float(one["tau"][-1])
-    l2 = np.mean(np.sqrt(total_power(other))[half]) / np.mean(np.sqrt(total_power(one))[half])
-    linf = np.mean(largest(other)[half]) / np.mean(largest(one)[half])
-    return float(max(abs(l2 - 1.0), abs(linf - 1.0)))
-
-
 def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, float]:
     """Return how close a trajectory with norms `l2`, shape (2, time), comes to the bound (19).
 

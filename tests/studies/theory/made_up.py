@@ -2,7 +2,6 @@
 
 import numpy as np
 import xarray as xr
-from pendula.studies.paper.solvers import compare
 
 HALF_WIDTHS = np.array([5, 10, 20, 30, 40, 60, 80, 100])
 WINDOWS = ["[10, 40]", "[10, 50]", "[10, 70]"]
@@ -115,15 +114,3 @@ def paper_sweeps() -> dict[str, xr.Dataset]:
         "fig6_right": sweep("fig6_right", -4.0, growing),
     }
     return {f"sweeps/{name}": ds for name, ds in made.items()}
-
-
-def compared_solvers() -> xr.Dataset:
-    """Return the comparison of solvers that all give the same, with drifts of the stated orders."""
-    trajectories, sweeps = paper_trajectories(), paper_sweeps()
-    runs = {
-        (name.removeprefix("trajectories/"), solver): run
-        for name, run in trajectories.items()
-        for solver in ("ode45", "crank_nicolson", "delfour_fortin_payre", "dop853")
-    }
-    pairs = {name.removeprefix("sweeps/"): (sweep, sweep) for name, sweep in sweeps.items()}
-    return compare(runs, pairs)

@@ -1,0 +1,81 @@
+"""The paper's second solver in both readings, and at several steps: what its silence leaves open.
+
+The paper names neither the scheme exactly nor its step. Here each scheme runs at the configured
+step, at twice and at half of it, and is held to the paper's first solver.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.measures.difference import VISIBLE, first_above, norm_difference
+from pendula.measures.norms import drift
+from pendula.problem import Problem
+from pendula.simulation.simulate import Trajectory, simulate
+
+SCHEMES = ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
+FACTORS = (2.0, 1.0, 0.5)
+"""Steps in units of the configured one, each half of the one before."""
+GRID = ("case", "scheme", "step")
+RICHARDSON = 4.0 / 3.0
+"""A method of second order is off by so many times its difference from half the step."""
+
+
+def measure(problems: Mapping[str, Problem], firsts: Mapping) -> Contents:
+    """Return how far the schemes are from the runs `firsts` of the first solver, by case.
+
+    `problems` are those of the cases by the second solver, at the configured step.
+    """
+    found = [_measure_case(problem, firsts[case]) for case, problem in problems.items()]
+    described, shared = describe_cases(problems)
+    step = next(iter(problems.values())).solver["step"]
+    about = {
+        "scheme_difference": (GRID, "largest difference of the norms from the first solver's"),
+        "scheme_divergence": (GRID, f"first tau of a difference of {VISIBLE:.0%} of full scale"),
+        "scheme_drift": (GRID, "largest drift of the energy"),
+        "step_error": (GRID[:2], "error of the norms by the step, estimated from half the step"),
+        "readings_difference": (
+            ("case", "step"),
+            "largest difference of the norms by the trapezoidal and the midpoint rule",
+        ),
+    }
+    variables = {
+        **described,
+        "scheme": Variable(("scheme",), list(SCHEMES), "scheme of the second solver"),
+        "step": Variable(("step",), [step * factor for factor in FACTORS], "step of the scheme"),
+    }
+    for name, (grid, long_name) in about.items():
+        variables[name] = Variable(grid, np.array([one[name] for one in found]), long_name)
+    attributes = {key: value for key, value in shared.items() if not key.startswith("solver")}
+    title = "The second solver by both readings and by the scheme that conserves the energy"
+    return variables, {"title": title, **attributes, "configured_step": step}
+
+
+def _measure_case(problem: Problem, first) -> dict[str, np.ndarray]:
+    runs = [[_run(problem, scheme, factor) for factor in FACTORS] for scheme in SCHEMES]
+    apart = [[_difference(run, first) for run in row] for row in runs]
+    readings = [_largest(one, other) for one, other in zip(*runs[:2], strict=True)]
+    return {
+        "scheme_difference": np.array([[one.max() for one in row] for row in apart]),
+        "scheme_divergence": np.array(
+            [[first_above(problem.times, one, VISIBLE) for one in row] for row in apart]
+        ),
+        "scheme_drift": np.array([[drift(run.energy).max() for run in row] for row in runs]),
+        "step_error": np.array([RICHARDSON * _largest(*row[1:]) for row in runs]),
+        "readings_difference": np.array(readings),
+    }
+
+
+def _run(problem: Problem, scheme: str, factor: float) -> Trajectory:
+    controls = {**problem.solver, "name": scheme, "step": factor * problem.solver["step"]}
+    return simulate(problem.changed(solver=controls, snapshot_every=0))
+
+
+def _difference(run, first) -> np.ndarray:
+    return norm_difference(*(np.asarray(one) for one in (run.linf, run.l2, first.linf, first.l2)))
+
+
+def _largest(one, other) -> float:
+    return float(_difference(one, other).max())

@@ -1,0 +1,135 @@
+"""The second solver: its schemes and steps, and what decides the sentences on it."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.ledger.criterion import UndecidableError, Verdict
+from pendula.simulation.simulate import simulate
+from pendula.studies.paper import claims_solvers as claims
+from pendula.studies.paper.second_solver import SCHEMES, measure
+from problems import problem_of
+
+ABOUT = {"case": "fig2_small", "omega": 8.0, "initial": "{}", "solver": "ode45"}
+
+
+@pytest.fixture(scope="module")
+def measured():
+    controls = {"name": "crank_nicolson", "step": 0.01, "tolerance": 1e-13, "iterations": 50}
+    problem = problem_of("fig2_small", half_width=6, end_time=2.0, output_step=0.02)
+    variables, about = measure(
+        {"fig2_small": problem.changed(solver=controls)}, {"fig2_small": simulate(problem)}
+    )
+    assert about["configured_step"] == 0.01 and "solver_step" not in about
+    return {name: np.squeeze(variables[name].values) for name in variables}
+
+
+def test_every_scheme_is_of_second_order_and_one_keeps_the_energy(measured):
+    assert tuple(measured["scheme"]) == SCHEMES
+    assert measured["step"].tolist() == [0.02, 0.01, 0.005]
+    for name in ("scheme_difference", "readings_difference"):
+        ratios = measured[name][..., :-1] / measured[name][..., 1:]
+        np.testing.assert_allclose(ratios, 4.0, rtol=0.15)
+    drifts = dict(zip(SCHEMES, measured["scheme_drift"], strict=True))
+    assert drifts.pop("delfour_fortin_payre").max() < 1e-8
+    assert all(drift.min() > 1e-5 for drift in drifts.values())
+
+
+def test_the_error_by_the_step_is_estimated_without_the_solution(measured):
+    np.testing.assert_allclose(
+        measured["step_error"], measured["scheme_difference"][:, 1], rtol=0.1
+    )
+
+
+def energies(*drifts):
+    """Return runs whose energy drifts by these numbers to tau = 10, and by these to tau = 50."""
+    tau = np.linspace(0.0, 50.0, 51)
+    return [
+        xr.Dataset({"energy": ("tau", np.where(tau <= 10, early, late) * (tau > 0))}, {"tau": tau})
+        .assign_attrs(ABOUT | {"case": f"case{i}"})
+        for i, (early, late) in enumerate(drifts)
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("drifts", "verdict", "said"),
+    [
+        (((1e-6, 1.9e-6), (1e-7, 1e-7)), Verdict.CONFIRMED, ""),
+        (((1e-6, 3e-6), (1e-7, 1e-7)), Verdict.UNDECIDED, "case0 to tau = 11, case1 to the end"),
+        (((1e-7, 1e-7), (3e-6, 3e-6)), Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
+    ],
+)
+def test_an_energy_that_is_kept_early_only_leaves_the_end_time_to_decide(drifts, verdict, said):
+    finding = claims.drifts(energies(*drifts), "small")
+    assert finding.verdict == verdict and said in finding.because
+
+
+def test_short_runs_say_nothing_of_the_energy():
+    with pytest.raises(UndecidableError, match="tau = 15"):
+        claims.drifts([run.sel(tau=slice(0, 15)) for run in energies((0, 0))], "large")
+
+
+def test_only_a_case_that_was_followed_is_known_to_be_chaotic():
+    lyapunov = xr.Dataset(
+        {"omega": ("case", [8.0]), "initial": ("case", ["{}"]), "chaotic": ("case", [1])}
+    )
+    run = xr.Dataset(attrs=ABOUT)
+    assert claims.is_chaotic(lyapunov, run)
+    with pytest.raises(UndecidableError, match="fig2_small"):
+        claims.is_chaotic(lyapunov, run.assign_attrs(omega=7.0))
+
+
+def members(level):
+    """Return 32 members of two kinds, of which the even ones scatter by one about a level."""
+    drawn = level + np.random.default_rng(1).normal(size=(2, 1, 32, 1, 2))
+    drawn[1] += 100.0
+    grid = ("kind", "case", "member", "quantity", "window")
+    return xr.Dataset(
+        {"l2_level": (grid, drawn), "linf_level": (grid, drawn)},
+        {
+            "kind": ["even", "uneven"], "case": ["fig2_small"], "quantity": ["pair"],
+            "window": ["[10, 30]", "[30, 50]"],
+        },
+    )  # fmt: skip
+
+
+def test_a_run_is_one_more_draw_from_the_even_members_after_it_has_diverged():
+    tau = np.linspace(0.0, 50.0, 501)
+    norms = xr.DataArray(
+        np.array([7.0 + 0.0 * tau, 0.0 * tau]),
+        {"component": ["A", "B"], "tau": tau}, ("component", "tau"),
+    )  # fmt: skip
+    run = xr.Dataset({"l2": norms, "linf": norms})
+    alike = claims.late_chances(run, members(7.0), "fig2_small", 20.0)
+    assert len(alike) == 2 and min(alike) > 0.5
+    assert len(claims.late_chances(run, members(7.0), "fig2_small", 5.0)) == 4
+    assert max(claims.late_chances(run, members(17.0), "fig2_small", 20.0)) < 1e-3
+    with pytest.raises(UndecidableError, match="tau = 40"):
+        claims.late_chances(run, members(7.0), "fig2_small", 40.0)
+
+
+def swept(l2, dims=("half_width", "quantity", "statistic", "window")):
+    """Return a sweep over eight half-widths, the same by every reading."""
+    values = np.reshape(l2, (8, 1, 1, 1)) * np.ones((8, 1, 2, 2))
+    return xr.Dataset(
+        {"l2": (dims, values), "linf": (dims, values / 4)},
+        {
+            "half_width": np.arange(5, 45, 5), "quantity": ["pair"], "statistic": ["max", "mean"],
+            "window": ["[10, 40]", "[10, 70]"],
+        },
+    )  # fmt: skip
+
+
+def test_a_sweep_is_held_to_its_ensemble_point_by_point():
+    sweep = swept(10.0 + np.arange(8.0))
+    moments = {"l2_mean": sweep["l2"], "l2_deviation": 0.1 * sweep["l2"]}
+    ensemble = xr.Dataset(moments).expand_dims(sweep=["fig6_right"]).assign_attrs(swept_members=8)
+    alike = claims.swept_draws("fig6_right", sweep, ensemble)
+    assert claims.together(alike["text"]) == 1.0 and alike["off"] == [0.0]
+    other = swept(10.0 + np.arange(8.0) + 9.0 * (np.arange(8) == 3))
+    apart = claims.swept_draws("fig6_right", other, ensemble)
+    assert claims.together(apart["text"]) < 0.02 and apart["off"][0] > 0.6
+    assert claims.regular_difference(sweep, other) > 0.6
+    with pytest.raises(UndecidableError, match="no ensemble of fig5_left"):
+        claims.swept_draws("fig5_left", sweep, ensemble)
+    with pytest.raises(UndecidableError, match="six"):
+        claims.regular_difference(sweep.isel(half_width=slice(0, 3)), sweep)
