@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import style
 
-TOLD = ["corrected_speed", "corrected_speed_error", "predicted_speed", "expected_power"]
+TOLD = ["corrected_speed", "corrected_speed_error", "predicted_speed", "expected_power",
+        "slope_power", "slope_power_error"]  # fmt: skip
 """The variables of the measured front that the report tells, and the figure does not show."""
 
 LATE = 10
