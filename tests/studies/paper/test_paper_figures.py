@@ -4,7 +4,7 @@ import made_up_chaos
 import numpy as np
 import pytest
 from pendula.drawing import style
-from pendula.studies.paper import figures
+from pendula.studies.paper import figures, solvers
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +84,16 @@ def test_a_band_is_drawn_from_the_ensemble_of_its_case(make_trajectory, ensemble
     assert small["band_l2"].isnull().all() and int(large["members"]) == 3
     expected = ensembles["l2"].isel(case=0).sel(quantity="B", quantile=0.95)
     assert np.array_equal(large["band_l2"].sel(component="B", quantile=0.95), expected)
+
+
+def test_the_line_stands_where_the_dataset_of_horizons_says(make_trajectory):
+    run, true = make_trajectory(), make_trajectory()
+    true["l2"][0, 4:] *= 1.5
+    drawn = figures.gather_norms([run, run], [true, run])["divergence_time"]
+    runs = {(name, "ode45"): run for name in figures.SIZES}
+    horizons = solvers.trust(runs, {"small": true, "large": run})["horizon"]
+    stored = horizons.sel(level="visible", solver="ode45")
+    assert np.array_equal(drawn, stored) and list(drawn) == [2.0, np.inf]
 
 
 def test_another_case_than_the_reference_stands_alone(make_trajectory):

@@ -195,7 +195,7 @@ def _draw_drift(axes: Axes, case: xr.Dataset) -> None:
         label = SOLVER_NAMES[solver]
         axes.plot(curve["tau"], curve, label=label, markevery=marked, **look)
     axes.axhline(
-        float(case["stated_drift"]), color="0.45", dashes=(4, 2), lw=1, label="paper's claim"
+        float(case["stated_drift"]), color="0.45", dashes=(4, 2), lw=1, label="stated by the paper"
     )
 
 
