@@ -128,7 +128,7 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
     width = {"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])}
     run = xr.Dataset(width, attrs={"omega": 0.0})
     names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
-             "fig6_diverges", "unbounded_window", "unbounded_front")  # fmt: skip
+             "ensemble_fig6_diverges", "unbounded_window", "unbounded_front")  # fmt: skip
     rows = [made_up.claim(n, decided_by=["unbounded/fig4_small"], measured=measured) for n in names]
     return made_up.MadeUp(
         folder,

@@ -110,13 +110,6 @@ def late(trajectory, start: float = SETTLED):
     return trajectory.sel(tau=slice(start, None))
 
 
-def halves(trajectory):
-    """Return the two halves of the late part."""
-    settled = late(trajectory)
-    middle = 0.5 * (float(settled["tau"][0]) + float(settled["tau"][-1]))
-    return settled.sel(tau=slice(None, middle)), settled.sel(tau=slice(middle, None))
-
-
 def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair"):
     """Return the half-widths of a sweep and one statistic of a norm of the pair at each."""
     if window not in sweep["window"].values:

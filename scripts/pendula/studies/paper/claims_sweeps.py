@@ -7,10 +7,8 @@ and once the front does not reach the ends, a longer chain changes nothing.
 import numpy as np
 
 from pendula.ledger.claim import (
-    CHANGE,
     CONSTANT,
     FACTOR,
-    NEARLY_ALL,
     Control,
     checks,
     claim,
@@ -29,43 +27,23 @@ from pendula.ledger.criterion import (
     Below,
     Finding,
     Levels,
-    NeverLevels,
     UndecidableError,
     judge,
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures import levels
-from pendula.measures.levels import levelling, relative_range, rising_share
+from pendula.measures.levels import levelling, relative_range
 from pendula.measures.norms import constants, total_power
 from pendula.models.bounds import proven_region, theorem_1_bound, theorem_2_constants, widened_bound
 
 SECTION = 5
 
-# ASSUME: "whatever M" leaves out M < 10, where the ends are everywhere.
-SHORTEST = 10
 WINDOW = "[10, 50]"
 """Of Fig 5, by the text and by the caption."""
-# ASSUME: a maximum that falls to 90 % of the peak has fallen back.
-FALLEN = 0.9
 LEVEL = Cutoff(levels.LEVEL, '"approaches a level": half a percent, the width of a line')
 TEXT_6, CAPTION_6 = "[10, 70]", "[10, 40]"
 """Of Fig 6, by the text and by the caption."""
-
-
-@claim(
-    "Section 5, Fig 5 right",
-    "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
-    sweeps("fig5_right"),
-)
-def fig5_grows(sweep) -> Finding:
-    m, l2 = swept(sweep, "l2", "max", WINDOW)
-    level = levelling(m, l2)
-    rising = l2[: np.searchsorted(m, level) + 1] if np.isfinite(level) else l2
-    measured = {"growth": l2[-1] / l2[0], "rising": rising_share(rising), "level_from": level}
-    caveat = f"up to M = {level:.0f}, where it levels off" if np.isfinite(level) else ""
-    up = Above(NEARLY_ALL, "rising", says="share of steps up")
-    return judge(measured, AllOf(Above(FACTOR, "growth"), up), caveat)
 
 
 @claim(
@@ -88,19 +66,6 @@ def fig5_conjecture(sweep) -> Finding:
             " that grow with M",
         )
     return undecided(measured, "the chains are too short to see the level of a fixed window")
-
-
-@claim(
-    "Section 5, Fig 5 right",
-    "The l-infinity norm saturates to the same level whatever M.",
-    sweeps("fig5_right"),
-)
-def fig5_maximum(sweep) -> Finding:
-    m, linf = swept(sweep, "linf", "max", WINDOW)
-    kept = linf[m >= SHORTEST] if np.any(m >= SHORTEST) else linf
-    measured = {"relative_range": relative_range(kept), "mean": np.mean(kept)}
-    says = f"range over mean from M = {SHORTEST} on"
-    return judge(measured, Below(CHANGE, "relative_range", says=says))
 
 
 @claim(
@@ -247,48 +212,6 @@ def fig6_theorem_1(case, sweep) -> Finding:
         raise UndecidableError("Theorem 1 says nothing about these constants")
     ratio = float(sweep["l2"].sel(quantity="pair").max()) ** 2 / bound
     return judge({"ratio": ratio}, AtMost(1.0, "ratio", says="largest P over C"))
-
-
-@claim(
-    "Section 5, Fig 6 right",
-    "At Omega = -4, large data, the maximal l2 norm grows with M.",
-    sweeps("fig6_right"),
-)
-def fig6_grows(sweep) -> Finding:
-    m, l2 = swept(sweep, "l2", "max", TEXT_6)
-    peak = int(np.argmax(l2))
-    measured = {"peak_over_first": l2[peak] / l2[0], "peak_at": m[peak], "last": l2[-1] / l2[peak]}
-    caveat = ""
-    if measured["last"] < FALLEN:
-        caveat = f"up to M = {m[peak]}; beyond it falls back to {measured['last']:.2f} of the peak"
-    return judge(measured, Above(FACTOR, "peak_over_first"), caveat)
-
-
-@claim(
-    "Section 5, Fig 6 right",
-    "It apparently diverges as N goes to infinity.",
-    sweeps("fig6_right"),
-)
-def fig6_diverges(sweep) -> Finding:
-    m, l2 = swept(sweep, "l2", "max", TEXT_6)
-    level = levelling(m, l2)
-    measured = {"level_from": level, "last": l2[-1], "largest": l2.max()}
-    fails = f"it is level from M = {level:.0f} on, as it must be on a fixed window"
-    return judge(measured, NeverLevels("level_from"), fails=fails)
-
-
-@claim(
-    "Section 5, Fig 6 right",
-    "That Theorem 2 is limited to small data is not a technical shortfall.",
-    (*runs("fig3_large"), *sweeps("fig6_right")),
-)
-def fig6_not_technical(case, sweep) -> Finding:
-    m, l2 = swept(sweep, "l2", "max", TEXT_6)
-    c_0 = theorem_2_constants(constants(case))[1]
-    start = float(total_power(case)[0])
-    measured = {"P_over_delta": l2[-1] ** 2 / start, "C_0": c_0, "longest_chain": m[-1]}
-    caveat = "growth without bound in time is not decided by a fixed window"
-    return judge(measured, Above(c_0, "P_over_delta"), caveat)
 
 
 def averages_of(sweep, other):
