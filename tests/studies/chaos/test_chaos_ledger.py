@@ -143,6 +143,7 @@ TURNED = {
     "ensemble_fig6_grows": (UNEVEN, scaled("l2_error", 99.0)),
     "ensemble_fig6_diverges": (UNEVEN, scaled("l2_error", 99.0, half_width=HALF_WIDTHS[3:])),
     "ensemble_fig6_not_technical": (UNEVEN, scaled("l2_mean", 0.2)),
+    "ensemble_fig6_time": (UNEVEN, scaled("l2_mean", 0.1)),
     "even_bands_wider": (MEMBERS, scaled("width_ratio_low", 0.6)),
 }
 

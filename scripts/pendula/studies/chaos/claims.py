@@ -340,7 +340,7 @@ def transition_amplitude(lifetimes) -> Finding:
     measured |= {"localised_from": first, "watched": end}
     fails = (
         f"from A_0 = {first:g} on the centre stays localised for longer and longer: half of the"
-        f" runs for tau = {lower.max():g} at least at the slowest"
+        f" runs from the largest amplitudes are so beyond tau = {lower.max():g}"
     )
     says = "lower limit of the longest median life over the upper limit of the shortest"
     return judge(measured, Below(FACTOR, "ratio", says=says), fails=fails)

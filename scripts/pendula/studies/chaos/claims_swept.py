@@ -242,3 +242,26 @@ def ensemble_fig6_not_technical(even, uneven) -> Finding:
     caveat = f"growth without bound in time is not decided by a fixed window; {nearby(even)}"
     says = "lower limits of the largest P over that of the data"
     return judge({**lows, "C_0": c_0}, Above(c_0, *lows, says=says), caveat)
+
+
+@claim(
+    "Section 5, Fig 6, in ensembles",
+    "The time span [10, 70] gives the oscillations enough time to be excited in the chain.",
+    NEEDS,
+    controls=stable("fig6_right", "fig6_left", "fig5_left"),
+)
+def ensemble_fig6_time(even, uneven) -> Finding:
+    start = float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0])
+    lows, shorter = {}, []
+    for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
+        lows[f"{kind}_low"] = (means.mean - means.off).min() / start
+        data = {"even": even, "uneven": uneven}[kind]
+        earlier = maxima(data, "fig6_right", "l2", TEXT_5)
+        shorter.append(earlier.mean[-1] / means.mean[-1])
+    measured = {**lows, "shorter_over_longer": min(shorter)}
+    caveat = (
+        f"so does {TEXT_5}, by when the norm has {min(shorter):.0%} of that value on the longest"
+        f" chain; {nearby(even)}"
+    )
+    says = "least lower limit of l2 over the start, at any M"
+    return judge(measured, Above(FACTOR, *lows, says=says), caveat)
