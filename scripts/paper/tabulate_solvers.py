@@ -22,7 +22,7 @@ def energy_part(data: xarray.Dataset) -> list[str]:
     early, end = (f"{float(until):g}" for until in data["until"].isel(case=0))
     words = (
         f"Largest drift of H by tau = {early} / by tau = {end}, beside the order that the paper "
-        "states. A claim holds where the drift is at most twice that order."
+        "states. Kept is a drift of at most twice that order."
     )
     rows = []
     for name in data["case"].values:
@@ -61,7 +61,8 @@ def sweep_part(data: xarray.Dataset) -> list[str]:
     """Return how far the swept l2 norms of the pair differ between the paper's two solvers."""
     words = (
         "Largest and median difference of the pair's l2 norm between the two solvers over all "
-        "half-widths, relative to the first solver's value."
+        "half-widths, relative to the first solver's value. Points of a chaotic sweep differ by "
+        "chance: the ledger holds them to the ensemble."
     )
     found = [data[f"{name}_sweep_difference"] for name in ("largest", "median")]
     rows = []

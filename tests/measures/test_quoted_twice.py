@@ -53,7 +53,7 @@ def test_a_quantity_that_differs_between_two_datasets_is_found():
 def test_no_quantity_of_a_run_differs_between_two_of_its_datasets(full_run):
     paths = [path for folder in FOLDERS for path in (full_run / "results" / folder).glob("*.nc")]
     datasets = {path.relative_to(full_run).as_posix(): read(path) for path in sorted(paths)}
-    assert {"drift", "difference", "horizon", "divergence_measured"} <= {
+    assert {"drift", "divergence_time", "horizon", "divergence_measured"} <= {
         name for name, *_ in shared(datasets)
     }
     assert differing(datasets) == []

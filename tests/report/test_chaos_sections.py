@@ -162,23 +162,35 @@ def test_runs_that_are_too_short_tell_no_power(tmp_path):
 
 
 def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
-    drifts = np.array([[1.5e-6, 1e-9]] * 3 + [[3e-6, 1e-9]])[:, :, None]
+    late = np.array([[1.5e-6, 1e-9]] * 3 + [[3e-6, 1e-9]])
+    drifts = np.stack([0.5 * late, late], axis=-1)
+    by_solver = ("case", "solver", "span")
     solvers = made_up.by_case(
-        largest_drift=(("case", "solver", "span"), drifts),
-        kept=(("case", "solver", "span"), (drifts < 2e-6).astype(int)),
+        largest_drift=(by_solver, drifts),
+        kept=(by_solver, (drifts < 2e-6).astype(int)),
         stated_drift=("case", [1e-6] * 4),
-        until=(("case", "span"), [[50.0]] * 4),
+        allowed_drift=("case", [2e-6] * 4),
+        until=(("case", "span"), [[10.0, 50.0]] * 4),
         divergence_time=(("case", "pair"), [[np.inf]] * 3 + [[7.5]]),
         visible=0.01,
     ).assign_coords(
-        solver=["ode45", "crank_nicolson"], span=["whole"], pair=["ode45 - crank_nicolson"]
+        solver=["ode45", "crank_nicolson"],
+        span=["early", "whole"],
+        pair=["ode45 - crank_nicolson"],
     )
-    found = paper.gather_solvers(made_up.MadeUp(tmp_path, {"checks/solvers": solvers}), None)
-    assert [str(found[name]) for name in ("kept", "cases", "apart", "first")] == [
-        *("3", "4", "1", "7.5")
-    ]
+    grid = ("case", "scheme", "step")
+    steps = made_up.by_case(scheme_difference=(grid, np.full((4, 2, 2), 0.02))).assign_coords(
+        scheme=["crank_nicolson", "implicit_midpoint"], step=[0.0025, 0.00125]
+    )
+    steps.attrs["configured_step"] = 0.0025
+    datasets = {"checks/solvers": solvers, "checks/second_solver": steps}
+    found = paper.gather_solvers(made_up.MadeUp(tmp_path, datasets), None)
+    names = ("kept", "kept_early", "early", "end", "cases", "apart", "first", "allowed")
+    assert [str(found[name]) for name in names] == ["3", "4", "10", "50", "4", "1", "7.5", "2"]
     assert [str(row[-1]) for row in found["drift"]] == ["yes", "yes", "yes", "no"]
+    assert str(found["drift"][3][-2]) == "yes"
     assert str(found["agreement"][3][1]) == "7.5" and found["visible"] == "1 %"
+    assert len(found["schemes"]["head"]) == len(found["schemes"]["rows"][0]) == 4
 
 
 @pytest.mark.parametrize(("largest", "faults"), [(0.5, 0), (1.5, 1)])

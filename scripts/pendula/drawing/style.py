@@ -28,7 +28,7 @@ COLOURS = {
     "linf": BLUE,
     "ode45": "#111111",
     "crank_nicolson": "#e0a100",
-    "delfour_fortin_payre": "#b3541e",
+    "delfour_fortin_payre": "#7a2e0e",
     "dop853": "#16876b",
     "taylor": "#7b4fa3",
     "splitting": "#5aa7d6",

@@ -33,7 +33,7 @@ def test_the_stated_drift_depends_on_the_size_of_the_data(gathered):
 )
 def test_differences_are_relative_to_the_largest_value(gathered, pair, expected):
     # A of the made-up norms is largest at tau = 0, where it alone sets the difference
-    difference = gathered["agreement"]["difference"].sel(pair=pair, tau=0.0)
+    difference = gathered["agreement"]["largest_so_far"].sel(pair=pair, tau=0.0)
     assert np.allclose(difference, expected, rtol=1e-12)
 
 

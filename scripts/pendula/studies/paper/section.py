@@ -30,7 +30,7 @@ DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 
 TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
 ENSEMBLES = "checks/ensembles"
-COMPARED = "checks/solvers"
+COMPARED, STEPS = "checks/solvers", "checks/second_solver"
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -202,16 +202,21 @@ def _sample(results: Results, last) -> dict[str, Any]:
 
 def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return how well the solvers keep the energy, and until when pairs of them agree."""
-    data = results[COMPARED].sel(span="whole")
+    early, data = (results[COMPARED].sel(span=span) for span in ("early", "whole"))
     cases = [data.sel(case=case) for case in data["case"].values]
     ode45 = data.sel(solver="ode45")
     papers = data["divergence_time"].isel(pair=0)
     apart = int(np.isfinite(papers).sum())
     solvers = [SOLVER_NAMES[str(solver)] for solver in data["solver"].values]
     return {
-        "drift_head": ["case", "as stated", *solvers, "kept by ode45"],
+        "drift_head": ["case", "as stated", *solvers, *_kept_heads(early, data)],
         "drift": [_drift(results, case) for case in cases],
         "kept": results.quote(COMPARED, int(ode45["kept"].sum())),
+        "kept_early": results.quote(COMPARED, int(early["kept"].sel(solver="ode45").sum())),
+        "early": results.quote(COMPARED, float(early["until"].max())),
+        "allowed": results.quote(
+            COMPARED, float((data["allowed_drift"] / data["stated_drift"])[0])
+        ),
         "cases": results.quote(COMPARED, len(cases)),
         "end": results.quote(COMPARED, float(data["until"].max())),
         "agreement_head": ["case", *(_pair(str(pair)) for pair in data["pair"].values)],
@@ -219,6 +224,7 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
         "apart": results.quote(COMPARED, apart),
         "first": results.quote_time(COMPARED, float(papers.min())),
         "visible": percent(float(data["visible"])),
+        "schemes": _schemes(results),
         "pictures": _solver_pictures(results, ode45["largest_drift"].values, apart),
     }
 
@@ -228,8 +234,38 @@ def _drift(results: Results, case) -> list:
         case_of(case),
         results.quote(COMPARED, float(case["stated_drift"])),
         *(results.quote(COMPARED, float(value), 2) for value in case["largest_drift"]),
-        results.say(COMPARED, "yes" if int(case["kept"].sel(solver="ode45")) else "no"),
+        *(
+            results.say(COMPARED, "yes" if int(kept) else "no")
+            for kept in results[COMPARED]["kept"].sel(case=str(case["case"].values), solver="ode45")
+        ),
     ]
+
+
+def _kept_heads(early, whole) -> list[str]:
+    times = (number(float(data["until"].max())) for data in (early, whole))
+    return [f"kept by ode45 to τ{FIRM}={FIRM}{time}" for time in times]
+
+
+def _schemes(results: Results) -> dict[str, Any]:
+    """Return how far both readings of the second solver are from ode45, at each step."""
+    data = results[STEPS]
+    chosen = data["scheme_difference"].stack(reading=("step", "scheme"))
+    step = float(data.attrs["configured_step"])
+    first = "crank_nicolson"
+    kept = [at for at in chosen["reading"].values if at[1] == first or at[0] == step]
+    kept.sort(key=lambda at: at[1] != first)
+    rows = [
+        [case_of(data.sel(case=case))]
+        + [results.say(STEPS, percent(chosen.sel(case=case, reading=at))) for at in kept]
+        for case in data["case"].values
+    ]
+    return {
+        "head": ["case", *(f"{SOLVER_NAMES[name]}, {number(at)}" for at, name in kept)],
+        "rows": rows,
+        "step": results.quote(STEPS, step),
+        "trapezoidal": SOLVER_NAMES["crank_nicolson"],
+        "conserving": SOLVER_NAMES["delfour_fortin_payre"],
+    }
 
 
 def _agreement(results: Results, case) -> list:
