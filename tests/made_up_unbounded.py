@@ -77,7 +77,7 @@ def window_map(omega=0.0, speed=2.9, members=2):
             "predicted_speed": ((), speed),
         },
         {"half_width": widths, "end": ends},
-        {"omega": omega, "initial": '{"0": [1.0, 0.1]}'},
+        {"epsilon": 1.0, "gamma": 1.0, "omega": omega, "initial": '{"0": [1.0, 0.1]}'},
     )
     return named(data)
 

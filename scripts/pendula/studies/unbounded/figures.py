@@ -6,12 +6,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
 from pendula.drawing import panels, style
+from pendula.problem import Constants
+
+from .front import is_unstable
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-"},
@@ -122,7 +126,10 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
         panel = xr.concat(parts, xr.Variable("band", ["lowest", "mean", "highest"], words))
         for name in both:
             panel[name].attrs = both[name].attrs
-        found.append(panel.assign(predicted_speed=data["predicted_speed"]).assign_attrs(data.attrs))
+        pulled = int(is_unstable(Constants.of(data.attrs)))
+        words = {"long_name": "1: a front is pulled at that speed; 0: no wave packet is faster"}
+        panel = panel.assign(predicted_speed=data["predicted_speed"], pulled=((), pulled, words))
+        found.append(panel.assign_attrs(data.attrs))
     joined = style.join(found, list(maps), "sweep")
     ends = np.minimum(paper_ends, float(joined["end"][-1]))
     return joined.assign(paper_end=("sweep", ends, {"long_name": "end of the paper's window"}))
@@ -130,39 +137,50 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
 
 @style.styled
 def draw_window_map(data: xr.Dataset) -> Figure:
-    """Draw a column for each sweep: the map of l2 above, maxima at two ends T below."""
-    figure = style.new_figure(style.DOUBLE, 4.2)
+    """Draw a column for each sweep: the map of l2 above, maxima at two ends T below.
+
+    Each map has colours of its own, since a map of what hardly changes would show nothing in those
+    of one that grows a hundredfold.
+    """
+    figure = style.new_figure(style.DOUBLE, 4.9)
     grid = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row")
-    shown = data["l2"].sel(band="mean")
-    norm = LogNorm(float(shown.min()), float(shown.max()))
+    grid = grid.reshape(2, -1)
+    letters = iter("abcdefgh")
     for (above, below), sweep in zip(grid.T, data["sweep"].values, strict=True):
         one = data.sel(sweep=sweep)
-        mesh = _draw_map(above, one, norm)
+        mesh = _draw_map(above, one, f"({next(letters)})")
+        bar = figure.colorbar(mesh, ax=above, location="bottom", pad=0.04, aspect=16)
+        bar.ax.tick_params(labelsize=7, length=2)
+        bar.locator = MaxNLocator(3)
+        bar.set_label(r"maximal $\ell^2$")
         _draw_at_ends(below, one)
+    for axes in grid[1]:
+        axes.set_title(f"({next(letters)})", loc="left")
     grid[0, 0].set_ylabel("end $T$ of the window $[10, T]$")
     grid[1, 0].set_ylabel("maximal norm of $(A, B)$")
-    bar = figure.colorbar(mesh, ax=grid[0].tolist(), pad=0.01, aspect=14)
-    bar.set_label(r"maximal $\ell^2$ of $(A, B)$")
-    figure.legend(handles=_legend(data), loc="outside lower center", ncols=3, columnspacing=1.4)
+    figure.legend(handles=_legend(data), loc="outside lower center", ncols=4, columnspacing=1.2)
     return figure
 
 
-def _draw_map(axes: Axes, one: xr.Dataset, norm: LogNorm) -> QuadMesh:
+OUTLINED = [withStroke(linewidth=2.2, foreground="black")]
+"""So that white lines and words are seen on bright colours too."""
+
+
+def _draw_map(axes: Axes, one: xr.Dataset, letter: str) -> QuadMesh:
     values = one["l2"].sel(band="mean").transpose("end", "half_width")
     ends = one["end"].values
     edges = np.append(ends - 0.5 * (ends[1] - ends[0]), ends[-1] + 0.5 * (ends[1] - ends[0]))
-    mesh = axes.pcolormesh(
-        _log_edges(one["half_width"].values), edges, values, norm=norm, cmap="viridis"
-    )
+    mesh = axes.pcolormesh(_log_edges(one["half_width"].values), edges, values, cmap="viridis")
     axes.set_ylim(edges[0], edges[-1])
-    axes.plot(float(one["predicted_speed"]) * ends, ends, color="white", lw=1.2)
-    axes.axhline(float(one["paper_end"]), color="white", lw=0.9, ls=(0, (4, 2)))
-    place = (0.97, float(one["paper_end"]))
+    look = {"color": "white", "lw": 1.1, "path_effects": OUTLINED}
+    way = float(one["predicted_speed"]) * ends
+    axes.plot(way, ends, ls="-" if one["pulled"] else (0, (1, 1)), **look)
+    axes.axhline(float(one["paper_end"]), ls=(0, (4, 2)), **look)
     axes.annotate(
-        "the paper", place, (0, 2), ("axes fraction", "data"), "offset points",
-        ha="right", color="white", fontsize=7,
+        "the paper", (0.97, float(one["paper_end"])), (0, 3), ("axes fraction", "data"),
+        "offset points", ha="right", color="white", fontsize=7, path_effects=OUTLINED,
     )  # fmt: skip
-    axes.set_title(style.name_case(one).replace(",  ", "\n"), loc="left")
+    axes.set_title(f"{letter} {style.name_case(one)}".replace(",  ", "\n"), loc="left")
     _log_axis(axes, one)
     return mesh
 
@@ -181,7 +199,7 @@ def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:
             bounds = [maxima[name].sel(band=b).values for b in ("lowest", "highest")]
             errors = np.abs(np.array(bounds) - middle)
             axes.errorbar(one["half_width"], middle, errors, elinewidth=0.8, **_mark(name, fill))
-        axes.axvline(float(one["predicted_speed"]) * end, **_line(fill))
+        axes.axvline(float(one["predicted_speed"]) * end, **_line(fill, bool(one["pulled"])))
     axes.set_yscale("log")
     axes.set_xlabel("half-width $M$")
     _log_axis(axes, one)
@@ -193,8 +211,11 @@ def _mark(name: str, fill: bool) -> dict:
     return {"color": colour, "mew": 0.7, "lw": 0.6, **dots}
 
 
-def _line(fill: bool) -> dict:
-    return {"color": "0.45", "lw": 0.9, "ls": (0, (4, 2)) if fill else "-"}
+def _line(fill: bool, pulled: bool) -> dict:
+    """Return the look of M = v T, where v is a front's speed or that of the fastest waves."""
+    dashes = {(True, True): (0, (4, 2)), (False, True): "-", (True, False): (0, (1, 1.6)),
+              (False, False): (0, (4, 1.2, 1, 1.2))}  # fmt: skip
+    return {"color": "0.35" if pulled else "0.55", "lw": 0.9, "ls": dashes[fill, pulled]}
 
 
 def _log_axis(axes: Axes, one: xr.Dataset) -> None:
@@ -206,7 +227,10 @@ def _log_axis(axes: Axes, one: xr.Dataset) -> None:
 def _legend(data: xr.Dataset) -> list[Line2D]:
     ends = ((True, "the paper's $T$"), (False, f"$T = {float(data['end'][-1]):g}$"))
     looks = [(NORMS[name], partial(_mark, name)) for name in NORMS]
-    looks += [("$M = v^*T$", _line)]
+    looks += [
+        ("front at $M$", partial(_line, pulled=True)),
+        ("waves at $M$", partial(_line, pulled=False)),
+    ]
     return [
         Line2D([], [], label=f"{label}, {text}", **look(fill))
         for label, look in looks

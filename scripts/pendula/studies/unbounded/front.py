@@ -250,13 +250,14 @@ def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
     v, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
     way = one["front"].sel(front_power=FRONT).transpose("member", "piece_tau").values
     behind = (way - v * tau).mean(axis=0)
-    # a front stands on whole sites: means over short spans of log time show where it is
+    # waves at its edge move a front to and fro: means over short spans of log time show its way
     spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
     found = [spans == span for span in np.unique(spans)]
     return {
         "way_tau": Variable(("span",), [tau[s].mean() for s in found], "slow time, mean of a span"),
         "behind": Variable(("span",), [behind[s].mean() for s in found], "site of front - v tau"),
         "delay": Variable((), delay, DELAY),
+        "rest": Variable((), float(one["predicted_rest"]), REST),
     }
 
 

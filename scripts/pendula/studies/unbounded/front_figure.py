@@ -7,17 +7,18 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import style
 
-TOLD = ["corrected_speed", "corrected_speed_error", "predicted_speed", "expected_power",
-        "slope_power", "slope_power_error"]  # fmt: skip
-"""The variables of the measured front that the report tells, and the figure does not show."""
-
 LATE = 10
-"""The line of the delay is laid through so many of the last points of the front's way."""
+"""The lines of the delay are laid through so many of the last points of the front's way."""
+
+MILLI = 1e3
+ASIDE = 0.07
+"""Points at one Omega stand beside each other by so much."""
 
 GREEN = "#16876b"
 BULK_LOOK = {"color": style.RED, "lw": 1.1, "label": "behind the front"}
 THERMAL_LOOK = {"color": "black", "lw": 0.9, "ls": "--", "label": "thermal"}
-DOTS = {"color": style.RED, "marker": "o", "ms": 3.5, "lw": 0, "elinewidth": 0.9}
+DOTS = {"color": style.RED, "marker": "o", "ms": 3.0, "lw": 0, "elinewidth": 0.9, "capsize": 1.5}
+RINGS = {**DOTS, "color": style.BLUE, "marker": "s", "mfc": "white", "mew": 0.8}
 TERM_LOOKS = {
     "cubic": (style.RED, "-", "cubic"),
     "detuning": ("#b07800", "-.", "detuning"),
@@ -27,20 +28,23 @@ TERM_LOOKS = {
 
 
 def gather_front(measured: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn of the front and of the bulk, as `front.measure_front` found it."""
-    return measured.drop_vars(TOLD)
+    """Return what is drawn of the front and of the bulk: all that `front.measure_front` found."""
+    return measured
 
 
 @style.styled
 def draw_front(data: xr.Dataset) -> Figure:
-    """Draw the front (its way, speed and delay), then the state behind it."""
-    figure = style.new_figure(style.DOUBLE, 4.6)
-    above = (_draw_positions, _draw_speeds, _draw_way, _draw_powers)
-    below = (_draw_terms, _draw_spectrum, _draw_distribution)
-    rows = figure.subfigures(2, 1)
-    for row, parts in zip(rows, (above, below), strict=True):
-        for axes, part in zip(row.subplots(1, len(parts)), parts, strict=True):
-            part(axes, data)
+    """Draw the front (its way and its speed), the power of the bulk, and the state it is in."""
+    figure = style.new_figure(style.DOUBLE, 6.2)
+    parts = (
+        *(_draw_positions, _draw_speeds, _draw_differences),
+        *(_draw_way, _draw_powers, _draw_ratios),
+        *(_draw_terms, _draw_spectrum, _draw_distribution),
+    )
+    grid = figure.subplots(3, 3).ravel()
+    for axes, part, letter in zip(grid, parts, "abcdefghi", strict=True):
+        part(axes, data)
+        axes.set_title(f"({letter})", loc="left", fontsize=8)
     return figure
 
 
@@ -54,7 +58,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
         speed = np.interp(omega, data["line_omega"], data["line_speed"])
         ends = np.array([0.0, float(data["piece_tau"][-1])])
         axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
-    axes.lines[-1].set_label("linear")
+    axes.lines[-1].set_label(r"$v^*\tau$")
     shown = data["large_tau"].values <= float(data["piece_tau"][-1])
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
     bulk = data["large_front"].values
@@ -65,36 +69,90 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     axes.legend(loc="upper left", handlelength=1.4)
 
 
-def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
-    axes.plot(data["line_omega"], data["line_speed"], color="black", lw=0.9, label="linear")
-    axes.errorbar(data["omega"], data["speed"], data["speed_error"], label="measured", **DOTS)
+def _unstable(axes: Axes, data: xr.Dataset) -> tuple[float, float]:
+    """Shade the Omega at which the chain at rest is unstable; return their ends."""
     low, high = -2 * data.attrs["gamma"], 2 * data.attrs["gamma"] + 4 * data.attrs["epsilon"]
     axes.axvspan(low, high, color="0.92", zorder=0)
     axes.set_xlabel(r"$\Omega$")
+    return low, high
+
+
+def _draw_speeds(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the speeds; outside of the unstable band the line is no speed of a front."""
+    low, high = _unstable(axes, data)
+    line, inside = data["line_speed"], (data["line_omega"] >= low) & (data["line_omega"] <= high)
+    axes.plot(data["line_omega"], line.where(inside), color="black", lw=0.9, label="linear front")
+    look = {"color": "0.4", "lw": 0.9, "ls": (0, (3, 1.5))}
+    axes.plot(data["line_omega"], line.where(~inside), label="group velocity", **look)
+    limits = data["corrected_speed_error"]
+    axes.errorbar(data["omega"], data["corrected_speed"], limits, label="measured", **DOTS)
     axes.set_ylabel(r"speed (sites per unit of $\tau$)")
-    axes.legend(loc="lower center", handlelength=1.2)
+    axes.legend(loc="lower center", handlelength=1.4)
+
+
+def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
+    """Draw what speeds are off linear spreading, before and after the delay is added back."""
+    _unstable(axes, data)
+    axes.axhline(0.0, color="black", lw=0.8)
+    series = (("speed", "as it is", RINGS, -ASIDE), ("corrected_speed", "corrected", DOTS, ASIDE))
+    for name, label, look, aside in series:
+        off = MILLI * (data[name] - data["predicted_speed"])
+        limits = MILLI * data[f"{name}_error"]
+        axes.errorbar(data["omega"] + aside, off, limits, label=label, **look)
+    axes.set_ylim(-42, 22)
+    axes.set_ylabel(r"$10^3$ (speed $- v^*)$")
+    axes.legend(loc="lower center", ncols=2, handlelength=1.2, columnspacing=1.0)
 
 
 def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     tau = data["way_tau"].values
-    axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5)
-    line = -float(data["delay"]) * np.log(tau)
-    line += float(data["behind"][-LATE:].mean()) - line[-LATE:].mean()
-    axes.plot(tau, line, color="black", lw=0.9)
-    axes.text(0.05, 0.08, r"line: $-\frac{3}{2\lambda}\,\ln\tau$", transform=axes.transAxes)
+    axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5, label="measured")
+    fine = np.geomspace(tau[0], tau[-1], 200)
+    delay, rest = float(data["delay"]), float(data["rest"])
+    looks = (
+        ("--", rest * 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"),
+        ("-", rest, "and the next term"),
+    )
+    for dashes, next_term, label in looks:
+        at, line = (-delay * np.log(t) - next_term / np.sqrt(t) for t in (tau[-LATE:], fine))
+        line += float(data["behind"][-LATE:].mean()) - at.mean()
+        axes.plot(fine, line, color="black", lw=0.9, ls=dashes, label=label)
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(rf"front $- v^*\tau$ (sites), $\Omega = {data.attrs['omega']:g}$")
+    axes.set_ylim(top=float(data["behind"].max()) + 3.5)
+    axes.legend(loc="upper right", handlelength=1.6)
 
 
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
     """Draw the mean power of the bulk over Omega beside that of the thermal state."""
     axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    axes.errorbar(data["omega"], data["power"], data["power_error"], label="bulk", **DOTS)
+    axes.errorbar(data["omega"], data["power"], _known(data["power_error"]), label="bulk", **DOTS)
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\Omega$")
-    axes.set_ylabel("mean power per site")
+    axes.set_ylabel("mean power $P$ of a site")
     axes.legend(loc="upper right")
+
+
+def _draw_ratios(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the power of the bulk over that of the thermal state, measured in two ways."""
+    axes.axhline(1.0, **THERMAL_LOOK)
+    series = (
+        ("power", "mean", DOTS, ASIDE),
+        ("slope_power", r"slope of $\ell^2$ squared", RINGS, -ASIDE),
+    )
+    for name, label, look, aside in series:
+        ratio = data[name] / data["expected_power"]
+        limits = _known(data[f"{name}_error"]) / data["expected_power"]
+        axes.errorbar(data["omega"] + aside, ratio, limits, label=label, **look)
+    axes.set_xlabel(r"$\Omega$")
+    axes.set_ylabel("power over thermal power")
+    axes.legend(loc="lower left", handlelength=1.2)
+
+
+def _known(limits: xr.DataArray) -> xr.DataArray:
+    """Return limits, or none where one run shows no scatter."""
+    return limits.where(np.isfinite(limits))
 
 
 def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
