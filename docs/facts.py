@@ -47,7 +47,17 @@ class Baseline:
 
 def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[str, dict]:
     """Return the facts of every topic; the last two are config.yaml and chaos.yaml as read."""
-    topics = (ledger, solvers, chaos, ensembles, lifetimes, unbounded, theory, references)
+    topics = (
+        ledger,
+        solvers,
+        second_solver,
+        chaos,
+        ensembles,
+        lifetimes,
+        unbounded,
+        theory,
+        references,
+    )
     topics += (speed, hard_cases)
     return {topic.__name__: topic(baseline) for topic in topics} | {
         "configured": configured(configuration, chaos_study)
@@ -59,7 +69,6 @@ def configured(configuration: dict, chaos_study: dict) -> dict:
     given, drawn = load(configuration).solvers, chaos_study["chaos"]["ensembles"]
     return {
         "own_rtol": number(given.taylor.rtol),
-        "step": number(given.crank_nicolson.step),
         "members": number(drawn["members"]),
         "swept_members": number(drawn["swept_members"]),
         "size": number(drawn["size"]),
@@ -100,6 +109,7 @@ def solvers(baseline: Baseline) -> dict:
     found, trust = baseline["checks/solvers"], baseline["checks/trust"]
     cases = [found.sel(case=case) for case in found["case"].values]
     paper, high = "ode45 - crank_nicolson", "ode45 - dop853"
+    conserving = "ode45 - delfour_fortin_payre"
     times = trust["horizon"].sel(level="visible")
     left = trust["case"].values[np.isfinite(times).any("solver").values]
     return {
@@ -116,6 +126,7 @@ def solvers(baseline: Baseline) -> dict:
             {
                 "case": case_of(case),
                 "paper": _time(case["divergence_time"].sel(pair=paper)),
+                "conserving": _time(case["divergence_time"].sel(pair=conserving)),
                 "ode45": _time(case["divergence_time"].sel(pair=high)),
             }
             for case in cases
@@ -127,6 +138,25 @@ def solvers(baseline: Baseline) -> dict:
             }
             for case in left
         ],
+    }
+
+
+def second_solver(baseline: Baseline) -> dict:
+    """Return what the scheme and the step of the second solver decide, in the regular cases."""
+    found, chaotic = baseline["checks/second_solver"], baseline["checks/lyapunov"]["chaotic"]
+    step = float(found["step"][1])  # the steps are twice the configured one, itself, and half
+    regular = found.sel(case=chaotic["case"].values[chaotic.values == 0])
+    largest = regular["scheme_difference"].max("case")
+    drifts = found["scheme_drift"].sel(step=step)
+    return {
+        "step": number(step),
+        "least_drift": number(drifts.sel(scheme="crank_nicolson").min(), 2),
+        "most_drift": number(drifts.sel(scheme="crank_nicolson").max(), 2),
+        "conserving_drift": number(drifts.sel(scheme="delfour_fortin_payre").max(), 2),
+        "regular": percent(largest.sel(scheme="crank_nicolson", step=step)),
+        "halved": percent(largest.sel(scheme="crank_nicolson")[2]),
+        "midpoint": percent(largest.sel(scheme="implicit_midpoint", step=step)),
+        "conserving": percent(largest.sel(scheme="delfour_fortin_payre", step=step)),
     }
 
 
