@@ -122,7 +122,7 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
         for reading in panel["reading"].values:
             _draw_bars(axes, panel.sel(reading=reading), name)
     half_width_axis(axes)
-    axes.set_ylim(bottom=0)
+    axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
     axes.set_ylabel(f"{' and '.join(NORMS[name] for name in norms)} of $(A, B)$")
     axes.set_title(style.name_case(panel), loc="left")
