@@ -326,7 +326,10 @@ def unbounded(baseline: Baseline) -> dict:
 def theory(baseline: Baseline) -> dict:
     """Return what the checks of Lemma 1 and of Theorems 1 to 3 found."""
     charts = [baseline[f"checks/{name}"]["measured"] for name in ("chart", "short_chart")]
-    worst = baseline["checks/worst"]
+    sharp, threshold = baseline["checks/sharpness"], baseline["checks/threshold"]
+    slow = threshold["spreading_exponent"].mean("omega").isel(decay=1)
+    reached = sharp["reached"].isel(sites=-1)
+    remainder, bootstrap = baseline["checks/remainder"], baseline["checks/bootstrap"]
     printed, gap = baseline["checks/theorem_3_constant"], baseline["checks/theorem_2_case"]
     measured = {row["name"]: row["measured"] for row in baseline.claims()}
     cases = baseline["checks/cases"]
@@ -334,7 +337,17 @@ def theory(baseline: Baseline) -> dict:
         "cells": str(sum(chart.size for chart in charts)),
         "misclassified": str(int(measured["stable_below"]["misclassified"]) or "none"),
         "stable_rate": number(measured["stable_below"]["fastest"], 2),
-        "reached": number(worst["worst"].max()),
+        "decay": number(slow["decay"]),
+        "slow_l2": number(slow.sel(norm="l2"), 2),
+        "slow_linf": number(slow.sel(norm="linf"), 2),
+        "sites": str(int(sharp["sites"][-1])),
+        **{f"reached_{form}": number(reached.sel(form=form), 2) for form in reached["form"].values},
+        "proof_constant": number(sharp["proof_constant"]),
+        "least_constant": number(sharp["least_constant"]),
+        "remainder_end": number(remainder["tau"][-1]),
+        "lost_mu": number(remainder["mu"][-1]),
+        "lost": percent(remainder["lost"][-1].sel(omega=0), 2),
+        "lost_least": percent(remainder["lost"][-1].min(), 2),
         "observed": span(cases["ratio"].values, 2),
         "broken_sites": number(printed["smallest"]),
         "printed_order": number(measured["printed_time"]["order"], 2),
@@ -343,7 +356,9 @@ def theory(baseline: Baseline) -> dict:
         "radius": number(gap["delta_0"]),
         "widened_radius": number(gap["widened_delta_0"]),
         "widened_bound": number(gap["widened_bound"]),
-        "first_negative": number(baseline["checks/negative_depth"]["first_negative"]),
+        "breaking": number(bootstrap["breaking"]),
+        "allowed": number(bootstrap["allowed_power"]),
+        "barrier": number(bootstrap["barrier_power"]),
     }
 
 
