@@ -4,7 +4,18 @@ import made_up_chaos
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_checks import cases, chart, samples, short_chart, sweeps, threshold, windows, worst
+from made_up_checks import (
+    cases,
+    chain_growth,
+    chart,
+    samples,
+    sharpness,
+    short_chart,
+    sweeps,
+    threshold,
+    windows,
+    worst,
+)
 from made_up_unbounded import spread, thermal, window_map
 
 HALF_WIDTHS = [5, 10, 20]
@@ -105,6 +116,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solvers
+    from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
     from pendula.studies.unbounded import front_figure
@@ -142,7 +154,9 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
-        "bounds": theory.gather_bounds(cases(), sweeps(), samples(), worst()),
+        "bounds": bounds_figure.gather_bounds(
+            cases(), sweeps(), samples(), worst(), sharpness(), chain_growth()
+        ),
         "lyapunov": chaos.gather_lyapunov(made_up_chaos.lyapunov()),
         "symmetry": chaos.gather_symmetry(made_up_chaos.symmetry(), made_up_chaos.lyapunov()),
         "ensembles": chaos.gather_ensembles(ensembles, compared),

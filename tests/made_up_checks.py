@@ -5,7 +5,8 @@ import xarray as xr
 
 CASES = ["fig2_small", "fig3_large"]
 SWEEPS = ["fig5_left", "fig6_left"]
-FAMILIES = ["theorem_1", "theorem_2_ball", "theorem_3"]
+FAMILIES = ["theorem_1", "theorem_2_ball", "theorem_2_energy", "theorem_3"]
+FORMS = ["theorem_1", "theorem_2", "theorem_2_ball", "theorem_3"]
 
 
 def variable(dims, values, name, units="1"):
@@ -53,12 +54,17 @@ def windows():
 
 def threshold():
     tau, long_tau = np.array([5.0, 10.0]), np.array([100.0, 200.0])
-    spreading = np.broadcast_to([np.sqrt(long_tau), np.ones(2)], (2, 2, 2))
+    decays = np.array([0.6, 0.8, np.inf])
+    exponents = np.array([[0.9, 0.4], [0.7, 0.2], [0.5, 0.0]])
+    dims = ("omega", "decay", "norm")
+    axes = {"tau": tau, "decay": decays, "norm": ["l2", "linf"], "long_tau": long_tau}
     return dataset(
-        {"omega": np.array([-4.0, 8.0]), "tau": tau, "norm": ["l2", "linf"], "long_tau": long_tau},
+        {"omega": np.array([-4.0, 8.0]), **axes},
         grown=(("omega", "tau"), np.broadcast_to(4 * 2.0 * tau, (2, 2))),
         threshold=(("omega",), [2.0, 2.0]),
-        spreading=(("omega", "norm", "long_tau"), spreading),
+        spreading=((*dims, "long_tau"), np.stack([long_tau ** exponents[..., None]] * 2)),
+        spreading_exponent=(dims, np.stack([exponents] * 2)),
+        spreading_law=(dims[1:], exponents),
     )
 
 
@@ -95,18 +101,31 @@ def sweeps():
 
 
 def samples():
-    sampled = np.linspace(0.1, 0.9, 3 * 2 * 4).reshape(3, 2, 4)
-    coordinates = {"family": FAMILIES, "sites": np.array([1, 3]), "sample": np.arange(4)}
-    return dataset(coordinates, sampled=(("family", "sites", "sample"), sampled))
+    return dataset({"family": FAMILIES}, worst_sample=(("family",), [0.6, 0.2, 0.9, 0.8]))
 
 
 def worst():
     one = ("question",)
     return dataset(
         {"question": [f"{name}, dirichlet" for name in FAMILIES] + ["theorem_1, periodic"]},
-        worst=(one, [0.7, 0.3, 0.95, 0.6]),
-        small_data=(one, [0.75, 0.3, 1.0, 0.65]),
+        worst=(one, [0.7, 0.3, 0.8, 0.95, 0.6]),
         searched_family=(one, [*FAMILIES, FAMILIES[0]]),
-        boundary=(one, ["dirichlet"] * 3 + ["periodic"]),
+        boundary=(one, ["dirichlet"] * len(FAMILIES) + ["periodic"]),
         sites=((), 3),
+    )
+
+
+def sharpness():
+    """Return what part of each form is reached on a short and on a long chain."""
+    reached = np.array([[0.5, 0.99], [0.5, 0.98], [0.2, 0.3], [0.6, 0.97]])
+    coordinates = {"form": FORMS, "sites": np.array([3, 33])}
+    return dataset(coordinates, reached=(("form", "sites"), reached))
+
+
+def chain_growth():
+    sites = np.array([5, 11, 21])
+    return dataset(
+        {"member": np.arange(2), "sites": sites},
+        late_power=(("member", "sites"), np.array([[17.0], [18.0]]) * sites),
+        constant_n=(("sites",), 48.0 * sites),
     )

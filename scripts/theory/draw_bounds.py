@@ -2,15 +2,24 @@
 
 from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
-from pendula.studies.theory import figures
+from pendula.studies.theory import bounds_figure
 
 
 def draw_bounds(
-    cases: str, sweeps: str, samples: str, worst: str, png: str, pdf: str, data: str
+    cases: str,
+    sweeps: str,
+    samples: str,
+    worst: str,
+    sharpness: str,
+    growth: str,
+    png: str,
+    pdf: str,
+    data: str,
 ) -> None:
-    """Draw the cases, the sweeps and the data drawn at random, and write what was drawn."""
-    drawn = figures.gather_bounds(read(cases), read(sweeps), read(samples), read(worst))
-    save(figures.draw_bounds(drawn), drawn, png, pdf, data)
+    """Draw the cases, the sweeps and what data reach, and write what was drawn."""
+    found = map(read, (cases, sweeps, samples, worst, sharpness, growth))
+    drawn = bounds_figure.gather_bounds(*found)
+    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import xarray
 from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import save
 from pendula.studies.theory.checks import run_check
+from pendula.studies.theory.settings import WRONG_FOLDER
 
 
 def run_checks(
@@ -18,7 +19,10 @@ def run_checks(
     """
     for (name, arguments), path in zip(checks.items(), datasets, strict=True):
         check = run_check(name, arguments)
-        print(describe(name, check))
+        said = describe(name, check)
+        print(
+            f"a wrong statement, for a control: {name}" if name.startswith(WRONG_FOLDER) else said
+        )
         save(path, xarray.Dataset.from_dict(check))
 
 

@@ -12,6 +12,7 @@ from pendula.own_cases import figures as own
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
+from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
 from pendula.studies.unbounded import front_figure
@@ -26,7 +27,7 @@ DRAWN_BY = {
     "trust": figures.draw_trust,
     "stability_chart": theory.draw_chart,
     "growth_rates": theory.draw_rates,
-    "bounds": theory.draw_bounds,
+    "bounds": bounds_figure.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,
     "ensembles": chaos.draw_ensembles,

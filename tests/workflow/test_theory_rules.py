@@ -13,7 +13,7 @@ from pendula.studies.theory.settings import GROUPS, OBSERVED
 from theory import run_checks
 
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
-CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_observed"}
+CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_wrong", "check_observed"}
 FIGURES = {"stability_chart", "growth_rates", "bounds"}
 FIGURE_RULES = {"stability_figures", "bounds"}
 

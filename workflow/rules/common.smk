@@ -13,7 +13,7 @@ from code_records import code, committed, copies, kept, records, was_made, whole
 from pendula import __version__
 from pendula.configuration.messages import STUDIES, ConfigurationError, load
 from pendula.problem import name_window
-from pendula.studies.theory.settings import GROUPS, OBSERVED
+from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(

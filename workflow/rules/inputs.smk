@@ -48,6 +48,7 @@ def sweeps(solver=""):
 def makers():
     """Return the rule that makes each dataset below results/, by its name without the ending."""
     made_by = {f"check_{group}": checks(*names) for group, names in GROUPS.items()} | {
+        "check_wrong": checks(*(f"wrong/{name}" for name in WRONG)),
         "check_observed": checks(*OBSERVED),
         "measure_lyapunov": checks("lyapunov"),
         "measure_symmetry": checks("symmetry"),

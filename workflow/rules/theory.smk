@@ -44,6 +44,18 @@ use rule check_equations as check_bounds with:
         "Checking Lemma 2 and Theorems 1 to 3 on random and on the worst data"
 
 
+use rule check_equations as check_wrong with:
+    output:
+        datasets=checks(*(f"wrong/{name}" for name in WRONG)),
+    log:
+        "results/logs/checks/wrong.log",
+    priority: 4
+    params:
+        checks=SETTINGS.theory.wrong_arguments(),
+    message:
+        "Asking the checks about wrong statements, for the negative controls"
+
+
 rule check_observed:
     "The paper's own cases and sweeps beside the bounds of its theorems"
     input:
@@ -119,6 +131,8 @@ rule bounds:
         sweeps="results/checks/sweeps.nc",
         samples="results/checks/samples.nc",
         worst="results/checks/worst.nc",
+        sharpness="results/checks/sharpness.nc",
+        growth="results/checks/chain_growth.nc",
     output:
         **figure("bounds"),
     log:

@@ -2,11 +2,8 @@
 
 from pendula.datasets.checks import broken
 from pendula.problem import Constants
-from pendula.studies.theory.equations import (
-    check_conservation,
-    check_dispersion,
-    check_gradient,
-)
+from pendula.studies.theory.dispersion import check_dispersion
+from pendula.studies.theory.equations import check_conservation, check_gradient
 from pendula.studies.theory.estimates import check_balance
 from pendula.studies.theory.other_forms import check_pt_form, check_symmetries
 

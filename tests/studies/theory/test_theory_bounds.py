@@ -17,7 +17,7 @@ from pendula.models.bounds import (
     widened_delta_0,
 )
 from pendula.studies.theory.equations import total_energy
-from pendula.studies.theory.estimates import energy_ratios
+from pendula.studies.theory.inequalities import draw_range, energy_excess
 from pendula.studies.theory.worst_data import maximise, ring_energy
 from problems import constants_of
 
@@ -146,4 +146,5 @@ def test_searches_come_near_to_the_value_of_tiny_data(numbers):
 def test_energy_bounds_are_below_the_energy():
     rng = np.random.default_rng(5)
     z = rng.normal(size=(2, 7)) + 1j * rng.normal(size=(2, 7))
-    assert max(energy_ratios(rng, z, "dirichlet")) <= 0.0
+    high, low = draw_range(rng)
+    assert max(energy_excess(high, low, z, "dirichlet", 1.0)) <= 0.0

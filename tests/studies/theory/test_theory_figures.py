@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from made_up_checks import chart, short_chart, threshold
-from pendula.studies.theory import figures
+from pendula.studies.theory import bounds_figure, figures
 
 
 def labelled(axes):
@@ -56,42 +56,39 @@ def test_relative_errors_are_those_of_growing_cells(gathered):
 
 def test_growth_at_the_threshold_lies_on_its_line(gathered):
     panel = figures.draw_rates(gathered["growth_rates"]).axes[2]
+    line, *_ = panel.get_lines()
+    np.testing.assert_allclose(line.get_ydata(), 8 * np.asarray(line.get_xdata()))
     lines = labelled(panel)
-    tau, line = lines[r"$4 \gamma \tau$"].get_data()
-    np.testing.assert_allclose(line, 8 * np.asarray(tau))
-    np.testing.assert_allclose(
-        lines["one mode, finite chain"].get_ydata(), threshold()["grown"][0].values
-    )
+    grown = lines["one wave: exponent 1"].get_ydata()
+    np.testing.assert_allclose(grown, threshold()["grown"][0].values)
+    assert {"$s = 0.8$: 0.70 and 0.20", "one site: 0.50 and 0.00"} <= set(lines)
+    spread = lines["one site: 0.50 and 0.00"]
+    np.testing.assert_allclose(spread.get_ydata(), np.sqrt(spread.get_xdata()))
     assert panel.get_xscale() == panel.get_yscale() == "log"
 
 
-def test_bounds_say_where_each_case_stands(gathered):
-    cases = figures.draw_bounds(gathered["bounds"]).axes[0]
-    assert [text.get_text() for text in cases.texts] == [
-        "inside; 0.25 of\nTheorem 1",
-        "outside; 0.4\nof Theorem 3",
-    ]
-    lines = labelled(cases)
+def test_bounds_show_each_case_with_the_bounds_that_cover_it(gathered):
+    lines = labelled(bounds_figure.draw_bounds(gathered["bounds"]).axes[0])
     assert lines["largest seen"].get_xdata().tolist() == [1.0, 800.0]
     assert lines["Theorem 1"].get_xdata()[0] == 4.0
     assert "Theorem 2" not in lines  # it covers neither case
 
 
-def test_bounds_draw_all_samples_and_the_worst(gathered):
-    samples = figures.draw_bounds(gathered["bounds"]).axes[1]
-    clouds = [line for line in samples.get_lines() if line.get_marker() == "."]
-    assert sum(len(cloud.get_xdata()) for cloud in clouds) == 24
-    lines = labelled(samples)
-    assert lines["worst, chain of 3"].get_xdata().tolist() == [0.7, 0.3, 0.95]
-    assert lines["worst, ring of 3"].get_xydata().tolist() == [[0.6, 0.0]]
+def test_bounds_show_by_form_what_data_reach(gathered):
+    panel = bounds_figure.draw_bounds(gathered["bounds"]).axes[1]
+    assert [bar.get_width() for bar in panel.patches] == [0.6, 0.9, 0.2, 0.8]
+    lines = labelled(panel)
+    assert lines["search on 3 sites"].get_xdata().tolist() == [0.7, 0.8, 0.3, 0.95]
+    waves = next(line for line in panel.get_lines() if line.get_marker() == "|")
+    assert list(waves.get_xdata()) == [0.99, 0.98, 0.3, 0.97]
+    assert "a wave on 33" in lines
 
 
-def test_bounds_draw_each_sweep_in_its_panel(gathered):
-    panels = figures.draw_bounds(gathered["bounds"]).axes[2:]
-    assert len(panels) == 2
-    for axes, title in zip(panels, (r"$\Omega = -4$", r"$\Omega = 8$"), strict=True):
-        assert axes.get_title(loc="left").startswith(title)
-        assert axes.get_yscale() == "log"
-        lines = labelled(axes)
-        seen, bound = (lines[name].get_ydata() for name in ("largest seen", "Theorem 3"))
-        np.testing.assert_allclose(bound, 400 * np.asarray(seen))
+def test_bounds_show_sweeps_over_their_bound_and_growth_with_the_chain(gathered):
+    _, _, swept, growth = bounds_figure.draw_bounds(gathered["bounds"]).axes
+    ratios = [line.get_ydata() for line in swept.get_lines()[:2]]
+    np.testing.assert_allclose(ratios[0], [1 / 30, 2 / 30, 4 / 30])
+    lines = labelled(growth)
+    np.testing.assert_allclose(lines["$C_N$ of Theorem 3"].get_ydata(), [240, 528, 1008])
+    runs = [line.get_ydata() for line in growth.get_lines() if line.get_marker() == "o"]
+    np.testing.assert_allclose(runs, np.array([[17.0], [18.0]]) * [5, 11, 21])

@@ -9,7 +9,11 @@ from pendula.models.linear_chain import (
     growth_rate,
     infinite_rate,
 )
+from pendula.problem import Constants
+from pendula.studies.theory.dispersion import measured_threshold
+from pendula.studies.theory.equations import run
 from pendula.studies.theory.stability_chart import stable_windows, widest_gamma
+from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
 
 
 @pytest.mark.parametrize(("omega", "expected"), [(8, 2), (-4, 2), (0, 0), (2, 0), (4, 0), (5, 0.5)])
@@ -46,11 +50,36 @@ def test_no_window_is_left_above_the_widest_gamma():
     assert len(stable_windows(1.001 * widest, 1.0, 61, "dirichlet")) == 0
 
 
-def test_growth_at_the_threshold_is_linear_for_a_wave_and_a_root_for_data_in_l2(numbers):
-    in_l2, in_linf = numbers("threshold", "spreading_exponent").T
-    np.testing.assert_allclose(in_l2, 0.5, atol=0.01)
-    np.testing.assert_allclose(in_linf, 0.0, atol=0.05)
+def test_growth_at_the_threshold_follows_the_decay_of_the_data(numbers):
+    found = numbers("threshold", "spreading_exponent")
+    np.testing.assert_allclose(found[:, 1], [[0.9, 0.4]] * 2, atol=0.01)  # (1 + |n|)^-0.6
+    np.testing.assert_allclose(found[:, -1], [[0.5, 0.0]] * 2, atol=0.02)  # one site
     assert (numbers("threshold", "finite_gap") > 0).all()
+
+
+def test_spreading_data_follow_the_librarys_own_chain():
+    epsilon, omega, end, sites = 1.0, -4.0, 6.0, 201
+    data = np.zeros((2, sites), complex)
+    data[0] = (0.5e-9 + 0.5e-9j) * decaying(sites, 0.6, omega)
+    data[1] = -data[0]
+    final = run(Constants(epsilon=epsilon, gamma=2.0, omega=omega), "periodic", data, end).final
+    parted = np.abs(final[0] - final[1]) / 1e-9
+    largest = spreading_norms(epsilon, omega, 0.6, [end], sites, 1.0)[1, 0]
+    assert parted.max() == pytest.approx(largest, rel=1e-4)
+
+
+def test_exponents_of_a_power_beside_a_constant_are_those_of_the_power():
+    times, decays = 25.0 * 2.0 ** np.arange(4), np.array([0.6, 2.0])
+    growing = np.stack([np.sqrt(times) * (3.0 * times**0.4 - 2.0), times**0.4 + 7.0])
+    bounded = np.stack([np.sqrt(times), np.ones(4)])
+    found = exponents(np.stack([growing, bounded]), times, decays)
+    np.testing.assert_allclose(found, [[0.9, 0.4], [0.5, 0.0]])
+
+
+@pytest.mark.parametrize("omega", [-4.0, 8.0])
+def test_measured_threshold_is_that_of_the_finite_chain(omega):
+    expected = finite_threshold(omega, 1.0, 9, "dirichlet")
+    assert measured_threshold(1.0, omega, 9) == pytest.approx(float(expected), abs=1e-8)
 
 
 def test_measured_rates_tend_to_the_finite_chains_largest(numbers):

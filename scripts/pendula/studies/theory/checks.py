@@ -7,11 +7,30 @@ import numpy as np
 
 from pendula.problem import Constants
 
-from . import equations, errata, estimates, other_forms, stability_chart, worst_data
+from . import (
+    dispersion,
+    equations,
+    errata,
+    estimates,
+    inequalities,
+    newton,
+    other_forms,
+    sharpness,
+    stability_chart,
+    threshold,
+    well_posed,
+    worst_data,
+)
+
+MODULES = (
+    *(equations, other_forms, newton, errata),
+    *(dispersion, stability_chart, threshold),
+    *(estimates, inequalities, well_posed, worst_data, sharpness),
+)
 
 CHECKS = {
     name.removeprefix("check_"): function
-    for module in (equations, errata, estimates, other_forms, stability_chart, worst_data)
+    for module in MODULES
     for name, function in vars(module).items()
     if name.startswith("check_")
 }
@@ -19,8 +38,12 @@ CHECKS["short_chart"] = CHECKS["chart"]
 
 
 def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
-    """Return the numbers of one check; `arguments` are plain values as in the configuration."""
-    return CHECKS[name](**{key: _read(key, value) for key, value in arguments.items()})
+    """Return the numbers of one check; `arguments` are plain values as in the configuration.
+
+    A wrong statement names its `check` among them.
+    """
+    given = {key: _read(key, value) for key, value in arguments.items()}
+    return CHECKS[given.pop("check", name)](**given)
 
 
 def _read(key: str, value: Any) -> Any:

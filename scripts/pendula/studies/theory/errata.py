@@ -6,6 +6,7 @@ import numpy as np
 
 from pendula.datasets.checks import table, tabulate, variable
 from pendula.models.bounds import (
+    extent,
     theorem_2_constants,
     theorem_2_gap,
     widened_barrier,
@@ -16,7 +17,7 @@ from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation.simulate import Trajectory, simulate
 
 from .bounds import NUMBERS
-from .equations import run, squared_norm, total_energy
+from .equations import draw_shape, run, squared_norm, total_energy
 
 DEPTH = "-H, which Theorem 2 takes for positive"
 
@@ -91,26 +92,60 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     return tabulate(title, {}, [numbers], about)
 
 
-def check_negative_depth(constants: Constants, longest: float) -> dict:
-    """Find where -H > 0, which Theorem 2's proof takes for granted, fails: one pair (x, 0).
+def check_negative_depth(constants: Constants, count: int, seed: int, scale: float = 1.0) -> dict:
+    """Find the least -H / P of data as small as Theorem 2 asks: its proof takes -H > 0.
 
-    By (25) -H is positive for P < 4 a; beyond, the quartic term wins.
+    Random data of P up to delta_0, and real pairs. A control allows `scale` times that P.
     """
-    sizes = np.linspace(0.0, longest, 401)[1:]
-    pairs = [np.array([[x], [0.0]], complex) for x in sizes]
-    depth = -np.array([total_energy(constants, "dirichlet", pair) for pair in pairs])
-    negative = sizes[depth <= 0]
-    assured = depth[sizes**2 < 4.0 * theorem_2_gap(constants)]
+    rng = np.random.default_rng(seed)
+    radius = scale * theorem_2_constants(constants)[0]
+    states = [
+        np.sqrt(radius * rng.uniform(1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
+        for i in range(count)
+    ]
+    states += [np.array([[x], [0.0]], complex) for x in np.sqrt(radius * np.linspace(0.01, 1, 50))]
+    depth = [-total_energy(constants, "dirichlet", z) / np.sum(np.abs(z) ** 2) for z in states]
     return table(
-        "The sign of -H of a pair (x, 0) for Omega < -2 gamma",
-        {"x": sizes},
-        depth=variable(depth, ("x",), DEPTH),
-        first_negative=variable(
-            negative.min() if len(negative) else np.inf, (), "smallest x with -H <= 0"
+        "The sign of -H for data as small as Theorem 2 asks",
+        {},
+        radius=variable(radius, (), "largest P of these data"),
+        least_depth=variable(min(depth), (), "least -H / P of these data"),
+        most_energy=variable(-min(depth), (), "largest H / P of these data", tolerance=0.0),
+    )
+
+
+def check_bootstrap(
+    constants: Constants, part: float, longest: float, below_barrier: bool = False
+) -> dict:
+    """Find data that satisfy all that the printed end of Theorem 2's proof uses, and break (24).
+
+    For small data delta = `part` * delta_0 it uses (25), that -H > 0 is constant, and
+    |H| <= C delta with C = c, and concludes P <= C_0 delta. None of that excludes states beyond the
+    barrier of (25): a pair (x, 0) there has the same energy. What excludes them is that P is
+    continuous and starts below 2 a. With `below_barrier` only states below 2 a are allowed, as by
+    continuity.
+    """
+    delta_0, c_0 = theorem_2_constants(constants)
+    delta, gap = part * delta_0, theorem_2_gap(constants)
+    sizes = np.linspace(0.0, longest, 20001)[1:]
+    powers = sizes**2
+    depth = -np.array(
+        [total_energy(constants, "dirichlet", np.array([[x], [0.0]], complex)) for x in sizes]
+    )
+    premises = (depth > 0.0) & (depth <= extent(constants) * delta)
+    premises &= depth >= gap * powers - 0.25 * powers**2
+    if below_barrier:
+        premises &= powers < 2.0 * gap
+    breaks = premises & (powers > c_0 * delta)
+    return table(
+        "What the printed proof of Theorem 2 concludes without continuity",
+        {},
+        allowed_power=variable(c_0 * delta, (), "C_0 delta of the small data"),
+        largest_power=variable(powers[premises].max(), (), "largest P that the premises allow"),
+        breaking=variable(
+            powers[breaks].min() if breaks.any() else np.inf, (), "least P that breaks (24)"
         ),
-        assured=variable(
-            -assured.min(), (), "-(smallest -H) for P below 4 (|Omega| - 2 gamma)", tolerance=0.0
-        ),
+        barrier_power=variable(2.0 * gap, (), "P at the barrier of (25), 2 a"),
     )
 
 

@@ -1,7 +1,7 @@
-"""The paper's other forms of the equations: reduced (5), PT-symmetric (10), Newton's (1).
+"""The paper's other forms of the equations: reduced (5), and PT-symmetric (10).
 
 The right-hand sides here are written from the paper and share nothing with the library's model:
-where both agree, the change of variables (9), the expansion (3) and the ends are right.
+where both agree, the change of variables (9) and the ends are right.
 """
 
 from collections.abc import Callable
@@ -9,13 +9,14 @@ from dataclasses import astuple
 
 import numpy as np
 
-from pendula.datasets.checks import table, tabulate, variable
+from pendula.datasets.checks import tabulate
 from pendula.models.linear_chain import curvatures, modes
 from pendula.problem import Constants
 
 from .equations import (
     BOUNDARIES,
     gradient,
+    misstated,
     random_amplitudes,
     right_hand_side,
     run,
@@ -43,25 +44,28 @@ def scalar_run(epsilon: float, omega: float, boundary: str, a: np.ndarray, end_t
     return a
 
 
-def check_symmetries(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
+def check_symmetries(
+    constants: Constants, sites: int, end_time: float, seed: int, turn: complex = 1.0
+) -> dict:
     """Test the exchange of A and B, the reduction A = B (5), its conserved norm, and its equation.
 
-    All four along trajectories: exchange must hold to the last bit, A = B as well.
+    All four along trajectories: exchange must hold to the last bit, A = B as well. A control asks
+    the same of (A, B) -> `turn` (B, A) and of B = `turn` A.
     """
     rng = np.random.default_rng(seed)
     rows = []
     for boundary in BOUNDARIES:
         pair = random_amplitudes(rng, sites, 2.0)
         forth = run(constants, boundary, pair, end_time, 8).final
-        back = run(constants, boundary, pair[::-1].copy(), end_time, 8).final
-        alike = np.stack([pair[0], pair[0]])
+        back = run(constants, boundary, turn * pair[::-1], end_time, 8).final
+        alike = np.stack([pair[0], turn * pair[0]])
         both = run(constants, boundary, alike, end_time, 8)
         norms = squared_norm(both.l2)
         scalar = scalar_run(constants.epsilon, constants.omega, boundary, pair[0], end_time)
         rows.append(
             {
-                "exchange": np.abs(forth - back[::-1]).max(),
-                "synchrony": np.abs(both.final[0] - both.final[1]).max(),
+                "exchange": np.abs(turn * forth - back[::-1]).max(),
+                "synchrony": np.abs(turn * both.final[0] - both.final[1]).max(),
                 "norm_drift": np.abs(norms / norms[0] - 1.0).max(),
                 "scalar": np.abs(both.final[0] - scalar).max(),
             }
@@ -135,29 +139,31 @@ def symmetry_defect(
     return float(np.abs(pt_rates(constants, boundary, image(w)) - expected).max())
 
 
-def check_pt_form(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
+def check_pt_form(
+    constants: Constants, sites: int, end_time: float, seed: int, gamma_times: float = 1.0
+) -> dict:
     """Compare (10) with (4): rates, trajectories, the energy, and the symmetries (11).
 
     P exchanges u and v, T takes conjugates and reverses time. PT is a symmetry; P alone and T
     alone are not while gamma is not zero: each misses by 2 gamma times the amplitude. The energy
     of (10) is H / 8: i u' = dH/d(conj v) / 8.
     """
-    rng = np.random.default_rng(seed)
+    rng, stated = np.random.default_rng(seed), misstated(constants, gamma_times=gamma_times)
     rows = []
     for boundary in BOUNDARIES:
         pair = random_amplitudes(rng, sites, 1.5)
         w = to_pt(pair)
         rates = to_pt(right_hand_side(constants, boundary, pair))
         final = run(constants, boundary, pair, end_time).final
-        other = from_pt(pt_run(constants, boundary, w, end_time))
+        other = from_pt(pt_run(stated, boundary, w, end_time))
         rows.append(
             {
-                "rates": np.abs(pt_rates(constants, boundary, w) - rates).max(),
+                "rates": np.abs(pt_rates(stated, boundary, w) - rates).max(),
                 "trajectory": np.abs(final - other).max(),
-                "pt": symmetry_defect(constants, boundary, w, lambda z: z[::-1].conj(), -1),
-                "p_alone": symmetry_defect(constants, boundary, w, lambda z: z[::-1]),
-                "t_alone": symmetry_defect(constants, boundary, w, np.conj, -1),
-                "energy_gradient": pt_energy_error(constants, boundary, w),
+                "pt": symmetry_defect(stated, boundary, w, lambda z: z[::-1].conj(), -1),
+                "p_alone": symmetry_defect(stated, boundary, w, lambda z: z[::-1]),
+                "t_alone": symmetry_defect(stated, boundary, w, np.conj, -1),
+                "energy_gradient": pt_energy_error(constants, stated, boundary, w),
             }
         )
     about = {
@@ -172,80 +178,10 @@ def check_pt_form(constants: Constants, sites: int, end_time: float, seed: int) 
     return tabulate(title, {"boundary": BOUNDARIES}, rows, about)
 
 
-def pt_energy_error(constants: Constants, boundary: str, w: np.ndarray) -> float:
-    """Return the largest |i u' - dK/d(conj v)| or |i v' - dK/d(conj u)| for K = H / 8."""
+def pt_energy_error(constants: Constants, stated: Constants, boundary: str, w: np.ndarray) -> float:
+    """Return the largest |i u' - dK/d(conj v)| or |i v' - dK/d(conj u)| for K = H / 8.
+
+    The rates are those of (10) with the `stated` constants, which are the same but in a control.
+    """
     expected = gradient(lambda z: total_energy(constants, boundary, from_pt(z)) / 8.0, w)[::-1]
-    return float(np.abs(1j * pt_rates(constants, boundary, w) - expected).max())
-
-
-def pendula_rates(t: float, flat: np.ndarray, drives, frequency: float, bonds) -> np.ndarray:
-    """Return the rates of angles and velocities of (1), flat from (2, run, pendulum x or y, site).
-
-    `drives` holds the amplitude of D(t) for each run, `bonds` the matrix C Lap.
-    """
-    angles, velocities = flat.reshape(2, len(drives), 2, -1)
-    drive = np.cos(2.0 * frequency * t) * drives[:, None, None]
-    forces = angles @ bonds + drive * (angles[:, ::-1] - angles) - np.sin(angles)
-    return np.concatenate([velocities.ravel(), forces.ravel()])
-
-
-def pendula_run(constants: Constants, mu: float, amplitudes: np.ndarray, times) -> np.ndarray:
-    """Return the angles (time, run, 2, N) of (1) from the data that (3) makes of `amplitudes`.
-
-    Run 0 has the drive as it is, run 1 with the opposite sign. The velocity keeps the slow rate
-    of the amplitudes, so that the data err by mu^3 only.
-    """
-    from scipy.integrate import solve_ivp  # here, so that the other checks do without it
-
-    frequency = np.sqrt(1.0 + mu * mu * constants.omega)
-    slow = 0.5 * mu * mu * right_hand_side(constants, "dirichlet", amplitudes)
-    angles = 2.0 * mu * amplitudes.real
-    velocities = 2.0 * mu * (1j * frequency * amplitudes + slow).real
-    bonds = constants.epsilon * mu * mu * laplacian(np.eye(amplitudes.shape[1]), "dirichlet")
-    drives = 2.0 * constants.gamma * mu * mu * np.array([1.0, -1.0])
-    start = np.stack([[angles, angles], [velocities, velocities]]).ravel()
-    controls = {"method": "DOP853", "rtol": 1e-7, "atol": 1e-7 * mu, "t_eval": times}
-    forced = (drives, frequency, bonds)
-    solution = solve_ivp(pendula_rates, (0.0, times[-1]), start, args=forced, **controls)
-    return solution.y.T.reshape(len(times), 2, 2, *amplitudes.shape)[:, 0]
-
-
-def envelope_run(constants: Constants, amplitudes: np.ndarray, taus) -> np.ndarray:
-    """Return the amplitudes (time, 2, N) of (4) at the slow times `taus`, the first of them 0."""
-    states = [amplitudes]
-    for step in np.diff(taus):
-        states.append(run(constants, "dirichlet", states[-1], step).final)
-    return np.array(states)
-
-
-def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) -> list[float]:
-    """Return max |x - x of (3)| up to mu^2 t / 2 = `end` for three readings of the equations.
-
-    The slow time mu^2 t / 2, the slow time mu^2 t, and the first with pendula that feel the drive
-    with the opposite sign, which is the same as shifting it by half a period.
-    """
-    times = np.linspace(0.0, 2.0 * end / mu**2, 41)
-    phase = np.exp(1j * np.sqrt(1.0 + mu * mu * constants.omega) * times)[:, None, None]
-    angles, shifted = pendula_run(constants, mu, amplitudes, times).swapaxes(0, 1)
-    half = envelope_run(constants, amplitudes, 0.5 * mu**2 * times)
-    whole = envelope_run(constants, amplitudes, mu**2 * times)
-    pairs = ((angles, half), (angles, whole), (shifted, half))
-    return [float(np.abs(x - 2.0 * mu * (z * phase).real).max()) for x, z in pairs]
-
-
-def check_expansion(constants: Constants, sites: int, end_time: float, mus, pair) -> dict:
-    """Measure the order in mu of the expansion's error for each reading: only one has order 3."""
-    amplitudes = np.zeros((2, sites), complex)
-    amplitudes[:, sites // 2] = pair
-    errors = np.array([expansion_errors(constants, mu, amplitudes, end_time) for mu in mus])
-    orders = np.log(errors[-2] / errors[-1]) / np.log(mus[-2] / mus[-1])
-    readings = ["mu^2 t / 2", "mu^2 t", "mu^2 t / 2, opposite drive"]
-    return table(
-        "Newton's equations (1) against the expansion (3) with the amplitudes of (4)",
-        {"mu": mus, "reading": readings},
-        angle_error=variable(errors, ("mu", "reading"), "largest error of an angle", "rad"),
-        order=variable(orders, ("reading",), "order in mu of the error"),
-        order_error=variable(
-            abs(orders[0] - 3.0), (), "distance to 3 of the order with mu^2 t / 2", tolerance=0.5
-        ),
-    )
+    return float(np.abs(1j * pt_rates(stated, boundary, w) - expected).max())

@@ -25,15 +25,19 @@ def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
             "verdict": ledger.verdict("printed_time"),
         },
         "case": _case(results),
-        "depth": _quote_largest(results, "checks/negative_depth", "first_negative"),
+        "bootstrap": _bootstrap(results, ledger),
         "captions": [(n, ledger.verdict(f"fig{n}_caption")) for n in (5, 6)],
         "caption": ledger.because("fig5_caption"),
         "missed": _missed(results),
     }
 
 
-def _quote_largest(results: Results, source: str, name: str) -> Quote:
-    return results.quote(source, float(results[source][name].max()))
+def _bootstrap(results: Results, ledger: Ledger) -> dict[str, Any]:
+    source = "checks/bootstrap"
+    check = results[source]
+    numbers = ("allowed_power", "breaking", "barrier_power")
+    quoted = {name: results.quote(source, float(check[name])) for name in numbers}
+    return quoted | {"fails": not ledger.holds("bootstrap")}
 
 
 def _constant(results: Results) -> dict[str, Any]:
@@ -88,11 +92,54 @@ def gather_theory(results: Results, ledger: Ledger) -> dict[str, Any]:
         "cells": results.quote(CHARTS[0], cells, 6),
         "fastest": ledger.quote("stable_below", "fastest"),
         "misclassified": ledger.quote("stable_below", "misclassified"),
-        "worst": _quote_largest(results, "checks/worst", "worst"),
+        "reached": _reached(results),
+        "least": _constant_of(results, "least_constant"),
+        "proof": _constant_of(results, "proof_constant"),
+        "exponents": _exponents(results),
         "stability": results.picture("stability_chart", _chart_alt(results, cells)),
         "rates": results.picture("growth_rates", _rates_alt(results)),
         "bounds": results.picture("bounds", _bounds_alt(results)),
     }
+
+
+FORMS = {
+    "theorem_1": "Theorem 1 (by the energy)",
+    "theorem_2": "Theorem 2 (by the energy)",
+    "theorem_2_ball": "Theorem 2 (C₀δ)",
+    "theorem_3": "Theorem 3",
+}
+"""The bounds by form, as the report names them."""
+
+
+def _reached(results: Results) -> list[list]:
+    """Return the rows of a table: a form of the bounds, and what part of it is reached."""
+    source = "checks/sharpness"
+    ratios = results[source]["reached"]
+    sites = ratios["sites"].values[[0, -1]]
+    return [
+        [words, *(results.quote(source, float(ratios.sel(form=form, sites=n)), 4) for n in sites)]
+        for form, words in FORMS.items()
+    ]
+
+
+def _constant_of(results: Results, name: str) -> Quote:
+    return results.quote("checks/sharpness", float(results["checks/sharpness"][name]))
+
+
+def _exponents(results: Results) -> list[list]:
+    """Return the rows of a table: how data decay, and the measured exponents of their growth."""
+    source = "checks/threshold"
+    found = results[source]["spreading_exponent"].mean("omega")
+    return [
+        [
+            "one site" if np.isinf(decay) else number(decay),
+            *(results.quote(source, float(found.sel(decay=decay, norm=n)), 2) for n in NORMS),
+        ]
+        for decay in found["decay"].values
+    ]
+
+
+NORMS = ("l2", "linf")
 
 
 def _rows(results: Results, name: str) -> list[dict]:

@@ -47,6 +47,14 @@ ARGUMENTS = {
     "ring_sites": Count,
     "half_widths": Counts,
     "pair": tuple[Complex, Complex],  # (A_0, B_0)
+    "norm": Positive,
+    "distances": Annotated[list[Positive], Field(min_length=2)],
+    "decays": Annotated[list[Annotated[Number, Field(gt=0.5)]], Field(min_length=1)],
+    "above": Positive,
+    "mu": Positive,
+    "ratios": Annotated[list[Positive], Field(min_length=1)],
+    "part": Annotated[Number, Field(gt=0, lt=1)],
+    "members": Annotated[Whole, Field(ge=2)],
     "amplitude": Positive,
     "longest": Positive,
     "mus": Annotated[list[Positive], Field(min_length=2)],
@@ -54,7 +62,7 @@ ARGUMENTS = {
     "end_time": Positive,
     "foldings": Positive,
     "times": Annotated[list[Positive], Field(min_length=1)],
-    "long_times": Annotated[list[Positive], Field(min_length=2)],
+    "long_times": Annotated[list[Positive], Field(min_length=3)],  # each twice the one before
     "window": Window,
     "panels": Count,
     # random data
@@ -63,6 +71,14 @@ ARGUMENTS = {
     "count": Count,
     "generations": Count,
     "population": Annotated[Whole, Field(ge=4)],
+    # what a wrong statement has in place of the right one
+    "omega_off": Number,
+    "gamma_times": Number,
+    "scale": Positive,
+    "turn": Complex,
+    "sign": Number,
+    "span_times": Positive,
+    "below_barrier": bool,
 }
 
 
@@ -82,11 +98,17 @@ CHECKS = {
         "opposite": check("constants sites end_time seed"),
         "pt_form": check("constants sites end_time seed"),
         "conservation": check("epsilon gamma omegas sites end_time seed"),
+        # Newton's equations
         "expansion": check("constants sites end_time mus pair"),
+        "remainder": check("epsilon gamma omegas sites end_time mus pair"),
+        "pendula_synchrony": check("constants sites mu end_time seed"),
+        "inherited_energy": check("constants sites end_time mus seed"),
+        "resonance": check("gamma mus ratios"),
         # errors and gaps of the paper
         "theorem_3_constant": check("constants amplitude", longest=Count),
         "theorem_2_case": check("constants pair sites"),
-        "negative_depth": check("constants longest"),
+        "negative_depth": check("constants count seed"),
+        "bootstrap": check("constants part longest"),
         "energy_drift": check("solver end_time omegas"),
         "not_shown": check("half_widths window omega solver"),
     },
@@ -96,19 +118,48 @@ CHECKS = {
         "short_chart": check(f"{CHART} foldings", omegas=Grid),
         "windows": check("epsilon boundary half_widths gammas"),
         "measured_windows": check("gamma epsilon sites boundary end_time seed"),
-        "threshold": check("epsilon sites omegas times long_times ring_sites"),
+        "sharp_threshold": check("epsilon omegas sizes"),
+        "unstable_waves": check("epsilon omegas above sites end_time seed"),
+        "threshold": check("epsilon sites omegas times decays long_times ring_sites"),
     },
     "bounds": {
+        "picard": check("constants sites norm seed"),
+        "dependence": check("constants sites end_time distances samples seed"),
         "balance": check("constants sites end_time panels seed"),
         "growth": check("constants sites end_time samples seed"),
         "inequalities": check("count seed"),
         "samples": check("count sizes end_time seed"),
         "worst": check("epsilon gamma sites end_time generations population seed"),
+        "sharpness": check("epsilon gamma sizes"),
+        "chain_growth": check("constants sizes pair end_time members seed"),
+        "energy_shell": check("constants sizes pair"),
     },
 }
 """The checks of each job: starting one costs more than most checks."""
 
 GROUPS = {group: tuple(checks) for group, checks in CHECKS.items()}
+
+WRONG = (
+    *("gradient", "conservation", "no_drive", "phase_turned", "symmetries", "pt_form"),
+    *("expansion", "remainder", "pendula_synchrony", "inherited_energy", "negative_depth"),
+    *("bootstrap", "dispersion", "chart", "measured_windows", "sharp_threshold"),
+    *("unstable_waves", "threshold", "picard", "dependence", "balance", "growth"),
+    *("inequalities", "samples", "worst", "sharpness", "chain_growth", "energy_shell"),
+)
+"""The wrong statements that the negative controls of the claims are fed."""
+
+WRONG_FOLDER = "wrong/"
+"""Before the name of a check that is asked about a wrong statement: it must not hold."""
+
+Omegas = Grid | Annotated[list[Number], Field(min_length=1)]
+
+Changes = create_model(
+    "Changes",
+    __base__=Model,
+    check=(Literal[tuple(name for names in GROUPS.values() for name in names)] | None, None),
+    **{name: (kind | None, None) for name, kind in (ARGUMENTS | {"omegas": Omegas}).items()},
+)
+"""What a wrong statement changes of the arguments of a check, and of which, if not of its name."""
 
 OBSERVED = ("cases", "sweeps")
 """The checks of the paper's own trajectories and sweeps, which need their datasets."""
@@ -121,9 +172,24 @@ class Section(Model):
         """Return the arguments of each check of a group as plain values."""
         return {name: getattr(self, name).model_dump() for name in GROUPS[group]}
 
+    def wrong_arguments(self) -> dict[str, dict]:
+        """Return the arguments of each wrong statement: those of its check, some changed."""
+        found = {}
+        for name in WRONG:
+            given = getattr(self.wrong, name)
+            changes = given.model_dump(include=given.model_fields_set)
+            check = changes.pop("check", name)
+            found[f"{WRONG_FOLDER}{name}"] = {
+                "check": check,
+                **getattr(self, check).model_dump(),
+                **changes,
+            }
+        return found
+
 
 Settings = create_model(
     "Settings",
     __base__=Section,
+    wrong=(create_model("Wrong", __base__=Model, **dict.fromkeys(WRONG, (Changes, ...))), ...),
     **{name: (model, ...) for checks in CHECKS.values() for name, model in checks.items()},
 )

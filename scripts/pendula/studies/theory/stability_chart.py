@@ -12,17 +12,15 @@ import numpy as np
 from pendula.datasets.checks import columns, table, tabulate, variable
 from pendula.models.linear_chain import (
     curvatures,
-    driven,
     finite_rate,
     finite_threshold,
     flow,
     gamma_0,
     infinite_rate,
-    modes,
 )
 from pendula.problem import Constants
 
-from .equations import random_amplitudes, run, run_powers
+from .equations import random_amplitudes, run_powers
 
 TINY = 1e-130
 """Norm of the initial data: e^{2 gamma tau} must not make it matter for the cubic terms."""
@@ -38,9 +36,6 @@ ABOUT = {
     "infinite_curve": ("gamma_0 of (12), finely", None),
     "finite_curve": ("threshold of N sites, finely", None),
     "rate_error": ("measured minus exact flow, per unit of tau", 1e-6),
-    "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
-    "threshold": ("threshold of the finite chain", None),
-    "finite_gap": ("threshold of the finite chain minus gamma_0", None),
     "misclassified": ("cells whose measured growth contradicts the finite chain's threshold", 0),
 }
 
@@ -84,6 +79,7 @@ def check_chart(
     end_time: float,
     seed: int,
     foldings: float = np.inf,
+    omega_off: float = 0.0,
 ) -> dict:
     """Measure growth rates on a grid of (Omega, gamma) and set them beside the predictions.
 
@@ -103,7 +99,8 @@ def check_chart(
         measured.append(measured_slopes(cells, boundary, data, end))
         exact.append([flow_slope(data, cell, boundary, end) for cell in cells])
     measured, exact = np.array(measured).T, np.array(exact).T
-    grid, chain = (omegas[:, None], gammas[None, :]), (epsilon, sites, boundary)
+    stated = omegas + omega_off
+    grid, chain = (stated[:, None], gammas[None, :]), (epsilon, sites, boundary)
     finite = finite_rate(*grid, *chain)
     fine = np.linspace(omegas[0], omegas[-1], CURVE_POINTS)
     rates = {
@@ -114,8 +111,8 @@ def check_chart(
         "rate_error": np.abs(measured - exact),
     }
     thresholds = {
-        "infinite_threshold": gamma_0(omegas, epsilon),
-        "finite_threshold": finite_threshold(omegas, *chain),
+        "infinite_threshold": gamma_0(stated, epsilon),
+        "finite_threshold": finite_threshold(stated, *chain),
     }
     curves = {
         "infinite_curve": gamma_0(fine, epsilon),
@@ -189,7 +186,13 @@ def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:
 
 
 def check_measured_windows(
-    gamma: float, epsilon: float, sites: int, boundary: str, end_time: float, seed: int
+    gamma: float,
+    epsilon: float,
+    sites: int,
+    boundary: str,
+    end_time: float,
+    seed: int,
+    omega_off: float = 0.0,
 ) -> dict:
     """Run tiny data in the middle of each window of stability in [0, 4 epsilon] and between them.
 
@@ -202,86 +205,10 @@ def check_measured_windows(
     data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
     cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     measured = measured_slopes(cells, boundary, data, end_time)
-    finite = finite_rate(omegas, gamma, epsilon, sites, boundary)
+    finite = finite_rate(omegas + omega_off, gamma, epsilon, sites, boundary)
     return table(
         f"Growth inside and between the windows of stability of {sites} sites",
         {"omega": omegas},
         **columns(("omega",), ABOUT, {"measured": measured, "finite_rate": finite}),
         **columns((), ABOUT, {"misclassified": misclassified(measured, finite, end_time)}),
-    )
-
-
-def threshold_run(epsilon: float, omega: float, sites: int, times):
-    """Return gamma and |Im D| / (4 gamma tau |D_0|) of a mode run at exactly its own threshold.
-
-    D = A - B starts real in the mode with kappa = +- 2 gamma, where (14) makes its other part
-    grow as 4 gamma tau: the ratio is one.
-    """
-    shape = modes(sites, "dirichlet")[0 if omega < 0 else sites - 1]
-    gamma = float(finite_threshold(omega, epsilon, sites, "dirichlet"))
-    constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-    along_real = omega < 0  # kappa = 2 gamma > 0 feeds the imaginary part, kappa < 0 the real one
-    start = 0.5 * TINY * shape * (1.0 if along_real else 1j)
-    data = np.stack([start, -start]).astype(complex)
-    ratios, solver = [], {"name": "dop853", **tiny_tolerances(1e-12)}
-    for tau in times:
-        final = run(constants, "dirichlet", data, tau, solver=solver).final
-        grown = (final[0] - final[1]) @ shape / TINY
-        ratios.append(abs(grown.imag if along_real else grown.real) / (4.0 * gamma * tau))
-    return gamma, np.array(ratios)
-
-
-def spreading_norms(epsilon: float, omega: float, times, sites: int):
-    """Return l2 and l-infinity norms of D at |gamma| = gamma_0 on the infinite chain, (2, time).
-
-    One site is set to D = 1 + i; a ring so long that no wave returns stands for the infinite
-    chain.
-    """
-    gamma = float(gamma_0(omega, epsilon))
-    curvatures_of_waves = 4.0 * np.sin(np.pi * np.arange(sites) / sites) ** 2  # in FFT order
-    kappa = epsilon * curvatures_of_waves - omega
-    norms = []
-    for tau in times:
-        even, odd = driven(kappa, gamma, tau)
-        p = even + (2.0 * gamma - kappa) * odd
-        q = even + (2.0 * gamma + kappa) * odd
-        field = np.fft.ifft(p).real + 1j * np.fft.ifft(q).real
-        norms.append([np.sqrt(np.sum(np.abs(field) ** 2)), np.abs(field).max()])
-    return np.array(norms).T
-
-
-def check_threshold(epsilon: float, sites: int, omegas, times, long_times, ring_sites: int) -> dict:
-    """Test the polynomial growth at |gamma| = gamma_0 that Lemma 1 ends with.
-
-    A single wave grows linearly in time, on a finite chain at its own threshold. From data in l2
-    the infinite chain grows at gamma_0 only as tau^(1/2) in l2, and not at all in l-infinity: the
-    band's edge is one wave number. A finite Dirichlet chain is stable there, its threshold being
-    higher.
-    """
-    times, long_times = np.asarray(times, float), np.asarray(long_times, float)
-    found = [threshold_run(epsilon, omega, sites, times) for omega in omegas]
-    thresholds, ratios = map(np.array, zip(*found, strict=True))
-    norms = [spreading_norms(epsilon, omega, long_times, ring_sites) for omega in omegas]
-    spreading, dims = np.array(norms), ("omega", "norm")
-    late = np.log(spreading[..., -1] / spreading[..., -2]) / np.log(long_times[-1] / long_times[-2])
-    numbers = {
-        "wave_error": np.abs(ratios - 1.0).max(axis=1),
-        "threshold": thresholds,
-        "finite_gap": thresholds - gamma_0(np.asarray(omegas, float), epsilon),
-    }
-    return table(
-        "Growth exactly at the threshold of Lemma 1",
-        {"omega": omegas, "tau": times, "norm": ["l2", "linf"], "long_tau": long_times},
-        **columns(("omega",), ABOUT, numbers),
-        grown=variable(
-            4.0 * thresholds[:, None] * times * ratios,
-            ("omega", "tau"),
-            "growth of the threshold mode, |Im D| / |D(0)|",
-        ),
-        spreading=variable(
-            spreading,
-            (*dims, "long_tau"),
-            "norm of D at gamma_0 on the infinite chain from one site D = 1 + i",
-        ),
-        spreading_exponent=variable(late, dims, "exponent of tau in that norm, at the end"),
     )

@@ -1,0 +1,142 @@
+"""Theorems 1 to 3 in pictures: what was seen, and how much of the bounds data reach.
+
+The bounds are on P = |A|^2 + |B|^2 in l2.
+"""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
+
+from pendula.drawing import style
+from pendula.drawing.panels import half_width_axis
+
+BOUNDS = {
+    "theorem_1": (">", "#16876b", "Theorem 1"),
+    "theorem_2": ("s", "#e0a100", "Theorem 2"),
+    "widened": ("D", "#7a4fa3", "Theorem 2 with bonds"),
+    "theorem_3": ("|", style.BLUE, "Theorem 3"),
+}
+FORMS = {
+    "theorem_1": ("theorem_1", "Theorem 1"),
+    "theorem_2": ("theorem_2_energy", "Theorem 2,\nby the energy"),
+    "theorem_2_ball": ("theorem_2_ball", "Theorem 2,\n$C_0 \\delta$"),
+    "theorem_3": ("theorem_3", "Theorem 3"),
+}
+"""The forms of the bounds: the family of their random data, and their names."""
+
+SWEPT = [("o", style.BLUE), ("s", style.RED), ("^", "#16876b"), ("D", "#7a4fa3")]
+POWER = r"$P = \|A\|^2 + \|B\|^2$"
+
+
+def gather_bounds(
+    cases: xr.Dataset,
+    sweeps: xr.Dataset,
+    samples: xr.Dataset,
+    worst: xr.Dataset,
+    sharpness: xr.Dataset,
+    growth: xr.Dataset,
+) -> xr.Dataset:
+    """Return cases and sweeps with their bounds, what data reach, and what grows with the chain."""
+    seen = cases[["omega", "initial", "observed", "start", "ratio", *BOUNDS]]
+    shared = ["omega", "initial", "best"]
+    swept = sweeps[[*shared, "swept_observed"]].rename({name: f"swept_{name}" for name in shared})
+    searched = worst[["worst", "searched_family", "boundary", "sites"]].rename(
+        boundary="searched_boundary", sites="searched_sites"
+    )
+    reached = sharpness[["reached"]].rename(sites="reached_sites")
+    chains = growth[["late_power", "constant_n"]].rename(sites="grown_sites", member="grown_member")
+    drawn = [seen, swept, samples[["worst_sample"]], searched, reached, chains]
+    return xr.merge(drawn, combine_attrs="drop_conflicts")
+
+
+@style.styled
+def draw_bounds(data: xr.Dataset) -> Figure:
+    """Draw cases and what the bounds allow above, the sweeps and the growth with N below."""
+    figure = style.new_figure(style.DOUBLE, 5.6)
+    (cases, forms), (swept, growth) = figure.subplots(2, 2)
+    _draw_cases(cases, data)
+    _draw_forms(forms, data)
+    _draw_sweeps(swept, data)
+    _draw_growth(growth, data)
+    for letter, axes in zip("abcd", (cases, forms, swept, growth), strict=True):
+        axes.annotate(letter, (0, 1), (-16, 4), "axes fraction", "offset points", weight="bold")
+    return figure
+
+
+def _legend_above(axes: Axes, columns: int) -> None:
+    look = {"columnspacing": 0.9, "handlelength": 1.2, "handletextpad": 0.4, "borderaxespad": 0.2}
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, **look)
+
+
+def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
+    rows = np.arange(data.sizes["case"])
+    hollow = {"color": "white", "markeredgecolor": "black", "label": "at the start"}
+    axes.plot(data["start"], rows, "o", markersize=6, **hollow)
+    axes.plot(data["observed"], rows, "o", color=style.RED, markersize=4, label="largest seen")
+    for name, (marker, colour, label) in BOUNDS.items():
+        bound = data[name].where(np.isfinite(data[name]))
+        if bound.notnull().any():
+            look = {"color": colour, "label": label, "markersize": 5, "markeredgewidth": 1.5}
+            axes.plot(bound, rows, marker, **look)
+    axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
+    axes.set_ylim(rows[-1] + 0.5, -0.5)
+    axes.set_xscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel(POWER)
+    _legend_above(axes, 2)
+
+
+def _name(omega: xr.DataArray, initial: xr.DataArray) -> str:
+    return rf"$\Omega = {float(omega):g}$" + "\n" + style.name_initial(str(initial.values))
+
+
+def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
+    """Draw for each form what random data reach as a bar, and the worst data as marks."""
+    rows, sites = np.arange(len(FORMS)), data["reached_sites"].values
+    families = [family for family, _ in FORMS.values()]
+    drawn = data["worst_sample"].sel(family=families)
+    axes.barh(rows, drawn, 0.45, color="0.8", label="random data")
+    runs = data.isel(question=data["searched_boundary"].values == "dirichlet")
+    found = dict(zip(runs["searched_family"].values, runs["worst"].values, strict=True))
+    label = f"search on {int(data['searched_sites'])} sites"
+    axes.plot([found[name] for name in families], rows, "o", color=style.RED, label=label)
+    longest = data["reached"].sel(form=list(FORMS)).isel(reached_sites=-1)
+    mark = {"color": style.BLUE, "markersize": 14, "markeredgewidth": 2}
+    axes.plot(longest, rows, "|", **mark)
+    axes.plot([], [], "|", **{**mark, "markersize": 8}, label=f"a wave on {int(sites[-1])}")
+    axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
+    axes.set_yticks(rows, [words for _, words in FORMS.values()])
+    axes.invert_yaxis()
+    axes.set_xlim(0, 1.06)
+    axes.set_xlabel("largest $P$ over its bound")
+    _legend_above(axes, 2)
+
+
+def _draw_sweeps(axes: Axes, data: xr.Dataset) -> None:
+    for (marker, colour), name in zip(SWEPT, data["sweep"].values, strict=False):
+        sweep = data.sel(sweep=name)
+        label = _name(sweep["swept_omega"], sweep["swept_initial"]).replace("\n", ", ")
+        ratio = sweep["swept_observed"] / sweep["swept_best"]
+        look = {"color": colour, "marker": marker, "markersize": 3.5, "label": label}
+        axes.plot(data["half_width"], ratio, **look)
+    axes.axhline(1, color="black", lw=0.8, dashes=(4, 2))
+    half_width_axis(axes)
+    axes.set_yscale("log")
+    axes.set(xlabel="half-width $M$", ylabel="largest $P$ over its smallest bound")
+    axes.legend(loc="lower left", fontsize=7)
+
+
+def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
+    sites = data["grown_sites"]
+    look = {"color": style.BLUE, "lw": 1.2, "dashes": (4, 2)}
+    axes.plot(sites, data["constant_n"], label="$C_N$ of Theorem 3", **look)
+    mark = {"color": style.RED, "marker": "o", "markersize": 3.5, "linestyle": "none"}
+    late, label = data["late_power"], r"$P$ reached at $\Omega = 0$, each run"
+    for i, run in enumerate(late.transpose("grown_member", ...)):
+        axes.plot(sites, run, **mark, label=label if i == 0 else None)
+    axes.set(xscale="log", yscale="log", xlabel="number of sites $N$", ylabel=POWER)
+    axes.set_xticks(sites.values, [f"{n:g}" for n in sites.values], minor=False)
+    axes.xaxis.set_minor_locator(NullLocator())
+    _legend_above(axes, 1)

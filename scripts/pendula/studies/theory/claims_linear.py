@@ -1,0 +1,183 @@
+"""Section 3: the linear stability of the chain at rest, Lemma 1 and its proof."""
+
+import numpy as np
+
+from pendula.ledger.claim import number
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtMost,
+    Finding,
+    judge,
+    within_tolerance,
+)
+from pendula.ledger.cutoff import Cutoff
+
+from .deciding import changed, decides, wrong
+
+SECTION = 3
+
+RESOLVED = Cutoff(
+    0.15, "bounded beats change a slope over the second half of a run to tau = 40 by 6 / tau"
+)
+HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate at least")
+
+
+def of_another_drive(*names: str):
+    return (wrong("the roots of half of the drive", *names),)
+
+
+@decides(
+    "Section 3, (15)",
+    "The characteristic equation factorises into the dispersion relation.",
+    "dispersion",
+    controls=of_another_drive("dispersion"),
+)
+def dispersion(check) -> Finding:
+    return within_tolerance(check, "eigenvalue_error", "factorisation")
+
+
+def second_pair(check):
+    """Return the check with the growth of the second pair of roots in the place of the first."""
+    growth = check["second_growth"].assign_attrs(check["first_growth"].attrs)
+    return check.assign(first_growth=growth)
+
+
+@decides(
+    "Proof of Lemma 1",
+    "The first pair of roots is always real.",
+    "dispersion",
+    controls=(changed("the second pair", "dispersion", second_pair),),
+)
+def first_roots(check) -> Finding:
+    return within_tolerance(check, "first_growth")
+
+
+@decides(
+    "Proof of Lemma 1",
+    "The second pair of roots is real if |kappa| > 2 |gamma|, and else imaginary.",
+    "dispersion",
+    controls=of_another_drive("dispersion"),
+)
+def second_roots(check) -> Finding:
+    finding = within_tolerance(check, "contradictions")
+    return finding._replace(
+        measured=finding.measured | {"fastest": float(check["second_growth"].max())}
+    )
+
+
+OTHER_OMEGA = (wrong("gamma_0 of another Omega", "chart"),)
+
+
+@decides("Lemma 1", "Zero is linearly stable for |gamma| < gamma_0.", "chart", controls=OTHER_OMEGA)
+def stable_below(chart) -> Finding:
+    below = np.abs(chart["gamma"]) < chart["infinite_threshold"]
+    measured = {
+        "fastest": chart["measured"].where(below).max(),
+        "cells": below.sum(),
+        "misclassified": number(chart, "misclassified"),
+    }
+    return judge(measured, AtMost(RESOLVED, "fastest", says="fastest growth"))
+
+
+@decides(
+    "Lemma 1", "Zero is linearly unstable for |gamma| > gamma_0.", "chart", controls=OTHER_OMEGA
+)
+def unstable_above(chart) -> Finding:
+    above = (chart["gamma"] > chart["infinite_threshold"]) & (chart["gamma"] > 0)
+    finite = chart["gamma"] > chart["finite_threshold"]
+    slow = above & finite & (chart["measured"] < HALF.value * chart["finite_rate"])
+    resolved = slow & (chart["finite_rate"] > 2.0 * RESOLVED.value)
+    spared = int((above & ~finite).sum())
+    measured = {"cells": above.sum(), "contradictions": resolved.sum(), "finite_stable": spared}
+    caveat = f"{spared} such cells are stable on the finite chain" if spared else ""
+    return judge(measured, AtMost(0, "contradictions"), caveat)
+
+
+@decides(
+    "Lemma 1",
+    "Zero is linearly unstable for Omega in [0, 4 epsilon] and any gamma but 0.",
+    "chart",
+    "windows",
+    "measured_windows",
+    controls=(wrong("windows of another Omega", "measured_windows"),),
+)
+def unstable_band(chart, windows, measured_windows) -> Finding:
+    inside = chart["omega"].where((chart["omega"] >= 0) & (chart["infinite_threshold"] == 0))
+    rates = chart["infinite_rate"].where(np.isfinite(inside) & (chart["gamma"] > 0))
+    largest = windows["largest_gamma"]
+    measured = {
+        "slowest_infinite_rate": rates.min(),
+        "largest_gamma_with_a_window": largest.values[-1],
+        "misclassified": number(measured_windows, "misclassified"),
+    }
+    caveat = ""
+    if float(windows["count"].max()) > 0:
+        caveat = "on the infinite chain; a finite one keeps windows of stability for small gamma"
+    criterion = AllOf(Above(0.0, "slowest_infinite_rate"), AtMost(0, "misclassified"))
+    return judge(measured, criterion, caveat)
+
+
+@decides(
+    "Section 3, before Lemma 1",
+    "The bound gamma_0 on the drive is sharp.",
+    "sharp_threshold",
+    controls=(wrong("gamma_0 of another Omega", "sharp_threshold"),),
+)
+def sharp_threshold(check) -> Finding:
+    limit = check["threshold_error"]
+    measured = {"distance": limit.max(), "orders": check["threshold_order"].min()}
+    measured["distance_of_the_longest"] = abs(
+        check["threshold_found"].isel(sites=-1) - check["threshold_limit"]
+    ).max()
+    caveat = "on the infinite chain; N sites lose their stability later, by a square of 1 / (N + 1)"
+    says = "distance to gamma_0 of the measured threshold, continued to the infinite chain"
+    return judge(measured, AtMost(limit.attrs["tolerance"], "distance", says=says), caveat)
+
+
+@decides(
+    "Proof of Lemma 1",
+    "Above gamma_0 waves grow near theta = pi if Omega > 4 epsilon, near 0 if Omega < 0.",
+    "unstable_waves",
+    controls=(wrong("the other edge of the band", "unstable_waves"),),
+)
+def unstable_waves(check) -> Finding:
+    return within_tolerance(check, "waves_nearer")
+
+
+@decides(
+    "Proof of Lemma 1",
+    "At |gamma| = gamma_0 perturbations grow polynomially.",
+    "threshold",
+    controls=(wrong("a drive of 1.05 gamma_0", "threshold"),),
+)
+def threshold_growth(threshold) -> Finding:
+    exponents, one_site = threshold["spreading_exponent"], np.inf
+    in_l2, in_linf = (exponents.sel(norm=norm) for norm in ("l2", "linf"))
+    measured = {
+        "wave_error": threshold["wave_error"].max(),
+        "least_l2_exponent": in_l2.min(),
+        "largest_l2_exponent": in_l2.max(),
+        "largest_linf_exponent": in_linf.max(),
+        "l2_exponent_of_one_site": in_l2.sel(decay=one_site).mean(),
+        "linf_exponent_of_one_site": in_linf.sel(decay=one_site).mean(),
+        "law_error": threshold["spreading_error"].max(),
+        "finite_gap": threshold["finite_gap"].min(),
+    }
+    caveat = (
+        "how fast hangs on the data: a wave grows as tau, and data (1 + |n|)^-s with s < 1 as"
+        " tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity; summable data, such as one site, as"
+        " tau^(1/2) in l2 and not in l-infinity; the Dirichlet chain is stable there"
+    )
+    tolerances = {name: threshold[name].attrs["tolerance"] for name in ("wave_error",)}
+    criterion = AllOf(
+        AtMost(tolerances["wave_error"], "wave_error", says="error of a wave's growth 4 gamma tau"),
+        Above(0.0, "least_l2_exponent", says="least exponent of data in l2"),
+        AtMost(1.0, "largest_l2_exponent", says="their largest exponent"),
+        AtMost(
+            threshold["spreading_error"].attrs["tolerance"],
+            "law_error",
+            says="distance of the exponents to the law",
+        ),
+    )
+    return judge(measured, criterion, caveat)

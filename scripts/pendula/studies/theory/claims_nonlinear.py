@@ -1,0 +1,278 @@
+"""Section 4: Lemma 2, the inequalities, Theorems 1 to 3 and their proofs."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from pendula.ledger.claim import LARGE, SMALL, checks, claim, number
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Near,
+    judge,
+    within_tolerance,
+)
+from pendula.measures.norms import growth_margin
+
+from .deciding import IN_PROPORTION, NEAR, changed, decides, wrong
+
+SECTION = 4
+
+FIRST = 1.0
+"""The order of the distance of two solutions in that of their data."""
+ROUNDING, ROUNDING_OF_P, ROUNDING_OF_H = 1e-6, 1e-7, 1e-12
+"""Bounds that are reached exactly may be exceeded by so much: of growth, of P, and of H."""
+
+
+@decides(
+    "Proof of Lemma 2, (16)",
+    "Solutions exist locally, by Picard's method on the integral equations.",
+    "picard",
+    controls=(wrong("an interval forty times as long", "picard"),),
+)
+def local_existence(check) -> Finding:
+    names = (f"{name}_{way}" for name in ("contraction", "picard_error") for way in WAYS)
+    return within_tolerance(check, *names)
+
+
+WAYS = ("forwards", "backwards")
+
+
+@decides(
+    "Lemma 2",
+    "The solution depends continuously on initial data.",
+    "dependence",
+    controls=(wrong("two solutions with an Omega of their own", "dependence"),),
+)
+def continuous_dependence(check) -> Finding:
+    orders = check["distance_order"]
+    measured = {"least_order": orders.min(), "largest_order": orders.max()}
+    measured["largest_stretch"] = check["stretch"].max()
+    measured["over_gronwall"] = check["stretch_over_bound"].max()
+    says = "order of the distance at the end in that of the data"
+    criterion = AllOf(
+        Near(FIRST, NEAR, "least_order", "largest_order", says=says),
+        AtMost(1.0, "over_gronwall", says="the distance over Gronwall's bound"),
+    )
+    return judge(measured, criterion)
+
+
+@claim(
+    "Lemma 2, (19)",
+    "The squared l2 norm grows at most as exp(4 |gamma tau|).",
+    (*checks("growth"), *SMALL, *LARGE),
+    (wrong("a bound exp(2 |gamma tau|)", "growth"),),
+)
+def growth_bound(check, *trajectories) -> Finding:
+    steepest = [
+        growth_margin(ds["tau"].values, ds["l2"].values, ds.attrs["gamma"])["steepest"]
+        for ds in trajectories
+    ]
+    measured = {"steepest": max(steepest), "random_data": check["steepest"].max()}
+    measured["sharp_case"] = number(check, "sharpest")
+    says = "slope of log P over 4 gamma"
+    return judge(measured, AtMost(1.0 + ROUNDING, "steepest", "random_data", says=says))
+
+
+@decides(
+    "Proof of Lemma 2",
+    "The l2 norm obeys the balance equation.",
+    "balance",
+    controls=(wrong("the balance of half of the drive", "balance"),),
+)
+def balance(check) -> Finding:
+    return within_tolerance(check, "pointwise", "integrated")
+
+
+@decides(
+    "Section 4, before Theorem 1",
+    "It suffices to look at gamma > 0.",
+    "conservation",
+    controls=(wrong("(A, B) -> (-A, -B) for (iA, iB)", "conservation", instead="phase_turned"),),
+)
+def sign_of_gamma(conservation) -> Finding:
+    return within_tolerance(conservation, "sign_defect")
+
+
+def inequality(name: str, number: str, says: str) -> Callable:
+    """Return the function that decides an inequality between norms of sequences."""
+
+    def decide(check) -> Finding:
+        ratios = check["left_over_right"].sel(inequality=number)
+        measured = {"left_over_right": ratios, "sharpest": check["sharp"].sel(inequality=number)}
+        tolerance = check["left_over_right"].attrs["tolerance"]
+        return judge(measured, AtMost(tolerance, "left_over_right"))
+
+    decide.__name__ = name
+    three_quarters = wrong("three quarters of the right side", "inequalities")
+    return decides(f"Section 4, {number}", says, "inequalities", controls=(three_quarters,))(decide)
+
+
+def energy_bound(name: str, place: str, bound: str, says: str) -> Callable:
+    """Return the function that decides a bound on the energy."""
+
+    def decide(check) -> Finding:
+        measured = {"bound_excess": check["bound_excess"].sel(bound=bound)}
+        tolerance = check["bound_excess"].attrs["tolerance"]
+        return judge(measured, AtMost(tolerance, "bound_excess", says="bound minus energy, over P"))
+
+    decide.__name__ = name
+    half = wrong("a bound with half of the drive", "inequalities")
+    return decides(place, says, "inequalities", controls=(half,))(decide)
+
+
+laplacian_bound = inequality(
+    "laplacian_bound", "(17)", "The bonds of a sequence are at most four times its l2 norm squared."
+)
+algebra = inequality(
+    "algebra", "(18)", "The l2 norm of a product is at most the product of the l2 norms."
+)
+embedding = inequality("embedding", "(22)", "The l4 norm is at most the l2 norm.")
+reversed_embedding = inequality(
+    "reversed_embedding", "(27)", "On N sites the l2 norm is at most N^(1/4) times the l4 norm."
+)
+coercivity = energy_bound(
+    "coercivity",
+    "Proof of Theorem 1, (21)",
+    "(21)",
+    "For Omega > 2 gamma + 4 epsilon H is at least (Omega - 2 gamma - 4 epsilon) P.",
+)
+coercivity_near_zero = energy_bound(
+    "coercivity_near_zero",
+    "Proof of Theorem 2, (25)",
+    "(25)",
+    "For Omega < -2 gamma -H is at least (|Omega| - 2 gamma) P - P^2 / 4.",
+)
+finite_energy = energy_bound(
+    "finite_energy",
+    "Proofs of Theorems 1 and 2",
+    "size",
+    "The energy of data in l2 is finite, and of the order of P where P is small.",
+)
+
+
+def theorem(name: str, says: str, *families: str) -> Callable:
+    """Return the function that decides a theorem: no random or searched data break its bounds."""
+
+    def decide(samples, worst) -> Finding:
+        sampled = samples["worst_sample"].sel(family=list(families))
+        searched = worst["worst"].values[np.isin(worst["searched_family"].values, families)]
+        measured = {"worst_sample": sampled.max(), "worst_searched": searched.max()}
+        if "theorem_3" in families:
+            measured["ring_of_two"] = number(worst, "attained")
+        says = "largest P over its bound"
+        return judge(measured, AtMost(1.0 + ROUNDING_OF_P, *measured, says=says))
+
+    decide.__name__ = name
+    place, forgets = name.replace("_", " ").capitalize(), "bounds that forget the drive"
+    control = wrong(forgets, "samples", "worst")
+    return claim(place, says, checks("samples", "worst"), (control,))(decide)
+
+
+theorem_1 = theorem(
+    "theorem_1", "For Omega > 2 gamma + 4 epsilon the l2 norm is bounded for all data.", "theorem_1"
+)
+
+theorem_2 = theorem(
+    "theorem_2",
+    "For Omega < -2 gamma the l2 norm is bounded for small data.",
+    *("theorem_2_ball", "theorem_2_energy", "theorem_2_widened"),
+)
+
+
+@decides(
+    "Proof of Theorem 2",
+    "-H > 0 for small data.",
+    "negative_depth",
+    controls=(wrong("data a hundred times as large", "negative_depth"),),
+)
+def positive_depth(depth) -> Finding:
+    measured = {"largest_energy": number(depth, "most_energy"), "radius": number(depth, "radius")}
+    return judge(measured, Below(0.0, "largest_energy", says="largest H / P of data in the ball"))
+
+
+@decides(
+    "Proof of Theorem 2",
+    "The lower bound (25) yields the upper bound (24).",
+    "bootstrap",
+    controls=(wrong("states below the barrier, as continuity gives", "bootstrap", confirms=True),),
+)
+def bootstrap(check) -> Finding:
+    measured = {
+        name: number(check, name) for name in ("largest_power", "allowed_power", "breaking")
+    }
+    fails = (
+        "the printed bound on P uses P <= C_0 delta, which it is to prove: a pair with"
+        f" P = {measured['breaking']:.3g} satisfies (25) and has the energy of small data,"
+        f" for which (24) allows {measured['allowed_power']:.3g}; the theorem stands,"
+        " as P is continuous and starts below the barrier of (25)"
+    )
+    says = "largest P that the premises allow"
+    return judge(
+        measured, AtMost(measured["allowed_power"], "largest_power", says=says), fails=fails
+    )
+
+
+theorem_3 = theorem(
+    "theorem_3", "On N sites the l2 norm is bounded for all parameters and data.", "theorem_3"
+)
+
+
+def mended(constant):
+    """Return the check with 2 gamma in the bound that is printed with gamma."""
+    return constant.assign(printed=constant["corrected"])
+
+
+@decides(
+    "Proof of Theorem 3",
+    "The quadratic part of H is at least -(|Omega| + gamma + 4 epsilon) P.",
+    "theorem_3_constant",
+    controls=(changed("2 gamma in place of gamma", "theorem_3_constant", mended, confirms=True),),
+)
+def theorem_3_proof(constant) -> Finding:
+    measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
+    measured["smallest_chain"] = smallest = number(constant, "smallest")
+    fails = f"A = -B = x (-1)^n breaks it from {smallest:.0f} sites on; it needs 2 gamma"
+    return judge(measured, AtLeast(-ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
+
+
+@decides(
+    "Theorem 3",
+    "The bound C_N grows without end as N does, and has to.",
+    "chain_growth",
+    controls=(wrong("Omega = 8, where Theorem 1 bounds P on any chain", "chain_growth"),),
+)
+def bound_grows(check) -> Finding:
+    names = ("power_exponent", "power_exponent_low", "power_exponent_high")
+    measured = {name: number(check, name) for name in ("constant_exponent", *names)}
+    over = (check["late_power"].mean("member") / check["constant_n"]).values[-1]
+    measured["part_of_the_bound"] = over
+    caveat = (
+        "has to at Omega = 0; for Omega > 2 gamma + 4 epsilon Theorem 1 has one bound for all N"
+    )
+    criterion = AllOf(
+        Above(IN_PROPORTION, "constant_exponent", says="exponent of C_N in N"),
+        Above(IN_PROPORTION, "power_exponent_low", says="least exponent of the late mean of P"),
+    )
+    return judge(measured, criterion, caveat)
+
+
+@decides(
+    "Section 5, before Fig 4",
+    "At Omega = 0 the energy does not control large solutions.",
+    "energy_shell",
+    controls=(wrong("Omega = 8, where the energy bounds P", "energy_shell"),),
+)
+def energy_not_useful(check) -> Finding:
+    names = ("shell_exponent", "least_quotient", "largest_quotient")
+    measured = {name: number(check, name) for name in names}
+    criterion = AllOf(
+        Above(IN_PROPORTION, "shell_exponent", says="exponent of the largest P of one energy in N"),
+        Below(0.0, "least_quotient", says="least H / P of tiny data"),
+        Above(0.0, "largest_quotient", says="their largest H / P"),
+    )
+    return judge(measured, criterion)

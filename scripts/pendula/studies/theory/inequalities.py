@@ -1,0 +1,110 @@
+"""The inequalities behind Lemma 2 and Theorems 1 to 3, on random states and on the sharpest ones.
+
+(17), (18), (22) and (27) are on sequences; (21) and (25), its widened form, and the bounds of
+Theorem 3's proof and of the size of H, are on the energy.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.models.bounds import coercivity, extent, theorem_2_gap
+from pendula.problem import Constants
+
+from .equations import BOUNDARIES, draw_shape, misstated, random_amplitudes, total_energy
+
+ON_SEQUENCES = ["(17)", "(18)", "(22)", "(27)"]
+ON_ENERGY = ["(21)", "(25)", "(25) widened", "Theorem 3", "size"]
+LONGEST = 13
+"""The longest chain that is drawn."""
+
+
+def norm(a: np.ndarray, power: float = 2.0) -> float:
+    """Return the l-p norm of a sequence."""
+    return float(np.sum(np.abs(a) ** power) ** (1.0 / power))
+
+
+def sequence_ratios(a: np.ndarray, b: np.ndarray) -> list[float]:
+    """Return left over right side of (17), (18), (22) and (27), each at most one."""
+    padded = np.concatenate([[0.0], a, [0.0]])
+    bonds = np.sum(np.abs(np.diff(padded)) ** 2)
+    return [
+        bonds / (4.0 * norm(a) ** 2),
+        norm(a * b) / (norm(a) * norm(b)),
+        norm(a, 4.0) / norm(a),
+        norm(a) / (len(a) ** 0.25 * norm(a, 4.0)),
+    ]
+
+
+def draw_range(rng: np.random.Generator) -> tuple[Constants, Constants]:
+    """Return constants in the range of Theorem 1 and in that of Theorem 2."""
+    epsilon, gamma = rng.uniform(0.2, 2.0), rng.uniform(0.5, 2.0)
+    high, low = 2.0 * gamma + 4.0 * epsilon + 1.0, -2.0 * gamma - rng.uniform(0.1, 4.0)
+    low = Constants(epsilon=epsilon, gamma=gamma, omega=low)
+    return replace(low, omega=high), low
+
+
+def energy_excess(
+    high: Constants, low: Constants, amplitudes: np.ndarray, boundary: str, gamma_times: float
+) -> list[float]:
+    """Return (lower bound - energy) / P of each bound in ON_ENERGY; none is above zero.
+
+    (25) and its widened form are on -H. The size of H is bounded by c P + P^2 / 4. A statement
+    may have another gamma.
+    """
+    power, sites = norm(amplitudes) ** 2, amplitudes.shape[1]
+    upper, energy = (total_energy(k, boundary, amplitudes) for k in (high, low))
+    high, low = (misstated(k, gamma_times=gamma_times) for k in (high, low))
+    margin = high.omega - 2.0 * high.gamma - 4.0 * high.epsilon
+    widened = float(coercivity(power, low)) if boundary == "dirichlet" else -np.inf
+    found = [
+        margin * power - upper,
+        theorem_2_gap(low) * power - power**2 / 4.0 + energy,
+        widened + energy,
+        power**2 / (8.0 * sites) - extent(low) * power - energy,
+        abs(energy) - extent(low) * power - power**2 / 4.0,
+    ]
+    return [one / power for one in found]
+
+
+def edge_waves(sites: int, size: float) -> list[np.ndarray]:
+    """Return the small A = -B that come nearest to (21) and to (25), and -H to its largest size."""
+    wave = size * (-1.0) ** np.arange(sites)
+    return [np.stack([one, -one]) for one in (wave + 0j, np.full(sites, 1j * size), 1j * wave)]
+
+
+def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: float = 1.0) -> dict:
+    """Test every inequality on random states, and on those that make it sharp.
+
+    A control states them with `scale` times their right sides, and with `gamma_times` the drive.
+    """
+    rng = np.random.default_rng(seed)
+    ratios, excess = [], []
+    for sample in range(count):
+        sites = int(rng.integers(1, LONGEST + 1)) // 2 * 2 + 1
+        amplitudes = rng.uniform(0.1, 6.0) * draw_shape(rng, sites)
+        other = random_amplitudes(rng, sites, 1.0)
+        boundary, (high, low) = BOUNDARIES[sample % 3], draw_range(rng)
+        ratios.append(sequence_ratios(amplitudes[0], other[0]))
+        for state in (amplitudes, *edge_waves(sites, 1e-3)):
+            excess.append(energy_excess(high, low, state, boundary, gamma_times))
+    wave, one, flat = (-1.0) ** np.arange(1001), np.eye(1, 5)[0], np.ones(7)
+    sharp = np.diag([sequence_ratios(a, a) for a in (wave, one, one, flat)])
+    return table(
+        "The inequalities behind the theorems",
+        {"inequality": ON_SEQUENCES, "bound": ON_ENERGY},
+        left_over_right=variable(
+            np.maximum(np.max(ratios, axis=0), sharp) / scale,
+            ("inequality",),
+            "largest left over right side",
+            tolerance=1 + 1e-12,
+        ),
+        sharp=variable(sharp, ("inequality",), "the same for the sharpest sequence"),
+        bound_excess=variable(
+            np.max(excess, axis=0),
+            ("bound",),
+            "largest of bound minus energy, over P",
+            tolerance=1e-10,
+        ),
+    )

@@ -1,0 +1,319 @@
+"""Newton's equations (1) for small mu against the amplitudes of (4): Section 2's derivation.
+
+The equations are written here from the paper, and share nothing with the library's model. Runs of
+one mu go together, each with constants of its own. Angles are in radians.
+"""
+
+from collections.abc import Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.integrators.splitting import LINEAR_PARTS, NONLINEAR_PARTS
+from pendula.problem import Constants
+
+from .equations import (
+    misstated,
+    random_amplitudes,
+    right_hand_side,
+    run,
+    total_energy,
+)
+
+OUTPUTS = 41
+"""Times at which angles are compared, the first of them the start."""
+
+
+STEP = 2.0 * np.pi / 6.0
+"""Longest step: a sixth of the pendula's period, in ten stages."""
+
+
+def frequency(constants: Constants, mu: float) -> float:
+    """Return omega of (2)."""
+    return float(np.sqrt(1.0 + mu * mu * constants.omega))
+
+
+def pendula_run(
+    constants: Sequence[Constants], mu: float, amplitudes: np.ndarray, times, drives=1.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return angles and velocities (time, run, 2, N) of (1) from what (3) makes of `amplitudes`.
+
+    Every run has `constants` of its own, its drive times one of `drives`, and data (2, N) of its
+    own or the same as all. The velocity keeps the slow rate of the
+    amplitudes, so that the data err by mu^3 only. By the splitting BM6 between the motion of free
+    particles and the forces: symplectic, so that thousands of periods do not damp the pendula.
+    """
+    runs = len(constants)
+    data = np.broadcast_to(amplitudes, (runs, *np.shape(amplitudes)[-2:]))
+    frequencies = np.array([frequency(k, mu) for k in constants])
+    pairs = zip(constants, data, strict=True)
+    slow = np.array([0.5 * mu * mu * right_hand_side(k, "dirichlet", z) for k, z in pairs])
+    angles = 2.0 * mu * data.real
+    velocities = 2.0 * mu * (1j * frequencies[:, None, None] * data + slow).real
+    laplacian = np.diag(-2.0 * np.ones(data.shape[-1])) + sum(
+        np.diag(np.ones(data.shape[-1] - 1), k) for k in (-1, 1)
+    )
+    bonds = mu * mu * np.array([k.epsilon for k in constants])[:, None, None] * laplacian
+    strengths = 2.0 * mu * mu * drives * np.array([k.gamma for k in constants])
+    forces = partial(force, bonds, strengths[:, None, None], 2.0 * frequencies[:, None, None])
+    found = [(angles, velocities)]
+    for start, end in pairwise(times):
+        found.append(move(*found[-1], forces, start, end))
+    angles, velocities = np.array(found).swapaxes(0, 1)
+    return angles, velocities
+
+
+def force(bonds, strengths, frequencies, angles: np.ndarray, t: float) -> np.ndarray:
+    """Return the accelerations of (1), shape (run, pendulum x or y, site), between ends at rest.
+
+    For each run `bonds` is the matrix C Lap, and D(t) has an amplitude and a frequency.
+    """
+    apart = angles[:, ::-1] - angles
+    apart *= strengths * np.cos(frequencies * t)
+    apart += angles @ bonds
+    apart -= np.sin(angles)
+    return apart
+
+
+def move(angles, velocities, forces, start: float, end: float):
+    """Return angles and velocities at t = `end` by equal steps of BM6, none longer than STEP."""
+    count = int(np.ceil((end - start) / STEP))
+    h, t, x, v = (end - start) / count, start, angles.copy(), velocities.copy()
+    stages = list(zip(h * LINEAR_PARTS, h * NONLINEAR_PARTS, strict=True))
+    for _ in range(count):
+        for drift, kick in stages:
+            x += drift * v
+            t += drift
+            v += kick * forces(x, t)
+        x += stages[0][0] * v
+        t += stages[0][0]
+    return x, v
+
+
+def one_pair(sites: int, pair) -> np.ndarray:
+    """Return amplitudes (2, N) with one pair in the middle and all else at rest."""
+    amplitudes = np.zeros((2, sites), complex)
+    amplitudes[:, sites // 2] = pair
+    return amplitudes
+
+
+def fast_times(mu: float, end: float) -> np.ndarray:
+    """Return the times t at which tau = mu^2 t / 2 goes from 0 to `end` in equal steps."""
+    return np.linspace(0.0, 2.0 * end / mu**2, OUTPUTS)
+
+
+def envelope_run(constants: Constants, amplitudes: np.ndarray, taus) -> np.ndarray:
+    """Return the amplitudes (time, 2, N) of (4) at the slow times `taus`, the first of them 0."""
+    states = [amplitudes]
+    for step in np.diff(taus):
+        states.append(run(constants, "dirichlet", states[-1], step).final)
+    return np.array(states)
+
+
+def angle_errors(angles, envelope, constants: Constants, mu: float, times) -> np.ndarray:
+    """Return max |x - x of (3)| over the chain at each time."""
+    phase = np.exp(1j * frequency(constants, mu) * times)[:, None, None]
+    return np.abs(angles - 2.0 * mu * (envelope * phase).real).max(axis=(1, 2))
+
+
+def order(errors: np.ndarray, mus) -> np.ndarray:
+    """Return the order in mu of errors (mu, ...) between the last two mu."""
+    return np.log(errors[-2] / errors[-1]) / np.log(mus[-2] / mus[-1])
+
+
+def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) -> list[float]:
+    """Return max |x - x of (3)| up to mu^2 t / 2 = `end` for three readings of the equations.
+
+    The slow time mu^2 t / 2, the slow time mu^2 t, and the first with pendula that feel the drive
+    with the opposite sign, which is the same as shifting it by half a period.
+    """
+    times, signs = fast_times(mu, end), np.array([1.0, -1.0])
+    angles, shifted = pendula_run([constants] * 2, mu, amplitudes, times, signs)[0].swapaxes(0, 1)
+    half = envelope_run(constants, amplitudes, 0.5 * mu**2 * times)
+    whole = envelope_run(constants, amplitudes, mu**2 * times)
+    pairs = ((angles, half), (angles, whole), (shifted, half))
+    return [float(angle_errors(x, z, constants, mu, times).max()) for x, z in pairs]
+
+
+def check_expansion(constants: Constants, sites: int, end_time: float, mus, pair) -> dict:
+    """Measure the order in mu of the expansion's error for each reading: only one has order 3."""
+    amplitudes = one_pair(sites, pair)
+    errors = np.array([expansion_errors(constants, mu, amplitudes, end_time) for mu in mus])
+    orders = order(errors, mus)
+    readings = ["mu^2 t / 2", "mu^2 t", "mu^2 t / 2, opposite drive"]
+    return table(
+        "Newton's equations (1) against the expansion (3) with the amplitudes of (4)",
+        {"mu": mus, "reading": readings},
+        angle_error=variable(errors, ("mu", "reading"), "largest error of an angle", "rad"),
+        order=variable(orders, ("reading",), "order in mu of the error"),
+        order_error=variable(
+            abs(orders[0] - 3.0), (), "distance to 3 of the order with mu^2 t / 2", tolerance=0.5
+        ),
+    )
+
+
+def check_remainder(
+    epsilon: float,
+    gamma: float,
+    omegas,
+    sites: int,
+    end_time: float,
+    mus,
+    pair,
+    omega_off: float = 0.0,
+) -> dict:
+    """Follow the remainder X = (x - x of (3)) / mu^3 for a long time, from the paper's small data.
+
+    It is bounded if it does not grow as mu falls, that is if the error of the angle has order
+    three or more. `lost` is the error at the end over the largest angle.
+    """
+    amplitudes, taus = one_pair(sites, pair), np.linspace(0.0, end_time, OUTPUTS)
+    runs = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
+    errors = np.empty((len(mus), len(runs), OUTPUTS))
+    lost = np.empty((len(mus), len(runs)))
+    for i, mu in enumerate(mus):
+        times = fast_times(mu, end_time)
+        angles, _ = pendula_run(runs, mu, amplitudes, times)
+        for j, constants in enumerate(runs):
+            stated = misstated(constants, omega_off)
+            envelope = envelope_run(stated, amplitudes, taus)
+            errors[i, j] = angle_errors(angles[:, j], envelope, constants, mu, times)
+            lost[i, j] = errors[i, j, -1] / np.abs(angles[:, j]).max()
+    dims = ("mu", "omega", "tau")
+    return table(
+        "The remainder of the expansion (3) along Newton's equations (1)",
+        {"mu": mus, "omega": omegas, "tau": taus},
+        remainder=variable(
+            errors / np.reshape(mus, (-1, 1, 1)) ** 3, dims, "largest |X| of the chain", "rad"
+        ),
+        remainder_order=variable(
+            order(errors.max(axis=2), mus),
+            ("omega",),
+            "order in mu of the largest error of an angle",
+        ),
+        early_order=variable(
+            order(errors[..., : OUTPUTS // 10 + 1].max(axis=2), mus),
+            ("omega",),
+            "the same over the first tenth of the time",
+        ),
+        lost=variable(lost, dims[:2], "error of an angle at the end over the largest angle"),
+    )
+
+
+def check_pendula_synchrony(
+    constants: Constants, sites: int, mu: float, end_time: float, seed: int, sign: float = 1.0
+) -> dict:
+    """Run (1) from x = y with the drive and without: all three must stay the same to the last bit.
+
+    A control asks the same of x = -y, where `sign` is -1: it stays, but the drive acts on it.
+    """
+    a = random_amplitudes(np.random.default_rng(seed), sites, 1.0)[0]
+    data, times = np.stack([a, sign * a]), fast_times(mu, end_time)
+    driven, _ = pendula_run([constants], mu, data, times)
+    free, _ = pendula_run([constants], mu, data, times, 0.0)
+    departure = np.abs(driven[:, 0, 0] - sign * driven[:, 0, 1]).max()
+    return table(
+        "The invariant reduction x = y of Newton's equations (1)",
+        {},
+        pendula_departure=variable(departure, (), "largest |x - y|", "rad", tolerance=0.0),
+        drive_effect=variable(
+            np.abs(driven - free).max(), (), "largest effect of the drive", "rad", tolerance=0.0
+        ),
+        moved=variable(np.ptp(driven), (), "range of the angles", "rad"),
+    )
+
+
+def rotating_energy(constants: Constants, mu: float, amplitudes: np.ndarray, t) -> float:
+    """Return Newton's energy of (1) in the frame that turns with omega, at the angles of (3).
+
+    That is the sum of 1 - cos x - omega^2 x^2 / 2 over all pendula, of C (x_{n+1} - x_n)^2 / 2
+    over all bonds, those to the ends at rest among them, and of D(t) (x - y)^2 / 2.
+    """
+    omega = frequency(constants, mu)
+    angles = 2.0 * mu * (amplitudes * np.exp(1j * omega * t)).real
+    bonds = np.sum(np.diff(np.pad(angles, ((0, 0), (1, 1)))) ** 2)
+    drive = 2.0 * constants.gamma * mu**2 * np.cos(2.0 * omega * t)
+    own = np.sum(2.0 * np.sin(0.5 * angles) ** 2 - 0.5 * (omega * angles) ** 2)
+    opposite = np.sum((angles[0] - angles[1]) ** 2)
+    return float(own + 0.5 * constants.epsilon * mu**2 * bonds + 0.5 * drive * opposite)
+
+
+def averaged_energy(constants: Constants, mu: float, amplitudes: np.ndarray) -> float:
+    """Return -1 / mu^4 of the mean of that energy over a turn: 32 points take a cosine's x^16."""
+    turn = 2.0 * np.pi / frequency(constants, mu) * np.arange(32) / 32
+    return -float(np.mean([rotating_energy(constants, mu, amplitudes, t) for t in turn])) / mu**4
+
+
+def check_inherited_energy(
+    constants: Constants, sites: int, end_time: float, mus, seed: int, omega_off: float = 0.0
+) -> dict:
+    """Compare H of (8) with Newton's energy, averaged over a turn, and follow it along (1).
+
+    The amplitudes are read off angles and velocities: x - i x' / omega = 2 mu a e^{i omega t}.
+    Both must differ from H(0) by the order of mu^2.
+    """
+    amplitudes = random_amplitudes(np.random.default_rng(seed), sites, 1.5)
+    stated = misstated(constants, omega_off)
+    energy = total_energy(stated, "dirichlet", amplitudes)
+    static, along = [], []
+    for mu in mus:
+        static.append(abs(averaged_energy(constants, mu, amplitudes) - energy))
+        times, omega = fast_times(mu, end_time), frequency(constants, mu)
+        angles, velocities = (
+            found[:, 0] for found in pendula_run([constants], mu, amplitudes, times)
+        )
+        turned = (angles - 1j * velocities / omega) / (2.0 * mu)
+        states = turned * np.exp(-1j * omega * times)[:, None, None]
+        energies = np.array([total_energy(stated, "dirichlet", state) for state in states])
+        along.append(np.abs(energies - energies[0]).max())
+    missed = np.array([static, along]).T
+    kinds = ["averaged over a turn", "along a trajectory"]
+    return table(
+        "The energy H that (8) inherits from Newton's equations (1)",
+        {"mu": mus, "reading": kinds},
+        energy_missed=variable(missed, ("mu", "reading"), "largest difference to H"),
+        energy_order=variable(order(missed, mus), ("reading",), "order in mu of that"),
+        energy_order_error=variable(
+            np.abs(order(missed, mus) - 2.0), ("reading",), "its distance to 2", tolerance=0.5
+        ),
+    )
+
+
+def driven_growth(gamma: float, mu: float, ratio: float, steps: int = 64) -> float:
+    """Return the growth rate of x - y of one pair at rest, per unit of tau, by Floquet's theorem.
+
+    z'' + (1 + 2 D(t)) z = 0 where D has `ratio` times the frequency of the pendula. Classical
+    Runge-Kutta over one period of the drive.
+    """
+    drive, period = 4.0 * gamma * mu**2, 2.0 * np.pi / ratio
+    h = period / steps
+
+    def rate(t, z):
+        return np.array([z[1], -(1.0 + drive * np.cos(ratio * t)) * z[0]])
+
+    z = np.eye(2)
+    for t in h * np.arange(steps):
+        k1 = rate(t, z)
+        k2 = rate(t + 0.5 * h, z + 0.5 * h * k1)
+        k3 = rate(t + 0.5 * h, z + 0.5 * h * k2)
+        k4 = rate(t + h, z + h * k3)
+        z = z + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    half = max(1.0, 0.5 * abs(np.trace(z)))  # the multipliers are half +- sqrt(half^2 - 1)
+    return float(np.log(half + np.sqrt(half * half - 1.0)) / period / (0.5 * mu**2))
+
+
+def check_resonance(gamma: float, mus, ratios) -> dict:
+    """Find at which ratio of the drive's frequency to the pendula's a pair at rest grows.
+
+    Lemma 1 with epsilon = 0 and Omega = 0 gives 2 gamma per unit of tau at the ratio two.
+    """
+    rates = np.array([[driven_growth(gamma, mu, ratio) for ratio in ratios] for mu in mus])
+    return table(
+        "Growth of one pair at rest under a drive of another frequency, by Newton's equations",
+        {"mu": mus, "drive_ratio": ratios},
+        driven_rate=variable(
+            rates / (2.0 * gamma), ("mu", "drive_ratio"), "growth rate over 2 gamma"
+        ),
+    )

@@ -1,0 +1,185 @@
+"""How near the bounds of Theorems 1 to 3 tiny or extremal data come on longer and longer chains.
+
+And what grows with the chain: the constant C_N of Theorem 3, the norm that is reached from one
+pair, and the largest norm that data of one energy have.
+"""
+
+import numpy as np
+
+from pendula.datasets.checks import table, variable
+from pendula.measures.confidence import mean_limits
+from pendula.models.bounds import (
+    extent,
+    theorem_1_bound,
+    theorem_2_bound,
+    theorem_2_constants,
+    theorem_3_bound,
+)
+from pendula.models.linear_chain import curvatures, flow, modes
+from pendula.problem import Constants
+
+from .equations import random_amplitudes, run, squared_norm, total_energy
+from .errata import alternating
+from .worst_data import OMEGAS
+
+FORMS = ("theorem_1", "theorem_2", "theorem_2_ball", "theorem_3")
+SIZE = 1e-5
+"""Amplitude of tiny data: the cubic terms change ratios by its square."""
+
+
+def tiny_wave(constants: Constants, sites: int) -> tuple[np.ndarray, float, float]:
+    """Return A = -B in the wave nearest to the band's edge, its largest P, and its energy.
+
+    It starts in the phase in which P is least and is carried, by the exact linear flow, for a
+    quarter of its period, to where P is largest.
+    """
+    low = constants.omega < 0.0
+    k = 0 if low else sites - 1
+    shape = SIZE * modes(sites, "dirichlet")[k]
+    kappa = constants.epsilon * curvatures(sites, "dirichlet")[k] - constants.omega
+    quarter = 0.5 * np.pi / np.sqrt(kappa**2 - 4.0 * constants.gamma**2)
+    start = shape * (1.0 if low else 1j)
+    data = np.stack([start, -start]).astype(complex)
+    numbers = (constants.epsilon, constants.gamma, constants.omega, "dirichlet")
+    moved = flow(data, quarter, *numbers)
+    return data, float(np.sum(np.abs(moved) ** 2)), total_energy(constants, "dirichlet", data)
+
+
+def reached(form: str, constants: Constants, sites: int) -> float:
+    """Return P over its bound of this form for the best data known on a Dirichlet chain.
+
+    For Theorem 3 that is A = -B = (-1)^n x at rest with x^2 = 2 c, the state at which its bound is
+    attained where no end breaks the wave and Omega is not positive.
+    """
+    if form == "theorem_3":
+        data = alternating(sites, np.sqrt(2.0 * extent(constants)))
+        energy = total_energy(constants, "dirichlet", data)
+        return float(np.sum(np.abs(data) ** 2) / theorem_3_bound(energy, sites, constants))
+    data, largest, energy = tiny_wave(constants, sites)
+    start = float(np.sum(np.abs(data) ** 2))
+    bounds = {
+        "theorem_1": theorem_1_bound(energy, constants),
+        "theorem_2": theorem_2_bound(energy, start, constants),
+        "theorem_2_ball": theorem_2_constants(constants)[1] * start,
+    }
+    return float(largest / bounds[form])
+
+
+def least_constant(constants: Constants) -> float:
+    """Return the least C_0 that tiny data on an infinite chain allow."""
+    omega, drive = abs(constants.omega), 2.0 * constants.gamma
+    return (omega + drive) / (omega - drive)
+
+
+def check_sharpness(epsilon: float, gamma: float, sizes, scale: float = 1.0) -> dict:
+    """Find what part of each bound is reached on ever longer chains.
+
+    A control states bounds that are `scale` times as large.
+    """
+    ratios = []
+    for form in FORMS:
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[form[:9]])
+        ratios.append([reached(form, constants, int(n)) / scale for n in sizes])
+    negative = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS["theorem_2"])
+    return table(
+        "What part of the bounds of Theorems 1 to 3 is reached on longer and longer chains",
+        {"form": FORMS, "sites": sizes},
+        reached=variable(ratios, ("form", "sites"), "largest P over its bound of the best data"),
+        proof_constant=variable(
+            theorem_2_constants(negative)[1], (), "C_0 that the proof of Theorem 2 gives"
+        ),
+        least_constant=variable(
+            least_constant(negative), (), "least C_0 that tiny data on an infinite chain allow"
+        ),
+    )
+
+
+def late_power(constants: Constants, data: np.ndarray, end_time: float) -> float:
+    """Return the mean of P over the second half of a run."""
+    outputs = 4 * round(end_time)
+    solver = {"name": "taylor", "rtol": 1e-9, "atol": 1e-12}
+    power = squared_norm(run(constants, "dirichlet", data, end_time, outputs, solver).l2)
+    return float(power[outputs // 2 :].mean())
+
+
+def line_slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the slope of the line through points (x, y) by least squares, y (..., point)."""
+    apart = x - x.mean()
+    return np.sum(apart * y, axis=-1) / np.sum(apart**2)
+
+
+def check_chain_growth(
+    constants: Constants, sizes, pair, end_time: float, members: int, seed: int
+) -> dict:
+    """Set C_N of Theorem 3 beside the P that one pair reaches on ever longer chains.
+
+    Each member starts a little, 1e-6, off the pair: where the motion is chaotic that makes another
+    run. The exponent of P in N is fitted for each member; the mean has limits by Student's t.
+    """
+    rng, sizes = np.random.default_rng(seed), np.asarray(sizes)
+    late, bounds = np.empty((members, len(sizes))), np.empty(len(sizes))
+    for i, n in enumerate(map(int, sizes)):
+        data = np.zeros((2, n), complex)
+        data[:, n // 2] = pair
+        bounds[i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
+        for member in range(members):
+            other = data + random_amplitudes(rng, n, 1e-6)
+            late[member, i] = late_power(constants, other, end_time)
+    x = np.log(sizes)
+    mean, least, most = mean_limits(line_slope(x, np.log(late)))
+    return table(
+        "What grows with the length of the chain: C_N, and the norm reached from one pair",
+        {"member": np.arange(members), "sites": sizes},
+        late_power=variable(late, ("member", "sites"), "mean of P over the second half of a run"),
+        constant_n=variable(bounds, ("sites",), "C_N of Theorem 3"),
+        constant_exponent=variable(line_slope(x, np.log(bounds)), (), "exponent of C_N in N"),
+        power_exponent=variable(mean, (), "exponent of that P in N"),
+        power_exponent_low=variable(least, (), "lower confidence limit of that exponent"),
+        power_exponent_high=variable(most, (), "upper confidence limit of that exponent"),
+    )
+
+
+def shell_state(constants: Constants, sites: int, energy: float) -> np.ndarray | None:
+    """Return A = -B = (-1)^n x, with x at its largest, of this energy; None if none has it.
+
+    The energy falls from zero where it can and grows with x^4 in the end.
+    """
+    low, high = 0.0, 1e3
+    unit = alternating(sites, 1.0)
+    sizes = np.sqrt(2.0 * extent(constants)) * np.linspace(0.0, 1.0, 101)
+    energies = [total_energy(constants, "dirichlet", x * unit) for x in sizes]
+    if min(energies) > energy:
+        return None
+    low = sizes[int(np.argmin(energies))]
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        below = total_energy(constants, "dirichlet", middle * unit) < energy
+        low, high = (middle, high) if below else (low, middle)
+    return low * unit
+
+
+def check_energy_shell(constants: Constants, sizes, pair) -> dict:
+    """Find data of the energy of one pair and with the largest norm: does H bound P, for any N?
+
+    And whether H is definite near zero: its least and largest value over P for tiny data.
+    """
+    powers, sizes = [], np.asarray(sizes)
+    for n in map(int, sizes):
+        data = np.zeros((2, n), complex)
+        data[:, n // 2] = pair
+        energy = total_energy(constants, "dirichlet", data)
+        found = shell_state(constants, n, energy)
+        powers.append(np.sum(np.abs(data if found is None else found) ** 2))
+    tiny = [alternating(int(sizes[-1]), SIZE), np.full((2, int(sizes[-1])), SIZE * 1j)]
+    tiny[1][1] *= -1.0
+    quotients = [total_energy(constants, "dirichlet", z) / np.sum(np.abs(z) ** 2) for z in tiny]
+    return table(
+        "The largest norm of data that have the energy of one pair",
+        {"sites": sizes},
+        shell_power=variable(powers, ("sites",), "P of such data"),
+        shell_exponent=variable(
+            line_slope(np.log(sizes), np.log(powers)), (), "exponent of that P in N"
+        ),
+        least_quotient=variable(min(quotients), (), "least H / P of tiny data"),
+        largest_quotient=variable(max(quotients), (), "largest H / P of tiny data"),
+    )
