@@ -37,8 +37,10 @@ def test_a_trajectory_keeps_the_data_contract(finished):
 def test_every_case_and_sweep_exists_by_both_solvers_of_the_paper(finished):
     for name in CASES:
         assert (finished / f"results/trajectories/{name}.nc").exists()
-        with xr.open_dataset(finished / f"results/trajectories/{name}.crank_nicolson.nc") as data:
-            assert data.attrs["solver"] == "crank_nicolson"
+        for solver in ("crank_nicolson", "delfour_fortin_payre"):
+            path = finished / f"results/trajectories/{name}.{solver}.nc"
+            with xr.open_dataset(path) as data:
+                assert data.attrs["solver"] == solver
     for name in SWEEPS:
         assert (finished / f"results/sweeps/{name}.nc").exists()
         with xr.open_dataset(finished / f"results/sweeps/{name}.crank_nicolson.nc") as data:

@@ -129,6 +129,9 @@ def test_a_sweep_is_held_to_its_ensemble_point_by_point():
     apart = claims.swept_draws("fig6_right", other, ensemble)
     assert claims.together(apart["text"]) < 0.02 and apart["off"][0] > 0.6
     assert claims.regular_difference(sweep, other) > 0.6
+    brief = sweep.sel(window=["[10, 40]"])
+    with pytest.raises(UndecidableError, match=r"no window \[10, 70\]"):
+        claims.swept_draws("fig6_right", brief, ensemble)
     with pytest.raises(UndecidableError, match="no ensemble of fig5_left"):
         claims.swept_draws("fig5_left", sweep, ensemble)
     with pytest.raises(UndecidableError, match="six"):
