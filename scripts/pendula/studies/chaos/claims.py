@@ -331,6 +331,8 @@ def ensemble_equilibrium(members) -> Finding:
     ),
 )
 def transition_amplitude(lifetimes) -> Finding:
+    if np.isneginf(lifetimes["median_low"].values).any():
+        raise UndecidableError("the ensembles have too few members to bound a median")
     end = float(lifetimes["tau"][-1])
     least = float(lifetimes["median_high"].min())
     lower = np.minimum(lifetimes["median_low"].values, end)

@@ -51,7 +51,8 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
         axes.text(1.02 * float(tau[-1]), free, label, color=colour, va="center", fontsize=7)
     if fast:
         words = _range(data["amplitude"].values[fast])
-        axes.text(0.105 * float(tau[-1]), 0.04, words, color="0.45", fontsize=7)
+        beside = float(data["median"][fast].max()) + 0.02 * float(tau[-1])
+        axes.text(beside, 0.04, words, color="0.45", fontsize=7)
     axes.set_xlim(0, float(tau[-1]))
     axes.set_ylim(0, 1.03)
     axes.set_xlabel(r"$\tau$")
@@ -60,7 +61,8 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
 
 
 def _range(amplitudes: np.ndarray) -> str:
-    return f"$A_0 = {amplitudes[0]:g}$ to {amplitudes[-1]:g}"
+    last = f" to {amplitudes[-1]:g}" if len(amplitudes) > 1 else ""
+    return f"$A_0 = {amplitudes[0]:g}${last}"
 
 
 def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
@@ -83,6 +85,11 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     axes.errorbar(
         a0[seen] + 0.12, value, [value - least, most - value], linestyle="none",
         label="mean further life", **look,
+    )  # fmt: skip
+    unseen = data["rate"].values == 0
+    axes.plot(
+        a0[unseen] + 0.12, 1.0 / data["rate_high"].values[unseen], color=style.RED, marker="^",
+        markersize=5, linestyle="none", markerfacecolor="white", label="mean at least",
     )  # fmt: skip
     axes.set_yscale("log")
     axes.set_xlabel("initial amplitude $A_0$")
