@@ -2,7 +2,7 @@
 
 import pytest
 from pendula.ledger.claim import Claim, Control, controls_of, evaluate, needed, passes
-from pendula.ledger.criterion import Above, Below, Verdict, judge
+from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge
 from pendula.ledger.cutoff import Cutoff
 
 GROWS = Cutoff(2.0, '"grows"')
@@ -80,3 +80,12 @@ def test_a_row_says_whether_it_rests_on_its_cutoff(row, growth, verdict, moved):
     assert [rest["verdict"] for rest in found["rests_on"]] == moved
     assert ("rests on the cut-off" in found["because"]) == bool(moved)
     assert found["cutoffs"] == [{"value": 2.0, "from": '"grows"'}]
+
+
+def test_a_control_that_cannot_be_made_is_not_decided(row):
+    def impossible(run):
+        raise UndecidableError("the run is too short to be changed")
+
+    found = row(grows, {"run": 5.0}, Control("a changed run", {"run": impossible}))
+    assert found["controls"][0]["verdict"] == Verdict.UNDECIDED
+    assert "too short" in found["controls"][0]["because"]

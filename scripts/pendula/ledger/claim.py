@@ -166,7 +166,10 @@ def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
-    fed = {name: _wrong(wrong, sources[name], sources) for name, wrong in control.fed.items()}
+    try:
+        fed = {name: _wrong(wrong, sources[name], sources) for name, wrong in control.fed.items()}
+    except UndecidableError as reason:
+        return undecided({}, str(reason))
     return decide(claim, {**sources, **fed})
 
 

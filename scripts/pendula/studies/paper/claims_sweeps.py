@@ -178,6 +178,8 @@ def fig5_not_shown(check) -> Finding:
 
 def maxima_of(sweep):
     """Return the maxima of a sweep over the window of Fig 5 as the check of Omega = 8 has them."""
+    if WINDOW not in sweep["window"].values:
+        raise UndecidableError(f"the sweep has no window {WINDOW}")
     chosen = {"quantity": "pair", "statistic": "max", "window": WINDOW}
     return sweep[["l2"]].sel(chosen, drop=True)
 
