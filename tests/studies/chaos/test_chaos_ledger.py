@@ -98,7 +98,8 @@ def single_sweep(l2: float) -> xr.Dataset:
 def sources():
     lyapunov = made_up_chaos.lyapunov()
     chaotic = lyapunov.assign(chaotic=("case", [0, 1]))
-    lives = made_up_chaos.lifetimes().isel(amplitude=[0, 0]).assign_coords(amplitude=[1.0, 5.0])
+    lives = with_choices(made_up_chaos.lifetimes().isel(amplitude=[0, 0]))
+    lives = lives.assign_coords(amplitude=[1.0, 5.0])
     return {
         MEMBERS: members(),
         EVEN: swept(),
@@ -108,6 +109,17 @@ def sources():
         "sweeps/fig5_left": single_sweep(1.2),
         "sweeps/fig6_left": single_sweep(5.0),
     }
+
+
+def with_choices(lives):
+    """Return lives with rates by a coarse, the own, and a finer tolerance: the coarse is off."""
+    rates = np.array([0.5, 0.1, 0.11, 0.09])
+    ends = {"": 1.0, "_low": 0.8, "_high": 1.25}
+    return lives.assign(
+        choice_tolerance=("choice", [1e-5, 1e-8, 1e-11, 1e-8]),
+        choice_kind=("choice", ["even", "even", "even", "uneven"]),
+        **{f"choice_rate{end}": ("choice", rates * factor) for end, factor in ends.items()},
+    ).assign_attrs(solver_rtol=1e-8)
 
 
 def scaled(name: str, factor: float, **selection):
@@ -144,6 +156,7 @@ TURNED = {
     "ensemble_fig6_diverges": (UNEVEN, scaled("l2_error", 99.0, half_width=HALF_WIDTHS[3:])),
     "ensemble_fig6_not_technical": (UNEVEN, scaled("l2_mean", 0.2)),
     "ensemble_fig6_time": (UNEVEN, scaled("l2_mean", 0.1)),
+    "rate_is_resolved": (LIVES, scaled("choice_rate_high", 0.5, choice=2)),
     "even_bands_wider": (MEMBERS, scaled("width_ratio_low", 0.6)),
 }
 

@@ -135,6 +135,45 @@ def even_bands_wider(members, lyapunov) -> Finding:
     return judge(measured, criterion)
 
 
+def own_choice(lifetimes):
+    """Return the compared ensemble that has the tolerance and the evenness of all the others."""
+    even = lifetimes["choice_kind"] == "even"
+    return (lifetimes["choice_tolerance"] == lifetimes.attrs["solver_rtol"]) & even
+
+
+def with_coarse_rates(lifetimes):
+    """Return the lives with the rates of the coarsest tolerance as those of their own."""
+    own, coarse = own_choice(lifetimes), int(lifetimes["choice_tolerance"].argmax())
+    names = [f"choice_rate{end}" for end in ("", "_low", "_high")]
+    return lifetimes.assign(
+        {name: lifetimes[name].where(~own, lifetimes[name][coarse]) for name in names}
+    )
+
+
+@claim(
+    PLACE,
+    "How fast localised centres change over does not hang on the tolerance, nor on evenness.",
+    checks("lifetimes"),
+    controls=(wrong_check("the rate by the coarsest tolerance", lifetimes=with_coarse_rates),),
+)
+def rate_is_resolved(lifetimes) -> Finding:
+    own = own_choice(lifetimes)
+    finer = lifetimes["choice_tolerance"] <= lifetimes.attrs["solver_rtol"]
+    others = lifetimes.isel(choice=(finer & ~own).values)
+    if not own.any() or not others.sizes["choice"]:
+        raise UndecidableError("no other ensemble is as fine")
+    low, high = (lifetimes[f"choice_rate_{end}"][own.values].item() for end in ("low", "high"))
+    measured = {
+        "rate": lifetimes["choice_rate"][own.values].item(),
+        "least": others["choice_rate"].min(),
+        "largest": others["choice_rate"].max(),
+        "above": (others["choice_rate_low"] / high).max(),
+        "below": (low / others["choice_rate_high"]).max(),
+    }
+    says = "lower limits of one rate over the upper ones of another"
+    return judge(measured, AtMost(1.0, "above", "below", says=says))
+
+
 @claim(
     PLACE,
     "Data rounded to doubles lead away from the data as printed, such as 0.1.",
