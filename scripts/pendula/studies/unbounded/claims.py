@@ -80,7 +80,7 @@ def grows(power: str = "exponent_at_least", factor: str = "factor_at_least") -> 
     """Return what lower limits keep where l2 grows."""
     return AllOf(
         Above(SLOW, power, says="lower limit of the exponent of tau in l2"),
-        Above(FACTOR, factor, says=f"lower limit of the growth of l2 since tau = {SETTLED:g}"),
+        Above(FACTOR, factor, says=f"least factor by which l2 grew since tau = {SETTLED:g}"),
     )
 
 

@@ -11,6 +11,7 @@ from pendula.ledger.criterion import (
     Finding,
     UndecidableError,
     WithinFactor,
+    in_words,
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
@@ -111,7 +112,8 @@ def unbounded_maximum(run) -> Finding:
     means = span_means(tau, linf, SETTLED)
     bounded, growing = compare(means)
     bound, law = bounded[best(bounded)].criterion, growing[best(growing)].criterion
-    fits = [fit for fit in growing.values() if fit.criterion < law + NO_SUPPORT.number]
+    fits = {name: fit for name, fit in growing.items() if fit.criterion < law + NO_SUPPORT.number}
+    linf_now = growing[best(growing)].at(tau[-1])
     rise = growing["fourth_root_of_log_tau"].slope
     tails = [tail_scale(state, end_of_bulk(state)) for state in run["state"].isel(variant=0).values]
     tail = mean_limits(tails, SURE.value)
@@ -127,12 +129,11 @@ def unbounded_maximum(run) -> Finding:
         "scale_error": tail.half,
         "last": linf[:, -1].mean(),
     }
-    ahead = sorted(fit.at(FAR_AHEAD) for fit in fits)
+    ahead = [f"{fit.at(FAR_AHEAD):.2f} by {in_words(name)}" for name, fit in fits.items()]
     fails = (
-        f"no bounded law fits, and {len(fits)} growing ones do: they lead from "
-        f"{fits[0].at(tau[-1]):.2f} at tau = {tau[-1]:g} to {ahead[0]:.2f} to {ahead[-1]:.2f} at "
-        "tau = 1e6, so that no figure shows it; a bound that is approached more slowly than "
-        "tau^(-1/2) would look alike"
+        f"no bounded law fits; those that do lead from {linf_now:.2f} at tau = {tau[-1]:g} to "
+        f"{', '.join(ahead)} at tau = 1e6, so that no figure shows it. A bound that is approached "
+        "more slowly than tau^(-1/2) would look alike"
     )
     says = "Akaike's criterion of the best bounded law less that of the best growing one"
     return judge(measured, AtMost(NO_SUPPORT, "bounded_over_growing", says=says), fails=fails)
