@@ -18,7 +18,7 @@ from pendula.models.bounds import (
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.problem import Constants
 
-from .equations import random_amplitudes, run, squared_norm, total_energy
+from .equations import run, squared_norm, total_energy
 from .errata import alternating
 from .worst_data import OMEGAS
 
@@ -123,7 +123,8 @@ def check_chain_growth(
         data[:, n // 2] = pair
         bounds[i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
         for member in range(members):
-            other = data + random_amplitudes(rng, n, 1e-6)
+            off = rng.uniform(-1.0, 1.0, (2, 2, n))
+            other = data + 1e-6 * (off[0] + 1j * off[1])
             late[member, i] = late_power(constants, other, end_time)
     x = np.log(sizes)
     mean, least, most = mean_limits(line_slope(x, np.log(late)))

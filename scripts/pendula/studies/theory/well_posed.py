@@ -79,7 +79,7 @@ def check_picard(
                 ("picard_error", "last iterate minus the solution", 1e-10),
             )
         },
-        span=variable(span, (), "length of the interval in tau"),
+        picard_span=variable(span, (), "length of the interval in tau"),
     )
 
 
