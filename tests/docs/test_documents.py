@@ -43,6 +43,7 @@ DEFINITIONS = [
     r"\|A_0\| = 5 \|B_0\|",  # the data of the paper's large cases
     r"l2² = 2 v\* P τ|3/\(2λτ\)|exp\(-\|A\|⁴/c\)|μ²t/2|μ²t|-H > 0|\(x, 0\)",  # formulas
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
+    r"\(1 \+ \|n\|\)\^-s|1/2 < s < 1|τ\^\((3/2 - s|1 - s|1/2)\)|C_0 δ",  # more formulas
     r"ε = γ = 1",
     r"A_0|B_0",
     r"2γ|4ε",  # the bounds of the unstable band
@@ -67,6 +68,7 @@ COUNTED = {
         "speed.fastest_below",
         "theory.cells",
         "theory.broken_sites",
+        "theory.sites",
     ),
     *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
