@@ -24,7 +24,13 @@ from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.laws import compare, span_means  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
-from pendula.studies.unbounded.bulk import mean_powers  # noqa: E402
+from pendula.studies.unbounded.bulk import (  # noqa: E402
+    mean_powers,
+    mean_terms,
+    slope_powers,
+    thermal_powers,
+)
+from pendula.studies.unbounded.claims_bulk import at_energy  # noqa: E402
 from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
@@ -62,10 +68,11 @@ def job_times(logs: Path) -> dict[str, float]:
 
 def keep_long_study(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the chain without ends."""
-    long = results / "unbounded/long"
+    long, thermal = results / "unbounded/long", read(results / "unbounded/thermal.nc")
     kept = {
         **_cases({name: read(long / f"{name}.nc") for name in GIVEN["cases"]}),
-        **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
+        **_omegas(read(long / "omegas.nc"), thermal),
+        **_warm(read(long / "fig3_large.nc"), thermal),
         **_amplitudes(read(long / "amplitudes.nc")),
         **_tolerances(read(long / "tolerances.nc")),
         **_laws(read(long / "fig4_small.nc")),
@@ -122,6 +129,9 @@ def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
             "speed_error": "its 95 % limits, or what the places of the front resolve",
             "predicted_speed": "speed of linear spreading, sites per unit of tau",
             "bulk_power": "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
+            "bulk_power_error": "its 95 % limits, to each side",
+            "slope_power": "the same mean, from the slope of l2^2",
+            "slope_power_error": "its 95 % limits, to each side",
         }.items()
     }
 
@@ -130,7 +140,9 @@ def _case(run: xr.Dataset) -> dict[str, float]:
     exponent, gained = _exponent(run)
     # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
     pulled = bool(run["predicted_delay"][0] > 0)
-    speed, error = speeds(run, FRONT if pulled else BULK, corrected=pulled)
+    level = FRONT if pulled else BULK
+    speed, error = speeds(run, level, corrected=pulled)
+    power, slope = mean_limits(mean_powers(run, level)[0]), slope_powers(run)[0]
     return {
         "end": float(run["tau"][-1]),
         "members": run.sizes["member"],
@@ -143,13 +155,18 @@ def _case(run: xr.Dataset) -> dict[str, float]:
         "speed": speed[0],
         "speed_error": error[0],
         "predicted_speed": float(run["predicted_speed"][0]),
-        "bulk_power": mean_powers(run)[0].mean(),
+        "bulk_power": power.value,
+        "bulk_power_error": power.half,
+        "slope_power": slope.value,
+        "slope_power_error": slope.half,
     }
 
 
 def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     omegas = run["omega"].values
     speed, error = speeds(run, corrected=True)
+    powers, slopes = mean_limits(mean_powers(run).T), slope_powers(run)
+    limits = "its 95 % limits, to each side"
     values = {
         "varied_omega": (omegas, "detuning Omega"),
         "omega_exponent": (
@@ -160,17 +177,38 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
         "omega_speed_error": (error, "its 95 % limits, or what the places of the front resolve"),
         "omega_predicted_speed": (run["predicted_speed"].values, "speed of linear spreading"),
         "omega_bulk_power": (
-            mean_powers(run).mean(axis=1),
+            powers.value,
             "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
         ),
+        "omega_bulk_power_error": (powers.half, limits),
+        "omega_slope_power": ([one.value for one in slopes], "that mean from the slope of l2^2"),
+        "omega_slope_power_error": ([one.half for one in slopes], limits),
         "omega_thermal_power": (
-            thermal["power"].sel(omega=omegas, method="nearest").values,
+            thermal_powers(thermal, omegas),
             "the same mean in the thermal state of zero energy",
+        ),
+        "omega_correlation_length": (
+            thermal["correlation_length"].sel(omega=omegas, method="nearest").values,
+            "sites over which the slowest correlation of that state falls by a factor of e",
         ),
     }
     end = Variable((), float(run["tau"][-1]), "slow time at the end of the runs over Omega")
     return {"omega_end": end} | {
         name: Variable(("varied_omega",), *value) for name, value in values.items()
+    }
+
+
+def _warm(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
+    """Return the energy that a front leaves behind, and P of the thermal states with or without."""
+    energy = mean_limits(mean_terms(run, BULK)[0].sum(axis=1))
+    words = "P of the thermal state at Omega = -4"
+    return {
+        "warm_energy": Variable((), energy.value, "energy a site of the bulk at Omega = -4"),
+        "warm_energy_error": Variable((), energy.half, "its 95 % limits, to each side"),
+        "warm_power": Variable(
+            (), at_energy(thermal, float(energy.value))["power"], f"{words}, at that energy"
+        ),
+        "cold_power": Variable((), at_energy(thermal, 0.0)["power"], f"{words}, of no energy"),
     }
 
 

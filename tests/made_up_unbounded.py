@@ -89,6 +89,7 @@ def thermal():
         {
             "power": ("omega", np.full(4, POWER)),
             "power_error": ("omega", np.full(4, 1e-4)),
+            "correlation_length": ("omega", [1.0, 1.3, 3.0, 90.0]),
             "warm_power": ("site_energy", POWER + 0.1 * np.array([-2.0, 0.0, 2.0])),
             "warm_terms": (("site_energy", "term"), np.array([TERMS] * 3)),
             "density": (("omega", "modulus"), np.tile(np.exp(-moduli), (4, 1))),

@@ -122,18 +122,22 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
         l2=(("case", "band", "point"), np.full((1, 1, 2), 206.0)),
     ).assign_coords(band=["mean"])
     speeds = {"corrected_speed": 3.0, "corrected_speed_error": 0.01, "predicted_speed": 3.0}
-    powers = {"power": 18.0, "expected_power": 20.0}
+    powers = {"power": 18.0, "power_error": 0.1, "expected_power": 20.0}
+    powers |= {"slope_power": 18.1, "slope_power_error": 0.1}
+    lengths = xr.Dataset({"correlation_length": ("omega", [2.0])}, coords={"omega": [0.0]})
     front = {name: ("omega", [value]) for name, value in (speeds | powers).items()}
     window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0]})
     width = {"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])}
     run = xr.Dataset(width, attrs={"omega": 0.0})
     names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
-             "ensemble_fig6_diverges", "unbounded_window", "unbounded_front")  # fmt: skip
+             "ensemble_fig6_diverges", "unbounded_window", "unbounded_front",
+             "unbounded_equilibrium", "unbounded_slope", "unbounded_warm")  # fmt: skip
     rows = [made_up.claim(n, decided_by=["unbounded/fig4_small"], measured=measured) for n in names]
     return made_up.MadeUp(
         folder,
         {
             "unbounded/growth": law,
+            "unbounded/thermal": lengths,
             "unbounded/front": xr.Dataset(front, coords={"omega": [0.0]}),
             "unbounded/fig4_small": run,
             **dict.fromkeys(growth.MAPS, window),
@@ -152,7 +156,8 @@ def test_growth_is_told_from_the_last_octave(tmp_path, power, grows):
         *("400", "1280", "206", f"0.600, {power:.3f}", f"{power:.3f} ± 0.010")
     ]  # fmt: skip
     assert str(found["speed_ratio"]) == "1.000" and str(found["power_ratio"]) == "0.90"
-    assert found["fronts"][0][4] == ("20", "unbounded/front.nc")
+    assert found["fronts"][0][5] == ("20", "unbounded/front.nc")
+    assert str(found["fronts"][0][4]).replace("\N{NO-BREAK SPACE}", " ") == "18.10 ± 0.10"
 
 
 def test_runs_that_are_too_short_tell_no_power(tmp_path):

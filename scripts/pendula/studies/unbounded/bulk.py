@@ -157,17 +157,21 @@ def slope_powers(run, confidence: float = CONFIDENCE) -> list[Limits]:
     A pulled front of the speed v has passed v tau - delay log tau + const sites on either side, so
     l2^2 is P times twice that and a constant. NaN where no front is pulled.
     """
+    return [
+        _slope_power(run.isel(variant=variant), confidence)
+        for variant in range(run.sizes["variant"])
+    ]
+
+
+def _slope_power(run, confidence: float) -> Limits:
+    speed, delay = float(run["predicted_speed"]), float(run["predicted_delay"])
+    if not delay > 0.0:
+        return Limits(np.nan, np.nan, np.nan)
     tau = run["tau"].values
     kept = tau >= FIRST_OF_LINE * tau[-1]
-    found = []
-    for variant in range(run.sizes["variant"]):
-        one = run.isel(variant=variant)
-        speed, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
-        sites = 2.0 * (speed * tau[kept] - delay * np.log(tau[kept]))
-        squares = one["l2"].transpose("member", "tau").values[:, kept] ** 2
-        slope = fit_line(sites, squares, sites[0], confidence).slope
-        found.append(slope if delay > 0.0 else Limits(np.nan, np.nan, np.nan))
-    return found
+    sites = 2.0 * (speed * tau[kept] - delay * np.log(tau[kept]))
+    squares = run["l2"].transpose("member", "tau").values[:, kept] ** 2
+    return fit_line(sites, squares, sites[0], confidence).slope
 
 
 def thermal_powers(thermal, omegas: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ LAWS = {
     "fourth_root_of_log_tau": "(a + b ln τ)^(1/4)",
     "power_of_tau": "a power of τ",
 }
-GROWTH, FRONT = "unbounded/growth", "unbounded/front"
+GROWTH, FRONT, THERMAL = "unbounded/growth", "unbounded/front", "unbounded/thermal"
 MAIN = "unbounded/fig4_small"
 MAPS = ["unbounded/map_fig5_left", "unbounded/map_fig5_right"]
 MAPS += ["unbounded/map_fig6_left", "unbounded/map_fig6_right"]
@@ -35,6 +35,8 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "cases": cases,
         "main": _main(results, ledger),
         "maximum": _maximum(results, ledger),
+        "bulk": _bulk(results, ledger),
+        "warm": _warm(ledger),
         "fronts": fronts["rows"],
         "omegas": results.quote(FRONT, len(fronts["rows"])),
         "speed_ratio": results.say(FRONT, span(fronts["speed_ratio"], 4)),
@@ -88,6 +90,39 @@ def _maximum(results: Results, ledger: Ledger) -> dict[str, Any]:
     }
 
 
+def _bulk(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return P of the bulk and of the slope of l2^2 beside that of the thermal state."""
+    row, thermal = "unbounded_slope", results[THERMAL]
+    both = {
+        name: results.quote_error(
+            MAIN, ledger.value(row, f"power_of_{name}"), ledger.value(row, f"power_of_{name}_error")
+        )
+        for name in ("bulk", "slope")
+    }
+    longest = thermal.isel(omega=int(thermal["correlation_length"].argmax()))
+    return {
+        **both,
+        "known": bool(np.isfinite(ledger.value(row, "power_of_slope"))),
+        "thermal": ledger.quote(row, "thermal_power", 5),
+        "because": ledger.because("unbounded_equilibrium"),
+        "slope_because": ledger.because(row),
+        "length": results.quote(THERMAL, float(longest["correlation_length"]), 2),
+        "length_omega": results.quote(THERMAL, float(longest["omega"])),
+    }
+
+
+def _warm(ledger: Ledger) -> dict[str, Any]:
+    """Return the energy that the front leaves behind, and P beside the thermal ones."""
+    row, value = "unbounded_warm", ledger.value
+    names = ("energy", "energy_error", "power", "power_error")
+    names += ("thermal_power", "thermal_power_without_energy")
+    return {
+        "known": bool(np.isfinite(value(row, "energy"))),
+        "because": ledger.because(row),
+        **{name: ledger.quote(row, name, 4) for name in names},
+    }
+
+
 def _case(results: Results, name: str) -> dict[str, Any]:
     case = results[GROWTH].sel(case=name)
     exponents = case["l2_exponent"].values
@@ -112,18 +147,17 @@ def _case(results: Results, name: str) -> dict[str, Any]:
 
 def _fronts(results: Results) -> dict[str, Any]:
     front = results[FRONT]
-    names = ("omega", "corrected_speed", "corrected_speed_error", "predicted_speed", "power")
-    columns = [front[name].values for name in (*names, "expected_power")]
-    rows = [
-        [
-            f"Ω = {number(omega)}",
-            results.quote_error(FRONT, speed, error),
-            results.quote(FRONT, predicted, 4),
-            results.quote(FRONT, power),
-            results.quote(FRONT, thermal),
-        ]
-        for omega, speed, error, predicted, power, thermal in zip(*columns, strict=True)
-    ]
+    with_errors = ("corrected_speed", "power", "slope_power")
+    rows = []
+    for index, omega in enumerate(front["omega"].values):
+        one = front.isel(omega=index)
+        speed, power, slope = (
+            results.quote_error(FRONT, float(one[name]), float(one[f"{name}_error"]))
+            for name in with_errors
+        )
+        predicted = results.quote(FRONT, float(one["predicted_speed"]), 4)
+        thermal = results.quote(FRONT, float(one["expected_power"]), 5)
+        rows.append([f"Ω = {number(omega)}", speed, predicted, power, slope, thermal])
     return {
         "rows": rows,
         "speed_ratio": (front["corrected_speed"] / front["predicted_speed"]).values,
