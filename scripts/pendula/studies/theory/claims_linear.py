@@ -9,6 +9,7 @@ from pendula.ledger.criterion import (
     AtMost,
     Finding,
     judge,
+    tolerance,
     within_tolerance,
 )
 from pendula.ledger.cutoff import Cutoff
@@ -21,6 +22,9 @@ RESOLVED = Cutoff(
     0.15, "bounded beats change a slope over the second half of a run to tau = 40 by 6 / tau"
 )
 HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate at least")
+
+
+TOLD = Cutoff(0.05, "exponents are told to a decimal")
 
 
 def of_another_drive(*names: str):
@@ -132,7 +136,9 @@ def sharp_threshold(check) -> Finding:
     ).max()
     caveat = "on the infinite chain; N sites lose their stability later, by a square of 1 / (N + 1)"
     says = "distance to gamma_0 of the measured threshold, continued to the infinite chain"
-    return judge(measured, AtMost(limit.attrs["tolerance"], "distance", says=says), caveat)
+    return judge(
+        measured, AtMost(tolerance(check, "threshold_error"), "distance", says=says), caveat
+    )
 
 
 @decides(
@@ -169,15 +175,14 @@ def threshold_growth(threshold) -> Finding:
         " tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity; summable data, such as one site, as"
         " tau^(1/2) in l2 and not in l-infinity; the Dirichlet chain is stable there"
     )
-    tolerances = {name: threshold[name].attrs["tolerance"] for name in ("wave_error",)}
     criterion = AllOf(
-        AtMost(tolerances["wave_error"], "wave_error", says="error of a wave's growth 4 gamma tau"),
+        AtMost(
+            tolerance(threshold, "wave_error"),
+            "wave_error",
+            says="error of a wave's growth 4 gamma tau",
+        ),
         Above(0.0, "least_l2_exponent", says="least exponent of data in l2"),
         AtMost(1.0, "largest_l2_exponent", says="their largest exponent"),
-        AtMost(
-            threshold["spreading_error"].attrs["tolerance"],
-            "law_error",
-            says="distance of the exponents to the law",
-        ),
+        AtMost(TOLD, "law_error", says="distance of the exponents to the law"),
     )
     return judge(measured, criterion, caveat)

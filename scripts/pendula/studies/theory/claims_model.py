@@ -12,6 +12,7 @@ from pendula.ledger.criterion import (
     Finding,
     Near,
     judge,
+    tolerance,
     within_tolerance,
 )
 from pendula.ledger.cutoff import Cutoff
@@ -144,7 +145,7 @@ def pt_symmetry(pt) -> Finding:
     caveat = ""
     if alone > MISSED.value:
         caveat = "P and T together are a symmetry; either alone misses by 2 gamma max(|u|, |v|)"
-    return judge(measured, AtMost(pt["pt"].attrs["tolerance"], "pt"), caveat)
+    return judge(measured, AtMost(tolerance(pt, "pt"), "pt"), caveat)
 
 
 @decides(

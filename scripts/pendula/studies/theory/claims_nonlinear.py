@@ -14,8 +14,10 @@ from pendula.ledger.criterion import (
     Finding,
     Near,
     judge,
+    tolerance,
     within_tolerance,
 )
+from pendula.ledger.cutoff import Cutoff
 from pendula.measures.norms import growth_margin
 
 from .deciding import IN_PROPORTION, NEAR, changed, decides, wrong
@@ -24,8 +26,8 @@ SECTION = 4
 
 FIRST = 1.0
 """The order of the distance of two solutions in that of their data."""
-ROUNDING, ROUNDING_OF_P, ROUNDING_OF_H = 1e-6, 1e-7, 1e-12
-"""Bounds that are reached exactly may be exceeded by so much: of growth, of P, and of H."""
+ROUNDING = Cutoff(1.0 + 1e-6, "solvers and rounding may exceed a bound that is reached", 1.0)
+ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
 
 
 @decides(
@@ -75,7 +77,7 @@ def growth_bound(check, *trajectories) -> Finding:
     measured = {"steepest": max(steepest), "random_data": check["steepest"].max()}
     measured["sharp_case"] = number(check, "sharpest")
     says = "slope of log P over 4 gamma"
-    return judge(measured, AtMost(1.0 + ROUNDING, "steepest", "random_data", says=says))
+    return judge(measured, AtMost(ROUNDING, "steepest", "random_data", says=says))
 
 
 @decides(
@@ -104,8 +106,7 @@ def inequality(name: str, number: str, says: str) -> Callable:
     def decide(check) -> Finding:
         ratios = check["left_over_right"].sel(inequality=number)
         measured = {"left_over_right": ratios, "sharpest": check["sharp"].sel(inequality=number)}
-        tolerance = check["left_over_right"].attrs["tolerance"]
-        return judge(measured, AtMost(tolerance, "left_over_right"))
+        return judge(measured, AtMost(ROUNDING, "left_over_right"))
 
     decide.__name__ = name
     three_quarters = wrong("three quarters of the right side", "inequalities")
@@ -117,8 +118,8 @@ def energy_bound(name: str, place: str, bound: str, says: str) -> Callable:
 
     def decide(check) -> Finding:
         measured = {"bound_excess": check["bound_excess"].sel(bound=bound)}
-        tolerance = check["bound_excess"].attrs["tolerance"]
-        return judge(measured, AtMost(tolerance, "bound_excess", says="bound minus energy, over P"))
+        limit = tolerance(check, "bound_excess")
+        return judge(measured, AtMost(limit, "bound_excess", says="bound minus energy, over P"))
 
     decide.__name__ = name
     half = wrong("a bound with half of the drive", "inequalities")
@@ -165,7 +166,7 @@ def theorem(name: str, says: str, *families: str) -> Callable:
         if "theorem_3" in families:
             measured["ring_of_two"] = number(worst, "attained")
         says = "largest P over its bound"
-        return judge(measured, AtMost(1.0 + ROUNDING_OF_P, *measured, says=says))
+        return judge(measured, AtMost(ROUNDING, *measured, says=says))
 
     decide.__name__ = name
     place, forgets = name.replace("_", " ").capitalize(), "bounds that forget the drive"
@@ -237,7 +238,7 @@ def theorem_3_proof(constant) -> Finding:
     measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
     measured["smallest_chain"] = smallest = number(constant, "smallest")
     fails = f"A = -B = x (-1)^n breaks it from {smallest:.0f} sites on; it needs 2 gamma"
-    return judge(measured, AtLeast(-ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
+    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
 
 
 @decides(
