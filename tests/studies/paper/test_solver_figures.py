@@ -3,7 +3,7 @@
 import numpy as np
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.measures.difference import VISIBLE
-from pendula.studies.paper import figures
+from pendula.studies.paper import figures, solvers
 
 
 def test_energy_panels_draw_each_solver_and_the_claim(gathered):
@@ -14,6 +14,14 @@ def test_energy_panels_draw_each_solver_and_the_claim(gathered):
         drawn = [SOLVER_NAMES[name] for name in gathered["drift"]["solver"].values]
         assert sorted(curve.get_label() for curve in curves) == sorted(drawn)
         assert set(line.get_ydata()) == {claim}
+
+
+def test_the_drift_is_drawn_as_its_largest_value_so_far(trajectories, swept_pairs):
+    measured = solvers.compare(trajectories, swept_pairs)
+    measured["drift"][..., -1] = 0.0  # it comes back to nothing, as an oscillation does
+    drawn = figures.gather_drift(measured)["drift_so_far"]
+    assert np.array_equal(drawn.isel(tau=-1), measured["drift"].isel(tau=-2))
+    assert np.array_equal(drawn.isel(tau=5), measured["drift"].isel(tau=5))
 
 
 def test_agreement_panels_draw_each_pair_and_what_is_visible(gathered):

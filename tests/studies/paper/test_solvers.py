@@ -12,8 +12,8 @@ def references(make_trajectory):
     return {"fig2_small": true, "fig2_large": true}
 
 
-def test_drift_is_measured_from_the_start(trajectories, gathered):
-    drift = gathered["drift"]["drift"]
+def test_drift_is_measured_from_the_start(trajectories, swept_pairs):
+    drift = compare(trajectories, swept_pairs)["drift"]
     for (case, solver), trajectory in trajectories.items():
         expected = np.abs(trajectory["energy"].values - 7.0)
         assert np.allclose(drift.sel(case=case, solver=solver), expected, rtol=1e-12, atol=0)
