@@ -63,6 +63,11 @@ def level(norm: str, window: str = LATER, quantity: str = "pair") -> Callable:
     return lambda case: case[f"{norm}_level"].sel(window=window, quantity=quantity).values
 
 
+def over_start(norm: str) -> Callable:
+    """Return a function of a case's members: the late mean of a norm over that of the data."""
+    return lambda case: level(norm)(case) / float(case[f"{norm}_start"])
+
+
 def change(norm: str) -> Callable:
     """Return a function of a case's members: the relative change of a norm between the halves."""
     return lambda case: level(norm, LATER)(case) / level(norm, EARLIER)(case) - 1.0
@@ -126,7 +131,7 @@ def wrong_cases(right: str, *wrongs: str) -> tuple[Control, ...]:
     controls=wrong_cases("fig3_large", "fig3_small", "fig2_large", "fig2_small"),
 )
 def ensemble_fig3_grows(members) -> Finding:
-    found = limits(members, "fig3_large", lambda case: level("l2")(case) / float(case["l2_start"]))
+    found = limits(members, "fig3_large", over_start("l2"))
     lows = named(found, "low")
     says = f"lower limits of the mean l2 on {LATER} over the start"
     return judge(named(found, "value") | lows, Above(FACTOR, *lows, says=says), nearby(members))
@@ -176,9 +181,7 @@ def ensemble_fig3_mixes(members) -> Finding:
     controls=wrong_cases("fig3_large", "fig4_small", "fig2_small", "fig3_small"),
 )
 def ensemble_fig3_maximum(members) -> Finding:
-    found = limits(
-        members, "fig3_large", lambda case: level("linf")(case) / float(case["linf_start"])
-    )
+    found = limits(members, "fig3_large", over_start("linf"))
     ends = named(found, "low") | named(found, "high")
     rise = min(limit.low for limit in found.values()) - 1.0
     caveat = nearby(members)
@@ -210,9 +213,7 @@ def of_both(members, reduce: Callable) -> dict[str, Limits]:
 )
 def ensemble_fig4_settles(members) -> Finding:
     changes = named(distance(of_both(members, change("linf"))), "high", "change")
-    grown = limits(
-        members, "fig4_small", lambda case: level("linf")(case) / float(case["linf_start"])
-    )
+    grown = limits(members, "fig4_small", over_start("linf"))
     growth = named(grown, "low", "growth")
     settled = Below(CHANGE, *changes, says="upper limits of the change between the halves")
     says = "lower limits of the growth from the small data"
