@@ -271,6 +271,9 @@ def unbounded(baseline: Baseline) -> dict:
     bulk, large = (long.sel(case=case) for case in ("fig4_small", "fig3_large"))
     centre = long.sel(varied_omega=0.0)
     ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
+    furthest = long.isel(varied_omega=int(abs(ratio - 1.0).values.argmax()))
+    off = abs(long["omega_bulk_power"] - long["omega_thermal_power"])
+    apart = long["varied_omega"].where(off > long["omega_bulk_power_error"], drop=True)
     speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
     grown = long["amplitude"].where(long["amplitude_exponent"] > GROWING, drop=True)
     cut, cost = baseline["quoted/cut_front"], baseline["speed/cost"]
@@ -282,8 +285,9 @@ def unbounded(baseline: Baseline) -> dict:
         "linf": number(bulk["linf"], 2),
         "speed": _with_error(bulk, "speed"),
         "predicted": number(bulk["predicted_speed"], 5),
-        "bulk_power": number(bulk["bulk_power"]),
-        "thermal_power": number(centre["omega_thermal_power"]),
+        "bulk_power": _with_error(bulk, "bulk_power"),
+        "slope_power": _with_error(bulk, "slope_power"),
+        "thermal_power": number(centre["omega_thermal_power"], 5),
         "omegas": str(long.sizes["varied_omega"]),
         "least_omega": number(long["varied_omega"].min()),
         "largest_omega": number(long["varied_omega"].max()),
@@ -291,8 +295,15 @@ def unbounded(baseline: Baseline) -> dict:
         "omega_from": number(long["omega_end"] / 4),
         "omega_exponents": span(long["omega_exponent"].values, 2),
         "omega_speeds": number(speeds.max(), 2),
+        "told_apart": ", ".join(map(number, apart.values)) or "none of them",
         "furthest": percent(abs(ratio - 1.0).max()),
-        "furthest_omega": number(long["varied_omega"][int(abs(ratio - 1.0).values.argmax())]),
+        "furthest_omega": number(furthest["varied_omega"]),
+        "furthest_length": number(furthest["omega_correlation_length"], 2),
+        "centre_length": number(centre["omega_correlation_length"], 2),
+        "warm_energy": _with_error(long, "warm_energy"),
+        "warm_bulk_power": _with_error(large, "bulk_power"),
+        "warm_power": number(long["warm_power"], 4),
+        "cold_power": number(long["cold_power"], 4),
         "amplitudes": str(long.sizes["amplitude"]),
         "spreading": " and ".join(number(size) for size in grown.values),
         "amplitude_end": number(long["amplitude_end"]),
