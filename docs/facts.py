@@ -238,6 +238,12 @@ def _limits(data: xr.Dataset, name: str) -> str:
     return f"{number(low)} to {number(high)}" if np.isfinite(high) else f"over {number(low)}"
 
 
+def _rate(life: xr.Dataset) -> str:
+    """Return the rate of transitions, or what it is below where none was seen."""
+    rate, high = float(life["rate"]), float(life["rate_high"])
+    return number(rate, 2) if rate else f"below {number(high, 2)}"
+
+
 def lifetimes(baseline: Baseline) -> dict:
     """Return how long the central pendulum stays localised, by its initial amplitude."""
     lives = baseline["checks/lifetimes"]
@@ -253,7 +259,7 @@ def lifetimes(baseline: Baseline) -> dict:
             {
                 "case": number(a0),
                 "kept": percent(slow["surviving"].sel(amplitude=a0)[-1]),
-                "rate": number(slow["rate"].sel(amplitude=a0), 2),
+                "rate": _rate(slow.sel(amplitude=a0)),
                 "limits": _limits(slow.sel(amplitude=a0), "rate"),
             }
             for a0 in slow["amplitude"].values
