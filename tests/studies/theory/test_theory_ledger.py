@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from made_up import paper_sweeps, paper_trajectories
 from made_up_unbounded import spread, unbounded_runs
-from pendula.ledger.claim import all_claims, decide, evaluate, needed
+from pendula.ledger.claim import all_claims, decide, evaluate, feed, needed, passes
 from pendula.ledger.criterion import Verdict
 from pendula.studies.theory.checks import CHECKS
 from pendula.studies.theory.settings import WRONG, WRONG_FOLDER
@@ -206,6 +206,21 @@ def test_claim_holds_and_flips_when_its_numbers_change(name, sources):
     source, change = FLIPS[name]
     damaged = sources | {source: keeping_attributes(change)(sources[source])}
     assert decide(CLAIM[name], damaged).verdict == Verdict.NOT_REPRODUCED
+
+
+def of_the_theory(sources):
+    """Return pairs of a claim of this study and a control whose datasets are all here."""
+    own = [claim for claim in made(sources) if ".theory." in claim.decide.__module__]
+    pairs = [(claim, control) for claim in own for control in claim.controls]
+    assert len(pairs) >= 45
+    return pairs
+
+
+def test_every_wrong_statement_is_refused_and_every_right_one_confirmed(sources):
+    for claim, control in of_the_theory(sources):
+        finding = feed(claim, control, sources)
+        assert finding.verdict != Verdict.UNDECIDED, (claim.name, control.says)
+        assert passes(control, finding), (claim.name, control.says, finding)
 
 
 def test_every_criterion_refuses_some_number_and_what_is_none(sources):

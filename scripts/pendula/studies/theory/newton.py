@@ -26,8 +26,8 @@ OUTPUTS = 41
 """Times at which angles are compared, the first of them the start."""
 
 
-STEP = 2.0 * np.pi / 6.0
-"""Longest step: a sixth of the pendula's period, in ten stages."""
+STEP = 2.0 * np.pi / 10.0
+"""Longest step: a tenth of the pendula's period, in ten stages."""
 
 
 def frequency(constants: Constants, mu: float) -> float:
