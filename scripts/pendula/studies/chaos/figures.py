@@ -99,7 +99,9 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
     axes.set_title("all changes: the upper half", loc="left")
     axes.set_xlabel("number of the exponent over $4N$")
     axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
-    axes.legend(handles=_spectrum_legend(data), loc="upper right", handletextpad=0.1)
+    axes.legend(
+        handles=_spectrum_legend(data), loc="upper right", handlelength=1.2, handletextpad=0.5
+    )
 
 
 def _spectrum_legend(data: xr.Dataset) -> list[Line2D]:
