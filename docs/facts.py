@@ -360,7 +360,7 @@ def _laws(long: xr.Dataset) -> dict[str, str]:
     off, ahead = long["law_chi2"].values, long["law_ahead"]
     return {
         "spans": str(int(long["law_spans"])),
-        "bounded_off": number(off[~grows].min(), 2),
+        "bounded_off": number(off[~grows].min()),
         **{
             f"{short}_off": number(long["law_chi2"].sel(law=law), 2)
             for short, law in GROWING_LAWS.items()
