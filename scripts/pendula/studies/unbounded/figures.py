@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from pendula.drawing import panels, style
 from pendula.problem import Constants
@@ -36,6 +36,8 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     _draw_exponents(exponents, data)
     _draw_linf(linf, data)
     rate.set_xscale("log")
+    rate.set_xlim(left=0.9 * float(data["span_tau"].min()))
+    rate.xaxis.set_minor_formatter(NullFormatter())
     for axes, letter in zip((rate, rest, exponents, linf), "abcd", strict=True):
         axes.set_title(f"({letter})", loc="left", fontsize=8)
     for axes in (exponents, linf):
