@@ -120,7 +120,7 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(rf"front $- v^*\tau$ (sites), $\Omega = {data.attrs['omega']:g}$")
-    axes.set_ylim(top=float(data["behind"].max()) + 3.5)
+    axes.set_ylim(top=float(data["behind"].max()) + 4.8)
     axes.legend(loc="upper right", handlelength=1.6)
 
 
