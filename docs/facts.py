@@ -287,6 +287,7 @@ def unbounded(baseline: Baseline) -> dict:
     ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
     furthest = long.isel(varied_omega=int(abs(ratio - 1.0).values.argmax()))
     off = abs(long["omega_bulk_power"] - long["omega_thermal_power"])
+    missed = abs(float(bulk["bulk_power"]) - float(centre["omega_thermal_power"]))
     apart = long["varied_omega"].where(off > long["omega_bulk_power_error"], drop=True)
     speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
     agree = abs(long["omega_speed"] - long["omega_predicted_speed"]) <= long["omega_speed_error"]
@@ -303,6 +304,8 @@ def unbounded(baseline: Baseline) -> dict:
         "predicted": number(bulk["predicted_speed"], 5),
         "bulk_power": _with_error(bulk, "bulk_power"),
         "slope_power": _with_error(bulk, "slope_power"),
+        "bulk_off": percent(missed / float(centre["omega_thermal_power"])),
+        "bulk_agrees": "no more" if missed <= float(bulk["bulk_power_error"]) else "more",
         "thermal_power": number(centre["omega_thermal_power"], 5),
         "omegas": str(long.sizes["varied_omega"]),
         "least_omega": number(long["varied_omega"].min()),
