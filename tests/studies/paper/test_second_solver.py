@@ -124,10 +124,10 @@ def test_a_sweep_is_held_to_its_ensemble_point_by_point():
     moments = {"l2_mean": sweep["l2"], "l2_deviation": 0.1 * sweep["l2"]}
     ensemble = xr.Dataset(moments).expand_dims(sweep=["fig6_right"]).assign_attrs(swept_members=8)
     alike = claims.swept_draws("fig6_right", sweep, ensemble)
-    assert claims.together(alike["text"]) == 1.0 and alike["off"] == [0.0]
+    assert claims.outside(alike["text"]) == (0, 8) and alike["off"] == [0.0]
     other = swept(10.0 + np.arange(8.0) + 9.0 * (np.arange(8) == 3))
     apart = claims.swept_draws("fig6_right", other, ensemble)
-    assert claims.together(apart["text"]) < 0.02 and apart["off"][0] > 0.6
+    assert claims.outside(apart["text"]) == (1, 8) and apart["off"][0] > 0.6
     assert claims.regular_difference(sweep, other) > 0.6
     brief = sweep.sel(window=["[10, 40]"])
     with pytest.raises(UndecidableError, match=r"no window \[10, 70\]"):
