@@ -305,7 +305,7 @@ def unbounded(baseline: Baseline) -> dict:
         "bulk_power": _with_error(bulk, "bulk_power"),
         "slope_power": _with_error(bulk, "slope_power"),
         "bulk_off": percent(missed / float(centre["omega_thermal_power"])),
-        "bulk_agrees": "no more" if missed <= float(bulk["bulk_power_error"]) else "more",
+        "bulk_limits": percent(float(bulk["bulk_power_error"] / bulk["bulk_power"])),
         "thermal_power": number(centre["omega_thermal_power"], 5),
         "omegas": str(long.sizes["varied_omega"]),
         "least_omega": number(long["varied_omega"].min()),
