@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from pendula.sources import SCRIPTS
+from pendula.studies import STUDIES
 
 LIBRARY = SCRIPTS / "pendula"
 MODULES = sorted(path.relative_to(LIBRARY) for path in LIBRARY.rglob("*.py"))
@@ -76,7 +77,18 @@ def test_no_study_uses_the_code_of_another(module):
             assert imported[1] == module.parts[1], f"{module} imports {'.'.join(imported)}"
 
 
-def test_the_library_stays_small():
+def lines_of(modules) -> int:
+    return sum(len((LIBRARY / module).read_text().splitlines()) for module in modules)
+
+
+def test_what_all_share_stays_small():
     """More than that nobody keeps in mind: merge what is read together before adding a part."""
-    lines = sum(len((LIBRARY / module).read_text().splitlines()) for module in MODULES)
-    assert len(MODULES) <= 148 and lines <= 22_000
+    shared = [module for module in MODULES if module.parts[0] != "studies"]
+    assert len(shared) <= 80 and lines_of(shared) <= 9_000
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_a_study_can_be_read_in_a_day(study):
+    """A study is read alone; one that outgrows this asks two questions, and is two studies."""
+    modules = [module for module in MODULES if module.parts[:2] == ("studies", study)]
+    assert len(modules) <= 24 and lines_of(modules) <= 4_300
