@@ -141,7 +141,7 @@ def _draw_measured(axes: Axes, data: xr.Dataset) -> None:
     top = float(data["finite_rate"].max())
     axes.plot([0, top], [0, top], color="black", lw=0.8, label="equal")
     axes.set(xlabel=PREDICTED, ylabel="measured growth rate (per unit of $\\tau$)")
-    _legend_above(axes, handletextpad=0.1)
+    _legend_above(axes)
 
 
 def _draw_errors(axes: Axes, data: xr.Dataset) -> None:
@@ -152,12 +152,14 @@ def _draw_errors(axes: Axes, data: xr.Dataset) -> None:
         shown = error.where(error > 0)
         axes.plot(growing["finite_rate"], shown, marker, color=colour, markersize=2.5, label=label)
     axes.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
-    _legend_above(axes, title="against the", handletextpad=0.1)
+    _legend_above(axes, title="measured against the")
 
 
 def _legend_above(axes: Axes, **look) -> None:
     """Put the legend above the panel, so that its axes belong to the data alone."""
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), borderaxespad=0.2, **look)
+    place = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0), "borderaxespad": 0.2}
+    look = {"handlelength": 1.4, "handletextpad": 0.6, "labelspacing": 0.25, **look}
+    axes.legend(**place, alignment="left", title_fontsize=7, **look)
 
 
 def _draw_threshold(axes: Axes, data: xr.Dataset) -> None:
@@ -169,20 +171,21 @@ def _draw_threshold(axes: Axes, data: xr.Dataset) -> None:
     tau = first["tau"]
     axes.plot(tau, 4 * float(first["threshold"]) * tau, color="0.6", lw=2.5)
     wave = {"color": style.RED, "marker": "o", "markersize": 3.5, "linestyle": "none"}
-    axes.plot(tau, first["grown"], **wave, label="one wave: exponent 1")
+    axes.plot(tau, first["grown"], **wave, label="one wave: 1")
     for colour, decay in zip(DECAYS, _drawn_decays(data["decay"].values), strict=False):
         own = first.sel(decay=decay)
         exponents = (float(own["spreading_exponent"].sel(norm=n)) for n in ("l2", "linf"))
         name = "one site" if np.isinf(decay) else f"$s = {decay:g}$"
-        label = f"{name}: " + " and ".join(f"{value:.2f}" for value in exponents)
+        label = f"{name}: " + " and ".join(
+            f"{value:.2f}".replace("-", "\N{MINUS SIGN}") for value in exponents
+        )
         for norm, dashes in (("l2", (1, 0)), ("linf", (3, 1.5))):
             look = {"color": colour, "dashes": dashes, "lw": 1.2}
             spread = own["spreading"].sel(norm=norm)
             axes.plot(data["long_tau"], spread, **look, label=label if norm == "l2" else None)
     axes.set(xscale="log", yscale="log", xlabel=r"$\tau$")
     axes.set_ylabel("growth of $A - B$ at the threshold")
-    title = r"exponents of $\tau$ in $\ell^2$ (full) and $\ell^\infty$ (dashed)"
-    _legend_above(axes, title=title, handlelength=1.4, title_fontsize=7, labelspacing=0.25)
+    _legend_above(axes, title=r"exponents: $\ell^2$ full, $\ell^\infty$ dashed")
 
 
 def _drawn_decays(decays: np.ndarray) -> list[float]:
