@@ -80,6 +80,7 @@ def configured(configuration: dict, chaos_study: dict) -> dict:
         "members": number(drawn["members"]),
         "swept_members": number(drawn["swept_members"]),
         "size": number(drawn["size"]),
+        "settled": number(chaos_study["chaos"]["lifetimes"]["settled"]),
     }
 
 
@@ -262,7 +263,6 @@ def lifetimes(baseline: Baseline) -> dict:
         "from": number(slow["amplitude"].min()),
         "end": number(lives["tau"].max()),
         "fast": span(fast.values, 2),
-        "settled": number(lives.attrs["settled"]),
         "rows": [
             {
                 "case": number(a0),
