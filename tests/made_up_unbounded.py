@@ -75,6 +75,7 @@ def window_map(omega=0.0, speed=2.9, members=2):
             "l2": (axes, l2),
             "linf": (axes, 0.0 * l2 + 5.0),
             "predicted_speed": ((), speed),
+            "pulled": ((), int(-2.0 < omega < 6.0)),
         },
         {"half_width": widths, "end": ends},
         {"epsilon": 1.0, "gamma": 1.0, "omega": omega, "initial": '{"0": [1.0, 0.1]}'},

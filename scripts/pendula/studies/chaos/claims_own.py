@@ -143,7 +143,7 @@ def own_choice(lifetimes):
 
 def with_coarse_rates(lifetimes):
     """Return the lives with the rates of the coarsest tolerance as those of their own."""
-    own, coarse = own_choice(lifetimes), int(lifetimes["choice_tolerance"].argmax())
+    own, coarse = own_choice(lifetimes), int(lifetimes["choice_tolerance"].values.argmax())
     names = [f"choice_rate{end}" for end in ("", "_low", "_high")]
     return lifetimes.assign(
         {name: lifetimes[name].where(~own, lifetimes[name][coarse]) for name in names}

@@ -13,9 +13,6 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from pendula.drawing import panels, style
-from pendula.problem import Constants
-
-from .front import is_unstable
 
 LOOKS = {
     "fig4_small": {"color": style.RED, "ls": "-"},
@@ -128,9 +125,7 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
         panel = xr.concat(parts, xr.Variable("band", ["lowest", "mean", "highest"], words))
         for name in both:
             panel[name].attrs = both[name].attrs
-        pulled = int(is_unstable(Constants.of(data.attrs)))
-        words = {"long_name": "1: a front is pulled at that speed; 0: no wave packet is faster"}
-        panel = panel.assign(predicted_speed=data["predicted_speed"], pulled=((), pulled, words))
+        panel = panel.assign(predicted_speed=data["predicted_speed"], pulled=data["pulled"])
         found.append(panel.assign_attrs(data.attrs))
     joined = style.join(found, list(maps), "sweep")
     ends = np.minimum(paper_ends, float(joined["end"][-1]))

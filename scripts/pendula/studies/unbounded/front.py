@@ -44,6 +44,7 @@ from .bulk import (
 PREDICTED_SPEED = "speed of linear spreading, in sites per unit of tau"
 DELAY = "sites lost per unit of log tau on the way to that speed"
 REST = "sites yet to be lost on that way, times tau^(1/2)"
+PULLED = "one: a front is pulled at that speed; zero: no wave packet is faster"
 PIECE_TAU, SITE_OF_FRONT = "slow time at the end of a piece of the run", "site of the front"
 RESOLVES = "limits, to each side: what the places of a front between two sites resolve"
 """What these quantities are called in every dataset of this study."""

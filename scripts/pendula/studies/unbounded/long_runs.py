@@ -20,7 +20,16 @@ from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_long
 from .bulk import FIRST_OF_LINE, POWER, TERMS, thermal_powers
-from .front import DELAY, PIECE_TAU, PREDICTED_SPEED, REST, SITE_OF_FRONT, linear_front
+from .front import (
+    DELAY,
+    PIECE_TAU,
+    PREDICTED_SPEED,
+    PULLED,
+    REST,
+    SITE_OF_FRONT,
+    is_unstable,
+    linear_front,
+)
 
 SIZE, SEED = 1e-6, 2017
 """Relative size of the differences: grown to order one within some ten units of tau by chaos."""
@@ -278,6 +287,7 @@ def map_variables(
 ) -> dict[str, Variable]:
     """Return the variables of the maps of an ensemble's members."""
     axes, speed = ("member", "half_width", "end"), linear_front(problem.constants).speed
+    pulled = int(is_unstable(problem.constants))
     found = f"of A and B together, maximum over [{START:g}, end]"
     return {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
@@ -285,4 +295,5 @@ def map_variables(
         "l2": Variable(axes, [m.l2 for m in maps], f"{NAMES['l2']}, {found}"),
         "linf": Variable(axes, [m.linf for m in maps], f"{NAMES['linf']}, {found}"),
         "predicted_speed": Variable((), speed, PREDICTED_SPEED),
+        "pulled": Variable((), pulled, PULLED),
     }

@@ -99,7 +99,7 @@ def _bulk(results: Results, ledger: Ledger) -> dict[str, Any]:
         )
         for name in ("bulk", "slope")
     }
-    longest = thermal.isel(omega=int(thermal["correlation_length"].argmax()))
+    longest = thermal.isel(omega=int(thermal["correlation_length"].values.argmax()))
     return {
         **both,
         "known": bool(np.isfinite(ledger.value(row, "power_of_slope"))),
