@@ -106,6 +106,7 @@ def ledger(baseline: Baseline) -> dict:
         "open": str(verdicts.count("cannot be decided")),
         "told": told,
         "ensemble": str(sum(row["name"].startswith("ensemble") for row in rows)),
+        "papers": str(sum(row["place"] != "Beyond the paper" for row in rows)),
         "own": str(sum(row["place"] == "Beyond the paper" for row in rows)),
         "resting": str(sum(bool(row["rests_on"]) for row in rows)),
         "controls": str(sum(len(row["controls"]) for row in rows)),

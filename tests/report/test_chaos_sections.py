@@ -129,9 +129,10 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
     window = xr.Dataset(coords={"half_width": [5, 10], "end": [12.0, 150.0]})
     width = {"tau": ("tau", [0.0, 400.0]), "width": ("piece", [64, 1280])}
     run = xr.Dataset(width, attrs={"omega": 0.0})
-    names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large", "fig5_conjecture",
-             "ensemble_fig6_diverges", "unbounded_window", "unbounded_front",
-             "unbounded_equilibrium", "unbounded_slope", "unbounded_warm")  # fmt: skip
+    names = ("unbounded_in_time", "unbounded_maximum", "unbounded_large",
+             "ensemble_fig5_conjecture", "ensemble_fig6_diverges", "unbounded_window",
+             "unbounded_front", "unbounded_equilibrium", "unbounded_slope",
+             "unbounded_warm")  # fmt: skip
     rows = [made_up.claim(n, decided_by=["unbounded/fig4_small"], measured=measured) for n in names]
     return made_up.MadeUp(
         folder,
@@ -216,7 +217,9 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
     )
     numbers = {"start": 1.01, "delta_0": 0.4, "depth": 6.62, "barrier": 4.0}
     widened = {"widened_delta_0": 1.34, "widened_bound": 3.39}
+    pair = {"allowed_power": 2.0, "breaking": 27.7, "barrier_power": 4.0}
     rows = [
+        made_up.claim("bootstrap", "not reproduced", because="it assumes what it proves"),
         *(made_up.claim(name, measured={"order": 3.0}) for name in ("printed_time", "slow_time")),
         *(made_up.claim(f"fig{n}_caption") for n in (5, 6)),
         made_up.claim("lost", "not reproduced", because="Omega is -4"),
@@ -227,7 +230,7 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
             "checks/theorem_3_constant": constant,
             "checks/theorem_2_case": xr.Dataset(numbers | widened),
             "checks/cases": made_up.by_case(),
-            "checks/negative_depth": xr.Dataset({"first_negative": 5.3}),
+            "checks/bootstrap": xr.Dataset(pair),
             "checks/chart": xr.Dataset(),
         },
         **{"claims.json": made_up.ledger(*rows)},
@@ -235,5 +238,6 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
     found = theory.gather_errata(results, claims.Ledger(results))
     assert found["constant"]["fails"] is fails and str(found["constant"]["sites"]) == "3"
     assert not found["case"]["covered"] and found["case"]["covered_widened"]
-    assert str(found["depth"]) == "5.3" and not found["case"]["shallow"]
-    assert [row["because"] for row in found["missed"]] == ["Ω is −4"]
+    assert found["bootstrap"]["fails"] and "27.7" in made_up.text_of(found["bootstrap"])
+    assert not found["case"]["shallow"]
+    assert [row["because"] for row in found["missed"]] == ["it assumes what it proves", "Ω is −4"]

@@ -268,4 +268,7 @@ def within_tolerance(check, *names: str) -> Finding:
 
 def tolerance(check, name: str) -> Cutoff:
     """Return what the check itself allows a variable, which rounding and solvers decide."""
-    return Cutoff(check[name].attrs["tolerance"], f"the check's tolerance of {in_words(name)}")
+    return Cutoff(
+        check[name].attrs["tolerance"],
+        f"what rounding and the solver's tolerance leave of {in_words(name)}",
+    )

@@ -178,7 +178,6 @@ FLIPS = {
     "finite_bound": ("trajectories/fig4_small", scaled("l2", 5.0)),
     "energy_small": ("trajectories/fig2_small", scaled("energy", 2.0, tau=slice(5, None))),
     "energy_large": ("trajectories/fig2_large", scaled("energy", 2.0, tau=slice(5, None))),
-    "fig5_conjecture": ("sweeps/fig5_right", replaced("l2", 15.0 - np.arange(8.0))),
     "fig5_decreases": ("sweeps/fig5_left", replaced("l2", 1.0 + 0.1 * np.arange(8.0))),
     "fig5_theorem_2": ("sweeps/fig5_left", replaced("l2", 5.0 + np.zeros(8))),
     "fig5_caption": ("sweeps/fig5_left", scaled("l2", 0.9, statistic="mean")),

@@ -342,8 +342,8 @@ def transition_amplitude(lifetimes) -> Finding:
     measured = {"shortest": least, "longest": lower.max(), "ratio": lower.max() / least}
     measured |= {"localised_from": first, "watched": end}
     fails = (
-        f"from A_0 = {first:g} on the centre stays localised for longer and longer: half of the"
-        f" runs from the largest amplitudes are so beyond tau = {lower.max():g}"
+        f"from A_0 = {first:g} on the centre stays localised for longer and longer: of the largest"
+        f" amplitudes at least half of the runs are so at tau = {lower.max():g}"
     )
     says = "lower limit of the longest median life over the upper limit of the shortest"
     return judge(measured, Below(FACTOR, "ratio", says=says), fails=fails)

@@ -152,7 +152,7 @@ def with_coarse_rates(lifetimes):
 
 @claim(
     PLACE,
-    "How fast localised centres change over does not hang on the tolerance, nor on evenness.",
+    "How fast localised centres change over depends on no fine tolerance, nor on evenness.",
     checks("lifetimes"),
     controls=(wrong_check("the rate by the coarsest tolerance", lifetimes=with_coarse_rates),),
 )

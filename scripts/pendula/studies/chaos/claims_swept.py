@@ -27,6 +27,7 @@ from pendula.ledger.criterion import (
     NeverLevels,
     UndecidableError,
     judge,
+    undecided,
 )
 from pendula.measures.confidence import Limits, ratio_limits, student
 from pendula.measures.levels import levelling_of_means
@@ -155,6 +156,34 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
         Above(NEARLY_ALL, *rising, says="shares of steps up by more than their limits"),
     )
     return judge(growth | rising | {"level_from": first}, criterion, caveat)
+
+
+@claim(
+    "Section 5, Fig 5 right, in ensembles",
+    "This confirms growth on the unbounded lattice as time goes to infinity.",
+    NEEDS,
+    controls=stable("fig5_right", "fig6_left", "fig5_left"),
+)
+def ensemble_fig5_conjecture(even, uneven) -> Finding:
+    found = both(even, uneven, "fig5_right", "l2", TEXT_5)
+    growth = {
+        f"{kind}_growth_low": over(one, slice(1), slice(-1, None)).low
+        for kind, one in found.items()
+    }
+    levels = [
+        levelling_of_means(one.half_width, one.mean, one.error, least=2) for one in found.values()
+    ]
+    measured = growth | {"level_from": max(levels)}
+    grows = Above(1.0, *growth, says="lower limits of the longest chain over the shortest")
+    if not grows.holds(measured):
+        return judge(measured, grows)
+    if np.isfinite(max(levels)):
+        return undecided(
+            measured,
+            f"on a fixed window l2 levels off (from M = {max(levels):.0f}); growth in time needs"
+            " windows that grow with M",
+        )
+    return undecided(measured, "the chains are too short to see the level of a fixed window")
 
 
 @claim(

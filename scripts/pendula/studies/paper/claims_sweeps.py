@@ -47,28 +47,6 @@ TEXT_6, CAPTION_6 = "[10, 70]", "[10, 40]"
 
 
 @claim(
-    "Section 5, Fig 5 right",
-    "This confirms growth on the unbounded lattice as time goes to infinity.",
-    sweeps("fig5_right"),
-    controls=(wrong_sweep("the sweep at Omega = -4, which falls", fig5_right="fig5_left"),),
-)
-def fig5_conjecture(sweep) -> Finding:
-    m, l2 = swept(sweep, "l2", "max", WINDOW)
-    level = levelling(m, l2)
-    measured = {"growth": l2[-1] / l2[0], "level_from": level, "level": l2[-1]}
-    grows = Above(1.0, "growth")
-    if not grows.holds(measured):
-        return judge(measured, grows)
-    if np.isfinite(level):
-        return undecided(
-            measured,
-            f"on a fixed window l2 levels off (from M = {level:.0f}); growth in time needs windows"
-            " that grow with M",
-        )
-    return undecided(measured, "the chains are too short to see the level of a fixed window")
-
-
-@claim(
     "Section 5, Fig 5 left",
     "At Omega = -4 the l2 norm decreases in M towards a level.",
     sweeps("fig5_left"),

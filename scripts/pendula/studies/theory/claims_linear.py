@@ -171,7 +171,7 @@ def threshold_growth(threshold) -> Finding:
         "finite_gap": threshold["finite_gap"].min(),
     }
     caveat = (
-        "how fast hangs on the data: a wave grows as tau, and data (1 + |n|)^-s with s < 1 as"
+        "how fast depends on the data: a wave grows as tau, and data (1 + |n|)^-s with s < 1 as"
         " tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity; summable data, such as one site, as"
         " tau^(1/2) in l2 and not in l-infinity; the Dirichlet chain is stable there"
     )

@@ -292,7 +292,7 @@ def remainder_bounded(check) -> Finding:
     measured = {"least_order": check["remainder_order"].min(), "largest": largest.max()}
     measured |= {"least": largest.min(), "lost": lost.max()}
     caveat = (
-        f"with a bound that hangs on Omega: by tau = {end:g} the remainder has reached"
+        f"with a bound that depends on Omega: by tau = {end:g} the remainder has reached"
         f" {largest[best]:.3g} at Omega = {omegas[best]:g} and {largest[worst]:.4g} at"
         f" Omega = {omegas[worst]:g}, where mu = {mu:g} leaves angles wrong by"
         f" {lost[worst]:.0%} of the largest"

@@ -189,6 +189,6 @@ def _bounds_alt(results: Results) -> str:
 
 
 SECTIONS = (
-    Section("errata", "Errata", gather_errata),
+    Section("errata", "Errata, and claims that are not reproduced", gather_errata),
     Section("theory", "Stability and bounds", gather_theory),
 )

@@ -314,7 +314,7 @@ def unbounded_window(run) -> Finding:
     if not far.size * near.size:
         raise UndecidableError("the half-widths lie all on one side of the front's way")
     measured = {"beyond": np.abs(far - 1.0).max(), "within": near.max()}
-    caveat = "only for M below the front's way v T: there it levels off, higher for longer T"
+    caveat = "only while M is below v T, the front's way in the time T; beyond it l2 is level in M"
     level = Below(CONSTANT, "beyond", says="relative change of the maxima beyond v T")
     lower = Below(LOWER, "within", says="maxima below v T / 2 over the level")
     return judge(measured, AllOf(level, lower), caveat)

@@ -131,7 +131,7 @@ def unbounded_equilibrium(run, thermal) -> Finding:
 
 
 @claim(
-    "Introduction",
+    "Beyond the paper",
     "l2^2 grows as 2 v P tau: P is that of the thermal state, v the speed of linear spreading.",
     unbounded("fig4_small", "omegas", "thermal"),
     (
@@ -174,7 +174,7 @@ def unbounded_slope(run, band, thermal) -> Finding:
 
 
 @claim(
-    "Section 5, Fig 6 right",
+    "Beyond the paper",
     "At Omega = -4 the front leaves energy behind, and the bulk is thermal at that energy.",
     unbounded("fig3_large", "thermal"),
     (

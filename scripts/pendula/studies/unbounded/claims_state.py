@@ -131,9 +131,9 @@ def unbounded_maximum(run) -> Finding:
     }
     ahead = [f"{fit.at(FAR_AHEAD):.2f} by {in_words(name)}" for name, fit in fits.items()]
     fails = (
-        f"no bounded law fits; those that do lead from {linf_now:.2f} at tau = {tau[-1]:g} to "
-        f"{', '.join(ahead)} at tau = 1e6, so that no figure shows it. A bound that is approached "
-        "more slowly than tau^(-1/2) would look alike"
+        "none of the bounded laws that were tried fits; the growing laws that fit lead from "
+        f"{linf_now:.2f} at tau = {tau[-1]:g} to {', '.join(ahead)} at tau = 1e6, too slowly for a "
+        "figure to show; a bound that is approached more slowly than tau^(-1/2) is not excluded"
     )
     says = "Akaike's criterion of the best bounded law less that of the best growing one"
     return judge(measured, AtMost(NO_SUPPORT, "bounded_over_growing", says=says), fails=fails)

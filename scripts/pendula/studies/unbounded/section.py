@@ -46,8 +46,9 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "tried": ledger.quote("unbounded_large", "tried"),
         "spreading": ledger.quote("unbounded_large", "spreading"),
         "verdicts": {name: ledger.verdict(name) for name in ("unbounded_in_time",
-                     "fig5_conjecture", "ensemble_fig6_diverges", "unbounded_window")},
-        "because": {name: ledger.because(name) for name in ("fig5_conjecture", "unbounded_window")},
+                     "ensemble_fig5_conjecture", "ensemble_fig6_diverges", "unbounded_window")},
+        "because": {name: ledger.because(name) for name in ("ensemble_fig5_conjecture",
+                    "unbounded_window")},
         "pictures": _pictures(results, cases, fronts),
     }  # fmt: skip
 
