@@ -1,8 +1,10 @@
 """What a wrong case and a moved cut-off do to the row of a claim."""
 
+import math
+
 import pytest
 from pendula.ledger.claim import Claim, Control, controls_of, evaluate, needed, passes
-from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge
+from pendula.ledger.criterion import Above, Below, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
 
 GROWS = Cutoff(2.0, '"grows"')
@@ -63,6 +65,7 @@ def test_a_refuted_claim_shows_that_its_function_can_confirm(row):
 def test_a_control_without_its_dataset_is_not_decided(row):
     found = row(grows, {"run": 5.0}, Control("a flat run", {"run": "flat"}))
     assert found["controls"][0]["verdict"] == Verdict.UNDECIDED
+    assert not found["controls"][0]["passes"]
     assert "flat was not made" in found["controls"][0]["because"]
 
 
@@ -88,4 +91,14 @@ def test_a_control_that_cannot_be_made_is_not_decided(row):
 
     found = row(grows, {"run": 5.0}, Control("a changed run", {"run": impossible}))
     assert found["controls"][0]["verdict"] == Verdict.UNDECIDED
+    assert not found["controls"][0]["passes"]
     assert "too short" in found["controls"][0]["because"]
+
+
+def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
+    refuse, silent = Control("wrong", {}), Control("outside", {}, undecided=True)
+    assert passes(refuse, grows(1.0)) and not passes(silent, grows(1.0))
+    assert not passes(refuse, grows(math.nan))
+    unknown = undecided({}, "there is no such bound")
+    assert passes(silent, unknown) and not passes(refuse, unknown)
+    assert [one.must for one in (refuse, silent)] == ["be refused", "not be decided"]

@@ -20,11 +20,11 @@ def test_the_paper_is_read_in_ninety_rows_and_more():
 def test_every_function_was_fed_a_case_that_turns_its_verdict(row):
     """A claim that holds has refused a wrong case; one that falls could have been confirmed."""
     assert all(control["passes"] for control in row["controls"]), row["controls"]
-    told = [control for control in row["controls"] if control["verdict"] != "cannot be decided"]
+    musts = {control["must"] for control in row["controls"]}
     if row["verdict"] in HOLDS:
-        assert any(control["must"] == "not be confirmed" for control in told)
+        assert "be refused" in musts
     elif row["verdict"] == "not reproduced":
-        assert any(control["must"] == "be confirmed" for control in told)
+        assert "be confirmed" in musts
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["name"])

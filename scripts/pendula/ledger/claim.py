@@ -30,12 +30,21 @@ class Control(NamedTuple):
     `fed` says what takes the place of a needed dataset: the name of another dataset, a function of
     the right one, or a pair of both: the name and a function of the right and the other dataset.
     `confirms` turns the control round, for a claim that is not reproduced: the
-    function must confirm this right case, or it could not have confirmed anything.
+    function must confirm this right case, or it could not have confirmed anything. `undecided` is
+    for a case of which the function can say nothing, such as a bound that does not exist there.
     """
 
     says: str
     fed: Mapping[str, str | Callable | tuple[str, Callable]]
     confirms: bool = False
+    undecided: bool = False
+
+    @property
+    def must(self) -> str:
+        """What the function must say of it, in words."""
+        if self.confirms:
+            return "be confirmed"
+        return "not be decided" if self.undecided else "be refused"
 
     @property
     def names(self) -> list[str]:
@@ -85,13 +94,17 @@ sweeps, unbounded = _in("sweeps"), _in("unbounded")
 def _wrong_in(folder: str) -> Callable[..., Control]:
     """Return a function that makes a control from names, without their folder, of datasets."""
 
-    def control(says: str, confirms: bool = False, **fed: str | Callable | tuple) -> Control:
+    def control(
+        says: str, confirms: bool = False, undecided: bool = False, **fed: str | Callable | tuple
+    ) -> Control:
         def named(wrong):
             if isinstance(wrong, tuple):
                 return (named(wrong[0]), wrong[1])
             return f"{folder}/{wrong}" if isinstance(wrong, str) else wrong
 
-        return Control(says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms)
+        return Control(
+            says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms, undecided
+        )
 
     return control
 
@@ -183,9 +196,21 @@ def _wrong(wrong: str | Callable | tuple[str, Callable], right, sources: Mapping
 
 
 def passes(control: Control, finding: Finding) -> bool:
-    """Return whether a finding is what the control wants: a refusal, or a confirmation."""
-    confirmed = finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
-    return confirmed if control.confirms else not confirmed
+    """Return whether a finding is what the control wants.
+
+    A refusal must come from numbers: what is missing or no number refuses everything.
+    """
+    if control.confirms:
+        return _confirmed(finding)
+    if control.undecided:
+        return finding.verdict == Verdict.UNDECIDED
+    judged = finding.criterion.names if finding.criterion else ()
+    known = not any(math.isnan(finding.measured[name]) for name in judged)
+    return finding.verdict == Verdict.NOT_REPRODUCED and known
+
+
+def _confirmed(finding: Finding) -> bool:
+    return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
 
 def evaluate(sources: Mapping) -> list[dict]:
@@ -231,8 +256,8 @@ def _severe(
     finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
 ) -> Finding:
     """Return the finding with what the moved cut-offs and the controls say against it."""
-    wrong = next((c for c, fed in controls if not c.confirms and not passes(c, fed)), None)
-    if wrong is not None and finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT):
+    wrong = next((c for c, fed in controls if not c.confirms and _confirmed(fed)), None)
+    if wrong is not None and _confirmed(finding):
         return undecided(finding.measured, f"what decides it confirms a wrong case: {wrong.says}")
     if not moved:
         return finding
@@ -249,7 +274,7 @@ def _cutoff_row(cutoff: Cutoff) -> dict:
 def _control_row(control: Control, fed: Finding) -> dict:
     return {
         "fed": control.says,
-        "must": "be confirmed" if control.confirms else "not be confirmed",
+        "must": control.must,
         "verdict": str(fed.verdict),
         "because": fed.because,
         "measured": {name: plain(value) for name, value in fed.measured.items()},
