@@ -4,7 +4,14 @@ import math
 
 import pytest
 from pendula.ledger.claim import Claim, Control, controls_of, evaluate, needed, passes
-from pendula.ledger.criterion import Above, Below, Verdict, judge, undecided
+from pendula.ledger.criterion import (
+    Above,
+    Below,
+    UndecidableError,
+    Verdict,
+    judge,
+    undecided,
+)
 from pendula.ledger.cutoff import Cutoff
 
 GROWS = Cutoff(2.0, '"grows"')

@@ -116,9 +116,7 @@ def fig2_centre(small) -> Finding:
     controls=(
         wrong_run("the large data, where A and B are separate", fig2_small="fig2_large"),
         wrong_run("the unstable run", fig2_small="fig4_small"),
-        wrong_run(
-            "norms that do not oscillate", fig2_small=lambda run: run.assign(l2=run["l2"][:, :1])
-        ),
+        wrong_run("norms of A and B that swing together", fig2_small=with_equal_norms),
     ),
 )
 def fig2_exchange(small) -> Finding:
