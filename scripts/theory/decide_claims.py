@@ -8,9 +8,8 @@ from pathlib import Path
 from pendula.datasets import complete_or_absent
 from pendula.datasets.checks import broken, deciding, describe
 from pendula.datasets.netcdf import read
-from pendula.ledger.claim import controls_of, evaluate, needed
+from pendula.ledger.claim import controls_of, cutoff_lines, evaluate, needed
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.section import cutoff_lines
 from pendula.report.words import markdown, write_markdown
 from pendula.studies.theory.settings import WRONG_FOLDER
 

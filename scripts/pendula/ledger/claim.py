@@ -252,6 +252,21 @@ def controls_of(rows: list[dict]) -> list[dict]:
     return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
 
 
+def cutoff_lines(rows: list[dict]) -> list[tuple]:
+    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
+    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
+    return [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
+
+
+def users(rows: list[dict], key: str) -> dict[tuple, str]:
+    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
+    names: dict[tuple, dict] = {}
+    for row in rows:
+        for cutoff in row[key]:
+            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
+    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
+
+
 def _severe(
     finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
 ) -> Finding:

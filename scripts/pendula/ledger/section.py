@@ -7,7 +7,7 @@ from typing import Any
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
-from .claim import controls_of
+from .claim import controls_of, cutoff_lines
 from .criterion import Verdict
 
 LEDGER = "claims.json"
@@ -41,21 +41,6 @@ FED = ("claim", "fed", "must", "verdict", "because")
 def plainly_said(cell: float | str) -> str:
     """Return a cell of a table as the page shows it."""
     return symbols(cell) if isinstance(cell, str) else number(cell)
-
-
-def cutoff_lines(rows: list[dict]) -> list[tuple]:
-    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
-    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
-    return [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
-
-
-def users(rows: list[dict], key: str) -> dict[tuple, str]:
-    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
-    names: dict[tuple, dict] = {}
-    for row in rows:
-        for cutoff in row[key]:
-            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
-    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
 
 
 def _shown(row: dict, results: Results) -> dict:

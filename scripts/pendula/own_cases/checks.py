@@ -168,7 +168,7 @@ def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
     rate = linear + largest
     span = min(problem.end_time, RADIANS / rate) if rate else problem.end_time
     change, integral = integrated_balance(
-        constants, problem.boundary, amplitudes, span, PANELS, solver
+        constants, problem.boundary, amplitudes, span, PANELS, constants.gamma, solver
     )
     error = abs(change - integral) / max(start, start + change) if start else np.nan
     return {

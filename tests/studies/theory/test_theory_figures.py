@@ -59,7 +59,7 @@ def test_growth_at_the_threshold_lies_on_its_line(gathered):
     line, *_ = panel.get_lines()
     np.testing.assert_allclose(line.get_ydata(), 8 * np.asarray(line.get_xdata()))
     lines = labelled(panel)
-    grown = lines["one wave: exponent 1"].get_ydata()
+    grown = lines["one wave: 1"].get_ydata()
     np.testing.assert_allclose(grown, threshold()["grown"][0].values)
     assert {"$s = 0.8$: 0.70 and 0.20", "one site: 0.50 and 0.00"} <= set(lines)
     spread = lines["one site: 0.50 and 0.00"]
