@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import time
+from contextlib import suppress
 
 import pytest
 import yaml
@@ -93,8 +94,11 @@ def test_an_interrupted_run_continues(tmp_path):
         if log.exists() and "half-width 8 done (2 of 5)" in log.read_text():
             break
         time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
-    process.communicate(timeout=60)
+    for _ in range(4):  # a busy machine may lose one
+        os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
+        with suppress(subprocess.TimeoutExpired):
+            process.communicate(timeout=20)
+            break
     assert process.returncode != 0
     assert not list(tmp_path.glob("results/sweeps/*"))
     sweep["half_widths"] = [4, 8]
