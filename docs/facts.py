@@ -254,6 +254,11 @@ def _rate(life: xr.Dataset) -> str:
     return number(rate, 2) if rate else f"below {number(high, 2)}"
 
 
+def _chance(life: xr.Dataset) -> str:
+    """Return the chance of the law of a rate, if transitions were seen."""
+    return number(life["rate_chance"], 1) if float(life["rate"]) else "none seen"
+
+
 def lifetimes(baseline: Baseline) -> dict:
     """Return how long the central pendulum stays localised, by its initial amplitude."""
     lives = baseline["checks/lifetimes"]
@@ -270,6 +275,7 @@ def lifetimes(baseline: Baseline) -> dict:
                 "kept": percent(slow["surviving"].sel(amplitude=a0)[-1]),
                 "rate": _rate(slow.sel(amplitude=a0)),
                 "limits": _limits(slow.sel(amplitude=a0), "rate"),
+                "chance": _chance(slow.sel(amplitude=a0)),
             }
             for a0 in slow["amplitude"].values
         ],

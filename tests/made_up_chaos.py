@@ -60,6 +60,10 @@ def lifetimes() -> xr.Dataset:
         for name, by_end in (("median", medians), ("rate", rates))
         for end, values in by_end.items()
     }
+    lives = np.array([[5.0] * 64, [50.5, infinite] * 32, [infinite] * 64])
+    law = {"rate_clock": [10.0, 12.0, 10.0], "rate_chance": [1.0, 0.3, 1.0]}
+    numbers |= {name: (("amplitude",), values) for name, values in law.items()}
+    numbers["life"] = (("amplitude", "member"), lives)
     return dataset({"amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
 
 

@@ -92,3 +92,23 @@ def test_one_more_draw_has_every_chance_alike():
     assert confidence.chance_of_draw(2.0, 2.0, 3.0, 8) == 1.0
     known = 2.0 * stats.t.sf(3.0 / np.sqrt(1.125), 7)
     assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == pytest.approx(known, abs=1e-6)
+
+
+def test_the_limits_of_a_ratio_of_rates_hold_it_as_often_as_they_say():
+    random, inside = np.random.default_rng(1), 0
+    for _ in range(400):
+        first, second = (confidence.mean_life(random.exponential(s, 30), 1e9) for s in (1.0, 3.0))
+        ratio = confidence.ratio_of_limits(second, first)
+        inside += ratio.low < 3.0 < ratio.high
+    assert 0.92 < inside / 400 < 0.985
+
+
+def test_a_ratio_of_means_without_errors_is_exact():
+    assert confidence.ratio_limits((2.0, 3.0), (0.0, 0.0), 6) == (1.5, 1.5, 1.5)
+
+
+def test_an_exponential_law_is_told_from_a_dead_time():
+    lives = np.random.default_rng(2).exponential(1.0, 200)
+    assert confidence.chance_of_law(np.where(lives < 2.0, lives, np.inf), 2.0) > 0.05
+    assert confidence.chance_of_law(lives + 0.5, 10.0) < 1e-3
+    assert confidence.chance_of_law([np.inf, np.inf], 2.0) == 1.0

@@ -29,9 +29,9 @@ def test_two_values_that_agree_are_no_level_unless_two_are_enough():
 
 def test_means_are_level_where_their_errors_hide_the_rest():
     means = np.array([1.0, 2.0, 2.9, 3.1, 3.0])
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1)) == 20.0
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01)) == np.inf
-    assert levelling_of_means(WIDTHS, means, np.full(5, 1.0)) == 5.0
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1), 2.0) == 20.0
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0) == np.inf
+    assert levelling_of_means(WIDTHS, means, np.full(5, 1.0), 2.0) == 5.0
 
 
 def test_the_range_is_relative_to_the_mean_and_steps_up_are_counted():

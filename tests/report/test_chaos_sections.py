@@ -107,9 +107,17 @@ def test_the_ratio_of_widths_stands_with_its_limits(tmp_path):
 def test_a_life_that_outlasts_the_runs_is_bounded(tmp_path):
     found = gathered(chaotic_results(tmp_path, 2.5, 4.5))["lives"]
     at_once, some, never = ([str(cell) for cell in row] for row in found["rows"])
-    assert at_once == ["1", "5", "5", "0 %", "none", "none"]
-    assert some[1:4] == ["50", "50 to over 100", "50 %"] and some[4] == "0.01"
-    assert never[1:4] == ["over 100", "over 100", "100 %"] and never[4] == "0"
+    assert at_once == ["1", "5", "5", "0 %", *["none"] * 4]
+    assert (
+        some[1:4] == ["50", "50 to over 100", "50 %"]
+        and some[4] == "0.01"
+        and some[6:] == ["12", "0.3"]
+    )
+    assert (
+        never[1:4] == ["over 100", "over 100", "100 %"]
+        and never[4] == "0"
+        and never[6:] == ["none", "none"]
+    )
     assert [str(cell) for cell in found["choices"][1]][:2] == ["10⁻⁸", "uneven in n"]
 
 

@@ -4,8 +4,6 @@ import numpy as np
 
 # ASSUME: the paper gives no measure of "approaches a level"; half a percent is a line's width.
 LEVEL = 5e-3
-# ASSUME: values that differ by less than two standard errors count as equal.
-APART = 2.0
 
 
 def levelling(
@@ -19,14 +17,14 @@ def levelling(
 
 
 def levelling_of_means(
-    half_widths: np.ndarray, means: np.ndarray, errors: np.ndarray, least: int = 3
+    half_widths: np.ndarray, means: np.ndarray, errors: np.ndarray, apart: float, least: int = 3
 ) -> float:
     """Return the half-width from which no mean differs from the last by more than the noise.
 
-    The noise is APART standard errors of the difference. The half-width is infinite if fewer than
-    `least` means agree.
+    The noise is `apart` standard errors of the difference, a quantile of Student's t. The
+    half-width is infinite if fewer than `least` means agree.
     """
-    noise = APART * np.hypot(errors, errors[-1])
+    noise = apart * np.hypot(errors, errors[-1])
     return _first_of_tail(half_widths, np.abs(means - means[-1]) <= noise, least)
 
 

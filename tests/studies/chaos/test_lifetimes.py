@@ -37,12 +37,23 @@ def test_a_large_centre_outlasts_the_run_and_a_stable_one_too():
     assert lifetimes.follow(stable).time == np.inf
 
 
+def test_a_dead_time_does_not_lower_the_rate():
+    draws = 15.0 + np.random.default_rng(0).exponential(10.0, (40, 200))
+    late = [lifetimes.rate_after(lives, 10.0, 100.0) for lives in draws]
+    assert [rate.clock for rate in late] == draws.min(axis=1).tolist()
+    assert np.mean([rate.limits.value for rate in late]) == pytest.approx(0.1, rel=0.03)
+    assert np.mean([rate.chance > 0.05 for rate in late]) > 0.85
+
+
 def test_rates_count_only_who_was_localised_and_what_was_censored():
     lives = np.array([3.0, 12.0, 14.0, np.inf])
-    rate, low, high = lifetimes.rate_after(lives, 10.0, 20.0)
-    assert rate == pytest.approx(2.0 / (2.0 + 4.0 + 10.0))
-    assert low < rate < high
-    assert lifetimes.rate_after(np.array([3.0, 4.0]), 10.0, 20.0).value == np.inf
+    (rate, low, high), clock, chance = lifetimes.rate_after(lives, 10.0, 20.0)
+    assert clock == 12.0 and rate == pytest.approx(1.0 / (2.0 + 8.0))
+    assert low < rate < high and 0.0 < chance <= 1.0
+    for none_left in ([3.0, 4.0], [3.0, 12.0], [12.0, 12.0]):
+        assert lifetimes.rate_after(np.array(none_left), 10.0, 20.0).limits.value == np.inf
+    never = lifetimes.rate_after(np.array([np.inf] * 3), 10.0, 20.0)
+    assert (never.limits.value, never.clock, never.chance) == (0.0, 10.0, 1.0)
 
 
 def test_survival_falls_with_each_transition():

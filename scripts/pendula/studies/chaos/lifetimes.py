@@ -12,7 +12,13 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, mean_life, median_limits, share_limits
+from pendula.measures.confidence import (
+    Limits,
+    chance_of_law,
+    mean_life,
+    median_limits,
+    share_limits,
+)
 from pendula.measures.norms import drift
 from pendula.problem import Problem, output_times
 from pendula.simulation.simulate import simulate
@@ -77,18 +83,33 @@ def follow_members(
     return [follow(member) for member in draw_members(problem, size, members, seed, kind)]
 
 
-def rate_after(lives: np.ndarray, settled: float, end_time: float) -> Limits:
+class Rate(NamedTuple):
+    """How fast members change over once the first of them has."""
+
+    limits: Limits  # transitions a unit of tau
+    clock: float  # where the clock starts: the first transition seen
+    chance: float  # of lives as far from an exponential law
+
+
+def rate_after(lives: np.ndarray, settled: float, end_time: float) -> Rate:
     """Return the rate of transitions a unit of tau among those localised at `settled`.
 
-    Lives are (member,), infinite where they outlast `end_time`. The law is exponential, which is
-    what chaos without memory leaves; its likelihood counts what is censored. Where no member is
-    localised any more the rate is infinite.
+    Lives are (member,), infinite where they outlast `end_time`. No member changes over at first:
+    the data are almost equal, and it takes time to forget this. So the clock of each amplitude
+    starts at the first transition seen, and counts those that follow; if none is seen, at
+    `settled`. From there on the law is exponential if chaos leaves no memory: the likelihood counts
+    what is censored, and `chance` tests the law. The rate is infinite where nothing is left.
     """
-    left = lives[lives > settled] - settled
-    if not left.size:
-        return Limits(np.inf, 0.0, np.inf)
-    life = mean_life(left, end_time - settled)
-    return Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
+    left = np.sort(lives[lives > settled])
+    clock = settled
+    if left.size and np.isfinite(left[0]):
+        clock, left = float(left[0]), left[1:]
+    further, watched = left - clock, end_time - clock
+    if not np.minimum(further, watched).sum():
+        return Rate(Limits(np.inf, 0.0, np.inf), clock, 1.0)
+    life = mean_life(further, watched)
+    limits = Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
+    return Rate(limits, clock, chance_of_law(further, watched))
 
 
 def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
@@ -103,7 +124,7 @@ def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
 
 NUMBERS = {
     "median": "median life, from order statistics",
-    "rate": "rate of transitions, per unit of tau, of members localised at the settled time",
+    "rate": "rate of transitions, per unit of tau, from the first one after the settled time on",
 }
 ENDS = {"value": "", "low": ", lower confidence limit", "high": ", upper confidence limit"}
 
@@ -130,7 +151,15 @@ def measure_lives(
         ),
         **_limits("surviving", (*over, "tau"), shares, share),
         **_limits("median", over, medians, NUMBERS["median"]),
-        **_limits("rate", over, rates, NUMBERS["rate"]),
+        **_limits("rate", over, [rate.limits for rate in rates], NUMBERS["rate"]),
+        "rate_clock": Variable(
+            over, [rate.clock for rate in rates],
+            "time from which the rate counts: the first transition after the settled time",
+        ),
+        "rate_chance": Variable(
+            over, [rate.chance for rate in rates],
+            "chance of lives as far from the exponential law of the rate",
+        ),
     }  # fmt: skip
     _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "settled": settled}
@@ -150,7 +179,7 @@ def compare_numerics(
         lives = follow_members(problem.changed(solver=solver), size, members, seed, kind)
         found.append((max(life.drift for life in lives), sum(life.work for life in lives)))
         times = np.array([life.time for life in lives])
-        rates.append(rate_after(times, settled, problem.end_time))
+        rates.append(rate_after(times, settled, problem.end_time).limits)
     over = ("choice",)
     drifts, work = zip(*found, strict=True)
     a0 = float(np.abs(problem.initial[0]).max())

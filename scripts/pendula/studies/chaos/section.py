@@ -112,7 +112,7 @@ def lives_of(results: Results) -> dict[str, Any]:
         "settled": results.quote(LIVES, lives.attrs["settled"]),
         "end": results.quote(LIVES, end),
         "head": ["initial amplitude", "median life", "its limits", "still localised at the end",
-                 "transitions per unit of τ", "their limits"],
+                 "transitions per unit of τ", "their limits", "counted from", "chance of the law"],
         "rows": [_life(results, float(a0), end) for a0 in lives["amplitude"].values],
         "amplitude": results.quote(LIVES, float(lives["compared_amplitude"])),
         "choices_head": ["tolerance", "ensemble", "transitions per unit of τ", "their limits",
@@ -128,7 +128,14 @@ def _life(results: Results, a0: float, end: float) -> list:
     median, low, high = (_time(tau, end) for tau in times)
     limits = low if low == high else f"{low} to {high}"
     told = [results.say(LIVES, text) for text in (median, limits)]
-    return [number(a0), *told, left, *_rate(results, one, "rate")]
+    return [number(a0), *told, left, *_rate(results, one, "rate"), *_law(results, one)]
+
+
+def _law(results: Results, one) -> list:
+    """Return when the clock of a rate starts and the chance of its law, or none without ends."""
+    if not np.isfinite(float(one["rate"])) or not float(one["rate"]):
+        return ["none", "none"]
+    return [results.quote(LIVES, float(one[name]), 2) for name in ("rate_clock", "rate_chance")]
 
 
 def _time(tau: float, end: float) -> str:
