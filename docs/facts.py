@@ -366,11 +366,10 @@ def unbounded(baseline: Baseline) -> dict:
 
 def _laws(long: xr.Dataset) -> dict[str, str]:
     """Return how bounded and growing laws of l-infinity fit, and what the growing ones predict."""
-    grows = long["law_grows"].values > 0
-    off, ahead = long["law_chi2"].values, long["law_ahead"]
+    ahead = long["law_ahead"]
     return {
         "spans": str(int(long["law_spans"])),
-        "bounded_off": number(off[~grows].min()),
+        "bounded_off": number(long["law_chi2"].sel(law="limit_less_1_over_root_tau")),
         **{
             f"{short}_off": number(long["law_chi2"].sel(law=law), 2)
             for short, law in GROWING_LAWS.items()

@@ -42,7 +42,7 @@ NAMES = [
 DEFINITIONS = [
     r"\|A_0\| = 5 \|B_0\|",  # the data of the paper's large cases
     r"l2² = 2 v\* P τ|exp\(-\|A\|⁴/c\)|χ²|μ²t/2|μ²t|-H > 0|\(x, 0\)",  # formulas
-    r"3/\(2λ\) ln τ|τ\^\(-1/2\)|\(ln τ\)\^\(1/4\)",
+    r"3/\(2λ\) ln τ|τ\^\(-1/(2|10)\)|\|A_n\|² \+ \|B_n\|²|\(ln τ\)\^\(1/4\)",
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
     r"\(1 \+ \|n\|\)\^-s|1/2 < s < 1|τ\^\((3/2 - s|1 - s|1/2)\)|C_0 δ",  # more formulas
     r"ε = γ = 1",

@@ -37,6 +37,8 @@ BOUNDED = {
     "constant": Law(None),
     "limit_less_1_over_tau": Law(lambda tau: -1.0 / tau),
     "limit_less_1_over_root_tau": Law(lambda tau: -1.0 / np.sqrt(tau)),
+    "limit_less_1_over_fourth_root_tau": Law(lambda tau: -1.0 / np.sqrt(np.sqrt(tau))),
+    "limit_less_1_over_tenth_root_tau": Law(lambda tau: -(tau**-0.1)),
 }
 GROWING = {
     "log_tau": Law(np.log),
@@ -48,7 +50,12 @@ GROWING = {
     ),
     "power_of_tau": Law(np.log, np.log, np.exp, lambda y: 1.0 / y),
 }
-"""By their names in the ledger. A bounded curve may come to its limit from below or from above."""
+"""By their names in the ledger. A bounded curve may come to its limit from below or from above.
+
+The slower it does, the more a bounded law is like a logarithm: (1 - tau^-p) / p is ln tau where p
+goes to zero. So a free exponent would fit whatever a logarithm fits. The family ends at 1/10, where
+a time ten times as long still leaves four fifths of the way to the limit.
+"""
 
 
 class Means(NamedTuple):

@@ -18,9 +18,11 @@ from pendula.studies.unbounded.bulk import (
 )
 from pendula.studies.unbounded.claims_bulk import (
     at_energy,
+    one_state,
     unbounded_equilibrium,
     unbounded_slope,
     unbounded_warm,
+    with_power,
 )
 from pendula.studies.unbounded.long_runs import measure_growth
 from problems import constants_of, problem_of
@@ -100,9 +102,31 @@ def test_verdicts_on_the_bulk_follow_from_its_errors():
 def test_a_bulk_with_energy_is_held_to_the_state_of_that_energy():
     warm = spread(0.5, omegas=(-4.0,), members=4)
     finding = unbounded_warm(warm, thermal())
-    assert finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
+    assert finding.verdict == Verdict.CONFIRMED
     assert finding.measured["energy"] == pytest.approx(sum(TERMS), abs=0.05)
     cold = warm.assign(bulk_terms=warm["bulk_terms"] - sum(TERMS) / 4.0)
     assert unbounded_warm(cold, thermal()).verdict == Verdict.NOT_REPRODUCED
     thin = warm.assign(bulk_power=0.9 * warm["bulk_power"])
     assert unbounded_warm(thin, thermal()).verdict == Verdict.NOT_REPRODUCED
+
+
+def test_a_bulk_is_told_from_the_state_of_no_energy_or_nothing_is_decided():
+    warm = spread(0.5, omegas=(-4.0,), members=4)
+    assert unbounded_warm(warm, one_state(thermal())).verdict == Verdict.NOT_REPRODUCED
+    without = with_power(lambda _: 0.0)(warm, thermal())
+    finding = unbounded_warm(without, thermal())
+    assert finding.verdict == Verdict.NOT_REPRODUCED
+    assert "agrees with the state of no energy (15.80)" in finding.because
+    scatter = warm["member"].copy(data=np.array([0.95, 1.05, 0.95, 1.05]))
+    wide = warm.assign(bulk_power=warm["bulk_power"] * scatter)
+    assert unbounded_warm(wide, thermal()).verdict == Verdict.UNDECIDED
+
+
+def test_the_error_of_the_energy_widens_the_limits_of_p():
+    warm = spread(0.5, omegas=(-4.0,), members=4)
+    energies = warm["member"].copy(data=np.array([0.5, 1.5, 0.5, 1.5]))
+    uneven = warm.assign(bulk_terms=warm["bulk_terms"] * energies)
+    wide, narrow = (unbounded_warm(run, thermal()).measured for run in (uneven, warm))
+    spans = [one["off_thermal_at_most"] - one["off_thermal_at_least"] for one in (wide, narrow)]
+    known = 0.1 * 2.0 * wide["energy_error"]  # P rises by 0.1 per unit of energy
+    assert spans[0] == pytest.approx(known, rel=0.2) and spans[0] > 3.0 * spans[1]

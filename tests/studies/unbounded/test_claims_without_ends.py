@@ -6,14 +6,19 @@ import pytest
 from pendula.ledger.claim import all_claims, feed, passes
 from pendula.ledger.criterion import Verdict
 from pendula.studies.unbounded.claims import following, growth_of, stays
-from pendula.studies.unbounded.claims_state import towards_a_limit, unbounded_maximum
+from pendula.studies.unbounded.claims_state import (
+    at_last_at_a_limit,
+    of_the_other_norm,
+    towards_a_limit,
+    unbounded_maximum,
+)
 
 CLAIMS = {claim.name: claim for claim in all_claims() if claim.name.startswith("unbounded")}
 CHANGED = [  # wrong cases that are made of the right one, which a made-up run can stand for
     (claim, control)
     for claim in CLAIMS.values()
     for control in claim.controls
-    if all(callable(wrong) for wrong in control.fed.values())
+    if all(callable(wrong) for wrong in control.fed.values()) and not control.undecided
     and claim.name in ("unbounded_in_time", "unbounded_band", "unbounded_large", "unbounded_small",
                        "unbounded_stable", "unbounded_window", "unbounded_maximum")
 ]  # fmt: skip
@@ -54,8 +59,21 @@ def test_what_creeps_by_less_than_two_per_cent_stays_and_more_does_not():
 
 def test_a_maximum_without_a_bound_is_refused_and_one_with_a_bound_is_not():
     run = made_up.spread(0.5, members=6)
+    assert unbounded_maximum(of_the_other_norm(run)).verdict == Verdict.NOT_REPRODUCED
     rising = unbounded_maximum(run)
-    assert rising.verdict == Verdict.NOT_REPRODUCED
     known = (600.0 + 100.0 * np.log(1e6)) ** 0.25
     assert rising.measured["fourth_root_of_log_tau_at_1e6"] == pytest.approx(known, rel=0.01)
     assert unbounded_maximum(towards_a_limit(run)).verdict == Verdict.CONFIRMED
+
+
+@pytest.mark.parametrize("gain", [0.0, 0.15])
+def test_slow_bounded_laws_and_growing_ones_are_not_told_apart_in_noise(gain):
+    """A logarithm is as near to a limit less c tau^(-1/10) as noise of one half can tell."""
+    run = made_up.spread(0.5, members=6)
+    noise = np.random.default_rng(7).normal(0.0, 0.5, run["linf"].shape)
+    rise = 5.0 + gain * np.log(run["tau"].clip(min=1.0)).values
+    noisy = run.assign(linf=(run["linf"].dims, rise + noise))
+    finding = unbounded_maximum(noisy)
+    assert finding.verdict == (Verdict.UNDECIDED if gain else Verdict.CONFIRMED)
+    assert ("tenth root tau" in finding.because) == bool(gain)
+    assert unbounded_maximum(at_last_at_a_limit(noisy)).verdict == Verdict.UNDECIDED

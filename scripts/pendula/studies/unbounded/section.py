@@ -17,6 +17,8 @@ LAWS = {
     "constant": "a constant",
     "limit_less_1_over_tau": "a limit, less c / τ",
     "limit_less_1_over_root_tau": "a limit, less c / τ^(1/2)",
+    "limit_less_1_over_fourth_root_tau": "a limit, less c / τ^(1/4)",
+    "limit_less_1_over_tenth_root_tau": "a limit, less c / τ^(1/10)",
     "log_tau": "a + b ln τ",
     "fourth_root_of_log_tau": "(a + b ln τ)^(1/4)",
     "power_of_tau": "a power of τ",
