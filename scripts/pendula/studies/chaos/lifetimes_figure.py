@@ -84,7 +84,7 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     look |= {"color": style.RED, "marker": "s"}
     axes.errorbar(
         a0[seen] + 0.12, value, [value - least, most - value], linestyle="none",
-        label="mean further life", **look,
+        label="mean from the first on", **look,
     )  # fmt: skip
     unseen = data["rate"].values == 0
     axes.plot(
