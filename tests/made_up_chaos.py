@@ -34,6 +34,8 @@ def lyapunov() -> xr.Dataset:
         divergence_measured=(("case", "rtol"), divergence_time + 1),
         exponents=(along, spectrum),
         exponents_error=(along, 0.0 * spectrum + 0.1),
+        exponents_undriven=(along[::2], 0.0 * spectrum[:, 0]),
+        exponents_error_undriven=(along[::2], 0.0 * spectrum[:, 0] + 0.1),
     )
 
 

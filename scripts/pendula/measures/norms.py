@@ -28,7 +28,7 @@ def constants(dataset) -> Constants:
 def drift(energy) -> np.ndarray:
     """Return abs(H(tau) - H(0)) at each time of an energy (..., time): the error of conservation.
 
-    It is absolute, as the paper states it.
+    The paper does not say whether it means this or the part of H(0) that it is.
     """
     energy = np.asarray(energy, dtype=float)
     return np.abs(energy - energy[..., :1])

@@ -40,26 +40,31 @@ def test_the_error_by_the_step_is_estimated_without_the_solution(measured):
     )
 
 
-def energies(*drifts):
+def energies(*drifts, start=1.0):
     """Return runs whose energy drifts by these numbers to tau = 10, and by these to tau = 50."""
     tau = np.linspace(0.0, 50.0, 51)
     return [
-        xr.Dataset({"energy": ("tau", np.where(tau <= 10, early, late) * (tau > 0))}, {"tau": tau})
-        .assign_attrs(ABOUT | {"case": f"case{i}"})
+        xr.Dataset(
+            {"energy": ("tau", start + np.where(tau <= 10, early, late) * (tau > 0))}, {"tau": tau}
+        ).assign_attrs(ABOUT | {"case": f"case{i}"})
         for i, (early, late) in enumerate(drifts)
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.parametrize(
-    ("drifts", "verdict", "said"),
+    ("drifts", "start", "verdict", "said"),
     [
-        (((1e-6, 1.9e-6), (1e-7, 1e-7)), Verdict.CONFIRMED, ""),
-        (((1e-6, 3e-6), (1e-7, 1e-7)), Verdict.UNDECIDED, "case0 to tau = 11, case1 to the end"),
-        (((1e-7, 1e-7), (3e-6, 3e-6)), Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
+        (((1e-6, 1.9e-6), (1e-7, 1e-7)), 1.0, Verdict.CONFIRMED, ""),
+        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "at which time it ends"),
+        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "case0 to tau = 11, in case1 to"),
+        (((1e-7, 1e-7), (3e-6, 3e-6)), 1.0, Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
+        (((1e-7, 1e-7), (3e-6, 3e-6)), 100.0, Verdict.UNDECIDED, "which it means"),
+        (((1e-7, 1e-7), (1e-6, 1e-6)), 0.01, Verdict.UNDECIDED, "which it means"),
+        (((1e-7, 1e-7), (3e-4, 3e-4)), 100.0, Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
     ],
 )
-def test_an_energy_that_is_kept_early_only_leaves_the_end_time_to_decide(drifts, verdict, said):
-    finding = claims.drifts(energies(*drifts), "small")
+def test_an_energy_that_only_some_readings_keep_is_not_decided(drifts, start, verdict, said):
+    finding = claims.drifts(energies(*drifts, start=start), "small")
     assert finding.verdict == verdict and said in finding.because
 
 
@@ -124,10 +129,10 @@ def test_a_sweep_is_held_to_its_ensemble_point_by_point():
     moments = {"l2_mean": sweep["l2"], "l2_deviation": 0.1 * sweep["l2"]}
     ensemble = xr.Dataset(moments).expand_dims(sweep=["fig6_right"]).assign_attrs(swept_members=8)
     alike = claims.swept_draws("fig6_right", sweep, ensemble)
-    assert claims.outside(alike["text"]) == (0, 8) and alike["off"] == [0.0]
+    assert alike["text"] == [1.0] * 8 and alike["off"] == [0.0]
     other = swept(10.0 + np.arange(8.0) + 9.0 * (np.arange(8) == 3))
     apart = claims.swept_draws("fig6_right", other, ensemble)
-    assert claims.outside(apart["text"]) == (1, 8) and apart["off"][0] > 0.6
+    assert np.flatnonzero(np.array(apart["text"]) < 1e-2).tolist() == [3] and apart["off"][0] > 0.6
     assert claims.regular_difference(sweep, other) > 0.6
     brief = sweep.sel(window=["[10, 40]"])
     with pytest.raises(UndecidableError, match=r"no window \[10, 70\]"):
@@ -136,3 +141,18 @@ def test_a_sweep_is_held_to_its_ensemble_point_by_point():
         claims.swept_draws("fig5_left", sweep, ensemble)
     with pytest.raises(UndecidableError, match="six"):
         claims.regular_difference(sweep.isel(half_width=slice(0, 3)), sweep)
+
+
+def test_chains_that_show_one_trajectory_are_one_run():
+    sweep = swept([10.0, 12.0, 14.0, 14.001, 13.0, 15.0, 15.0, 15.0])
+    sweep = sweep.isel(quantity=0, statistic=0, window=0)
+    assert claims.distinct_runs(sweep) == [[5], [10], [15, 20], [25], [30, 35, 40]]
+
+
+def test_points_without_an_ensemble_are_named():
+    sweep = swept(10.0 + np.arange(8.0) + 9.0 * (np.arange(8) == 3))
+    ensemble = xr.Dataset({"l2_mean": swept(10.0 + np.arange(8.0))["l2"]})
+    ensemble = ensemble.expand_dims(sweep=["fig6_right"])
+    assert claims.coverage("fig6_right", sweep, ensemble) == "8 of 8 half-widths of fig6_right"
+    said = claims.coverage("fig6_right", sweep, ensemble.isel(half_width=slice(None, None, 2)))
+    assert said.startswith("4 of 8 half-widths") and "M = 20 with l2 = 22" in said

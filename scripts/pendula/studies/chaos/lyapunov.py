@@ -174,7 +174,8 @@ def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[s
     """Return all exponents of the cases on chains of each half-width in `end_times`.
 
     Rates are over the last three quarters of time, their errors from parts of that time. Shorter
-    chains have fewer exponents, so that their rows end in NaN.
+    chains have fewer exponents, so that their rows end in NaN. The shortest chain is followed
+    without a drive too, where the l2 norm is a second integral.
     """
     most = 4 * (2 * max(end_times) + 1)
     shape = (len(problems), len(end_times), most)
@@ -182,9 +183,7 @@ def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[s
     vanishing = np.zeros(shape[:2], int)
     for i, problem in enumerate(problems.values()):
         for j, (half_width, end_time) in enumerate(end_times.items()):
-            short = problem.changed(half_width=half_width)
-            run = follow_all(short, end_time, tolerance=problem.solver["rtol"])
-            found = spectrum_of(run, end_time / 4)
+            found = _short_spectrum(problem, end_time, half_width=half_width)
             count = len(found.value)
             rates[i, j, :count], errors[i, j, :count] = found.value, found.half
             vanishing[i, j] = ((found.low <= 0.0) & (found.high >= 0.0)).sum()
@@ -200,6 +199,30 @@ def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[s
         "exponents": Variable(along, rates, words),
         "exponents_error": Variable(along, errors, f"{words}: half of the confidence interval"),
         "vanishing": Variable(along[:2], vanishing, "exponents that cannot be told from zero"),
+        **_undriven_spectra(problems.values(), end_times, most),
+    }
+
+
+def _short_spectrum(problem: Problem, end_time: float, **changes) -> Limits:
+    run = follow_all(problem.changed(**changes), end_time, tolerance=problem.solver["rtol"])
+    return spectrum_of(run, end_time / 4)
+
+
+def _undriven_spectra(problems, end_times: dict[int, float], most: int) -> dict[str, Variable]:
+    """Return all exponents of the cases on the shortest chain at gamma = 0, and their errors."""
+    half_width = min(end_times)
+    alone = {"half_width": half_width, "gamma": 0.0}
+    found = [_short_spectrum(problem, end_times[half_width], **alone) for problem in problems]
+    along, words = ("spectrum_case", "index"), "all Lyapunov exponents of the shortest chain"
+    rates, errors = np.full((len(found), most), np.nan), np.full((len(found), most), np.nan)
+    for i, one in enumerate(found):
+        rates[i, : len(one.value)], errors[i, : len(one.value)] = one.value, one.half
+    words = f"{words} at gamma = 0, per unit of tau"
+    return {
+        "exponents_undriven": Variable(along, rates, words),
+        "exponents_error_undriven": Variable(
+            along, errors, f"{words}: half of the confidence interval"
+        ),
     }
 
 
