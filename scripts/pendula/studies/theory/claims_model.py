@@ -110,7 +110,11 @@ def widening(spectra: int) -> float:
     "The energy is the only integral of motion.",
     "lyapunov",
     controls=(
-        changed("spectra at gamma = 0, where l2 is an integral too", "lyapunov", without_drive),
+        changed(
+            "spectra at gamma = 0, where l2 is an integral too, and motion regular",
+            "lyapunov",
+            without_drive,
+        ),
         changed("a second pair of zeros, which is made up", "lyapunov", with_another_pair),
     ),
 )
