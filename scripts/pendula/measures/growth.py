@@ -56,11 +56,13 @@ def mean_rate_error(tau: np.ndarray, log_growth: np.ndarray, start: float, parts
     return rates.std(axis=-1, ddof=1) / np.sqrt(parts)
 
 
-def is_chaotic(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
+def is_chaotic(
+    tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray, many=MANY, errors=ERRORS
+) -> np.ndarray:
     """Return whether a tangent vector grows exponentially along a solution, (...).
 
-    It does if its logarithm grows by more than MANY over the second half of the run, even after
-    ERRORS standard errors are taken off. The growth counts relative to the l2 norm `size` (...,
+    It does if its logarithm grows by more than `many` over the second half of the run, even after
+    so many standard `errors` are taken off. The growth counts relative to the l2 norm `size` (...,
     time) of the solution, since in a chain that leaves its rest both grow alike. No power law in
     time reaches MANY, so that the limit does not depend on any case.
     """
@@ -69,4 +71,4 @@ def is_chaotic(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.
         relative = log_growth - np.log(size)
         rate = mean_rate(tau, relative, middle)
         error = mean_rate_error(tau, relative, middle)
-    return (rate - ERRORS * error) * (tau[-1] - middle) > MANY
+    return (rate - errors * error) * (tau[-1] - middle) > many

@@ -74,11 +74,18 @@ def test_short_runs_say_nothing_of_the_energy():
 
 
 def test_only_a_case_that_was_followed_is_known_to_be_chaotic():
+    tau = np.linspace(0.0, 50.0, 201)
     lyapunov = xr.Dataset(
-        {"omega": ("case", [8.0]), "initial": ("case", ["{}"]), "chaotic": ("case", [1])}
-    )
+        {
+            "omega": ("case", [8.0]), "initial": ("case", ["{}"]),
+            "l2": (["case", "tau"], [1.0 + 0.0 * tau]),
+            "log_growth": (["case", "parity", "tau"], [[0.0 * tau, tau]]),
+        },
+        {"case": ["fig2_small"], "tau": tau},
+    )  # fmt: skip
     run = xr.Dataset(attrs=ABOUT)
     assert claims.is_chaotic(lyapunov, run)
+    assert not claims.is_chaotic(claims.regular(lyapunov), run)
     with pytest.raises(UndecidableError, match="fig2_small"):
         claims.is_chaotic(lyapunov, run.assign_attrs(omega=7.0))
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import checks, claim, wrong_check
 from pendula.ledger.criterion import (
     Above,
@@ -26,7 +27,7 @@ SAME = Cutoff(3.0, "two measured numbers are the same up to three standard error
 
 def chaotic_cases(lyapunov) -> np.ndarray:
     """Return the names of the chaotic cases, of which there must be one."""
-    found = lyapunov["case"].values[lyapunov["chaotic"].values == 1]
+    found = lyapunov["case"].values[chaotic(lyapunov).values]
     if not len(found):
         raise UndecidableError("no case is chaotic")
     return found
@@ -71,12 +72,12 @@ def odd_as_even(lyapunov) -> Finding:
     ),
 )
 def evenness_lost(symmetry, lyapunov) -> Finding:
-    chaotic = symmetry["case"].isin(chaotic_cases(lyapunov))
+    grown = symmetry["case"].isin(chaotic_cases(lyapunov))
     times = symmetry["rounded_time"]
     measured = {
-        "first": times.where(chaotic).min(),
-        "chaotic_that_stay_even": (chaotic & ~np.isfinite(times)).sum(),
-        "regular_that_turn_uneven": (~chaotic & np.isfinite(times)).sum(),
+        "first": times.where(grown).min(),
+        "chaotic_that_stay_even": (grown & ~np.isfinite(times)).sum(),
+        "regular_that_turn_uneven": (~grown & np.isfinite(times)).sum(),
     }
     return judge(measured, AtMost(0, "chaotic_that_stay_even", "regular_that_turn_uneven"))
 

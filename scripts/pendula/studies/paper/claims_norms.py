@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import (
     CHANGE,
     FACTOR,
@@ -304,17 +305,17 @@ def energy_measures_error(solvers, trust) -> Finding:
     ),
 )
 def stable_is_regular(lyapunov, cases) -> Finding:
-    chaotic = lyapunov["chaotic"].sel(case=cases["case"]) == 1
+    grown = chaotic(lyapunov).sel(case=cases["case"])
     covered = cases["region"] != "none"
     measured = {
         "cases_a_theorem_covers": covered.sum(),
-        "chaotic_among_them": (chaotic & covered).sum(),
+        "chaotic_among_them": (grown & covered).sum(),
         "others": (~covered).sum(),
-        "regular_among_them": (~chaotic & ~covered).sum(),
+        "regular_among_them": (~grown & ~covered).sum(),
     }
     criterion = AtMost(0, "chaotic_among_them", "regular_among_them")
     at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
-    names = ", ".join(map(str, cases["case"].values[at_rest & (chaotic & ~covered).values]))
+    names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
     caveat = f"{names} is chaotic though small data at its Omega are stable" if names else ""
     return judge(measured, criterion, caveat)
 

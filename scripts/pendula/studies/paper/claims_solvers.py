@@ -8,6 +8,7 @@ import json
 
 import numpy as np
 
+from pendula.ledger.chaotic import chaotic, regular
 from pendula.ledger.claim import FEWEST, LARGE, SMALL, Control, checks, claim, sweeps
 from pendula.ledger.criterion import (
     Above,
@@ -146,7 +147,7 @@ def is_chaotic(lyapunov, dataset) -> bool:
     same = (lyapunov["omega"] == about["omega"]) & (lyapunov["initial"] == about["initial"])
     if not same.any():
         raise UndecidableError(f"it is not known whether {about['case']} is chaotic")
-    return bool(lyapunov["chaotic"].values[same.values][0])
+    return bool(chaotic(lyapunov).values[same.values][0])
 
 
 def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
@@ -186,7 +187,7 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
         ),
         Control(
             "chaotic cases held to agree as single runs",
-            {"checks/lyapunov": lambda ds: ds.assign(chaotic=0 * ds["chaotic"])},
+            {"checks/lyapunov": regular},
         ),
     ),
 )
@@ -204,8 +205,8 @@ def second_solver(*datasets) -> Finding:
             off[case] = float(apart.max())
             beyond = off[case] - float(at["step_error"])
             half = float(at["scheme_difference"].sel(step=0.5 * at.attrs["configured_step"]))
-            regular = {"largest_regular": off[case], "beyond_step_error": beyond}
-            for name, value in (regular | {"at_half_step": half}).items():
+            found = {"largest_regular": off[case], "beyond_step_error": beyond}
+            for name, value in (found | {"at_half_step": half}).items():
                 measured[name] = max(measured[name], value)
     measured["chance"] = together(chances)
     criterion = AllOf(
@@ -374,15 +375,15 @@ def regular_difference(first, second) -> float:
 )
 def second_solver_sweeps(*datasets) -> Finding:
     (lyapunov, ensembles), count = datasets[-2:], len(SWEEPS)
-    regular, drawn, covered = {}, {}, []
+    level, drawn, covered = {}, {}, []
     for first, second in zip(datasets[:count], datasets[count : 2 * count], strict=True):
         name = str(first.attrs["case"])
         if is_chaotic(lyapunov, first):
             drawn[name] = swept_draws(name, second, ensembles)
             covered.append(coverage(name, second, ensembles))
         else:
-            regular[f"largest_{name}"] = regular_difference(first, second)
-    measured = {"largest_regular": max(regular.values(), default=0.0), **regular}
+            level[f"largest_{name}"] = regular_difference(first, second)
+    measured = {"largest_regular": max(level.values(), default=0.0), **level}
     for reading in ("text", "caption"):
         every = [chance for found in drawn.values() for chance in found[reading]]
         measured |= {f"chance_{reading}": together(every), f"runs_{reading}": len(every)}

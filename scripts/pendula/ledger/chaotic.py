@@ -1,0 +1,28 @@
+"""Which cases are chaotic, as the verdicts need it: by cut-offs that can be moved."""
+
+import numpy as np
+import xarray as xr
+
+from pendula.measures.growth import ERRORS, MANY, is_chaotic
+
+from .cutoff import Cutoff
+
+MUCH_GROWTH = Cutoff(MANY, "logarithm of a growth by a hundred, where tau^6 has grown by 64")
+SURE = Cutoff(ERRORS, "three standard errors, which chance exceeds a few times in a thousand")
+
+
+def chaotic(lyapunov: xr.Dataset) -> xr.DataArray:
+    """Return whether tangent vectors of either parity grow exponentially, (case).
+
+    The dataset says it too, by the same limits; here they can move.
+    """
+    growth = lyapunov["log_growth"].transpose("case", "parity", "tau")
+    size = lyapunov["l2"].transpose("case", "tau").values[:, None]
+    limits = {"many": MUCH_GROWTH.value, "errors": SURE.value}
+    found = is_chaotic(growth["tau"].values, growth.values, size, **limits)
+    return lyapunov["case"].copy(data=found.any(axis=1)).rename("chaotic")
+
+
+def regular(lyapunov: xr.Dataset) -> xr.Dataset:
+    """Return exponents of the same cases as if nothing grew, for controls."""
+    return lyapunov.assign(log_growth=np.log(lyapunov["l2"]) + 0.0 * lyapunov["log_growth"])
