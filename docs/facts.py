@@ -263,21 +263,21 @@ def lifetimes(baseline: Baseline) -> dict:
     """Return how long the central pendulum stays localised, by its initial amplitude."""
     lives = baseline["checks/lifetimes"]
     differ = np.isfinite(lives["rate"].values)
-    slow, fast = lives.isel(amplitude=differ), lives["median"].isel(amplitude=~differ)
+    slow, fast = lives.isel(start_amplitude=differ), lives["median"].isel(start_amplitude=~differ)
     coarse = lives.isel(choice=int(lives["choice_tolerance"].values.argmax()))
     return {
-        "from": number(slow["amplitude"].min()),
+        "from": number(slow["start_amplitude"].min()),
         "end": number(lives["tau"].max()),
         "fast": span(fast.values, 2),
         "rows": [
             {
                 "case": number(a0),
-                "kept": percent(slow["surviving"].sel(amplitude=a0)[-1]),
-                "rate": _rate(slow.sel(amplitude=a0)),
-                "limits": _limits(slow.sel(amplitude=a0), "rate"),
-                "chance": _chance(slow.sel(amplitude=a0)),
+                "kept": percent(slow["surviving"].sel(start_amplitude=a0)[-1]),
+                "rate": _rate(slow.sel(start_amplitude=a0)),
+                "limits": _limits(slow.sel(start_amplitude=a0), "rate"),
+                "chance": _chance(slow.sel(start_amplitude=a0)),
             }
-            for a0 in slow["amplitude"].values
+            for a0 in slow["start_amplitude"].values
         ],
         "coarse": number(coarse["choice_tolerance"]),
         "coarse_drift": number(coarse["choice_drift"], 1),

@@ -54,19 +54,19 @@ def lifetimes() -> xr.Dataset:
     }  # fmt: skip
     rates = {"": [infinite, 0.01, 0.0], "_low": [0.0, 0.005, 0.0], "_high": [infinite, 0.02, 0.001]}
     series = {
-        f"surviving{end}": (("amplitude", "tau"), np.clip(shares + off, 0.0, 1.0))
+        f"surviving{end}": (("start_amplitude", "tau"), np.clip(shares + off, 0.0, 1.0))
         for end, off in ends.items()
     }
     numbers = {
-        f"{name}{end}": (("amplitude",), values)
+        f"{name}{end}": (("start_amplitude",), values)
         for name, by_end in (("median", medians), ("rate", rates))
         for end, values in by_end.items()
     }
     lives = np.array([[5.0] * 64, [50.5, infinite] * 32, [infinite] * 64])
     law = {"rate_clock": [10.0, 12.0, 10.0], "rate_chance": [1.0, 0.3, 1.0]}
-    numbers |= {name: (("amplitude",), values) for name, values in law.items()}
-    numbers["life"] = (("amplitude", "member"), lives)
-    return dataset({"amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
+    numbers |= {name: (("start_amplitude",), values) for name, values in law.items()}
+    numbers["life"] = (("start_amplitude", "member"), lives)
+    return dataset({"start_amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
 
 
 def symmetry() -> xr.Dataset:

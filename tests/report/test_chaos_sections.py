@@ -130,7 +130,7 @@ def growing_results(folder, last: float, **measured) -> made_up.MadeUp:
         l2=(("case", "band", "point"), np.full((1, 1, 2), 206.0)),
     ).assign_coords(band=["mean"])
     speeds = {"corrected_speed": 3.0, "corrected_speed_error": 0.01, "predicted_speed": 3.0}
-    powers = {"power": 18.0, "power_error": 0.1, "expected_power": 20.0}
+    powers = {"mean_power": 18.0, "mean_power_error": 0.1, "expected_power": 20.0}
     powers |= {"slope_power": 18.1, "slope_power_error": 0.1}
     lengths = xr.Dataset({"correlation_length": ("omega", [2.0])}, coords={"omega": [0.0]})
     front = {name: ("omega", [value]) for name, value in (speeds | powers).items()}

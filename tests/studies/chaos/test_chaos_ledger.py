@@ -48,7 +48,7 @@ def members() -> xr.Dataset:
         {
             **norms,
             "rms": ((*grid, "window", "component", "site"), rms),
-            "exchange": ((*grid, "window"), exchange),
+            "norm_correlation": ((*grid, "window"), exchange),
             "l2_start": ("case", STARTS),
             "linf_start": ("case", STARTS),
             **{name: ("case", np.full(6, value)) for name, value in ratio.items()},
@@ -98,8 +98,8 @@ def single_sweep(l2: float) -> xr.Dataset:
 def sources():
     lyapunov = made_up_chaos.lyapunov()
     chaotic = lyapunov.assign(chaotic=("case", [0, 1]))
-    lives = with_choices(made_up_chaos.lifetimes().isel(amplitude=[0, 0]))
-    lives = lives.assign_coords(amplitude=[1.0, 5.0])
+    lives = with_choices(made_up_chaos.lifetimes().isel(start_amplitude=[0, 0]))
+    lives = lives.assign_coords(start_amplitude=[1.0, 5.0])
     return {
         MEMBERS: members(),
         EVEN: swept(),

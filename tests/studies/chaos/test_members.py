@@ -71,7 +71,9 @@ def test_every_case_has_all_numbers_of_both_kinds():
     assert data["rms"].dims == ("kind", "case", "member", "window", "component", "site")
     assert data["kind"].values.tolist() == ["even", "uneven"]
     assert data["window"].values.tolist() == ["[1, 2]", "[2, 4]"]
-    assert (data["width"] > 0).all() and data["l2_start"][0] == pytest.approx(np.hypot(1, 0.1))
+    assert (data["relative_width"] > 0).all() and data["l2_start"][0] == pytest.approx(
+        np.hypot(1, 0.1)
+    )
     np.testing.assert_array_equal(data["l2_level"].sel(case="a"), data["l2_level"].sel(case="b"))
     even = data["rms"].sel(kind="even").values
     np.testing.assert_array_equal(even, even[..., ::-1])

@@ -80,7 +80,7 @@ def test_thermal_powers_are_unknown_where_none_was_solved():
 def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
     one = measure_growth({"fig4_small": exact()}, thermal()).isel(case=0)
     assert one["law"] == pytest.approx(2.0 * 2.9 * POWER)
-    left = one["rate"].sel(band="mean") - one["law_rate"]
+    left = one["l2_rate"].sel(band="mean") - one["law_rate"]
     np.testing.assert_allclose(left, one["offset_rate"], rtol=1e-6)
     np.testing.assert_allclose(one["offset_rate"] * one["span_tau"], -50.0, rtol=0.02)
 

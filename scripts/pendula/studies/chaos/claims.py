@@ -182,7 +182,9 @@ def ensemble_fig3_mixes(members) -> Finding:
         return level("l2", quantity="A")(case) / level("l2", quantity="B")(case)
 
     ratios = limits(members, "fig3_large", ratio)
-    exchange = limits(members, "fig3_large", lambda case: case["exchange"].sel(window=LATER).values)
+    exchange = limits(
+        members, "fig3_large", lambda case: case["norm_correlation"].sel(window=LATER).values
+    )
     ends = named(ratios, "low", "ratio") | named(ratios, "high", "ratio")
     together = named(exchange, "low", "correlation")
     alike = WithinFactor(FACTOR, *ends, says=f"limits of l2 of A over l2 of B on {LATER}")
@@ -347,7 +349,7 @@ def ensemble_equilibrium(members) -> Finding:
         wrong_check(
             "amplitudes A_0 up to 6 alone",
             confirms=True,
-            lifetimes=lambda lives: lives.sel(amplitude=lives["amplitude"] <= 6.0),
+            lifetimes=lambda lives: lives.sel(start_amplitude=lives["start_amplitude"] <= 6.0),
         ),
     ),
 )
@@ -358,7 +360,7 @@ def transition_amplitude(lifetimes) -> Finding:
         raise UndecidableError(f"the runs are too few for a limit of a share, or end at {end:g}")
     shares = {
         f"{a0:g}": share_limits(int((life <= END).sum()), members, LEVEL.value)
-        for a0, life in zip(lifetimes["amplitude"].values, lives, strict=True)
+        for a0, life in zip(lifetimes["start_amplitude"].values, lives, strict=True)
     }
     lows = {f"low_{a0}": share.low for a0, share in shares.items()}
     missed = [a0 for a0, share in shares.items() if share.low <= ALL.value]

@@ -140,12 +140,12 @@ def measure_lives(
     shares = [surviving(row, tau) for row in lives]
     medians = [median_limits(row) for row in lives]
     rates = [rate_after(row, settled, problem.end_time) for row in lives]
-    over, share = ("amplitude",), "share of members that are still localised"
+    over, share = ("start_amplitude",), "share of members that are still localised"
     variables = {
-        "amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the central pendulum"),
+        "start_amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the centre"),
         "tau": Variable(("tau",), tau),
         "life": Variable((*over, "member"), lives, "time of the transition, infinite if later"),
-        "energy_drift": Variable(
+        "relative_drift": Variable(
             over, [max(life.drift for life in row) for row in runs],
             "largest relative error of the energy in any member",
         ),

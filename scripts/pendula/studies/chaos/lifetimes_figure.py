@@ -32,12 +32,12 @@ def draw_lifetimes(data: xr.Dataset) -> Figure:
 
 def _slow(data: xr.Dataset) -> list[int]:
     """Return where the lives of members differ at all: before chaos sets in they are all alike."""
-    return [i for i in range(data.sizes["amplitude"]) if np.isfinite(data["rate"][i])]
+    return [i for i in range(data.sizes["start_amplitude"]) if np.isfinite(data["rate"][i])]
 
 
 def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
     tau, slow = data["tau"], _slow(data)
-    fast = [i for i in range(data.sizes["amplitude"]) if i not in slow]
+    fast = [i for i in range(data.sizes["start_amplitude"]) if i not in slow]
     for i in fast:
         axes.plot(tau, data["surviving"][i], color="0.6", lw=0.8)
     free = -np.inf
@@ -47,10 +47,10 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
         axes.fill_between(tau, low, high, color=colour, alpha=0.15, lw=0)
         axes.plot(tau, data["surviving"][i], color=colour, lw=1.3)
         free = max(free + LINE, float(data["surviving"][i, -1]))
-        label = f"$A_0 = {float(data['amplitude'][i]):g}$"
+        label = f"$A_0 = {float(data['start_amplitude'][i]):g}$"
         axes.text(1.02 * float(tau[-1]), free, label, color=colour, va="center", fontsize=7)
     if fast:
-        words = _range(data["amplitude"].values[fast])
+        words = _range(data["start_amplitude"].values[fast])
         beside = float(data["median"][fast].max()) + 0.02 * float(tau[-1])
         axes.text(beside, 0.04, words, color="0.45", fontsize=7)
     axes.set_xlim(0, float(tau[-1]))
@@ -66,7 +66,7 @@ def _range(amplitudes: np.ndarray) -> str:
 
 
 def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
-    a0, end = data["amplitude"].values, float(data["tau"][-1])
+    a0, end = data["start_amplitude"].values, float(data["tau"][-1])
     middle, low, high = (data[f"median{part}"].values for part in ("", "_low", "_high"))
     known = np.isfinite(middle)
     above = np.where(np.isfinite(high), high, end)

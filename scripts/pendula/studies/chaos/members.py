@@ -23,7 +23,7 @@ REDUCED = {
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
     "linf_peak": (("quantity", "window"), "maximum of the l-infinity norm over the time window"),
     "in_motion": (("window",), "mean of P over the squared l-infinity norm: pendula in motion"),
-    "exchange": (("window",), "correlation in time of the squared l2 norms of A and B"),
+    "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
     "rms": (("window", "component", "site"), "root mean square of an amplitude over the window"),
 }
 """What each member is reduced to: dimensions after kind, case and member, and in words."""
@@ -42,7 +42,7 @@ def reduce_run(run: Trajectory, windows: list[Window], every: int) -> dict[str, 
         "linf_level": np.stack([linf[:, kept].mean(axis=1) for kept in inside], axis=-1),
         "linf_peak": np.stack([linf[:, kept].max(axis=1) for kept in inside], axis=-1),
         "in_motion": np.array([ratio[kept].mean() for kept in inside]),
-        "exchange": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
+        "norm_correlation": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
         "rms": np.sqrt([squares[..., kept[::every]].mean(axis=-1) for kept in inside]),
     }
 
@@ -155,7 +155,7 @@ def _widths(found, members: int) -> dict[str, Variable]:
     words = "standard deviation of the pair's l2 norm over the members, relative to its mean"
     over = "width of the even ensemble over that of the uneven one"
     named = zip(("", "_low", "_high"), ("", ", lower limit", ", upper limit"), ratios, strict=True)
-    return {"width": Variable(("kind", "case"), widths, words)} | {
+    return {"relative_width": Variable(("kind", "case"), widths, words)} | {
         f"width_ratio{end}": Variable(("case",), values, over + which)
         for end, which, values in named
     }

@@ -113,7 +113,7 @@ def lives_of(results: Results) -> dict[str, Any]:
         "end": results.quote(LIVES, end),
         "head": ["initial amplitude", "median life", "its limits", "still localised at the end",
                  "transitions per unit of τ", "their limits", "counted from", "chance of the law"],
-        "rows": [_life(results, float(a0), end) for a0 in lives["amplitude"].values],
+        "rows": [_life(results, float(a0), end) for a0 in lives["start_amplitude"].values],
         "amplitude": results.quote(LIVES, float(lives["compared_amplitude"])),
         "choices_head": ["tolerance", "ensemble", "transitions per unit of τ", "their limits",
                          "largest error of the energy", "right-hand sides"],
@@ -122,7 +122,7 @@ def lives_of(results: Results) -> dict[str, Any]:
 
 
 def _life(results: Results, a0: float, end: float) -> list:
-    one = results[LIVES].sel(amplitude=a0)
+    one = results[LIVES].sel(start_amplitude=a0)
     left = results.say(LIVES, percent(float(one["surviving"][-1])))
     times = [float(one[f"median{part}"]) for part in ("", "_low", "_high")]
     median, low, high = (_time(tau, end) for tau in times)
@@ -164,7 +164,7 @@ def _rate(results: Results, one, name: str) -> list:
 def _pictures(results: Results) -> dict[str, Picture]:
     """Return the five pictures by name."""
     lives = results[LIVES]
-    amplitudes = span(lives["amplitude"].values, 3)
+    amplitudes = span(lives["start_amplitude"].values, 3)
     growth, trust = results[LYAPUNOV].sel(parity="even"), results[TRUST]
     lost = [lost_by(results, str(name)) for name in trust["solver"].values]
     rates = [
@@ -182,7 +182,7 @@ def _pictures(results: Results) -> dict[str, Picture]:
         f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",
         "lifetimes": f"Share of runs that are still localised against τ, and median lives, for A_0 "
         f"of {amplitudes}. {int((lives['surviving'][:, -1] > 0).sum())} of "
-        f"{lives.sizes['amplitude']} amplitudes have runs that stay localised to the end",
+        f"{lives.sizes['start_amplitude']} amplitudes have runs that stay localised to the end",
         "ensembles": "Bands of runs from almost equal data. "
         + "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands),
     }  # fmt: skip

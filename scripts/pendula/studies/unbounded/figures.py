@@ -63,8 +63,10 @@ def _look(case: str) -> dict:
 def _draw_rates(axes: Axes, data: xr.Dataset) -> None:
     for case in data["case"].values:
         one, look = data.sel(case=case), _look(str(case))
-        axes.plot(one["span_tau"], one["rate"].sel(band="mean"), label=style.name_case(one), **look)
-        _shade(axes, one["span_tau"], one["rate"], look["color"])
+        axes.plot(
+            one["span_tau"], one["l2_rate"].sel(band="mean"), label=style.name_case(one), **look
+        )
+        _shade(axes, one["span_tau"], one["l2_rate"], look["color"])
         axes.plot(one["span_tau"], one["law_rate"], **LAW)
     axes.set_yscale("log")
     axes.set_ylabel(r"$(\ell^2)^2 / \tau$")
@@ -82,7 +84,7 @@ def _draw_rest(axes: Axes, data: xr.Dataset) -> None:
         one, colour = data.sel(case=case), LOOKS[str(case)]["color"]
         if not np.isfinite(one["law"]):
             continue
-        off = 100.0 * (one["rate"] / one["law_rate"] - 1.0)
+        off = 100.0 * (one["l2_rate"] / one["law_rate"] - 1.0)
         _shade(axes, one["span_tau"], off, colour)
         axes.plot(one["span_tau"], 100.0 * one["offset_rate"] / one["law_rate"], **OFFSET)
         bars = 100.0 * one["rate_limits"] / one["law_rate"]

@@ -204,8 +204,8 @@ def measure_front(
         "corrected_speed": over_omega(corrected, "speed of the front, its delay added back"),
         "corrected_speed_error": over_omega(corrected_error, f"{RESOLVES} of that speed"),
         "predicted_speed": over_omega(omegas["predicted_speed"].values, PREDICTED_SPEED),
-        "power": over_omega(power, POWER),
-        "power_error": over_omega(power_error, f"half of the 95 % limits of the {POWER}"),
+        "mean_power": over_omega(power, POWER),
+        "mean_power_error": over_omega(power_error, f"half of the 95 % limits of the {POWER}"),
         "expected_power": over_omega(known, f"{POWER} in the thermal state at the same Omega"),
         "slope_power": over_omega(
             [slope.value for slope in slopes], f"{POWER}, from the slope of l2^2"
@@ -258,7 +258,7 @@ def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
         "way_tau": Variable(("span",), [tau[s].mean() for s in found], "slow time, mean of a span"),
         "behind": Variable(("span",), [behind[s].mean() for s in found], "site of front - v tau"),
         "delay": Variable((), delay, DELAY),
-        "rest": Variable((), float(one["predicted_rest"]), REST),
+        "front_rest": Variable((), float(one["predicted_rest"]), REST),
     }
 
 
@@ -279,7 +279,7 @@ def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
     cells = np.linspace(0.0, 1.05 * moduli.max(), MODULI + 1)
     return {
         "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
-        "terms": Variable(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
+        "mean_terms": Variable(("term", "bin"), np.mean(terms, axis=0), "terms of H per site"),
         "scaled_site": Variable(
             ("bin",), 0.5 * (edges[1:] + edges[:-1]), "site over that of the front"
         ),

@@ -108,7 +108,7 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     tau = data["way_tau"].values
     axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5, label="measured")
     fine = np.geomspace(tau[0], tau[-1], 200)
-    delay, rest = float(data["delay"]), float(data["rest"])
+    delay, rest = float(data["delay"]), float(data["front_rest"])
     looks = (
         ("--", rest * 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"),
         ("-", rest, "and the next term"),
@@ -127,7 +127,9 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
     """Draw the mean power of the bulk over Omega beside that of the thermal state."""
     axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    axes.errorbar(data["omega"], data["power"], _known(data["power_error"]), label="bulk", **DOTS)
+    axes.errorbar(
+        data["omega"], data["mean_power"], _known(data["mean_power_error"]), label="bulk", **DOTS
+    )
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\Omega$")
     axes.set_ylabel("mean power $P$ of a site")
@@ -138,7 +140,7 @@ def _draw_ratios(axes: Axes, data: xr.Dataset) -> None:
     """Draw the power of the bulk over that of the thermal state, measured in two ways."""
     axes.axhline(1.0, **THERMAL_LOOK)
     series = (
-        ("power", "mean", DOTS, ASIDE),
+        ("mean_power", "mean", DOTS, ASIDE),
         ("slope_power", r"slope of $\ell^2$ squared", RINGS, -ASIDE),
     )
     for name, label, look, aside in series:
@@ -158,11 +160,13 @@ def _known(limits: xr.DataArray) -> xr.DataArray:
 def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
     """Draw the terms of the energy per site against the distance to the front."""
     for term, (colour, dashes, label) in TERM_LOOKS.items():
-        values = data["terms"].values[list(data["term"].values).index(term)]
+        values = data["mean_terms"].values[list(data["term"].values).index(term)]
         if np.any(values):
             axes.plot(data["scaled_site"], values, color=colour, ls=dashes, lw=1.1, label=label)
-    axes.plot(data["scaled_site"], data["terms"].sum("term"), color="black", lw=1.1, label="sum")
-    axes.set_ylim(top=1.75 * float(data["terms"].max()))
+    axes.plot(
+        data["scaled_site"], data["mean_terms"].sum("term"), color="black", lw=1.1, label="sum"
+    )
+    axes.set_ylim(top=1.75 * float(data["mean_terms"].max()))
     axes.set_xlabel("site over that of the front")
     axes.set_ylabel("energy per site")
     axes.legend(loc="upper right", ncols=2, columnspacing=1.0, handlelength=1.6)

@@ -190,7 +190,7 @@ def _rates(runs: list[xr.Dataset], thermal: xr.Dataset) -> dict[str, Variable]:
     banded = ("case", "band", "span")
     return {
         "span_tau": Variable(axes, [one["tau"] for one in found], "middle of a span of tau"),
-        "rate": Variable(banded, [one["rate"] for one in found], of),
+        "l2_rate": Variable(banded, [one["l2_rate"] for one in found], of),
         "rate_limits": Variable(
             axes, [one["limits"] for one in found], f"half of the 95 % limits of the mean {of}"
         ),
@@ -221,7 +221,7 @@ def _rate(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, np.ndarray]:
     limits = mean_limits(means.T).half
     return {
         "tau": np.sqrt(edges[:-1] * edges[1:]),
-        "rate": np.array([means.min(axis=1), means.mean(axis=1), means.max(axis=1)]),
+        "l2_rate": np.array([means.min(axis=1), means.mean(axis=1), means.max(axis=1)]),
         "limits": np.where(np.isfinite(limits), limits, np.nan),
         "law": np.array(law),
         "offset": np.array([offset * (1.0 / tau[span]).mean() for span in spans]),

@@ -150,7 +150,7 @@ def _case(results: Results, name: str) -> dict[str, Any]:
 
 def _fronts(results: Results) -> dict[str, Any]:
     front = results[FRONT]
-    with_errors = ("corrected_speed", "power", "slope_power")
+    with_errors = ("corrected_speed", "mean_power", "slope_power")
     rows = []
     for index, omega in enumerate(front["omega"].values):
         one = front.isel(omega=index)
@@ -164,7 +164,7 @@ def _fronts(results: Results) -> dict[str, Any]:
     return {
         "rows": rows,
         "speed_ratio": (front["corrected_speed"] / front["predicted_speed"]).values,
-        "power_ratio": (front["power"] / front["expected_power"]).values,
+        "power_ratio": (front["mean_power"] / front["expected_power"]).values,
     }
 
 
