@@ -20,9 +20,12 @@ def shared(datasets: dict[str, xr.Dataset]):
     """Yield (name, file, values, file, values) of each quantity that two datasets hold.
 
     Two variables are one quantity where they have the same name, long name and dimensions, among
-    them one of KEYS; they are aligned over the coordinates that both have.
+    them one of KEYS; they are aligned over the coordinates that both have. Two ensembles, which
+    name themselves in their attributes, share no quantity.
     """
     for (one, first), (other, second) in combinations(datasets.items(), 2):
+        if first.attrs.get("ensemble") != second.attrs.get("ensemble"):
+            continue
         for name in first.data_vars.keys() & second.data_vars.keys():
             a, b = first[name], second[name]
             alike = set(a.dims) == set(b.dims) and KEYS & set(a.dims)
