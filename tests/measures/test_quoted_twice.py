@@ -24,7 +24,7 @@ def shared(datasets: dict[str, xr.Dataset]):
     name themselves in their attributes, share no quantity.
     """
     for (one, first), (other, second) in combinations(datasets.items(), 2):
-        if first.attrs.get("ensemble") != second.attrs.get("ensemble"):
+        if len({first.attrs.get("ensemble"), second.attrs.get("ensemble")} - {None}) > 1:
             continue
         for name in first.data_vars.keys() & second.data_vars.keys():
             a, b = first[name], second[name]
