@@ -34,7 +34,7 @@ SYMBOLS = {
     "l-infinity": "ℓ∞",
     "linf": "ℓ∞",
 }
-SIGNS = {"<=": "≤", ">=": "≥"}
+SIGNS = {"<=": "≤", ">=": "≥", "+-": "±"}
 _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
 _MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
 _EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
