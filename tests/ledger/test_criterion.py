@@ -5,7 +5,6 @@ import math
 import pytest
 from pendula.ledger.criterion import (
     Above,
-    AboveByErrors,
     AllOf,
     AtLeast,
     AtMost,
@@ -38,14 +37,6 @@ def test_a_criterion_decides_and_prints_the_same_limit(criterion, text, right, w
     assert all(criterion.holds({"x": value}) for value in right)
     assert not any(criterion.holds({"x": value}) for value in (*wrong, math.nan))
     assert not any(criterion.holds(numbers) for numbers in criterion.refuted_by())
-
-
-def test_a_growth_is_told_from_its_limit_by_its_errors():
-    criterion = AboveByErrors(0.3, "rate", "error", 3.0)
-    assert criterion.holds({"rate": 0.5, "error": 0.06})
-    assert not criterion.holds({"rate": 0.5, "error": 0.07})
-    assert not criterion.holds({"rate": 0.5, "error": math.nan})
-    assert str(criterion) == "rate less 3 errors > 0.3"
 
 
 def test_each_number_and_each_part_alone_can_fail():

@@ -7,7 +7,6 @@ from pendula.measures.levels import (
     levelling_of_means,
     moments,
     relative_range,
-    rising_share,
 )
 
 WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
@@ -34,10 +33,8 @@ def test_means_are_level_where_their_errors_hide_the_rest():
     assert levelling_of_means(WIDTHS, means, np.full(5, 1.0), 2.0) == 5.0
 
 
-def test_the_range_is_relative_to_the_mean_and_steps_up_are_counted():
+def test_the_range_is_relative_to_the_mean():
     assert relative_range(np.array([1.0, 2.0, 3.0])) == 1.0
-    assert rising_share(np.array([1.0, 2.0, 1.5, 3.0, 4.0])) == 0.75
-    assert rising_share(np.array([1.0])) == 0.0
 
 
 def test_bands_and_moments_are_those_over_the_members():

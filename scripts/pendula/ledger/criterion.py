@@ -167,26 +167,6 @@ class NeverLevels(Levels):
         return f"{self.words} is infinite"
 
 
-class AboveByErrors(Above):
-    """A number is greater than the limit by so many of its standard errors."""
-
-    def __init__(self, limit: SupportsFloat, name: str, error: str, errors: SupportsFloat):
-        super().__init__(limit, name)
-        self.error, self.errors = error, float(errors)
-
-    def failing(self, measured: Measured) -> list[str]:
-        (name,) = self.names
-        least = measured[name] - self.errors * measured[self.error]
-        return [] if self.keeps(least) else [name]
-
-    def refuted_by(self) -> list[dict[str, float]]:
-        (name,) = self.names
-        return [{name: self.limit, self.error: 0.0}, {name: self.limit + 1.0, self.error: math.inf}]
-
-    def __str__(self) -> str:
-        return f"{self.words} less {plain(self.errors)} errors > {plain(self.limit)}"
-
-
 class AllOf(Criterion):
     """Several criteria; every single one must hold."""
 

@@ -38,11 +38,6 @@ def relative_range(values: np.ndarray) -> float:
     return float((np.max(values) - np.min(values)) / abs(np.mean(values)))
 
 
-def rising_share(values: np.ndarray) -> float:
-    """Return the share of steps that go up, 0 of a single value."""
-    return float(np.mean(np.diff(values) > 0)) if len(values) > 1 else 0.0
-
-
 def bands(norms: np.ndarray, quantiles) -> np.ndarray:
     """Return the quantiles over the members of (member, ...), shape (quantile, ...)."""
     return np.quantile(norms, quantiles, axis=0)
