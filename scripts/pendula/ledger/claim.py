@@ -109,6 +109,11 @@ def _wrong_in(folder: str) -> Callable[..., Control]:
     return control
 
 
+def cases_reversed(check):
+    """Return a wrong check: the right numbers under the names of the cases in reverse order."""
+    return check.assign_coords(case=check["case"].values[::-1])
+
+
 wrong_check, wrong_run = _wrong_in("checks"), _wrong_in("trajectories")
 wrong_sweep, wrong_unbounded = _wrong_in("sweeps"), _wrong_in("unbounded")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.ledger.chaotic import chaotic
-from pendula.ledger.claim import checks, claim, wrong_check
+from pendula.ledger.claim import cases_reversed, checks, claim, wrong_check
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -67,7 +67,7 @@ def odd_as_even(lyapunov) -> Finding:
     controls=(
         wrong_check(
             "the odd parts of the cases in reverse order",
-            symmetry=lambda check: check.assign_coords(case=check["case"].values[::-1]),
+            symmetry=cases_reversed,
         ),
     ),
 )
@@ -89,7 +89,7 @@ def evenness_lost(symmetry, lyapunov) -> Finding:
     controls=(
         wrong_check(
             "the horizons of the cases in reverse order",
-            trust=lambda check: check.assign_coords(case=check["case"].values[::-1]),
+            trust=cases_reversed,
         ),
     ),
 )

@@ -91,6 +91,15 @@ def over(means: Means, below: slice, above: slice) -> Limits:
     return ratio_limits(value, error, means.members, LEVEL.value)
 
 
+def growth_and_levels(found: dict[str, Means]) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the lower limit of the longest chain over the shortest, and where each kind levels."""
+    growth = {
+        f"{kind}_growth_low": over(means, slice(1), slice(-1, None)).low
+        for kind, means in found.items()
+    }
+    return growth, {f"{kind}_level_from": one.level_from(least=2) for kind, one in found.items()}
+
+
 # --- Wrong cases ----------------------------------------------------------------------------------
 
 
@@ -156,13 +165,13 @@ def with_maxima_of_l2(ensembles):
     ),
 )
 def ensemble_fig5_grows(even, uneven) -> Finding:
-    growth, rising, levels = {}, {}, []
-    for kind, means in both(even, uneven, "fig5_right", "l2", TEXT_5).items():
-        growth[f"{kind}_growth_low"] = over(means, slice(1), slice(-1, None)).low
+    found = both(even, uneven, "fig5_right", "l2", TEXT_5)
+    growth, levels = growth_and_levels(found)
+    rising = {}
+    for kind, means in found.items():
         noise = means.apart * np.hypot(means.error[1:], means.error[:-1])
         rising[f"{kind}_rising"] = np.mean(np.diff(means.mean) > noise)
-        levels.append(means.level_from(least=2))
-    first = min(levels)
+    first = min(levels.values())
     caveat = f"up to M = {first:.0f}, where it levels off" if np.isfinite(first) else ""
     criterion = AllOf(
         Above(FACTOR, *growth, says="lower limits of the longest chain over the shortest"),
@@ -186,11 +195,7 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
 )
 def ensemble_fig5_conjecture(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
-    growth = {
-        f"{kind}_growth_low": over(one, slice(1), slice(-1, None)).low
-        for kind, one in found.items()
-    }
-    levels = {f"{kind}_level_from": one.level_from(least=2) for kind, one in found.items()}
+    growth, levels = growth_and_levels(found)
     grows = Above(1.0, *growth, says="lower limits of the longest chain over the shortest")
     criterion, measured = AllOf(grows, NeverLevels(*levels)), growth | levels
     seen = [level for level in levels.values() if np.isfinite(level)]

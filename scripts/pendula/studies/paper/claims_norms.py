@@ -9,6 +9,7 @@ from pendula.ledger.claim import (
     LARGE,
     MUCH,
     SMALL,
+    cases_reversed,
     checks,
     claim,
     late,
@@ -300,7 +301,7 @@ def energy_measures_error(solvers, trust) -> Finding:
     controls=(
         wrong_check(
             "the exponents of the cases in reverse order",
-            lyapunov=lambda check: check.assign_coords(case=check["case"].values[::-1]),
+            lyapunov=cases_reversed,
         ),
     ),
 )
