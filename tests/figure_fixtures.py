@@ -63,7 +63,7 @@ def make_trajectory():
 
 @pytest.fixture(scope="session")
 def trajectories(make_trajectory):
-    """Return two cases by four solvers, of which the implicit ones are 2 % off from the start."""
+    """Return two cases by four solvers; the implicit solvers are 2 % off from the start."""
     scales = {
         "ode45": 1.001, "crank_nicolson": 1.02, "delfour_fortin_payre": 1.02, "dop853": 1.0,
     }  # fmt: skip

@@ -30,8 +30,8 @@ class Control(NamedTuple):
     `fed` says what takes the place of a needed dataset: the name of another dataset, a function of
     the right one, or a pair of both: the name and a function of the right and the other dataset.
     `confirms` turns the control round, for a claim that is not reproduced: the
-    function must confirm this right case, or it could not have confirmed anything. `undecided` is
-    for a case of which the function can say nothing, such as a bound that does not exist there.
+    function must confirm this right case, or it could not have confirmed anything. `undecided` says
+    that the function must not decide this case at all, because a bound does not exist there, say.
     """
 
     says: str

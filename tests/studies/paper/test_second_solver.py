@@ -91,7 +91,7 @@ def test_only_a_case_that_was_followed_is_known_to_be_chaotic():
 
 
 def members(level):
-    """Return 32 members of two kinds, of which the even ones scatter by one about a level."""
+    """Return 32 members of two kinds; those of the even kind scatter by one about a level."""
     drawn = level + np.random.default_rng(1).normal(size=(2, 1, 32, 1, 2))
     drawn[1] += 100.0
     grid = ("kind", "case", "member", "quantity", "window")

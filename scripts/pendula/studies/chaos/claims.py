@@ -101,7 +101,7 @@ def distance(found: dict[str, Limits]) -> dict[str, Limits]:
 
 
 def nearby(members) -> str:
-    """Return of which data an ensemble near a knife edge tells, as a caveat."""
+    """Return a caveat: an ensemble near a knife edge tells only of data close to the paper's."""
     return (
         f"the ensemble is of data within {members.attrs['perturbation']:g} of the paper's: it says"
         " nothing of data further away"

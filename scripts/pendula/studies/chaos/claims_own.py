@@ -26,7 +26,7 @@ SAME = Cutoff(3.0, "two measured numbers are the same up to three standard error
 
 
 def chaotic_cases(lyapunov) -> np.ndarray:
-    """Return the names of the chaotic cases, of which there must be one."""
+    """Return the names of the chaotic cases; without any, a claim on them cannot be decided."""
     found = lyapunov["case"].values[chaotic(lyapunov).values]
     if not len(found):
         raise UndecidableError("no case is chaotic")

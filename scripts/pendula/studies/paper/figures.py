@@ -151,7 +151,7 @@ def _members(ensembles: xr.Dataset, of: str) -> xr.Variable:
 def draw_sweeps(data: xr.Dataset) -> Figure:
     """Draw both panels: l2 red dots, l-infinity blue squares; the captions' reading is hollow.
 
-    Beside the dots of a chaotic sweep, each of which is one draw, stand the bars of its ensemble.
+    Each dot of a chaotic sweep is one draw, so the bars of its ensemble stand beside the dots.
     """
     figure = style.new_figure(style.DOUBLE, 2.8)
     for axes, name in zip(figure.subplots(1, 2), data["panel"].values, strict=True):

@@ -159,7 +159,7 @@ Changes = create_model(
     check=(Literal[tuple(name for names in GROUPS.values() for name in names)] | None, None),
     **{name: (kind | None, None) for name, kind in (ARGUMENTS | {"omegas": Omegas}).items()},
 )
-"""What a wrong statement changes of the arguments of a check, and of which, if not of its name."""
+"""The arguments of a check that a wrong statement changes; `check` says which, if not its name."""
 
 OBSERVED = ("cases", "sweeps")
 """The checks of the paper's own trajectories and sweeps, which need their datasets."""

@@ -17,7 +17,7 @@ from pendula.problem import Constants
 from .equations import run
 
 START = 1e-130
-"""Size of the wave, of which the cubic terms must feel nothing."""
+"""Size of the wave: so small that the cubic terms are exactly zero in doubles."""
 
 ABOUT = {
     "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
