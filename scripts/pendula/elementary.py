@@ -1,0 +1,248 @@
+"""Elementary functions that have the same bits on every machine.
+
+C's and NumPy's exp, log, sin, cos and powers take fused operations where a processor has them, so
+that their last bits differ between processors and between versions. Here each is a short series
+after an exact reduction of its argument, by + - * / and square roots in one order, which IEEE 754
+rounds alike everywhere. NumPy takes each operation by itself, and numba without fastmath fuses
+none. Coefficients are those of Taylor's series.
+
+Functions of `x` take a number or an array of real numbers and return the same; NaN stays NaN.
+Outside their domain they return what the limit is, without a warning. tests/test_elementary.py
+measures their errors and holds the hashes of their bits. The reductions follow fdlibm (Sun, 1993).
+"""
+
+from decimal import Decimal, localcontext
+from math import factorial
+
+import numpy as np
+
+LN2 = 0.6931471803691238, 1.9082149292705877e-10
+"""log(2) in two parts; a product of the first with an integer below 2^21 is exact."""
+HALF_PI = 1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21
+"""pi/2 in three parts; products of the first two with integers below 2^20 are exact."""
+SPLITTER = 2.0**27 + 1.0
+
+EXP = [1 / factorial(n) for n in range(2, 15)]
+S3, S5, S7, S9, S11, S13, S15, S17 = ((-1) ** n / factorial(2 * n + 1) for n in range(1, 9))
+C4, C6, C8, C10, C12, C14, C16, C18 = ((-1) ** n / factorial(2 * n) for n in range(2, 10))
+ATANH = [2 / (2 * n + 1) for n in range(1, 13)]
+
+
+def _horner(coefficients, x):
+    total = coefficients[-1]
+    for coefficient in coefficients[-2::-1]:
+        total = total * x + coefficient
+    return total
+
+
+def _sum(a, b):
+    """Return a + b as a rounded sum and what rounding took away (Knuth)."""
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
+def _product(a, b):
+    """Return a * b as a rounded product and what rounding took away (Dekker, Veltkamp)."""
+    (a_high, a_low), (b_high, b_low) = _halves(a), _halves(b)
+    total = a * b
+    return total, ((a_high * b_high - total) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def _halves(a):
+    long = SPLITTER * a
+    high = long - (long - a)
+    return high, a - high
+
+
+# --- Exponentials and logarithms ----------------------------------------------------------------
+
+
+def _reduced_exp(x, low=0.0):
+    """Return t and the integer k of exp(x + low) = (1 + t) 2^k, where abs(t) < 0.42."""
+    x = np.clip(x, -750.0, 710.0)  # beyond, the result is 0 or infinity anyhow
+    k = np.nan_to_num(np.rint(x * (1.0 / LN2[0])))
+    start, rest = x - k * LN2[0], k * LN2[1]
+    r = start - rest
+    curved = r * r * _horner(EXP, r)
+    low = (low + ((start - r) - rest)) * (1.0 + (r + curved))
+    return r + (curved + low), k.astype(np.int64)
+
+
+def exp(x):
+    """Return e^x, with an error below 1 ulp."""
+    t, k = _reduced_exp(x)
+    with np.errstate(over="ignore", under="ignore"):
+        return np.ldexp(1.0 + t, k)
+
+
+def expm1(x):
+    """Return e^x - 1, with an error below 1.5 ulp, for x < 709."""
+    t, k = _reduced_exp(x)
+    return (np.ldexp(1.0, k) - 1.0) + np.ldexp(t, k)
+
+
+def sinh(x):
+    """Return the hyperbolic sine, with an error below 2 ulp, for abs(x) < 709."""
+    grown = expm1(np.abs(x))
+    return np.copysign(0.5 * (grown + grown / (1.0 + grown)), x)
+
+
+def cosh(x):
+    """Return the hyperbolic cosine, with an error below 1.5 ulp, for abs(x) < 709."""
+    grown = exp(np.abs(x))
+    return 0.5 * (grown + 1.0 / grown)
+
+
+def _reduced_log(x):
+    """Return f and the integer k, as a float, of x = (1 + f) 2^k; 1 + f is within sqrt(2) of 1."""
+    part, k = np.frexp(x)
+    small = part < np.sqrt(0.5)
+    return np.where(small, 2.0 * part, part) - 1.0, k - np.where(small, 1.0, 0.0)
+
+
+def _where_positive(x, value):
+    """Return `value` where x is positive and finite, and elsewhere the limit of a logarithm."""
+    limit = np.where(x == 0.0, -np.inf, np.where(x == np.inf, np.inf, np.nan))
+    return np.where((x > 0.0) & (x < np.inf), value, limit)[()]
+
+
+def log(x):
+    """Return the natural logarithm, with an error below 1 ulp; -inf at 0, NaN below."""
+    x = np.asarray(x, dtype=float)
+    f, k = _reduced_log(np.where((x > 0.0) & (x < np.inf), x, 1.0))
+    s = f / (2.0 + f)
+    half = 0.5 * f * f
+    series = s * (half + s * s * _horner(ATANH, s * s))
+    return _where_positive(x, k * LN2[0] - ((half - (series + k * LN2[1])) - f))
+
+
+def _log_pair(x):
+    """Return log(x), x > 0 and finite, as a sum of two numbers that has some 60 bits."""
+    f, k = _reduced_log(x)
+    whole, rest = _sum(2.0, f)
+    s = f / whole
+    back, lost = _product(s, whole)
+    s_low = (((f - back) - lost) - s * rest) / whole
+    high, low = _sum(k * LN2[0], 2.0 * s)
+    low = low + (2.0 * s_low + s * s * s * _horner(ATANH, s * s) + k * LN2[1])
+    return _sum(high, low)
+
+
+def power(x, y):
+    """Return x^y for 0 < x < inf, with an error below 1 ulp where the result is a normal number."""
+    high, low = _log_pair(np.asarray(x, dtype=float))
+    whole, rest = _product(y, high)
+    t, k = _reduced_exp(whole, rest + y * low)
+    with np.errstate(over="ignore", under="ignore"):
+        return np.ldexp(1.0 + t, k)
+
+
+def geometric(start: float, stop: float, count: int) -> np.ndarray:
+    """Return `count` >= 2 numbers in a geometric series from `start` to `stop`, both positive.
+
+    Each is the double next to the exact one, by decimal arithmetic of 40 digits.
+    """
+    with localcontext() as context:
+        context.prec = 40
+        first, ratio = Decimal(start), Decimal(stop) / Decimal(start)
+        steps = [Decimal(i) / (count - 1) for i in range(1, count - 1)]
+        return np.array([start, *(float(first * ratio**step) for step in steps), stop], float)
+
+
+def fifth_root(x: float) -> float:
+    """Return x^(1/5) of one number x > 0, with an error below 1 ulp; 0, inf and NaN stay.
+
+    Kernels compile it: it takes branches and so no arrays.
+    """
+    if not 0.0 < x < np.inf:
+        return x
+    scale = 1.0
+    while x >= 32.0:
+        x, scale = x * 0.03125, scale * 2.0
+    while x < 1.0:
+        x, scale = x * 32.0, scale * 0.5
+    root = 1.0 + (x - 1.0) * (0.1 - 0.0024 * (x - 1.0))  # within a quarter
+    for _ in range(6):  # by Newton's method, which squares the error
+        root += 0.2 * (x / (root * root * root * root) - root)
+    return root * scale
+
+
+# --- Sines and cosines --------------------------------------------------------------------------
+
+
+def sine_near_zero(x, low=0.0):
+    """Return sin(x + low) for abs(x) <= pi/4 and a tiny `low`; also for kernels."""
+    z = x * x
+    far = S9 + z * (S11 + z * (S13 + z * (S15 + z * S17)))
+    return x + (x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z))
+
+
+def cosine_near_zero(x, low=0.0):
+    """Return cos(x + low) for abs(x) <= pi/4 and a tiny `low`; also for kernels."""
+    z = x * x
+    far = C10 + z * (C12 + z * (C14 + z * (C16 + z * C18)))
+    curved = z * z * (C4 + z * (C6 + z * (C8 + z * far)))
+    half = 0.5 * z
+    whole = 1.0 - half
+    return whole + (((1.0 - whole) - half) + (curved - x * low))
+
+
+def sine_and_cosine(x):
+    """Return sin(x) and cos(x), with errors below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    x = np.asarray(x, dtype=float)
+    x = np.where(np.abs(x) < 1.6e6, x, np.nan)
+    k = np.rint(x * (1.0 / HALF_PI[0]))
+    r, first = _sum(x - k * HALF_PI[0], -(k * HALF_PI[1]))
+    r, second = _sum(r, first - k * HALF_PI[2])
+    sine, cosine = sine_near_zero(r, second), cosine_near_zero(r, second)
+    quarter = k - 4.0 * np.floor(0.25 * k)
+    odd = (quarter == 1.0) | (quarter == 3.0)
+    s, c = np.where(odd, cosine, sine), np.where(odd, sine, cosine)
+    return (
+        np.where(quarter >= 2.0, -s, s)[()],
+        np.where((quarter == 1.0) | (quarter == 2.0), -c, c)[()],
+    )
+
+
+def sin(x):
+    """Return the sine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    return sine_and_cosine(x)[0]
+
+
+def cos(x):
+    """Return the cosine, with an error below 1 ulp, for abs(x) < 1.6e6; else NaN."""
+    return sine_and_cosine(x)[1]
+
+
+# --- Complex numbers ----------------------------------------------------------------------------
+
+
+def complex_of(real, imaginary):
+    """Return real + i imaginary, without a product that could be fused."""
+    pair = np.empty(np.broadcast_shapes(np.shape(real), np.shape(imaginary)), complex)
+    pair.real, pair.imag = real, imaginary
+    return pair[()]
+
+
+def product(a, b):
+    """Return the product of complex numbers or arrays; a sum of two products each part."""
+    a, b = np.asarray(a), np.asarray(b)
+    return complex_of(a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real)
+
+
+def square_modulus(z):
+    """Return abs(z)^2."""
+    z = np.asarray(z)
+    return z.real * z.real + z.imag * z.imag
+
+
+def modulus(z):
+    """Return abs(z), with an error of 1 ulp, where its square neither over- nor underflows."""
+    return np.sqrt(square_modulus(z))
+
+
+def turn(angle):
+    """Return exp(i angle) for abs(angle) < 1.6e6; else NaN."""
+    sine, cosine = sine_and_cosine(angle)
+    return complex_of(cosine, sine)
