@@ -123,16 +123,21 @@ def even_bands_wider(members, lyapunov) -> Finding:
     if members["window"].values[-1] != LATER:
         raise UndecidableError(f"the bands are not those on {LATER}")
     chosen = members.sel(case=chaotic_cases(lyapunov))
-    low, high = chosen["width_ratio_low"], chosen["width_ratio_high"]
-    error = 0.5 * (high - low) / student(members.sizes["member"] - 1)
-    off = abs(chosen["width_ratio"] - np.sqrt(2.0)) / error
+    # One case alone does not resolve the root of two: its 32 members leave 10 to 25 % on the ratio.
+    ratio = np.log(chosen["width_ratio"].values)
+    limits = np.log([chosen["width_ratio_low"].values, chosen["width_ratio_high"].values])
+    quantile = student(members.sizes["member"] - 1)
+    errors = 0.5 * (limits[1] - limits[0]) / quantile
+    error = np.sqrt(np.square(errors).sum()) / errors.size
     measured = {
         f"ratio_{case}": chosen["width_ratio"].sel(case=case) for case in chosen["case"].values
     }
-    measured |= {"least_limit": low.min(), "off": off.max()}
+    measured["mean_ratio"] = np.exp(ratio.mean())
+    measured["lower_limit"] = np.exp(ratio.mean() - quantile * error)
+    measured["off"] = abs(ratio.mean() - 0.5 * np.log(2.0)) / error
     criterion = AllOf(
-        Above(1.0, "least_limit", says="lower limits of the ratio of widths"),
-        Below(SAME, "off", says="distance from the root of two over the standard error"),
+        Above(1.0, "lower_limit", says="lower limit of the mean ratio of widths"),
+        Below(SAME, "off", says="distance of the mean from the root of two over its error"),
     )
     return judge(measured, criterion)
 
