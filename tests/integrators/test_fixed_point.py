@@ -7,7 +7,7 @@ import pytest
 import systems
 from on_chains import data_of, integrate
 from oracle import SOLVERS, random_chain
-from pendula.integrators import DONE
+from pendula.integrators import DONE, NO_CONTRACTION
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 
@@ -129,3 +129,34 @@ def test_a_solution_that_blows_up_is_reported_where_it_does(scheme):
     assert outcome.time == pytest.approx(1.0, abs=0.02)
     assert outcome.rejected > 0
     np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)
+
+
+@each_scheme
+def test_spans_that_round_above_a_whole_number_of_steps_take_no_further_one(scheme):
+    """In doubles 1.1 / 0.1 is above 11, and 0.3 / 0.1 below 3."""
+    z = 0.1 * random_chain(1)
+    assert [run(scheme, z, end, step=0.1).outcome.steps for end in (0.3, 1.1)] == [3, 11]
+
+
+BEGINNING = {"crank_nicolson": 1, "implicit_midpoint": 0, "delfour_fortin_payre": 0}
+"""Right-hand sides that a first step takes before its iteration."""
+
+
+@each_scheme
+def test_an_iteration_that_grows_is_given_up_at_its_third_change(scheme):
+    """The first change is that of the guess, the second may be larger by accident.
+
+    For x' = -x the iteration grows above h = 2, here even after all halvings.
+    """
+    _, _, outcome = systems.run(scheme, (-1.0, 0.0), [0.0, 2.0**23], (2.0**23, 1e-13, 50), 1 + 0j)
+    assert outcome.status == NO_CONTRACTION
+    assert outcome.rejected == 21
+    assert outcome.evaluations == 21 * (3 + BEGINNING[scheme])
+
+
+@each_scheme
+def test_an_iteration_that_goes_to_and_fro_is_given_up_as_well(scheme):
+    """For x' = -x and h = 2 it jumps between two values; h = 1 then halves each change."""
+    _, _, outcome = systems.run(scheme, (-1.0, 0.0), [0.0, 2.0], (2.0, 1e-13, 200), 1 + 0j)
+    assert (outcome.status, outcome.rejected) == (DONE, 1)
+    assert 3 + 2 * 40 < outcome.evaluations < 3 + 2 * 50

@@ -105,3 +105,30 @@ def test_amplitudes_too_large_for_the_step_are_reported(size):
     with pytest.raises(IntegrationError, match="step is too long"):
         run(size * random_chain(2), 0.1)
     assert run(random_chain(2), 0.1).outcome.status == DONE
+
+
+@pytest.mark.parametrize("numbers", [(0.7, 1.3, -4.0), (-0.7, 1.3, 4.0), (0.7, -1.3, -4.0)])
+def test_the_bound_of_the_linear_rates_is_reached_by_the_shortest_wave(numbers):
+    """On a ring A_n = -B_n = (-1)^n, times i where the drive would not add up otherwise."""
+    wave = (1.0 if numbers[1] * numbers[2] < 0 else 1j) * (-1.0) ** np.arange(4)
+    chain = Chain(*numbers, *choose_ends("periodic", WHOLE))
+    y = pack(np.array([wave, -wave]), WHOLE)
+    dy = np.zeros_like(y)
+    linear_rates(chain, y, dy)
+    assert np.abs(unpack(dy, WHOLE)).max() == pytest.approx(linear_radius(chain), rel=1e-15)
+
+
+@pytest.mark.parametrize("back", [1.0, -1.0])
+def test_a_nonlinear_flow_is_refused_from_a_turn_by_one_radian_on(back):
+    """An amplitude with |A|^2 = 2 turns by h. One such site is enough, wherever it stands."""
+    for place in ((0, 0), (1, 2)):
+        z = np.zeros((2, 3), complex)
+        z[place] = 1.0 - 1.0j
+        for h, resolved in ((0.999, True), (1.0, False), (1.5, False)):
+            assert nonlinear_flow(pack(z, WHOLE), back * h) == resolved
+
+
+def test_spans_that_round_above_a_whole_number_of_steps_take_no_further_one():
+    """In doubles 1.1 / 0.1 is above 11, and 0.3 / 0.1 below 3."""
+    z = 0.1 * random_chain(1)
+    assert [run(z, 0.1, end=end).outcome.steps for end in (0.3, 1.1)] == [3, 11]

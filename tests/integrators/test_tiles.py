@@ -20,14 +20,14 @@ def run_in_one(chain, y, times, controls, work, record):
     return solve_in_one(chain, y, times, controls, work, record)
 
 
-def run(method, amplitudes, boundary, even):
+def run(method, amplitudes, boundary, even, times=TIMES, every=100):
     """Return all that a run makes of amplitudes (2, N), as arrays and counts."""
     reduction = Reduction(even=even, synchronised=False)
     chain = Chain(1.0, 1.0, -4.0, *choose_ends(boundary, reduction))
     y = pack(amplitudes, reduction)
-    record = blank_record(2, y.shape[1] - 2, TIMES.size, 100)
+    record = blank_record(2, y.shape[1] - 2, times.size, every)
     work = np.zeros((dop853.WORK, *y.shape))
-    outcome = method(chain, y, TIMES, (1e-9, 1e-9), work, record)
+    outcome = method(chain, y, times, (1e-9, 1e-9), work, record)
     assert outcome.status == DONE
     return (y[:, 1:-1], record.l2, record.linf, record.energy, record.modulus), outcome
 
@@ -50,6 +50,26 @@ def test_tiles_give_the_bits_of_one_piece(boundary, even, strength):
     assert counts.rejected > 0
     for one, other in zip(tiled, whole, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize("distance", [15, 16])
+def test_a_site_at_the_end_of_the_margin_is_felt_by_the_last_stage(distance):
+    """Of data on one site a stage carries a trace to the next one, however small.
+
+    The interpolant at the last site of a tile sees as far as all 16 stages look, which is what the
+    margin is for; data everywhere would hide the trace in their rounding. The tile is the second
+    of three, for those at the ends of a chain have both margins on one side.
+    """
+    first, last = tiles.LONGEST, 2 * tiles.LONGEST - 1
+    amplitudes = np.zeros((2, 3 * tiles.LONGEST), complex)
+    amplitudes[:, last + distance] = 1.0, 0.5j
+    amplitudes[:, first - distance] = 0.3j, -1.0
+    times = np.linspace(0.0, 0.2, 41)
+    tiled, counts = run(run_dop853, amplitudes, "dirichlet", False, times, 1)
+    whole, expected = run(run_in_one, amplitudes, "dirichlet", False, times, 1)
+    assert counts == expected
+    assert (whole[-1][:, [first, last], 1:] > 0.0).all()
+    np.testing.assert_array_equal(tiled[-1], whole[-1])
 
 
 @given(sites=st.integers(1, 5 * tiles.LONGEST))

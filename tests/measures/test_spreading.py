@@ -62,3 +62,9 @@ def test_limits_of_an_exponent_widen_with_fewer_members_and_need_two():
     many, few = (fit_exponent(TAU, noisy[:n], START) for n in (8, 2))
     assert many.low < 0.5 < many.high and many.half < few.half
     assert np.isinf(fit_exponent(TAU, noisy[:1], START).high)
+
+
+def test_limits_of_two_members_are_known():
+    """Slopes of 2 and 4 have the mean 3, and limits of Student's t with one degree: 12.706."""
+    slope = fit_line(TAU, np.array([2.0 * TAU, 4.0 * TAU]), START).slope
+    assert tuple(slope) == pytest.approx((3.0, 3.0 - 12.7062, 3.0 + 12.7062), rel=1e-5)

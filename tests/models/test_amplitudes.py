@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
-from pendula.models.amplitudes import LANES, Chain, midpoint_rates, rates, rates_at_site
+from pendula.models.amplitudes import (
+    DIRICHLET,
+    FREE,
+    LANES,
+    MIRROR,
+    Chain,
+    chain_of_tile,
+    midpoint_rates,
+    rates,
+    rates_at_site,
+)
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -99,3 +109,18 @@ def test_midpoint_rates_are_linear_terms_of_the_mean_and_a_mean_square(boundary,
     midpoint_rates(chain, pack(old, WHOLE), pack(new, WHOLE), middle, dy)
     expected = linear - 0.5j * mean_square * mean
     np.testing.assert_allclose(unpack(dy, WHOLE), expected, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("right", [DIRICHLET, FREE])
+@pytest.mark.parametrize("left", [DIRICHLET, FREE, MIRROR])
+def test_a_tile_ends_as_the_chain_does_where_it_reaches_an_end(left, right):
+    """The kind of the other end of a tile may be any: it stays in the margin."""
+    chain = Chain(*CONSTANTS, left, right)
+    y = pack(random_chain(6), WHOLE)
+    whole = np.zeros_like(y)
+    rates(chain, y, whole)
+    for first, stop in ((0, 10), (3, 13)):
+        tile, found = y[:, first : stop + 2].copy(), np.zeros((4, stop - first + 2))
+        rates(chain_of_tile(chain, first == 0, stop == 13), tile, found)
+        inner = slice(1 if first == 0 else 2, -1 if stop == 13 else -2)
+        np.testing.assert_array_equal(found[:, inner], whole[:, first : stop + 2][:, inner])

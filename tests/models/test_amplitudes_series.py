@@ -101,3 +101,17 @@ def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks
     for even, synchronised in [(sites > 1, False), (False, True), (sites > 1, True)]:
         kept = Reduction(even=even, synchronised=synchronised)
         np.testing.assert_array_equal(coefficients(z, (1.0, 0.7, -4.0), boundary, kept), whole)
+
+
+@pytest.mark.parametrize("sites", [LANES * CACHED_BLOCKS - 7, LANES * CACHED_BLOCKS + 45])
+def test_a_ring_of_any_length_has_no_first_site(sites):
+    """A ring that is turned has the turned coefficients, to the last bit, in waves or not.
+
+    In `continue_series`, `first == 0` and `last == blocks` may hold too often without any harm: an
+    end that is closed early is closed again when the order of its own block is known.
+    """
+    z = np.random.default_rng(7).normal(size=(2, sites, 2)) @ (1.0, 1j)
+    found = coefficients(z, (1.0, 0.7, -4.0), "periodic", WHOLE)
+    for turn in (1, LANES, sites // 2):
+        turned = coefficients(np.roll(z, turn, axis=1), (1.0, 0.7, -4.0), "periodic", WHOLE)
+        np.testing.assert_array_equal(turned, np.roll(found, turn, axis=2))

@@ -86,3 +86,13 @@ def test_power_series_beyond_the_doubles_are_refused():
         assert "unit of time" in obstacle("taylor", size, span, numbers, **tolerances)
         assert obstacle("dop853", size, span, numbers, **tolerances) is None
     assert obstacle("taylor", 1e-20, 1.0, (0.0, 0.0, 0.0), atol=1e-32) is None  # nothing moves
+
+
+def test_data_as_large_as_the_absolute_tolerance_are_not_refused():
+    assert find_obstacle(of_size(1e-14, atol=1e-14)) is None
+    assert "smaller than the absolute" in find_obstacle(of_size(0.99e-14, atol=1e-14))
+    assert find_obstacle(of_size(0.0, atol=1e-14)) is None
+
+
+def of_size(peak, **controls):
+    return make_problem(np.full((2, 3), peak + 0j), solver=SOLVERS["dop853"] | controls)

@@ -186,3 +186,14 @@ def test_no_memory_is_taken_per_step(name, end_time):
         run(name, random_chain(2), end_time=end, output_step=end / 2)
         counts.append(rtsys.get_allocation_stats().alloc - before)
     assert counts[0] == counts[1]
+
+
+@pytest.mark.parametrize("name", ["taylor", "dop853"])
+def test_a_long_ring_has_no_first_site(name):
+    """Ends that are open would show where a chain is divided for the cache."""
+    z = random_chain(550)
+    final, turned = (
+        simulate(make_problem(data, boundary="periodic", solver=name, end_time=0.25), WHOLE).final
+        for data in (z, np.roll(z, 300, axis=1))
+    )
+    np.testing.assert_array_equal(turned, np.roll(final, 300, axis=1))

@@ -1,10 +1,11 @@
 """The explicit constants of Theorems 1 to 3, and how they fit together."""
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
 from pendula.models.bounds import (
+    best_bound,
     coercivity,
     extent,
     proven_region,
@@ -22,7 +23,14 @@ from pendula.studies.theory.worst_data import maximise, ring_energy
 from problems import constants_of
 
 NEGATIVE = constants_of((1.0, 1.0, -4.0))
-OTHERS = ((0.5, 0.2, -1.0), (1.5, 2.0, -4.5), (0.3, 1.9, -4.0))
+OTHERS = (
+    (0.5, 0.2, -1.0),
+    (1.5, 2.0, -4.5),
+    (0.3, 1.9, -4.0),
+    (1.0, 1.5, -4.0),  # the gap a is 2/3 of gamma, below 2/5 of it, and 1/2 of it:
+    (1.0, 2.5, -6.0),  # the top of the barrier has another formula from 1/2 down, and at 1/2 both
+    (1.0, 2.0, -5.0),
+)
 PARAMETERS = [NEGATIVE, *map(constants_of, OTHERS)]
 
 
@@ -148,3 +156,30 @@ def test_energy_bounds_are_below_the_energy():
     z = rng.normal(size=(2, 7)) + 1j * rng.normal(size=(2, 7))
     high, low = draw_range(rng)
     assert max(energy_excess(high, low, z, "dirichlet", 1.0)) <= 0.0
+
+
+def test_theorem_2_ends_at_its_barrier():
+    """At Omega = -4 it covers P(0) < 4 with -H < 4, where P stays below 4; not the edges."""
+    assert theorem_2_bound(-3.96, 3.9, NEGATIVE) == pytest.approx(3.6)
+    assert theorem_2_bound(-3.0, 0.1, NEGATIVE) == pytest.approx(2.0)
+    for energy, start in ((-3.0, 4.0), (-4.0, 0.1), (-5.0, 0.1), (-3.0, 5.0)):
+        assert theorem_2_bound(energy, start, NEGATIVE) == np.inf
+
+
+def test_the_best_bound_knows_the_ends():
+    energy, power, constants = start_of(-4.0, (1.0, 0.1))
+    closed, free = (
+        best_bound(energy, power, 61, constants, ends) for ends in ("dirichlet", "free")
+    )
+    assert closed == pytest.approx(3.3858, abs=1e-4)
+    assert free == theorem_3_bound(energy, 61, constants) > 4000.0
+    assert best_bound(5.5, 1.01, 61, constants_of((1.0, 1.0, 8.0)), "free") == 2.75
+
+
+@pytest.mark.parametrize("constants", PARAMETERS)
+def test_the_sign_of_the_drive_does_not_matter(constants):
+    """Amplitudes times i turn the one into the other."""
+    other = replace(constants, gamma=-constants.gamma)
+    assert widened_barrier(other) == widened_barrier(constants)
+    assert theorem_2_constants(other) == theorem_2_constants(constants)
+    assert extent(other) == extent(constants)

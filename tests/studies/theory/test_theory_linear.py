@@ -12,7 +12,7 @@ from pendula.models.linear_chain import (
 from pendula.problem import Constants
 from pendula.studies.theory.dispersion import measured_threshold
 from pendula.studies.theory.equations import run
-from pendula.studies.theory.stability_chart import stable_windows, widest_gamma
+from pendula.studies.theory.stability_chart import misclassified, stable_windows, widest_gamma
 from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
 
 
@@ -85,3 +85,20 @@ def test_measured_threshold_is_that_of_the_finite_chain(omega):
 def test_measured_rates_tend_to_the_finite_chains_largest(numbers):
     finite, measured = numbers("chart", "finite_rate"), numbers("chart", "measured")
     assert np.abs(measured - finite)[finite > 0.3].max() < 0.1
+
+
+@pytest.mark.parametrize(("omega", "expected"), [(-6, 1), (-4, 0), (-2, 0), (0, 0), (2, 1)])
+def test_the_band_of_a_negative_coupling_lies_below_zero(omega, expected):
+    assert gamma_0(omega, -1.0) == expected
+
+
+def test_cells_are_misclassified_beyond_what_time_resolves():
+    """In 60 units of time 6 / 60 = 0.1 is resolved; half of a rate of 0.3 is 0.15."""
+    stable, unstable, slow = 0.0, 0.3, 0.2
+    for finite, measured, wrong in (
+        (stable, 0.1, 0), (stable, 0.11, 1), (stable, 0.16, 1), (unstable, 0.16, 0),
+        (unstable, 0.15, 0), (unstable, 0.14, 1), (slow, 0.0, 0), (slow, 0.11, 0),
+    ):  # fmt: skip
+        assert misclassified(np.array([measured]), np.array([finite]), 60.0) == wrong
+    both = misclassified(np.array([0.2, 0.0, 0.0]), np.array([0.0, 0.3, 0.0]), np.full(3, 60.0))
+    assert both == 2

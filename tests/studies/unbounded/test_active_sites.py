@@ -7,6 +7,7 @@ from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
     BLOCK,
+    GUARD,
     advance,
     begin,
     run_long,
@@ -81,3 +82,26 @@ def test_one_component_is_enough_where_a_equals_b():
     one = run_long(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
     assert one.state.shape[0] == 2
     np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
+
+
+def test_what_is_added_is_at_rest_and_what_was_there_stays():
+    """Whatever the ghosts held: the one at the right becomes a site."""
+    state = np.arange(1.0, 4 * 40 + 1).reshape(4, 40)
+    wider = widen(state, None, REST)
+    np.testing.assert_array_equal(wider[:, :39], state[:, :39])
+    assert wider.shape == (4, 40 + BLOCK) and not wider[:, 39:].any()
+
+
+def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_its_end():
+    state = np.zeros((4, 2 * GUARD + 2))
+    state[0, 1] = 2.0
+    for site, amplitude, grows in (
+        (GUARD, 2.01e-6, True), (GUARD, 2e-6, False), (GUARD - 1, 1.0, False),
+        (2 * GUARD - 1, 2.01e-6, True),
+    ):  # fmt: skip
+        moved = state.copy()
+        moved[1, 1 + site] = amplitude
+        assert (widen(moved, None, 1e-6).shape != state.shape) == grows
+    state[:, -2] = 1.0
+    widths = [widen(state, 2 * GUARD - 1 + more, 1e-6).shape[1] for more in (0, 1, 2 * BLOCK)]
+    assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]

@@ -8,12 +8,14 @@ from pendula.ledger.criterion import Verdict
 from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import (
     bulk_means,
+    bulk_of,
     bulk_powers,
     energy_terms,
     late_means,
     mean_powers,
     mean_terms,
     slope_powers,
+    tail_scale,
     thermal_powers,
 )
 from pendula.studies.unbounded.claims_bulk import (
@@ -130,3 +132,21 @@ def test_the_error_of_the_energy_widens_the_limits_of_p():
     spans = [one["off_thermal_at_most"] - one["off_thermal_at_least"] for one in (wide, narrow)]
     known = 0.1 * 2.0 * wide["energy_error"]  # P rises by 0.1 per unit of energy
     assert spans[0] == pytest.approx(known, rel=0.2) and spans[0] > 3.0 * spans[1]
+
+
+def test_the_bulk_is_nine_tenths_of_the_way_to_the_front_without_the_centre():
+    assert bulk_of(np.zeros((4, 300)), 200) == slice(1, 180)
+    assert bulk_of(np.zeros((4, 300)), 0) == slice(1, 2)
+
+
+def test_the_tail_of_an_exponential_law_has_its_scale():
+    """|A|^4 with the law exp(-x / 7): what exceeds any level does so by 7 in the mean."""
+    rng = np.random.default_rng(11)
+    fourth, angle = rng.exponential(7.0, (2, 200_001)), rng.uniform(0.0, 7.0, (2, 200_001))
+    z = fourth**0.25 * np.exp(1j * angle)
+    sites = np.stack([z[0].real, z[0].imag, z[1].real, z[1].imag])
+    for share in (0.1, 0.02):
+        assert tail_scale(sites, 200_000, share) == pytest.approx(7.0, rel=0.03)
+    steps = np.zeros((4, 101))
+    steps[0] = np.arange(101) ** 0.25  # |A|^4 of 1 to 89 and 89 zeros: above 71.3 lie 72 to 89
+    assert tail_scale(steps, 100) == pytest.approx(80.5 - 71.3)

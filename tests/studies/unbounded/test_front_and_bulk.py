@@ -13,7 +13,13 @@ from pendula.studies.unbounded.bulk import (
     spectrum,
     with_ghosts,
 )
-from pendula.studies.unbounded.front import growth_rate, linear_front, resolution, speeds
+from pendula.studies.unbounded.front import (
+    growth_rate,
+    is_unstable,
+    linear_front,
+    resolution,
+    speeds,
+)
 from problems import constants_of
 
 
@@ -142,3 +148,27 @@ def test_profile_spectrum_and_distribution():
     moduli = np.random.default_rng(0).random(50)
     assert distribution(moduli, np.linspace(0, 2, 9)).sum() * 0.25 == pytest.approx(1.0)
     assert complex_pair(with_ghosts(np.ones((4, 3))))[1].tolist() == [1 + 1j] * 3
+
+
+def test_the_first_third_of_a_run_is_left_out_of_its_speed():
+    tau = np.arange(1.0, 301.0)
+    late = front_of(np.where(tau < 100.0, 0.0, 2.5 * tau), tau)
+    assert speeds(late)[0][0] == pytest.approx(2.5, abs=1e-12)
+    later = front_of(np.where(tau < 101.0, 0.0, 2.5 * tau), tau)
+    assert abs(speeds(later)[0][0] - 2.5) > 0.01
+
+
+def test_the_limits_of_a_speed_are_those_of_its_mean_over_members():
+    """Student's t of two members, 12.706, times half of their difference."""
+    tau = np.arange(2.0, 202.0, 2.0)
+    one = front_of(2.0 * tau, tau)
+    both = xr.concat([one, front_of(3.0 * tau, tau)], "member", data_vars=["front"])
+    speed, limits = speeds(both)
+    assert (speed[0], limits[0]) == pytest.approx((2.5, 12.7062 * 0.5), rel=1e-5)
+
+
+@pytest.mark.parametrize(("epsilon", "gamma"), [(1.0, 1.0), (0.5, 0.3), (2.0, 0.7)])
+def test_rest_is_unstable_from_two_gamma_below_the_band_to_two_gamma_above_it(epsilon, gamma):
+    low, high = -2.0 * gamma, 4.0 * epsilon + 2.0 * gamma
+    for omega, unstable in ((low, 0), (low + 1e-9, 1), (high - 1e-9, 1), (high + 1e-9, 0)):
+        assert is_unstable(constants_of((epsilon, gamma, omega))) == bool(unstable)
