@@ -44,7 +44,7 @@ rule all:
         expand("results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
         expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
-        expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
         expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
         "results/claims.json",
         "results/controls.json",
@@ -58,7 +58,7 @@ rule all:
 rule figures:
     "All figures"
     input:
-        expand("results/figures/{name}.{kind}", name=FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
 
 
 rule theory:
@@ -74,7 +74,7 @@ rule chaos:
     "How fast small errors grow, how evenness is lost, and ensembles of the chaotic cases"
     input:
         expand("results/checks/{name}.nc", name=CHAOS_CHECKS),
-        expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=FIGURE_KINDS.values()),
 
 
 include: "workflow/rules/inputs.smk"

@@ -6,7 +6,7 @@ rule speed:
     input:
         "results/speed/work_precision.md",
         "results/speed/cost.md",
-        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS.values()),
 
 
 rule work_precision:
@@ -72,7 +72,7 @@ rule speed_figures:
         work_precision="results/speed/work_precision.nc",
         cost="results/speed/cost.nc",
     output:
-        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=["png", "pdf", "nc"]),
+        expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS.values()),
     log:
         "results/logs/figures/speed.log",
     conda:

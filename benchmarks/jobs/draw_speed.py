@@ -7,7 +7,7 @@ from benchmarks import figures
 
 
 def draw_speed(work_precision: str, cost: str, regimes: list[str], stems: list[str]) -> None:
-    """Draw one figure a regime and then the cost, each to stem.png, stem.pdf and stem.nc."""
+    """Draw one figure a regime and then the cost, each to stem.png, .pdf, .nc and .json."""
     measured, drawn = read(work_precision), []
     for regime in regimes:
         data = figures.gather_work_precision(measured, regime)
@@ -15,7 +15,7 @@ def draw_speed(work_precision: str, cost: str, regimes: list[str], stems: list[s
     data = figures.gather_cost(read(cost))
     drawn.append((figures.draw_cost(data), data))
     for stem, (figure, data) in zip(stems, drawn, strict=True):
-        save(figure, data, *(f"{stem}.{kind}" for kind in ("png", "pdf", "nc")))
+        save(figure, data, *(f"{stem}.{kind}" for kind in ("png", "pdf", "nc", "json")))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ def draw_chaos(
     png: str,
     pdf: str,
     data: str,
+    description: str,
     symmetry_png: str,
     symmetry_pdf: str,
     symmetry_data: str,
@@ -18,7 +19,7 @@ def draw_chaos(
     """Draw the exponents, then the odd parts beside what the exponents predict."""
     growth = read(lyapunov)
     drawn = figures.gather_lyapunov(growth)
-    save(figures.draw_lyapunov(drawn), drawn, png, pdf, data)
+    save(figures.draw_lyapunov(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_symmetry(read(symmetry), growth)
     save(figures.draw_symmetry(drawn), drawn, symmetry_png, symmetry_pdf, symmetry_data)
 

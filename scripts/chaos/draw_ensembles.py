@@ -5,10 +5,12 @@ from pendula.drawing.style import save
 from pendula.studies.chaos import figures
 
 
-def draw_ensembles(ensembles: str, comparison: str, png: str, pdf: str, data: str) -> None:
+def draw_ensembles(
+    ensembles: str, comparison: str, png: str, pdf: str, data: str, description: str
+) -> None:
     """Draw the bands and the swept maxima, and write what was drawn."""
     drawn = figures.gather_ensembles(read(ensembles), read(comparison))
-    save(figures.draw_ensembles(drawn), drawn, png, pdf, data)
+    save(figures.draw_ensembles(drawn), drawn, png, pdf, data, description)
 
 
 if __name__ == "__main__":

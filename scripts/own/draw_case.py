@@ -11,16 +11,25 @@ def draw_case(
     png: str,
     pdf: str,
     data: str,
+    description: str,
     spacetime_png: str,
     spacetime_pdf: str,
     spacetime_data: str,
+    spacetime_description: str,
 ) -> None:
     """Draw a trajectory with the second run of its checks, and write what was drawn."""
     trajectory = read(run)
     drawn = figures.gather_norms(trajectory, read(checks))
-    save(figures.draw_norms(drawn), drawn, png, pdf, data)
+    save(figures.draw_norms(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_spacetime(trajectory)
-    save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
+    save(
+        figures.draw_spacetime(drawn),
+        drawn,
+        spacetime_png,
+        spacetime_pdf,
+        spacetime_data,
+        spacetime_description,
+    )
 
 
 if __name__ == "__main__":

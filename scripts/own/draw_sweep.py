@@ -16,11 +16,12 @@ def draw_sweep(
     png: str,
     pdf: str,
     data: str,
+    description: str,
 ) -> None:
     """Draw the maximum over one window and the mean over another; check the norms by `name`."""
     swept = read(sweep)
     drawn = figures.gather_sweep(swept, text_window, caption_window)
-    save_figure(figures.draw_sweep(drawn), drawn, png, pdf, data)
+    save_figure(figures.draw_sweep(drawn), drawn, png, pdf, data, description)
     save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
 
 

@@ -13,9 +13,11 @@ def draw_norms(
     png: str,
     pdf: str,
     data: str,
+    description: str,
     spacetime_png: str,
     spacetime_pdf: str,
     spacetime_data: str,
+    spacetime_description: str,
 ) -> None:
     """Draw small and large data with the true norms of `references`, and write what was drawn.
 
@@ -24,9 +26,16 @@ def draw_norms(
     trajectories = [read(small), read(large)]
     bands = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_norms(trajectories, [read(path) for path in references], bands)
-    save(figures.draw_norms(drawn), drawn, png, pdf, data)
+    save(figures.draw_norms(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_spacetime(trajectories, drawn)
-    save(figures.draw_spacetime(drawn), drawn, spacetime_png, spacetime_pdf, spacetime_data)
+    save(
+        figures.draw_spacetime(drawn),
+        drawn,
+        spacetime_png,
+        spacetime_pdf,
+        spacetime_data,
+        spacetime_description,
+    )
 
 
 if __name__ == "__main__":

@@ -13,13 +13,14 @@ def draw_solvers(
     png: str,
     pdf: str,
     data: str,
+    description: str,
 ) -> None:
     """Draw the drift of the energy and the differences of the norms, as they were measured."""
     measured = read(solvers)
     drawn = figures.gather_drift(measured)
     save(figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data)
     drawn = figures.gather_agreement(measured)
-    save(figures.draw_agreement(drawn), drawn, png, pdf, data)
+    save(figures.draw_agreement(drawn), drawn, png, pdf, data, description)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ def draw_sweeps(
     png: str,
     pdf: str,
     data: str,
+    description: str,
 ) -> None:
     """Draw two sweeps, read as the text and as the caption say, and write what was drawn.
 
@@ -22,7 +23,7 @@ def draw_sweeps(
     """
     bars = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_sweeps(read(left), read(right), text_window, caption_window, norms, bars)
-    save(figures.draw_sweeps(drawn), drawn, png, pdf, data)
+    save(figures.draw_sweeps(drawn), drawn, png, pdf, data, description)
 
 
 if __name__ == "__main__":

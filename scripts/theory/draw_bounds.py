@@ -15,11 +15,12 @@ def draw_bounds(
     png: str,
     pdf: str,
     data: str,
+    description: str,
 ) -> None:
     """Draw the cases, the sweeps and what data reach, and write what was drawn."""
     found = map(read, (cases, sweeps, samples, worst, sharpness, growth))
     drawn = bounds_figure.gather_bounds(*found)
-    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data)
+    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data, description)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ def draw_stability(
     png: str,
     pdf: str,
     data: str,
+    description: str,
     growth_png: str,
     growth_pdf: str,
     growth_data: str,
@@ -21,7 +22,7 @@ def draw_stability(
     """Draw the chart with the paper's `points` (Omega, gamma), and the growth rates."""
     charts = read(chart), read(short_chart)
     drawn = figures.gather_chart(*charts, read(windows), points)
-    save(figures.draw_chart(drawn), drawn, png, pdf, data)
+    save(figures.draw_chart(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_rates(*charts, read(threshold))
     save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data)
 

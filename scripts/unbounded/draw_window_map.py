@@ -6,14 +6,20 @@ from pendula.studies.unbounded import figures
 
 
 def draw_window_map(
-    maps: list[str], sweeps: list[str], paper_ends: list[float], png: str, pdf: str, data: str
+    maps: list[str],
+    sweeps: list[str],
+    paper_ends: list[float],
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
 ) -> None:
     """Draw the maps, one of each of `sweeps`, and write what was drawn.
 
     `paper_ends` are the ends T of the windows that the paper draws, in the same order.
     """
     drawn = figures.gather_window_map(dict(zip(sweeps, map(read, maps), strict=True)), paper_ends)
-    save(figures.draw_window_map(drawn), drawn, png, pdf, data)
+    save(figures.draw_window_map(drawn), drawn, png, pdf, data, description)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 from pendula.drawing import style
 
-NAMES = ("figure.png", "figure.pdf", "figure.nc")
+NAMES = ("figure.png", "figure.pdf", "figure.nc", "figure.json")
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def test_saving_twice_writes_the_same_bytes(data, tmp_path):
 
 
 def test_saved_files_hold_no_date_and_no_trace_of_the_program(data, tmp_path):
-    png, pdf, _ = save(tmp_path, data)
+    png, pdf, *_ = save(tmp_path, data)
     assert b"Software" not in png
     assert b"CreationDate" not in pdf
 

@@ -63,7 +63,7 @@ def draw(data: xr.Dataset, colours=("A", "B"), panels=2, label=r"$\ell^2$ norm")
 def put(folder: Path, stem: str, data: xr.Dataset, **drawn) -> None:
     """Write the figure `stem` of the run, drawn with these changes, and its data."""
     (folder / "figures").mkdir(parents=True, exist_ok=True)
-    paths = [folder / f"figures/{stem}.{kind}" for kind in ("png", "pdf", "nc")]
+    paths = [folder / f"figures/{stem}.{kind}" for kind in ("png", "pdf", "nc", "json")]
     style.save(draw(data, **drawn), data, *paths)
 
 

@@ -99,6 +99,10 @@ def reference_problem(case):
     return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
 
 
+FIGURE_KINDS = {"png": "png", "pdf": "pdf", "data": "nc", "description": "json"}
+
+
 def figure(name, prefix=""):
-    kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
-    return {f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in kinds.items()}
+    return {
+        f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in FIGURE_KINDS.items()
+    }

@@ -3,8 +3,8 @@
 import json
 
 # Cases and sweeps of one's own: their names are free, so all lies in results/own.
-OWN_CASE_FILES = ["png", "pdf", "nc", "checks.nc", "spacetime.png", "spacetime.pdf", "spacetime.nc"]
-OWN_SWEEP_FILES = ["png", "pdf", "nc", "checks.nc"]
+OWN_SWEEP_FILES = [*FIGURE_KINDS.values(), "checks.nc"]
+OWN_CASE_FILES = [*OWN_SWEEP_FILES, *(f"spacetime.{kind}" for kind in FIGURE_KINDS.values())]
 
 
 def own_files():
@@ -27,9 +27,8 @@ def some_own_files(wildcards):
 
 
 def own_figure(folder, prefix="", part=""):
-    kinds = {"png": "png", "pdf": "pdf", "data": "nc"}
     stem = f"results/own/{folder}{part}"
-    return {f"{prefix}{key}": f"{stem}.{kind}" for key, kind in kinds.items()}
+    return {f"{prefix}{key}": f"{stem}.{kind}" for key, kind in FIGURE_KINDS.items()}
 
 
 # The theory, and the ledger of all claims.
@@ -117,7 +116,7 @@ def map_params(maps):
 
 
 def long_figure(name):
-    kinds = {"png": "png", "pdf": "pdf", "data": "figure.nc"}
+    kinds = {**FIGURE_KINDS, "data": "figure.nc"}
     return {key: f"results/unbounded/long/{name}.{kind}" for key, kind in kinds.items()}
 
 

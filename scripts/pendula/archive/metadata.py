@@ -153,6 +153,8 @@ PLACES = {  # The first pattern that fits counts; a file that none fits belongs 
     "results/*.nc": "A dataset",
     "results/*.png": "A figure",
     "results/*.pdf": "A figure",
+    "results/figures/*.json": "What a figure shows, in words and numbers",
+    "results/own/*.json": "What a figure shows, in words and numbers",
     "results/*.md": "A table",
     "results/code/*": "The record of the code that a job depends on, with checksums",
     "results/kernels/*": "A mark that a solver was compiled",
@@ -234,7 +236,7 @@ def _add_file(crate: ROCrate, name: str, text: str, members: Mapping[str, Conten
     if name == "README.md":
         facts["about"] = {"@id": "./"}
     data = path.with_suffix(".nc").as_posix()
-    if path.suffix in (".png", ".pdf") and data in members:
+    if path.suffix in (".png", ".pdf", ".json") and data in members:
         facts["isBasedOn"] = {"@id": quote(data)}
     crate.add_file(dest_path=name, properties=facts)
 

@@ -15,6 +15,8 @@ from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
 
+from .description import as_text, describe, fingerprint
+
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
 
@@ -130,21 +132,34 @@ def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
 
 @styled
 def save(
-    figure: Figure, data: xr.Dataset, png: str | Path, pdf: str | Path, netcdf: str | Path
+    figure: Figure,
+    data: xr.Dataset,
+    png: str | Path,
+    pdf: str | Path,
+    netcdf: str | Path,
+    description: str | Path,
 ) -> None:
-    """Write the figure twice and its data once: whole files, the same bytes every time."""
+    """Write the figure twice, its data and its description: whole files, the same bytes every time.
+
+    Both pictures carry the fingerprint of the description, and the description that of the data, so
+    that a picture of other data is told by its content.
+    """
     with (
         complete_or_absent(png) as new_png,
         complete_or_absent(pdf) as new_pdf,
         complete_or_absent(netcdf) as new_netcdf,
+        complete_or_absent(description) as new_description,
     ):
         # not savefig, which draws everything once more to find out what it will draw
         figure.canvas.draw()
-        about = {"Software": None, "Panels": _panels(figure)}
+        text = as_text(describe(figure, data)) + "\n"
+        new_description.write_text(text, encoding="utf-8")
+        mark = fingerprint(text)
+        about = {"Software": None, "Panels": _panels(figure), "Description": mark}
         imsave(new_png, figure.canvas.buffer_rgba(), format="png", dpi=figure.dpi, metadata=about)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
-        FigureCanvasPdf(figure).print_pdf(new_pdf, metadata=undated)
+        FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
         title = f"What the figure {Path(netcdf).stem} shows"
         save_dataset(new_netcdf, data.assign_attrs({"title": title}))
 

@@ -1,0 +1,233 @@
+"""What a figure shows, in words and numbers, written beside the picture as JSON.
+
+Pixels do not say which of two curves is A. So everything that a reader would read, and what tells
+curves apart, is kept as text: the figure diff compares it word by word on any machine, where the
+pixels of letters depend on a library of fonts.
+
+Numbers keep DIGITS digits, which is finer than a pixel and coarser than what processors round
+otherwise. Places in inches or pixels are left out, since they follow the width of letters; an
+annotation stands at a point of its panel.
+"""
+
+import hashlib
+import json
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.collections import Collection, QuadMesh
+from matplotlib.colorizer import ColorizingArtist
+from matplotlib.colors import to_hex, to_rgba
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Annotation, Text
+
+from pendula.datasets.digest import digest
+
+DIGITS = 6
+"""Significant digits of limits, positions and ranges: a panel is about 2000 pixels wide."""
+LINE = 220
+"""What fits into so many letters stands in one line: so each curve and each text has a line."""
+
+
+def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
+    """Return the description of a figure that has been drawn, and of the data that it shows."""
+    bars = {bar for axes in figure.axes for bar in _colour_bars(axes)}
+    parts = {
+        "data": digest(data),
+        "size_in_inches": [_round(length) for length in figure.get_size_inches()],
+        "title": figure.get_suptitle(),
+        "legends": [_legend(legend) for legend in figure.legends],
+        "texts": [_text(text) for text in figure.texts if text.get_text() != figure.get_suptitle()],
+        "panels": [_panel(axes, axes in bars) for axes in figure.axes if axes.get_visible()],
+    }
+    return _without_empty(parts)
+
+
+def _without_empty(parts: dict[str, Any]) -> dict[str, Any]:
+    return {name: part for name, part in parts.items() if part not in ("", [])}
+
+
+def as_text(description: Any, indent: int = 0) -> str:
+    """Return the JSON of a description, with one line for each curve, text or axis."""
+    line = json.dumps(description, ensure_ascii=False, allow_nan=False)
+    if len(line) + indent <= LINE or not isinstance(description, dict | list):
+        return line
+    if isinstance(description, dict):
+        parts = [f'"{key}": {as_text(part, indent + 1)}' for key, part in description.items()]
+    else:
+        parts = [as_text(entry, indent + 1) for entry in description]
+    opening, closing = ("{", "}") if isinstance(description, dict) else ("[", "]")
+    margin = " " * indent
+    inner = f",\n{margin} ".join(parts)
+    return f"{opening}\n{margin} {inner}\n{margin}{closing}"
+
+
+def fingerprint(text: str) -> str:
+    """Return what PNG and PDF carry of the description that stands beside them: its SHA-256."""
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def _colour_bars(axes: Axes) -> list[Axes]:
+    mapped = [*axes.images, *axes.collections]
+    return [artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)]
+
+
+def _panel(axes: Axes, is_bar: bool) -> dict[str, Any]:
+    titles = [axes.get_title(loc) for loc in ("left", "center", "right")]
+    drawn = {
+        "title": " | ".join(filter(None, titles)),
+        "kind": "colour bar" if is_bar else "panel",
+        "place_in_grid": _place(axes),
+    }
+    if axes.axison:
+        drawn |= {"x": _axis(axes.xaxis), "y": _axis(axes.yaxis)}
+    legend = axes.get_legend()
+    drawn |= {
+        "legends": [_legend(legend)] if legend else [],
+        "curves": [_curve(line) for line in axes.lines],
+        "areas": [_area(area) for area in axes.collections],
+        "images": [_mapped(image) for image in axes.images],
+        "shapes": [_shape(patch) for patch in axes.patches],
+        "texts": [_text(text) for text in axes.texts],
+    }
+    return _without_empty(drawn)
+
+
+def _place(axes: Axes) -> list[float]:
+    """Return left, bottom, right and top in the grid, before margins are made for text."""
+    place = axes.get_subplotspec()
+    return [] if place is None else [round(x, 3) for x in place.get_position(axes.figure).extents]
+
+
+def _axis(axis: Axis) -> dict[str, Any]:
+    first, last = sorted(axis.get_view_interval())
+    ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+    shown = {
+        tick.get_loc(): tick.label1.get_text() or tick.label2.get_text()
+        for tick in ticks
+        if tick.label1.get_visible() or tick.label2.get_visible()
+    }
+    parts = {
+        "label": axis.get_label_text(),
+        "scale": axis.get_scale(),
+        "limits": [_round(limit) for limit in axis.get_view_interval()],
+        "ticks": [shown[loc] for loc in sorted(shown) if first <= loc <= last and shown[loc]],
+    }
+    return _without_empty(parts)
+
+
+def _legend(legend: Legend) -> dict[str, Any]:
+    pairs = zip(legend.get_texts(), legend.legend_handles, strict=True)
+    entries = [{"text": text.get_text()} | _look(handle) for text, handle in pairs]
+    return _without_empty({"title": legend.get_title().get_text(), "entries": entries})
+
+
+def _curve(line: Line2D) -> dict[str, Any]:
+    x, y = (np.ma.filled(np.asarray(values, float), np.nan) for values in line.get_data())
+    shown = np.isfinite(x) & np.isfinite(y)
+    return _named(line) | _look(line) | {"points": int(shown.sum())} | _ranges(x[shown], y[shown])
+
+
+def _area(area: Collection) -> dict[str, Any]:
+    """Return bands, bars and maps of colour: the colours, and between what they lie."""
+    if isinstance(area, QuadMesh):
+        corners = area.get_coordinates().reshape(-1, 2)
+        return _named(area) | _mapped(area) | _ranges(*corners.T)
+    outlines = [path.vertices for path in area.get_paths()]
+    corners = np.concatenate([np.empty((0, 2)), *outlines])
+    corners = corners[np.isfinite(corners).all(axis=1)]
+    return _named(area) | _look(area) | {"points": len(corners)} | _ranges(*corners.T)
+
+
+def _shape(patch: Patch) -> dict[str, Any]:
+    outline = patch.get_patch_transform().transform_path(patch.get_path()).vertices
+    return _named(patch) | _look(patch) | _ranges(*outline.T)
+
+
+def _mapped(image: ColorizingArtist) -> dict[str, Any]:
+    """Return the map of colours and its limits; a reversed map has the ends exchanged."""
+    values, ends = image.get_array(), [to_hex(image.cmap(share)) for share in (0.0, 0.5, 1.0)]
+    found = {
+        "colour_map": " ".join([image.cmap.name, *ends]),
+        "scale": type(image.norm).__name__,
+        "limits": [_round(image.norm.vmin), _round(image.norm.vmax)],
+        "shape": list(values.shape),
+    }
+    if isinstance(image, AxesImage):
+        found["extent"] = [_round(edge) for edge in image.get_extent()]
+    return found
+
+
+def _named(artist: Artist) -> dict[str, str]:
+    """Return the label by which a legend names the artist; matplotlib's own begin with _."""
+    label = str(artist.get_label())
+    return {} if not label or label.startswith("_") else {"label": label}
+
+
+def _look(artist: Artist) -> dict[str, Any]:
+    """Return colours and strokes."""
+    if isinstance(artist, Line2D):
+        look = {"colour": _colours([artist.get_color()], artist), "line": artist.get_linestyle()}
+        if look["line"] != "None":
+            look["width"] = _round(artist.get_linewidth())
+        if (marker := str(artist.get_marker())) not in ("None", ""):
+            face = _colours([artist.get_markerfacecolor()], artist)
+            look |= {"marker": marker, "size": _round(artist.get_markersize()), "face": face}
+        return look
+    faces, edges = (
+        np.reshape(c, (-1, 4)) for c in (artist.get_facecolor(), artist.get_edgecolor())
+    )
+    return {
+        "kind": type(artist).__name__,
+        "colour": _colours(faces, artist),
+        "edge": _colours(edges, artist),
+    }
+
+
+def _colours(colours: Iterable, artist: Artist) -> str:
+    """Return one colour or several as #rrggbb, with their opacity where it is not full."""
+    alpha = artist.get_alpha()
+    rgba = (to_rgba(colour, alpha) for colour in colours)
+    names = [to_hex(colour) + (f" {colour[3]:.3g}" if colour[3] < 1 else "") for colour in rgba]
+    return ", ".join(dict.fromkeys(names))
+
+
+def _text(text: Text) -> dict[str, Any]:
+    found = {"text": text.get_text(), "colour": to_hex(text.get_color())}
+    if isinstance(text, Annotation):
+        point = {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}
+        beside = [_round(x) for x in text.get_position()]
+        return found | point | {"stands_at": beside, "off": str(text.anncoords)}
+    return found | {
+        "stands_at": [_round(x) for x in text.get_position()],
+        "off": _frame(text),
+    }
+
+
+def _frame(text: Text) -> str:
+    """Return what the position of a text is given in."""
+    if text.axes is None:
+        return "figure fraction"
+    known = {"data": text.axes.transData, "axes fraction": text.axes.transAxes}
+    return next((name for name, frame in known.items() if frame is text.get_transform()), "other")
+
+
+def _ranges(x: np.ndarray, y: np.ndarray) -> dict[str, list[float]]:
+    ends = {"x": x, "y": y}
+    return {
+        name: [_round(values.min()), _round(values.max())]
+        for name, values in ends.items()
+        if values.size
+    }
+
+
+def _round(number: float) -> float:
+    return float(f"{number:.{DIGITS}g}") + 0.0  # no negative zero
