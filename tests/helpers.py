@@ -17,11 +17,13 @@ def chosen(study: str):
     return getattr(load(raw), study)
 
 
-def snakemake(project: Path, directory: Path, *arguments: str) -> subprocess.CompletedProcess:
+def snakemake(
+    project: Path, directory: Path, *arguments: str, env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess:
     """Run snakemake on the quick configuration of `project`, with its results in `directory`."""
     configuration = project / "config" / "quick.yaml"
     command = command_of(project, directory, configuration, *arguments)
-    return subprocess.run(command, capture_output=True, text=True)
+    return subprocess.run(command, capture_output=True, text=True, env=env)
 
 
 def snakemake_with(
