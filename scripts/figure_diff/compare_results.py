@@ -8,7 +8,12 @@ from pendula.figure_diff.baseline import compare, environment, recorded
 
 
 def compare_results(
-    results: list[str], baseline: str, html: str, verdict: str, accepted: list[str] | tuple = ()
+    results: list[str],
+    baseline: str,
+    configuration: dict,
+    html: str,
+    verdict: str,
+    accepted: list[str] | tuple = (),
 ) -> None:
     """Compare the files `results` (results/topic/name) with the folder `baseline`.
 
@@ -17,7 +22,7 @@ def compare_results(
     """
     made, folder = Path(results[0]).parts[0], Path(baseline)
     names = [Path(path).relative_to(made).as_posix() for path in results]
-    found = compare(names, Path(made), folder)
+    found = compare(names, Path(made), folder, configuration)
     with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
         page = comparison_page.render(found, Path(made), folder, _note(folder))
         new_html.write_text(page, "utf-8")

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import made_up_results as made_up
 import pytest
-from pendula.figure_diff import Finding, baseline, compare_data
+from pendula.datasets.netcdf import read
+from pendula.figure_diff import Finding, acceptance, baseline, compare_data
 
 TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / compare_data.TOLERANCES
 
@@ -20,7 +21,20 @@ class Run(NamedTuple):
 
     def compare(self, names) -> list[Finding]:
         """Compare these files of the run with the baseline."""
-        return baseline.compare(names, self.made, self.accepted)
+        return baseline.compare(names, self.made, self.accepted, made_up.CONFIGURATION)
+
+    def accept(self, names=made_up.NAMES, chosen=None) -> list[str]:
+        """Take the run, or the chosen files of it, as the baseline; return what that changed."""
+        planned = acceptance.plan(names, *self, made_up.CONFIGURATION, chosen)
+        acceptance.take(planned, *self)
+        return planned.lines
+
+    def change(self, name: str, change) -> None:
+        """Write a dataset of the run anew, as `change` returns it, without a check of its form."""
+        changed = change(read(self.made / name))
+        for variable in changed.variables.values():
+            variable.encoding = {"_FillValue": None}
+        changed.to_netcdf(self.made / name, engine="netcdf4", format="NETCDF4")
 
     def findings(self, names=made_up.NAMES) -> dict[str, Finding]:
         """Compare, and return what was found of each file."""
@@ -42,7 +56,7 @@ class Run(NamedTuple):
 def accepted_run(tmp_path_factory) -> Run:
     folder = tmp_path_factory.mktemp("figure_diff")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
-    baseline.accept(made_up.NAMES, *run)
+    run.accept()
     shutil.copy(TOLERANCES, run.accepted)
     return run
 

@@ -1,5 +1,6 @@
-"""A small run of made-up curves: one regular, one chaotic after its horizon, both drawn."""
+"""A small run of made-up curves, one regular, one chaotic after its horizon; pictures and words."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +12,12 @@ from pendula.drawing import style
 TAU = np.linspace(0, 50, 2001)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
 PICTURE, CHAOTIC_PICTURE = "figures/fig2.png", "figures/fig4.png"
+LEDGER, TABLE, REFERENCE = "claims.json", "tables/claims.md", "truth/fig2_small.nc"
 NAMES = [
-    *(REGULAR, CHAOTIC, PICTURE, CHAOTIC_PICTURE),
-    *("figures/fig2.nc", "figures/fig4.nc"),
+    *(REGULAR, CHAOTIC, PICTURE, CHAOTIC_PICTURE, LEDGER, TABLE, REFERENCE),
+    *("figures/fig2.nc", "figures/fig4.nc", "figures/fig2.pdf", "figures/fig4.pdf"),
 ]
+CONFIGURATION = {"cases": {"fig2_small": {"end_time": 50, "omega": 8}}}
 
 
 def regular() -> xr.Dataset:
@@ -37,8 +40,13 @@ def _wander(seed: int, scale: float, horizon: float, level: float) -> np.ndarray
 
 def _dataset(norms: list) -> xr.Dataset:
     about = {"long_name": "l2 norm", "units": "1"}
-    coordinates = {"component": ["A", "B"], "tau": TAU}
-    return xr.Dataset({"l2": (("component", "tau"), np.array(norms), about)}, coordinates)
+    bound = {"long_name": "bound of the l2 norm", "units": "1"}
+    variables = {
+        "l2": (("component", "tau"), np.array(norms), about),
+        "bound": ("component", [np.inf, 9.5], bound),
+    }
+    attributes = {"omega": 8.0, "solver": "ode45", "steps": 1500, "right_hand_sides": 9000}
+    return xr.Dataset(variables, {"component": ["A", "B"], "tau": TAU}, attributes)
 
 
 def change_a(data: xr.Dataset, factor: float) -> xr.Dataset:
@@ -67,8 +75,39 @@ def put(folder: Path, stem: str, data: xr.Dataset, **drawn) -> None:
     style.save(draw(data, **drawn), data, *paths)
 
 
+def ledger() -> list[dict]:
+    """Return two claims, each decided by one of the datasets."""
+
+    def row(name: str, dataset: str, measured: float) -> dict:
+        return {
+            "name": name,
+            "says": "The norm stays below 9.5.",
+            "decided_by": [dataset.removesuffix(".nc")],
+            "measured": {"largest": measured},
+            "verdict": "confirmed",
+            "because": f"the largest norm is {measured:.3g}",
+        }
+
+    return [row("regular_bounded", REGULAR, 2.99871), row("chaotic_bounded", CHAOTIC, 6.60403)]
+
+
+def table() -> str:
+    """Return a table of the claims."""
+    rows = [f"| {row['name']} | {row['measured']['largest']} |" for row in ledger()]
+    return "\n".join(["# Claims", "", "| claim | largest |", "|-------|---------|", *rows, ""])
+
+
+def put_words(folder: Path, rows: list[dict], text: str) -> None:
+    """Write the ledger and the table of a run."""
+    (folder / TABLE).parent.mkdir(parents=True, exist_ok=True)
+    (folder / LEDGER).write_text(json.dumps(rows, indent=1) + "\n")
+    (folder / TABLE).write_text(text)
+
+
 def make_run(folder: Path) -> Path:
-    """Write the datasets and figures of a run."""
+    """Write the datasets, figures and words of a run, and a reference that it was given."""
+    put_words(folder, ledger(), table())
+    save(folder / REFERENCE, regular())
     for name, data in ((REGULAR, regular()), (CHAOTIC, chaotic())):
         save(folder / name, data)
         put(folder, Path(name).stem.partition("_")[0], data)

@@ -1,16 +1,14 @@
-"""Missing and extra files, the page, the verdict on the screen, and accepting."""
+"""Missing and extra files, the page, and the verdict on the screen."""
 
 import json
 
 import made_up_results as made_up
-import netCDF4
 import pytest
-from figure_diff.accept_results import accept_results
 from figure_diff.compare_results import compare_results
 from figure_diff.tell_faults import tell_faults
 from made_up_results import CHAOTIC_PICTURE, NAMES, PICTURE, REGULAR, change_a, regular
 from pendula.datasets.netcdf import save
-from pendula.figure_diff.baseline import RECORD, accept
+from pendula.figure_diff.baseline import compare
 
 EXTRA = "figures/fig9.nc"
 
@@ -44,7 +42,8 @@ def told(run, monkeypatch, capsys):
 
     def tell(names):
         results = [f"results/{name}" for name in names]
-        compare_results(results, str(run.accepted), "diff/index.html", "diff/verdict.json")
+        given = results, str(run.accepted), made_up.CONFIGURATION
+        compare_results(*given, "diff/index.html", "diff/verdict.json")
         code = 0
         try:
             tell_faults("diff/verdict.json", "diff/index.html")
@@ -59,18 +58,36 @@ def told(run, monkeypatch, capsys):
 
 def test_a_clean_run_says_so(told):
     page, verdict, screen, code = told(NAMES)
-    assert code == 0 and screen == ["6 identical; see diff/index.html"]
-    assert "Figure diff: no faults" in page and len(verdict) == 6
+    assert code == 0 and screen == [f"{len(NAMES)} identical; see diff/index.html"]
+    assert "Figure diff: no faults" in page and len(verdict) == len(NAMES)
 
 
 def test_faults_are_told_in_one_line_each_and_the_page_is_kept(run, told):
     names = plant_everything(run)
     page, verdict, screen, code = told(names)
-    assert code == 1 and len(screen) == 1 + 5 and len(verdict) == 7
+    assert code == 1 and len(screen) == 1 + 5 and len(verdict) == len(NAMES) + 1
     kinds = ["different", "damaged", "missing", "missing", "extra"]
     assert [line.split(":")[0] for line in screen[:-1]] == kinds
     assert "Figure diff: 5 faults" in page
     assert all(name in page for name in [*names, "figures/fig4.nc"])
+
+
+def test_what_is_nearly_the_same_is_told_with_the_reason_and_fails_nothing(run, told):
+    save(run.made / REGULAR, change_a(regular(), 1 + 1e-7))
+    page, _, screen, code = told(NAMES)
+    assert code == 0 and len(screen) == 2
+    assert screen[0].startswith(f"nearly the same: {REGULAR}: other bits in l2: l2 component=A")
+    assert screen[1].startswith(f"1 nearly the same, {len(NAMES) - 1} identical")
+    assert "other bits in l2: l2 component=A" in page
+
+
+def test_a_run_of_another_configuration_is_told_by_what_is_other(run):
+    shorter = {"cases": {"fig2_small": {"end_time": 4, "omega": 8}}}
+    (fault,) = [each for each in compare(NAMES, *run, shorter) if each.is_fault]
+    assert fault.line == (
+        "different: configuration: is not the accepted one: "
+        "cases.fig2_small.end_time is 4 in place of 50"
+    )
 
 
 def test_the_page_shows_three_pictures_side_by_side_and_needs_no_network(run, told):
@@ -78,25 +95,3 @@ def test_the_page_shows_three_pictures_side_by_side_and_needs_no_network(run, to
     page, *_ = told(NAMES)
     assert page.count('src="data:image/png;base64,') == 3 + 1  # and a thumbnail of the other
     assert "http" not in page and str(run.made) not in page
-
-
-def test_accepting_takes_what_changed_and_nothing_else(run, told, monkeypatch, capsys):
-    save(run.made / REGULAR, change_a(regular(), 1.01))
-    kept = (run.accepted / PICTURE).stat().st_mtime_ns
-    accept_results([f"results/{name}" for name in NAMES], str(run.accepted))
-    assert capsys.readouterr().out == f"{REGULAR}\n"
-    assert (run.accepted / PICTURE).stat().st_mtime_ns == kept
-    assert not run.faults()
-
-
-def test_accepting_removes_what_is_no_longer_made(run):
-    changed = accept([name for name in NAMES if name != PICTURE], *run)
-    assert changed == [f"{PICTURE} (removed)"] and not (run.accepted / PICTURE).exists()
-    record = json.loads((run.accepted / RECORD).read_text())
-    assert PICTURE not in record["files"] and "matplotlib" in record["environment"]
-
-
-def test_accepted_datasets_are_compressed(run):
-    """The baseline is committed, and ten times as large without."""
-    with netCDF4.Dataset(run.accepted / REGULAR) as data:
-        assert data["l2"].filters()["zlib"]

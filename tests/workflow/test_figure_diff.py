@@ -1,29 +1,88 @@
-"""The comparison with the baseline by the real snakemake."""
+"""The comparison with the baseline, and accepting, by the real snakemake."""
 
-from helpers import edit, planned, snakemake
+import json
+
+from helpers import ROOT, edit, planned, snakemake
 from PIL import Image
+
+
+def said(result) -> str:
+    return result.stdout + result.stderr
+
+
+def change_claims(finished, old: str, new: str) -> None:
+    ledger = finished / "results/claims.json"
+    text = ledger.read_text()
+    assert old in text
+    ledger.write_text(text.replace(old, new, 1))
 
 
 def test_accepting_comparing_and_failing(finished, clone):
     assert snakemake(clone, finished, "accept_figures").returncode == 0
     result = snakemake(clone, finished, "figure_diff")
-    assert result.returncode == 0 and " identical; see results/figure_diff/index.html" in (
-        result.stdout + result.stderr
-    )
+    assert result.returncode == 0, said(result)
+    assert " identical; see results/figure_diff/index.html" in said(result)
 
     picture = finished / "results/figures/fig5.png"
     with Image.open(picture) as image:
         darker = image.convert("RGB").point(lambda shade: shade * 0.8)
     darker.save(picture)
     (clone / "tests/baseline/checks/growth.nc").unlink()
+    change_claims(finished, '"verdict": "confirmed"', '"verdict": "not reproduced"')
     result = snakemake(clone, finished, "figure_diff")
-    said = (result.stdout + result.stderr).splitlines()
-    faults = [line for line in said if line.startswith(("different: ", "extra: "))]
-    assert result.returncode != 0 and len(faults) == 2
-    assert faults[0].startswith("different: figures/fig5.png: ") and "pixels differ" in faults[0]
-    assert faults[1] == "extra: checks/growth.nc: is not in the baseline"
+    faults = [line for line in said(result).splitlines() if line.startswith(("differ", "extra"))]
+    assert result.returncode != 0 and len(faults) == 3
+    assert faults[0].startswith("different: claims.json: ")
+    assert 'verdict is "not reproduced" in place of "confirmed"' in faults[0]
+    assert faults[1].startswith("different: figures/fig5.png: ") and "pixels differ" in faults[1]
+    assert faults[2] == "extra: checks/growth.nc: is not in the baseline"
     page = (finished / "results/figure_diff/index.html").read_text()
-    assert "Figure diff: 2 faults" in page
+    assert "Figure diff: 3 faults" in page
+
+    # A run is accepted by name: the verdict then is, and the picture is not.
+    result = snakemake(clone, finished, "accept_figures", "--config", "accept=claims")
+    assert result.returncode == 0 and "in place of confirmed" in said(result)
+    result = snakemake(clone, finished, "figure_diff")
+    assert result.returncode != 0 and "different: figures/fig5.png" in said(result)
+    assert "claims.json" not in said(result)
+
+
+def test_everything_that_a_full_run_makes_is_in_the_baseline(finished, clone):
+    """What is left out is named here: times, logs, records, and what this machine alone makes."""
+    assert snakemake(clone, finished, "accept_figures").returncode == 0
+    accepted = json.loads((clone / "tests/baseline/hashes.json").read_text())
+    results = finished / "results"
+    made = {path.relative_to(results).as_posix() for path in results.rglob("*") if path.is_file()}
+    left = {name for name in made - accepted.keys() if name.split("/")[0] not in ("logs", "code")}
+    known = {"report.html", *(name for name in left if name.startswith(("kernels/", "kept/")))}
+    measured = {name for name in left if name.startswith(("truth/work_", "truth/speed_"))}
+    assert left == known | measured
+    assert accepted.keys() <= made
+
+
+def test_a_quick_run_cannot_replace_the_committed_baseline(finished, clone):
+    for name in ("accepted.json", "hashes.json"):
+        if (source := ROOT / "tests/baseline" / name).exists():
+            (clone / "tests/baseline" / name).write_bytes(source.read_bytes())
+    before = {p: p.read_bytes() for p in (clone / "tests/baseline").rglob("*") if p.is_file()}
+    for rule in ("preview_acceptance", "accept_figures"):
+        result = snakemake(clone, finished, rule)
+        assert result.returncode != 0 and "nothing is accepted" in said(result)
+        assert "cases.fig2_small.end_time is 4.0 in place of 50.0" in said(result)
+    after = {p: p.read_bytes() for p in (clone / "tests/baseline").rglob("*") if p.is_file()}
+    assert after == before
+
+    mine = finished / "my_baseline"
+    result = snakemake(clone, finished, "accept_figures", "--config", "baseline=my_baseline")
+    assert result.returncode == 0 and (mine / "hashes.json").exists(), said(result)
+    result = snakemake(clone, finished, "figure_diff", "--config", "baseline=my_baseline")
+    assert result.returncode == 0, said(result)
+
+
+def test_a_name_of_nothing_stops_accepting_with_the_nearest(finished, clone):
+    result = snakemake(clone, finished, "accept_figures", "--config", "accept=fig33")
+    assert result.returncode != 0 and "fig33 names no file of a full run" in said(result)
+    assert "did you mean fig3?" in said(result)
 
 
 def test_it_compares_the_figures_of_the_list_and_is_no_part_of_a_full_run(finished, clone):

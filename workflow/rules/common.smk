@@ -1,6 +1,7 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
 import os
 import sys
+from pathlib import Path
 
 import yaml
 from snakemake.exceptions import WorkflowError
@@ -30,6 +31,9 @@ for study in STUDIES:
         choices = yaml.load(file, yaml.CSafeLoader)
     update_config(choices, config)
     config.update(choices)
+
+# What a single call is told by --config: the baseline to compare with, and what of a run to accept.
+OPTIONS = {name: config.pop(name, None) for name in ("baseline", "accept")}
 
 try:
     SETTINGS = load(config)

@@ -1,28 +1,45 @@
-"""The accepted results in tests/baseline: what they hold, how a run is compared and accepted."""
+"""The accepted results in tests/baseline: what they hold, and how a run is compared with them.
+
+The baseline holds a hash of every file of a full run, and of every variable of its datasets. A file
+with the accepted hash is the same, and nothing else is read of it. Of any other file the baseline
+keeps what shows where and by how much it differs: datasets at every sample in single precision,
+pictures, the ledger and tables.
+"""
 
 import json
 import platform
-import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
-import xarray as xr
 from matplotlib import ft2font
 
-from pendula.datasets import complete_or_absent
-from pendula.datasets.netcdf import DatasetError, read, save
+from pendula.datasets.netcdf import DatasetError
 
-from . import DAMAGED, EXTRA, MISSING, STATUSES, Finding, compare_data, compare_images
+from . import (
+    DAMAGED,
+    DIFFERENT,
+    EXTRA,
+    IDENTICAL,
+    MISSING,
+    NEARLY,
+    STATUSES,
+    Finding,
+    compare_data,
+    compare_images,
+    compare_words,
+    hashes,
+)
 from .compare_data import Rule, read_rules
 
-RECORD = "accepted.json"
-"""The file that names every file of the baseline, and what drew it."""
+RECORD, HASHES = "accepted.json", "hashes.json"
+"""What names every file of the baseline, what drew it and its configuration; and the hashes."""
 
-MOST_NUMBERS = 10_000
-"""A dataset of the baseline keeps at most so many numbers: 40 kB before compression."""
+PICTURES = (".png", ".pdf")
+"""Files whose bytes depend on the environment."""
 
 
 def environment() -> dict[str, str]:
@@ -36,104 +53,167 @@ def environment() -> dict[str, str]:
     }
 
 
-def recorded(folder: Path) -> dict:
-    """Return the environment and the files of the record; without a record, nothing."""
+def recorded(folder: Path) -> dict[str, Any]:
+    """Return the record: environment, configuration, files; without one, all are empty."""
+    empty = {"environment": {}, "configuration": {}, "files": [], "hashes": ""}
     try:
-        return json.loads((folder / RECORD).read_text(encoding="utf-8"))
+        return empty | json.loads((folder / RECORD).read_text(encoding="utf-8"))
     except FileNotFoundError:
-        return {"environment": {}, "files": []}
+        return empty
 
 
-def compare(names: Iterable[str], made: Path, folder: Path) -> list[Finding]:
+def accepted_hashes(folder: Path) -> dict[str, Any]:
+    """Return the hashes by file: a text, or those of a dataset; without a baseline, none."""
+    try:
+        return json.loads((folder / HASHES).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+
+
+def is_kept(name: str) -> bool:
+    """Return whether the baseline keeps the content of a file beside its hash.
+
+    References are committed already, and no other bits of them are right. A PDF shows what the PNG
+    shows.
+    """
+    return not name.startswith("truth/") and not name.endswith(".pdf")
+
+
+def compare(
+    names: Iterable[str], made: Path, folder: Path, configuration: Mapping[str, Any]
+) -> list[Finding]:
     """Return a finding for each file of `names` below `made` or in the baseline alone."""
-    record, names, rules = recorded(folder), set(names), read_rules(folder)
-    same = record["environment"] == environment()
-    method = compare_images.EXACT if same else compare_images.LOOK
+    record, names = recorded(folder), set(names)
+    comparison = _Comparison(made, folder, record)
     found: dict[str, Finding] = {}
-    # Datasets come first, since an image is judged by whether the curves in it have moved.
+    # Datasets come first: what else was made of them is judged by whether they have moved.
     for name in sorted({*names, *record["files"]}, key=lambda each: not each.endswith(".nc")):
-        if absent := _absent(name, names, made, folder):
-            found[name] = absent
-        elif name.endswith(".nc"):
-            found[name] = _compare_dataset(name, made, folder, rules)
-        else:
-            shown = found.get(name.removesuffix(".png") + ".nc")
-            moved = shown is not None and not shown.is_fault and shown.moved
-            pair = folder / name, made / name
-            found[name] = compare_images.compare(name, *pair, method, moved)
+        found[name] = _absent(name, names, comparison) or comparison.compare(name, found)
+    found |= {each.name: each for each in _of_the_whole(record, folder, configuration)}
     return sorted(found.values(), key=lambda each: (STATUSES.index(each.status), each.name))
 
 
-def _absent(name: str, names: set[str], made: Path, folder: Path) -> Finding | None:
+def _of_the_whole(
+    record: Mapping[str, Any], folder: Path, configuration: Mapping[str, Any]
+) -> list[Finding]:
+    """Return the faults that make the comparison of any file doubtful."""
+    found = []
+    if record["files"] and record["configuration"] != configuration:
+        says = " and ".join(unlike_settings(record["configuration"], configuration)[:2])
+        found.append(Finding("configuration", DIFFERENT, f"is not the accepted one: {says}"))
+    if (folder / HASHES).exists() and record["hashes"] != hash_of_hashes(folder):
+        says = "was edited since it was accepted: restore it, or accept the results again"
+        found.append(Finding(HASHES, DAMAGED, says))
+    return found
+
+
+def hash_of_hashes(folder: Path) -> str:
+    """Return the hash of the file of hashes, which the record holds."""
+    return hashes.of_bytes((folder / HASHES).read_bytes())
+
+
+def unlike_settings(was: Any, now: Any, place: str = "") -> list[str]:
+    """Return in words how two configurations differ, each entry by its dotted path."""
+    if isinstance(was, Mapping) and isinstance(now, Mapping):
+        said = []
+        for key in dict.fromkeys([*was, *now]):
+            inner = f"{place}.{key}".lstrip(".")
+            said += unlike_settings(was.get(key, "absent"), now.get(key, "absent"), inner)
+        return said
+    short = [text if len(text) < 60 else text[:57] + "..." for text in map(str, (now, was))]
+    return [] if was == now else [f"{place} is {short[0]} in place of {short[1]}"]
+
+
+class _Comparison:
+    """A run beside its baseline; each of their files is read once."""
+
+    def __init__(self, made: Path, folder: Path, record: Mapping[str, Any]):
+        self.made, self.folder = made, folder
+        self.hashes, self.rules = accepted_hashes(folder), read_rules(folder)
+        self.same_environment = record["environment"] == environment()
+
+    def compare(self, name: str, found: Mapping[str, Finding]) -> Finding:
+        """Return the finding for a file that both have; `found` holds those of all datasets."""
+        if name.endswith(".nc"):
+            return _compare_dataset(name, self.made, self.folder, self.hashes[name], self.rules)
+        if name.endswith(PICTURES):
+            return self._compare_picture(name, found.get(str(Path(name).with_suffix(".nc"))))
+        content = (self.made / name).read_bytes()
+        if hashes.of_bytes(content) == self.hashes[name]:
+            return Finding(name, IDENTICAL)
+        accepted = (self.folder / name).read_text(encoding="utf-8")
+        datasets = {each.name: each for each in found.values() if each.name.endswith(".nc")}
+        made = content.decode("utf-8", errors="replace")
+        return compare_words.compare(name, accepted, made, datasets)
+
+    def _compare_picture(self, name: str, shown: Finding | None) -> Finding:
+        content = (self.made / name).read_bytes()
+        if hashes.of_bytes(content) == self.hashes[name]:
+            return Finding(name, IDENTICAL)
+        moved = shown is not None and not shown.is_fault and shown.moved
+        if name.endswith(".png"):
+            method = compare_images.EXACT if self.same_environment else compare_images.LOOK
+            pair = self.folder / name, self.made / name
+            return compare_images.compare(name, *pair, method, moved)
+        if not content.startswith(b"%PDF-") or b"%%EOF" not in content[-1024:]:
+            return Finding(name, DAMAGED, "is no whole PDF")
+        if self.same_environment and shown is not None and shown.status == IDENTICAL:
+            return Finding(name, DIFFERENT, "is not the accepted file, although its data are")
+        return Finding(name, NEARLY, "is another file, drawn of other bits or by other versions")
+
+
+def _absent(name: str, names: set[str], comparison: _Comparison) -> Finding | None:
     """Return the finding for a file that cannot be compared because one of the two is absent."""
     if name not in names:
         return Finding(name, MISSING, "is in the baseline, but no longer among the results")
-    if not (made / name).exists():
+    if not (comparison.made / name).exists():
         return Finding(name, MISSING, "was not made")
-    if not (folder / name).exists():
+    accepted = name in comparison.hashes
+    if not accepted or (is_kept(name) and not (comparison.folder / name).exists()):
         return Finding(name, EXTRA, "is not in the baseline")
     return None
 
 
-def _compare_dataset(name: str, made: Path, folder: Path, rules: list[Rule]) -> Finding:
+def _compare_dataset(
+    name: str, made: Path, folder: Path, accepted: hashes.Hashes, rules: list[Rule]
+) -> Finding:
+    """Return the finding by hashes, then by type and attributes, and by numbers last."""
     try:
-        accepted, new = read(folder / name), thin(read(made / name))
-    except DatasetError as error:
-        return Finding(name, DAMAGED, str(error).split(":")[0])
-    return compare_data.compare(name, accepted, new, rules)
-
-
-def thin(data: xr.Dataset) -> xr.Dataset:
-    """Return the dataset as the baseline keeps it: every 2nd, 4th, ... sample, in single precision.
-
-    Single precision resolves 6e-8, less than any tolerance. The longest dimension is thinned first.
-    """
-    while sum(variable.size for variable in data.variables.values()) > MOST_NUMBERS:
-        longest = max(data.sizes, key=data.sizes.get)
-        data = data.isel({longest: slice(None, None, 2)})
-    kept = {}
-    for name, variable in data.variables.items():
-        kept[name] = xr.Variable(variable.dims, variable.values, dict(variable.attrs))
-        if variable.dtype.kind == "f":
-            kept[name] = kept[name].astype("float32")
-    coordinates = {name: kept.pop(name) for name in data.coords}
-    return xr.Dataset(kept, coordinates, {"thinned": "for tests/baseline"})
-
-
-def accept(names: Iterable[str], made: Path, folder: Path) -> list[str]:
-    """Take the files `names` below `made` as the baseline; return the names of what changed."""
-    names, before = sorted(names), set(recorded(folder)["files"])
-    changed = [name for name in names if _take(made / name, folder / name)]
-    for name in sorted(before - set(names)):
-        (folder / name).unlink(missing_ok=True)
-        changed.append(f"{name} (removed)")
-    record = {"environment": environment(), "files": names}
-    with complete_or_absent(folder / RECORD) as partial:
-        partial.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-    return changed
-
-
-def _take(new: Path, accepted: Path) -> bool:
-    """Replace one accepted file unless its content is the same, so that a commit shows changes."""
-    if new.suffix == ".nc":
-        return _take_dataset(thin(read(new)), accepted)
-    if accepted.exists() and accepted.read_bytes() == new.read_bytes():
-        return False
-    with complete_or_absent(accepted) as partial:
-        shutil.copyfile(new, partial)
-    return True
-
-
-def _take_dataset(thinned: xr.Dataset, accepted: Path) -> bool:
-    try:
-        # `save` adds attributes of its own to the file, which are no change.
-        known = read(accepted).drop_attrs(deep=False)
-        if thinned.drop_attrs(deep=False).identical(known):
-            return False
+        new = hashes.read(made / name)
     except DatasetError:
-        pass  # an absent or damaged file is written anew
-    for variable in thinned.variables.values():
-        if variable.dtype.kind in "fiu" and variable.size > 100:
-            variable.encoding = {"zlib": True, "complevel": 9, "shuffle": True}
-    save(accepted, thinned)
-    return True
+        return Finding(name, DAMAGED, "cannot be read")
+    now = hashes.of(new)
+    if now == accepted:
+        return Finding(name, IDENTICAL)
+    unlike = hashes.unlike_in_values(accepted, now)
+    if not is_kept(name):
+        says = ", ".join([*hashes.unlike_in_kind(accepted, now), *unlike]) or "attributes"
+        return Finding(name, DIFFERENT, f"is not the accepted reference: other bits in {says}")
+    try:
+        known = hashes.read(folder / name)
+    except DatasetError:
+        return Finding(name, DAMAGED, "cannot be read in the baseline")
+    faults = hashes.unlike_in_kind(accepted, now)
+    if not hashes.same_attributes(accepted, now):
+        faults += hashes.unlike_in_attributes(known, new, moved=bool(unlike))
+    if faults:
+        more = f" (and {len(faults) - 3} more)" if len(faults) > 3 else ""
+        return Finding(name, DIFFERENT, "; ".join(faults[:3]) + more)
+    if not unlike:
+        return Finding(name, DIFFERENT, "has other hashes than were accepted, for no visible cause")
+    return _compare_numbers(name, known, hashes.as_kept(new), unlike, rules)
+
+
+def _compare_numbers(
+    name: str, known: hashes.Content, new: hashes.Content, unlike: list[str], rules: list[Rule]
+) -> Finding:
+    """Return the finding for datasets of one form with other bits; it never is `identical`."""
+    found = compare_data.compare(name, *map(hashes.as_dataset, (known, new)), rules)
+    if found.is_fault:
+        return found
+    others = f" and {len(unlike) - 3} more" if len(unlike) > 3 else ""
+    bits = f"other bits in {', '.join(unlike[:3])}{others}"
+    if found.status == IDENTICAL:
+        says = f"{bits}, by less than single precision shows (6e-8)"
+        return Finding(name, NEARLY, says)
+    return Finding(name, NEARLY, f"{bits}: {found.says}", found.moved)

@@ -209,9 +209,14 @@ def deviation(reference: Curve, new: Curve, rule: Rule) -> Deviation:
         return _exact(reference.values, new.values)
     if np.array_equal(reference.values, new.values, equal_nan=True):
         return SAME
-    if not np.array_equal(np.isfinite(reference.values), np.isfinite(new.values)):
-        return Deviation(np.inf, "has gaps (NaN) elsewhere")
+    if not np.array_equal(*map(_without_finite, (reference.values, new.values)), equal_nan=True):
+        return Deviation(np.inf, "has gaps (NaN) or infinities elsewhere")
     return METHODS[rule.method](reference, new, rule)
+
+
+def _without_finite(values: np.ndarray) -> np.ndarray:
+    """Return the values with 0 for every finite one: what is left are gaps and infinities."""
+    return np.where(np.isfinite(values), 0, values)
 
 
 def _exact(reference: np.ndarray, new: np.ndarray) -> Deviation:

@@ -12,11 +12,16 @@ from PIL import Image
 from pendula.report import page
 from pendula.report.page import address_of
 
-from . import IDENTICAL, NEARLY, STATUSES, Finding
+from . import IDENTICAL, STATUSES, Finding
+from .compare_data import Rule, read_rules
 from .compare_images import DamagedImageError, read
 
 THUMBNAIL = 320
 """Width in pixels of images that are identical; the others are shown whole."""
+
+
+NEEDS_A_REASON = 0.1
+"""An allowance above this fraction stands on the page with its reason."""
 
 
 def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
@@ -28,8 +33,22 @@ def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> 
         faults=sum(finding.is_fault for finding in findings),
         statuses=STATUSES,
         note=note,
+        allowances=[each for rule in read_rules(folder) if (each := _allowance(rule))],
+        share=f"{NEEDS_A_REASON:.0%}",
         sections=[_section(status, findings, made, folder) for status in STATUSES],
     )
+
+
+def _allowance(rule: Rule) -> dict[str, str] | None:
+    """Return for which curves a rule allows more than NEEDS_A_REASON, how much, and why."""
+    limits = {"points": rule.limit, **rule.bands.model_dump(exclude_none=True)}
+    large = {name: limit for name, limit in limits.items() if limit > NEEDS_A_REASON}
+    if rule.method == "magnitude":
+        large = {"size": 10**rule.limit - 1}
+    if not large:
+        return None
+    says = ", ".join(f"{name.replace('_', ' ')} {limit:.0%}" for name, limit in large.items())
+    return {"curves": " ".join(rule.labels), "allowed": says, "reason": rule.reason}
 
 
 def _section(status: str, findings: Sequence[Finding], made: Path, folder: Path) -> dict[str, Any]:
@@ -38,9 +57,9 @@ def _section(status: str, findings: Sequence[Finding], made: Path, folder: Path)
     images = [finding for finding in mine if finding.name.endswith(".png")]
     return {
         "status": status,
-        "datasets": [finding for finding in mine if finding not in images],
+        "files": [finding for finding in mine if finding not in images],
         "images": [(finding, _shown(finding.name, status, made, folder)) for finding in images],
-        "is_open": status not in (IDENTICAL, NEARLY),
+        "is_open": status != IDENTICAL,
     }
 
 

@@ -1,0 +1,206 @@
+"""Takes a run, or some of its files, as the new baseline: what may be taken, what that changes."""
+
+import difflib
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pendula.datasets import complete_or_absent
+from pendula.datasets.netcdf import DatasetError
+
+from . import compare_words, hashes
+from .baseline import (
+    HASHES,
+    PICTURES,
+    RECORD,
+    accepted_hashes,
+    environment,
+    hash_of_hashes,
+    is_kept,
+    recorded,
+    unlike_settings,
+)
+
+NEW, CHANGED, REMOVED = "new", "changed", "removed"
+
+
+class AcceptanceError(ValueError):
+    """Nothing was accepted; the message says why, and what to do."""
+
+
+class Acceptance(NamedTuple):
+    """What accepting is about to do; nothing has been changed yet."""
+
+    changes: dict[str, str]
+    """NEW, CHANGED or REMOVED by the names of files."""
+    record: dict[str, Any]
+    hashes: dict[str, Any]
+    lines: list[str]
+    """All this in words."""
+
+
+def check(
+    configuration: Mapping[str, Any], committed: Mapping[str, Any], folder: Path, some: bool
+) -> None:
+    """Raise AcceptanceError unless a run of this configuration may go into the baseline `folder`.
+
+    `committed` is what config/*.yaml say alone. Any run may found a baseline in an empty folder,
+    and may renew one of its own configuration. If `some` files are to be taken, the others stay, so
+    that both must be of one configuration.
+    """
+    if not (folder / RECORD).exists():
+        return
+    accepted = recorded(folder)["configuration"]
+    if configuration == accepted or (configuration == committed and not some):
+        return
+    known = accepted if configuration == committed else committed
+    said = unlike_settings(known, configuration)
+    more = f" (and {len(said) - 3} more)" if len(said) > 3 else ""
+    whose = "the accepted files" if known is accepted else "config/*.yaml"
+    way_out = (
+        "accept all files, since those that stay would be of another configuration"
+        if known is accepted
+        else "run it without --configfile and --config; for a baseline of another configuration "
+        "give a folder, as in `--config baseline=my_baseline`"
+    )
+    raise AcceptanceError(
+        f"nothing is accepted: this run is not of the configuration of {whose}: "
+        f"{'; '.join(said[:3])}{more}. What to do: {way_out}"
+    )
+
+
+def choose(words: Iterable[str], names: Iterable[str]) -> list[str]:
+    """Return the files that the words name: `fig3`, `checks/worst`, `tables/claims.md`, `truth/*`.
+
+    A word is the path of a file below results/, with or without its ending, or the name of a
+    figure; * stands for any letters. Raises AcceptanceError for a word that names nothing.
+    """
+    names, chosen = sorted(names), set()
+    for word in words:
+        found = [name for name in names if _fits(name, word)]
+        if not found:
+            known = {form: name for name in names for form in (name, _stem(name), Path(name).stem)}
+            near = difflib.get_close_matches(word, known, 1)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise AcceptanceError(f"nothing is accepted: {word} names no file of a full run{hint}")
+        chosen.update(found)
+    return sorted(chosen)
+
+
+def _fits(name: str, word: str) -> bool:
+    stem = _stem(name)
+    return any(
+        fnmatchcase(*pair) for pair in ((name, word), (stem, word), (stem, f"figures/{word}"))
+    )
+
+
+def _stem(name: str) -> str:
+    return name.rpartition(".")[0]
+
+
+def plan(
+    names: Iterable[str],
+    made: Path,
+    folder: Path,
+    configuration: Mapping[str, Any],
+    chosen: Iterable[str] | None = None,
+) -> Acceptance:
+    """Return what accepting the run `made` would do: all its files `names`, or those in `chosen`.
+
+    Files of the baseline that are not among `names` are removed if they are chosen. Raises
+    AcceptanceError if a file is empty or damaged, or if pictures of two environments would mix.
+    """
+    names, record, known = set(names), recorded(folder), accepted_hashes(folder)
+    taken = names | set(record["files"]) if chosen is None else set(chosen)
+    here = environment()
+    if chosen is not None and any(name.endswith(PICTURES) for name in taken):
+        if record["environment"] not in ({}, here):
+            raise AcceptanceError(
+                "nothing is accepted: the other pictures of the baseline were drawn by other "
+                "versions; accept all files, or use the pinned environment"
+            )
+        record["environment"] = here
+    if chosen is None:
+        record["environment"] = here
+    fresh = {name: _hashes_of(made / name) for name in sorted(taken & names)}
+    changes = {name: _change(name, fresh[name], known, made, folder) for name in fresh}
+    changes |= dict.fromkeys(sorted(taken - names), REMOVED)
+    files = sorted({*record["files"], *fresh} - (taken - names))
+    kept = {name: known[name] for name in files if name in known}
+    record |= {"configuration": dict(configuration), "files": files}
+    changes = {name: kind for name, kind in changes.items() if kind}
+    lines = _say(changes, len(files), made, folder)
+    return Acceptance(changes, record, dict(sorted({**kept, **fresh}.items())), lines)
+
+
+def _hashes_of(path: Path) -> Any:
+    if path.suffix == ".nc":
+        try:
+            return hashes.of(hashes.read(path))
+        except DatasetError as error:
+            raise AcceptanceError(f"nothing is accepted: {error}") from error
+    content = path.read_bytes()
+    if not content:
+        raise AcceptanceError(f"nothing is accepted: {path} is empty")
+    return hashes.of_bytes(content)
+
+
+def _change(name: str, fresh: Any, known: Mapping[str, Any], made: Path, folder: Path) -> str:
+    """Return NEW, CHANGED, or nothing for a file that is as it was accepted."""
+    if name not in known:
+        return NEW
+    same = known[name] == fresh and (not is_kept(name) or _is_whole(made / name, folder / name))
+    return "" if same else CHANGED
+
+
+def _is_whole(new: Path, kept: Path) -> bool:
+    """Return whether the baseline holds the content that it would keep of a file."""
+    if new.suffix != ".nc":
+        return kept.exists() and kept.read_bytes() == new.read_bytes()
+    try:
+        return hashes.of(hashes.read(kept)) == hashes.of(hashes.as_kept(hashes.read(new)))
+    except DatasetError:
+        return False
+
+
+def _say(changes: Mapping[str, str], files: int, made: Path, folder: Path) -> list[str]:
+    """Return a line for each change, those of verdicts, and the counts."""
+    lines = [f"{kind}: {name}" for name, kind in changes.items()]
+    if changes.get("claims.json") == CHANGED and (folder / "claims.json").exists():
+        texts = [(place / "claims.json").read_text(encoding="utf-8") for place in (folder, made)]
+        was, now = map(compare_words.verdicts, texts)
+        for claim in sorted({*was, *now}):
+            if was.get(claim) != now.get(claim):
+                pair = now.get(claim, "absent"), was.get(claim, "absent")
+                lines.append(f"verdict: {claim} is {pair[0]} in place of {pair[1]}")
+    counts = Counter(changes.values())
+    told = ", ".join(f"{counts[kind]} {kind}" for kind in (NEW, CHANGED, REMOVED))
+    return [*lines, f"{told}; the baseline then has {files} files"]
+
+
+def take(acceptance: Acceptance, made: Path, folder: Path) -> None:
+    """Change the baseline as planned; a file that is as it was is not written."""
+    for name, kind in acceptance.changes.items():
+        if kind == REMOVED:
+            (folder / name).unlink(missing_ok=True)
+        elif is_kept(name):
+            _take(made / name, folder / name)
+    _write(folder / HASHES, acceptance.hashes)
+    _write(folder / RECORD, acceptance.record | {"hashes": hash_of_hashes(folder)})
+
+
+def _take(new: Path, kept: Path) -> None:
+    if new.suffix == ".nc":
+        content = hashes.as_kept(hashes.read(new))
+        hashes.keep(kept, content)
+    else:
+        with complete_or_absent(kept) as partial:
+            partial.write_bytes(new.read_bytes())
+
+
+def _write(path: Path, content: Any) -> None:
+    with complete_or_absent(path) as partial:
+        partial.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

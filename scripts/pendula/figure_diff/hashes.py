@@ -1,0 +1,222 @@
+"""What a dataset holds, read once as it is stored: its hashes, and what the baseline keeps of it.
+
+A hash that is the same decides that two variables are the same, to the last bit and with their
+attributes, without numbers to compare them with. The hash of a number does not depend on the byte
+order of a machine, nor on the sign and the digits that its processor gives to a NaN.
+"""
+
+import json
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import netCDF4
+import numpy as np
+
+from pendula.datasets import complete_or_absent
+from pendula.datasets.netcdf import DatasetError
+
+DIGITS = 16
+"""Hexadecimal digits of a hash: by chance one of 1e19 other contents has the same."""
+
+NO_RESULT = ("version", "history")
+"""Attributes that name the version of this project. They change with every release, and with no
+number, so no hash holds them."""
+
+LEAST = 1e-30
+"""Single precision loses digits below 1e-38, and ends at 3e38."""
+
+WORK = ("steps", "rejected_steps", "right_hand_sides")
+MOST_WORK = 0.1
+"""Attributes that count what a solver did. They follow its path, so that in chaos they change where
+numbers do: another rounding moved the largest by 0.09 of themselves."""
+
+Hashes = dict[str, Any]
+"""Of a dataset: `attributes`, and `variables` by name; of a variable its type, dimensions, values
+and attributes in one text, the last two as hashes."""
+
+
+class Variable(NamedTuple):
+    """A variable as a file holds it."""
+
+    dimensions: tuple[str, ...]
+    values: np.ndarray
+    attributes: dict[str, Any]
+
+
+class Content(NamedTuple):
+    """A dataset as a file holds it: the attributes, and the variables by name."""
+
+    attributes: dict[str, Any]
+    variables: dict[str, Variable]
+
+
+def read(path: Path) -> Content:
+    """Return all that the file holds; a damaged one raises DatasetError, which names it."""
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_maskandscale(False)
+            file.set_auto_chartostring(False)
+            variables = {name: _variable(found) for name, found in file.variables.items()}
+            return Content(_attributes(file), variables)
+    except (OSError, RuntimeError) as error:
+        raise DatasetError(f"{path} is damaged and cannot be read ({error})") from error
+
+
+def _variable(found: netCDF4.Variable) -> Variable:
+    return Variable(found.dimensions, np.asarray(found[...]), _attributes(found))
+
+
+def _attributes(holder: netCDF4.Dataset | netCDF4.Variable) -> dict[str, Any]:
+    return {name: holder.getncattr(name) for name in holder.ncattrs()}
+
+
+def of_bytes(content: bytes) -> str:
+    """Return the hash of a file that is no dataset."""
+    return sha256(content).hexdigest()[:DIGITS]
+
+
+def of(content: Content) -> Hashes:
+    """Return the hashes of a dataset."""
+    variables = {name: _of_variable(each) for name, each in content.variables.items()}
+    return {"attributes": _of_attributes(content.attributes), "variables": variables}
+
+
+def _of_variable(variable: Variable) -> str:
+    values = variable.values
+    pairs = zip(variable.dimensions, values.shape, strict=True)
+    shape = ", ".join(f"{dimension} {size}" for dimension, size in pairs)
+    kind = "words" if values.dtype.kind == "O" else values.dtype.name
+    hashes = of_bytes(_plain(values)), _of_attributes(variable.attributes)
+    return " ".join([f"{kind} ({shape})", *hashes])
+
+
+def _plain(values: np.ndarray) -> bytes:
+    if values.dtype.kind == "O":
+        return json.dumps([str(word) for word in values.flat]).encode()
+    if values.dtype.kind == "f":
+        values = np.where(np.isnan(values), values.dtype.type(np.nan), values)
+    return values.astype(values.dtype.newbyteorder("<")).tobytes()
+
+
+def _of_attributes(attributes: Mapping[str, Any]) -> str:
+    return of_bytes(json.dumps(in_words(attributes), sort_keys=True).encode())
+
+
+def in_words(attributes: Mapping[str, Any]) -> dict[str, str]:
+    """Return the attributes that belong to the result, each as text with all digits."""
+    kept = {name: each for name, each in attributes.items() if name not in NO_RESULT}
+    return {name: json.dumps(np.asarray(each).tolist()) for name, each in kept.items()}
+
+
+def unlike_in_kind(was: Hashes, now: Hashes) -> list[str]:
+    """Return in words which variables are gone, new, or of another type or shape."""
+    before, after = was["variables"], now["variables"]
+    said = [f"{name} is gone" for name in before if name not in after]
+    said += [f"{name} is new" for name in after if name not in before]
+    for name in before.keys() & after.keys():
+        kinds = [each[name].rsplit(" ", 2)[0] for each in (before, after)]
+        if kinds[0] != kinds[1]:
+            said.append(f"{name} is {kinds[1]} in place of {kinds[0]}")
+    return sorted(said)
+
+
+def unlike_in_values(was: Hashes, now: Hashes) -> list[str]:
+    """Return the variables that both have and whose values are others."""
+    before, after = was["variables"], now["variables"]
+    both = [name for name in before if name in after]
+    return [name for name in both if before[name].split()[-2] != after[name].split()[-2]]
+
+
+def same_attributes(was: Hashes, now: Hashes) -> bool:
+    """Return whether the dataset and the variables that both have hold the same attributes."""
+    before, after = was["variables"], now["variables"]
+    both = before.keys() & after.keys()
+    same = all(before[name].split()[-1] == after[name].split()[-1] for name in both)
+    return same and was["attributes"] == now["attributes"]
+
+
+def unlike_in_attributes(was: Content, now: Content, moved: bool) -> list[str]:
+    """Return in words each attribute that differs, of the dataset and of what both hold.
+
+    If numbers have `moved`, counts of a solver's work may have followed them.
+    """
+    said = []
+    for name, pair in _pairs_of_attributes(was, now).items():
+        before, after = (in_words(attributes) for attributes in pair)
+        for key in sorted({*before, *after}):
+            texts = after.get(key, "absent"), before.get(key, "absent")
+            if texts[0] != texts[1] and not (moved and _is_same_work(key, *pair)):
+                said.append(f"{name}attribute {key} is {texts[0]} in place of {texts[1]}")
+    return said
+
+
+def _pairs_of_attributes(was: Content, now: Content) -> dict[str, tuple[Mapping, Mapping]]:
+    both = [name for name in was.variables if name in now.variables]
+    held = {f"{name}: ": (was.variables[name], now.variables[name]) for name in both}
+    pairs = {name: (pair[0].attributes, pair[1].attributes) for name, pair in held.items()}
+    return {"": (was.attributes, now.attributes), **pairs}
+
+
+def _is_same_work(name: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
+    """Return whether a count of work is as it was, up to MOST_WORK of it or of all steps."""
+    if name not in WORK or name not in was or name not in now:
+        return False
+    whole = max(was[name], was.get("steps", 0))
+    return abs(int(now[name]) - int(was[name])) <= MOST_WORK * whole
+
+
+def as_kept(content: Content) -> Content:
+    """Return the content as the baseline keeps it: at every sample, in single precision.
+
+    Single precision resolves 6e-8 of a number, less than any tolerance. A variable whose largest
+    number it cannot hold stays as it is.
+    """
+    kept = {n: each._replace(values=_single(each.values)) for n, each in content.variables.items()}
+    return content._replace(variables=kept)
+
+
+def _single(values: np.ndarray) -> np.ndarray:
+    if values.dtype.kind != "f":
+        return values
+    largest = abs(values[np.isfinite(values)]).max(initial=0)
+    held = largest == 0 or LEAST < largest < 1 / LEAST
+    return values.astype("float32") if held else values
+
+
+def keep(path: Path, content: Content) -> None:
+    """Write the content as it is, compressed as well as netCDF can."""
+    with complete_or_absent(path) as partial, netCDF4.Dataset(partial, "w") as file:
+        file.setncatts(content.attributes)
+        for name, variable in content.variables.items():
+            _keep_variable(file, name, variable)
+
+
+def _keep_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> None:
+    for dimension, size in zip(variable.dimensions, variable.values.shape, strict=True):
+        if dimension not in file.dimensions:
+            file.createDimension(dimension, size)
+    kind, packed = variable.values.dtype, {"zlib": True, "complevel": 9, "shuffle": True}
+    if kind.kind == "O":
+        kind, packed = str, {}
+    elif variable.values.size <= 100:
+        packed = {}
+    target = file.createVariable(name, kind, variable.dimensions, **packed)
+    target.set_auto_maskandscale(False)
+    target.setncatts(variable.attributes)
+    target[...] = variable.values
+
+
+def as_dataset(content: Content):
+    """Return the content as the xarray.Dataset that a reader of the file would get."""
+    import xarray as xr  # here, since files with the accepted hashes do without it
+
+    variables = {name: _as_xarray(variable) for name, variable in content.variables.items()}
+    return xr.decode_cf(xr.Dataset(variables, attrs=content.attributes))
+
+
+def _as_xarray(variable: Variable) -> tuple:
+    words = variable.values.dtype.kind == "O"
+    values = variable.values.astype(str) if words else variable.values
+    return variable.dimensions, values, variable.attributes
