@@ -6,7 +6,8 @@ machine with a new x86-64 processor gets the bits of most others, without owning
 
     python tests/machines.py generic snakemake --cores 1
 
-runs a command on such a machine, and without a command prints what a program finds there.
+runs a command on such a machine, and without a command prints what a program finds there;
+--playable in place of a name prints the machines that this one can play, with their cores.
 """
 
 import ctypes
@@ -147,10 +148,24 @@ def found_on(name: str) -> dict:
     return json.loads(done.stdout)
 
 
-if __name__ == "__main__":
-    machine, *command = sys.argv[1:]
-    if machine == "-":
+def playable() -> list[str]:
+    """Return the machines that this one can play, itself first; say of the others why not."""
+    for name in PLAYED:
+        if why := why_not(name):
+            print(f"{name} is left out: {why}", file=sys.stderr)
+    return [THIS_ONE, *(name for name in PLAYED if not why_not(name))]
+
+
+def main(name: str, *command: str) -> None:
+    if name == "--playable":
+        for each in playable():
+            print(PLAYED[each].cores if each in PLAYED else "all", each)
+    elif name == "--found":
         print(json.dumps(found()))
     else:
-        words = command or [sys.executable, __file__, "-"]
-        os.execvpe(words[0], words, environment(machine))
+        words = command or (sys.executable, __file__, "--found")
+        os.execvpe(words[0], words, environment(name))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
