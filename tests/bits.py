@@ -16,12 +16,13 @@ from pendula.simulation.lattice import Reduction
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.solvers import SOLVERS
 
-TIGHT = {"taylor": 1e-14, "dop853": 1e-12}
+TIGHT = {"taylor": 1e-14, "dop853": 1e-12, "ode45": 1e-9}
 ITERATED = {"step": 0.0025, "tolerance": 1e-13, "iterations": 50}
 CONTROLS = {
     **{name: {"rtol": value, "atol": value} for name, value in TIGHT.items()},
     "crank_nicolson": ITERATED,
     "delfour_fortin_payre": ITERATED,
+    "splitting": {"step": 0.0025},
 }
 RUNS = [(name, even) for name in CONTROLS for even in (True, False)]
 

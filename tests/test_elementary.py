@@ -124,7 +124,7 @@ HASHES = {
     "sin": "b564a52f58aeb0f9",
     "cos": "ebebc60920021168",
     "power": "763dc6fbd6dadfde",
-    "fifth_root": "8615034a46a1c03b",
+    "fifth_root": "5eea0251d3ae4a30",
     "product": "a1fb1b1c7018e5d9",
 }
 """Bits that every machine must get, of functions of random but fixed arguments."""

@@ -9,9 +9,8 @@ folder that is named after the text of its module and of all that the module imp
 `sources`). An edit of any of them starts an empty folder.
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
-*, / and sqrt give the same bits on every processor. The functions of the C
-library (x^0.2, a sine) need not give the same bits: ode45 and splitting must use them, the other
-solvers do not (tests/test_same_bits.py).
+*, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
+do not, so kernels take those of `elementary` (tests/test_same_bits.py).
 """
 
 import os

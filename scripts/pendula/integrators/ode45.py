@@ -13,21 +13,24 @@ loop. `y` is the state before a step, `w` the state after it or the argument of 
 the slope of stage s; the slope of the last stage is the first of the next step. The sums are
 written out term by term, each one pass over the state in a fixed order of operations.
 
-Steps come from fifth roots by the C library, as in MATLAB: their last bit, and with it that of the
-trajectory, may differ from machine to machine.
+MATLAB takes powers of 1/5 from the C library. Their last bits differ between machines, and a
+chaotic run takes another path for it. Here fifth roots are made of + - * / and are the same
+everywhere.
 """
 
 from math import sqrt
 
 import numpy as np
 
-from pendula.compiled import copy, inlined_by_numba, kernel
+from pendula import elementary
+from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_in_rows
 
 from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 WORK = 9
 """Work arrays of the size of a state."""
+fifth_root = uncached(elementary.fifth_root)
 # weights b of the fifth-order solution minus those of the fourth-order solution
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
 
@@ -120,7 +123,7 @@ def initial_step(y, slope, threshold, rtol, longest):
             size2 = y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
             slope2 = slope[re, j] * slope[re, j] + slope[re + 1, j] * slope[re + 1, j]
             rate2 = max(rate2, slope2 / max(size2, threshold * threshold))
-    rate = sqrt(rate2) / (0.8 * rtol**0.2)
+    rate = sqrt(rate2) / (0.8 * fifth_root(rtol))
     return 1.0 / rate if longest * rate > 1.0 else longest
 
 
@@ -167,7 +170,7 @@ def build(rates, observe):
                     status = STEP_TOO_SMALL if error < np.inf else NOT_FINITE
                     return Outcome(status, t, steps, rejected, evaluations)
                 # the first failure takes the error for its guide, each further one halves the step
-                shrink = 0.5 if failed else max(0.1, 0.8 * (rtol / error) ** 0.2)
+                shrink = 0.5 if failed else max(0.1, 0.8 * fifth_root(rtol / error))
                 h = max(shortest, h * shrink)
                 rejected += 1
                 failed = True
@@ -181,7 +184,7 @@ def build(rates, observe):
             t = t_new
             steps += 1
             if not failed:  # no growth right after a rejection
-                shrink = 1.25 * (error / rtol) ** 0.2
+                shrink = 1.25 * fifth_root(error / rtol)
                 h = h / shrink if shrink > 0.2 else 5.0 * h
         return Outcome(DONE, t, steps, rejected, evaluations)
 

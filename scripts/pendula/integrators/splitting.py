@@ -3,8 +3,7 @@
 S. Blanes and P. C. Moan, Journal of Computational and Applied Mathematics 142 (2002) 313, table 2.
 A step alternates between the linear flow (of the linear terms alone), which is summed as a power
 series to the last digit, and the nonlinear flow (of the cubic terms alone), which is known exactly.
-Each is symplectic, so that the energy errs but does not drift. Sines and cosines of the C library
-make the last bits depend on the machine.
+Each is symplectic, so that the energy errs but does not drift.
 """
 
 import numpy as np

@@ -18,11 +18,11 @@ with A = B therefore have the bits of the whole. Whoever changes an order of ope
 changes every result (tests/test_same_bits.py).
 """
 
-from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 
+from pendula import elementary
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.simd import LANES, vec4_views
 
@@ -199,20 +199,23 @@ def linear_radius(chain):
     return 4.0 * abs(chain.epsilon) + abs(chain.omega) + 2.0 * abs(chain.gamma)
 
 
+cosine = inlined_by_llvm(elementary.cosine_near_zero)
+sine = inlined_by_llvm(elementary.sine_near_zero)
+
+
 @kernel
 def nonlinear_flow(y, h):
     """Carry `y` along the cubic terms alone over the time `h`; return whether the step is resolved.
 
     They keep |A_n| and turn A_n by the angle -h |A_n|^2 / 2. No splitting could follow an angle of
-    a radian or more. Sine and cosine are the C library's: their last bits may differ from machine
-    to machine.
+    a radian or more.
     """
     resolved = True
     for re in range(0, y.shape[0], 2):
         for j in range(1, y.shape[1] - 1):
             angle = 0.5 * h * modulus2(y, re, j)
             resolved &= abs(angle) < 1.0
-            c, s = cos(angle), sin(angle)
+            c, s = cosine(angle), sine(angle)
             u, v = y[re, j], y[re + 1, j]
             y[re, j] = c * u + s * v
             y[re + 1, j] = c * v - s * u
