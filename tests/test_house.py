@@ -22,6 +22,7 @@ STOREYS = (
     ("models",),
     ("integrators",),
     ("measures",),
+    ("search", "matrices", "quadrature", "extrapolation", "draws"),
     ("simd", "compiled", "elementary", "sources", "configuration", "problem"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

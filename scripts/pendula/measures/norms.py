@@ -2,7 +2,13 @@
 
 import numpy as np
 
+from pendula.elementary import exp, log, square_modulus
 from pendula.problem import Constants
+
+
+def power_of(amplitudes: np.ndarray) -> float:
+    """Return P = |A|^2 + |B|^2 in l2 of amplitudes (2, N)."""
+    return float(np.sum(square_modulus(amplitudes)))
 
 
 def total_power(trajectory) -> np.ndarray:
@@ -41,7 +47,7 @@ def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, fl
     seen from the end; `steepest`: largest |change of log P| over 4 |gamma| times its duration,
     one for any pair of times at the bound. All must be at most one.
     """
-    rise = np.log(np.sum(np.asarray(l2) ** 2, axis=0))
+    rise = log(np.sum(np.asarray(l2) ** 2, axis=0))
     allowed = 4.0 * abs(gamma) * np.asarray(tau, dtype=float)
     forth = (rise - rise[0]) - (allowed - allowed[0])
     back = (rise - rise[-1]) - (allowed[-1] - allowed)
@@ -50,7 +56,7 @@ def growth_margin(tau: np.ndarray, l2: np.ndarray, gamma: float) -> dict[str, fl
     unbounded = np.where(steps > 0, np.inf, 0.0)  # without a drive P may not move at all
     steepest = np.where(bound > 0, steps / np.where(bound > 0, bound, 1.0), unbounded)
     return {
-        "from_start": float(np.exp(forth[1:].max())),
-        "backwards": float(np.exp(back[:-1].max())),
+        "from_start": float(exp(forth[1:].max())),
+        "backwards": float(exp(back[:-1].max())),
         "steepest": float(steepest.max()),
     }

@@ -38,6 +38,15 @@ def extent(constants: Constants) -> float:
     return abs(k.omega) + 2.0 * abs(k.gamma) + 4.0 * k.epsilon
 
 
+def lipschitz(constants: Constants, radius: float) -> float:
+    """Return a Lipschitz constant in l2 of the right-hand side on a ball of this radius.
+
+    The linear part is bounded by |Omega| + 2 gamma + 4 epsilon by (17), and the cubic part by
+    3 / 2 times the squared radius, since l2 is an algebra (18).
+    """
+    return extent(constants) + 1.5 * radius * radius
+
+
 def theorem_1_bound(energy, constants: Constants):
     """Return C of Theorem 1; infinite outside its range of parameters."""
     k = with_positive_coupling(constants)
@@ -80,7 +89,7 @@ def coercivity(power, constants: Constants):
     """
     epsilon, gamma, omega = astuple(with_positive_coupling(constants))
     power = np.asarray(power, dtype=float)
-    cubic = power**2 / (64.0 * epsilon)
+    cubic = power * power / (64.0 * epsilon)
     with np.errstate(divide="ignore", over="ignore"):
         s = np.minimum(1.0, 2.0 * abs(gamma) / (3.0 * cubic))
     return power * (abs(omega) - abs(gamma) * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))

@@ -9,6 +9,10 @@ Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N site
 
 import numpy as np
 
+from pendula import elementary
+from pendula.elementary import complex_of
+from pendula.matrices import times
+
 
 def curvatures(sites: int, boundary: str) -> np.ndarray:
     """Return lambda_k = 4 sin^2(theta_k / 2) of every mode of the chain, shape (sites,)."""
@@ -18,7 +22,7 @@ def curvatures(sites: int, boundary: str) -> np.ndarray:
         "free": np.pi * k / (2 * sites),
         "periodic": np.pi * k / sites,
     }[boundary]
-    return 4.0 * np.sin(half_angle) ** 2
+    return 4.0 * elementary.sin(half_angle) ** 2
 
 
 def modes(sites: int, boundary: str) -> np.ndarray:
@@ -30,13 +34,14 @@ def modes(sites: int, boundary: str) -> np.ndarray:
     k, j = np.arange(sites)[:, None], np.arange(sites)
     if boundary == "dirichlet":
         turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
-        return np.sqrt(2 / (sites + 1)) * np.sin(2 * np.pi * turns)
+        return np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns)
     if boundary == "free":
         turns = k * (2 * j + 1) % (4 * sites) / (4 * sites)
         weights = np.where(k == 0, np.sqrt(1 / sites), np.sqrt(2 / sites))
-        return weights * np.cos(2 * np.pi * turns)
+        return weights * elementary.cos(2 * np.pi * turns)
     turns = k * j % sites / sites
-    return np.sqrt(1 / sites) * (np.cos(2 * np.pi * turns) + np.sin(2 * np.pi * turns))
+    sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
+    return np.sqrt(1 / sites) * (cosine + sine)
 
 
 def driven(kappa, gamma: float, tau: float):
@@ -51,8 +56,9 @@ def driven(kappa, gamma: float, tau: float):
     grows = square > 0
     angle = rate * tau
     hyperbolic = np.where(grows, angle, 0.0)
-    even = np.where(grows, np.cosh(hyperbolic), np.cos(angle))
-    odd = np.where(grows, np.sinh(hyperbolic), np.sin(angle))
+    sine, cosine = elementary.sine_and_cosine(np.where(grows, 0.0, angle))
+    even = np.where(grows, elementary.cosh(hyperbolic), cosine)
+    odd = np.where(grows, elementary.sinh(hyperbolic), sine)
     return even, np.where(rate > 0, odd / nonzero, tau)
 
 
@@ -67,14 +73,15 @@ def flow(
     sites = amplitudes.shape[1]
     basis = modes(sites, boundary)
     kappa = epsilon * curvatures(sites, boundary) - omega
-    total = basis @ (amplitudes[0] + amplitudes[1])
-    difference = basis @ (amplitudes[0] - amplitudes[1])
-    total = np.exp(1j * kappa * tau) * total
+    total = times(basis, amplitudes[0] + amplitudes[1])
+    difference = times(basis, amplitudes[0] - amplitudes[1])
+    total = elementary.product(elementary.turn(kappa * tau), total)
     even, odd = driven(kappa, gamma, tau)
     p, q = difference.real, difference.imag
-    difference = even * p + (2 * gamma - kappa) * odd * q
-    difference = difference + 1j * (even * q + (2 * gamma + kappa) * odd * p)
-    total, difference = basis.T @ total, basis.T @ difference
+    real = even * p + (2 * gamma - kappa) * odd * q
+    imaginary = even * q + (2 * gamma + kappa) * odd * p
+    total = times(basis.T, total)
+    difference = times(basis.T, complex_of(real, imaginary))
     return 0.5 * np.stack([total + difference, total - difference])
 
 
@@ -112,3 +119,24 @@ def finite_threshold(omega, epsilon: float, sites: int, boundary: str):
 def finite_rate(omega, gamma, epsilon: float, sites: int, boundary: str):
     """Return the largest growth rate of a chain of N sites."""
     return growth_rate(2.0 * finite_threshold(omega, epsilon, sites, boundary), gamma)
+
+
+def stable_windows(gamma: float, epsilon: float, sites: int, boundary: str) -> np.ndarray:
+    """Return the intervals of Omega in [0, 4 epsilon] where the finite chain is stable, (., 2).
+
+    Between two neighbouring eigenvalues of the Laplacian Omega is stable as long as it keeps a
+    distance of more than 2 |gamma| from both; the band's edges are no eigenvalues of a Dirichlet
+    chain, so that a window may reach them.
+    """
+    levels = np.unique(np.round(epsilon * curvatures(sites, boundary), 14))
+    low = np.concatenate([[0.0], levels + 2.0 * abs(gamma)])
+    high = np.concatenate([levels - 2.0 * abs(gamma), [4.0 * epsilon]])
+    windows = np.stack([np.maximum(low, 0.0), np.minimum(high, 4.0 * epsilon)], axis=1)
+    return windows[windows[:, 1] > windows[:, 0]]
+
+
+def widest_gamma(epsilon: float, sites: int, boundary: str) -> float:
+    """Return the largest |gamma| at which any window of stability is left in [0, 4 epsilon]."""
+    levels = epsilon * np.sort(curvatures(sites, boundary))
+    inner = np.diff(levels).max(initial=0.0) / 4.0
+    return float(max(inner, levels[0] / 2.0, (4.0 * epsilon - levels[-1]) / 2.0))

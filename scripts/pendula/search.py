@@ -1,0 +1,85 @@
+"""A search for the highest point of a function that has several hills and no known slope.
+
+It is the evolution strategy CMA-ES (N. Hansen, The CMA Evolution Strategy: A Tutorial,
+arXiv 1604.00772, with its default constants), with the Cholesky factor of the covariance in place
+of its root, as in O. Krause, D. R. Arbones and C. Igel, Advances in Neural Information Processing
+Systems 29 (2016): a root needs eigenvectors, whose signs depend on the processor. It stands here
+although the package `cma` has it, which takes eigenvectors, seeds NumPy's global generator, and
+would be one more pin, of 25,000 lines, in place of 70 that one reads beside the tutorial.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .elementary import exp, log
+from .matrices import cholesky, multiply, times
+
+LEAST_SCALE = 1e-14
+"""Least variance of a step over the largest: rounding cannot make the covariance indefinite."""
+
+
+class Settings(NamedTuple):
+    """The strategy's constants, all functions of the dimension and the size of a generation."""
+
+    weights: np.ndarray
+    mu_eff: float
+    path_sigma: float
+    damping: float
+    path_c: float
+    rank_one: float
+    rank_mu: float
+    typical_length: float
+
+
+def settings(n: int, size: int) -> Settings:
+    """Return the tutorial's default constants for n dimensions and generations of `size`."""
+    weights = log(0.5 * (size + 1)) - log(np.arange(1, size // 2 + 1))
+    weights /= weights.sum()
+    mu = 1.0 / np.sum(weights**2)
+    path_sigma = (mu + 2.0) / (n + mu + 5.0)
+    damping = 1.0 + 2.0 * max(0.0, np.sqrt((mu - 1.0) / (n + 1.0)) - 1.0) + path_sigma
+    path_c = (4.0 + mu / n) / (n + 4.0 + 2.0 * mu / n)
+    rank_one = 2.0 / ((n + 1.3) * (n + 1.3) + mu)
+    rank_mu = min(1.0 - rank_one, 2.0 * (mu - 2.0 + 1.0 / mu) / ((n + 2.0) * (n + 2.0) + mu))
+    length = np.sqrt(n) * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n))
+    return Settings(weights, mu, path_sigma, damping, path_c, rank_one, rank_mu, length)
+
+
+def maximise(objective, start: np.ndarray, spread: float, generations: int, size: int, seed):
+    """Return (best point, best value, best value after each generation).
+
+    `objective` maps points (size, n) to values (size,). Starts from `start` with steps of
+    `spread` in every direction.
+    """
+    rng = np.random.default_rng(seed)
+    n, mean, sigma = len(start), np.array(start, float), spread
+    s = settings(n, size)
+    covariance, drift, path, forgotten = np.eye(n), np.zeros(n), np.zeros(n), 1.0
+    best_point, best, history = mean, -np.inf, []
+    for _ in range(generations):
+        drawn = rng.normal(size=(size, n))
+        least = LEAST_SCALE * covariance.diagonal().max()
+        steps = times(cholesky(covariance + least * np.eye(n)), drawn)
+        values = objective(mean + sigma * steps)
+        order = np.argsort(-values, kind="stable")
+        if values[order[0]] > best:
+            best, best_point = float(values[order[0]]), mean + sigma * steps[order[0]]
+        history.append(best)
+        kept, weights = steps[order[: len(s.weights)]], s.weights[:, None]
+        move = np.sum(weights * kept, axis=0)
+        mean = mean + sigma * move
+        white = np.sum(weights * drawn[order[: len(s.weights)]], axis=0)
+        drift = (1 - s.path_sigma) * drift + np.sqrt(
+            s.path_sigma * (2 - s.path_sigma) * s.mu_eff
+        ) * white
+        length = np.sqrt(np.sum(drift * drift))
+        forgotten *= (1 - s.path_sigma) * (1 - s.path_sigma)
+        steady = length / np.sqrt(1 - forgotten) < (1.4 + 2 / (n + 1)) * s.typical_length
+        path = (1 - s.path_c) * path + steady * np.sqrt(s.path_c * (2 - s.path_c) * s.mu_eff) * move
+        missed = (not steady) * s.path_c * (2 - s.path_c)
+        covariance = (1 - s.rank_one - s.rank_mu + s.rank_one * missed) * covariance
+        covariance += s.rank_one * path[:, None] * path
+        covariance += s.rank_mu * multiply(kept.T, weights * kept)
+        sigma *= exp(s.path_sigma / s.damping * (length / s.typical_length - 1))
+    return best_point, best, np.array(history)

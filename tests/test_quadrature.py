@@ -1,0 +1,28 @@
+"""Weights of integrals against NumPy's, and against integrals that are known."""
+
+import numpy as np
+import pytest
+from pendula.extrapolation import extrapolated
+from pendula.quadrature import gauss_legendre, integration_matrix
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 8, 20])
+def test_nodes_and_weights_of_gauss(count):
+    found, expected = gauss_legendre(count), np.polynomial.legendre.leggauss(count)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
+
+
+def test_integrals_of_polynomials_are_exact():
+    nodes = np.array([0.1, 0.35, 0.6, 1.0])
+    for degree in range(4):
+        integral = integration_matrix(nodes) @ nodes**degree
+        np.testing.assert_allclose(integral, nodes ** (degree + 1) / (degree + 1), atol=1e-16)
+
+
+def test_extrapolation_has_order_twelve():
+    """One step of y' = i y: the error of a step falls as its 13th power."""
+    errors = [
+        abs(extrapolated(lambda y: 1j * y, np.array([1.0 + 0j]), h)[0] - np.exp(1j * h))
+        for h in (2.0, 1.0)
+    ]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(13.0, abs=0.6)
