@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.checks import columns, table, tabulate, variable
-from pendula.measures.norms import growth_margin, total_power
+from pendula.measures.norms import growth_margin, power_of, total_power
 from pendula.models.bounds import (
     best_bound,
     proven_region,
@@ -98,7 +98,7 @@ def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
             j, sites = np.searchsorted(half_widths, half_width), 2 * int(half_width) + 1
             amplitudes = place(on_sites(read_initial(sweep.attrs["initial"])), int(half_width))
             energy = total_energy(constants, boundary, amplitudes)
-            start = float(np.sum(np.abs(amplitudes) ** 2))
+            start = power_of(amplitudes)
             observed[i, j] = peak
             finite[i, j] = theorem_3_bound(energy, sites, constants)
             best[i, j] = best_bound(energy, start, sites, constants, boundary)

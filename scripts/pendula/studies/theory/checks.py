@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from pendula import elementary
 from pendula.problem import Constants
 
 from . import (
@@ -50,6 +51,6 @@ def _read(key: str, value: Any) -> Any:
     if key == "constants":
         return Constants.of(value)
     if isinstance(value, Mapping) and "points" in value:
-        spaced = {"linear": np.linspace, "logarithmic": np.geomspace}[value["spacing"]]
+        spaced = {"linear": np.linspace, "logarithmic": elementary.geometric}[value["spacing"]]
         return spaced(value["first"], value["last"], value["points"])
     return value

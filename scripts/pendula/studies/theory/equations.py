@@ -4,13 +4,17 @@ Short runs of the checks start here too. Their solver is dop853 at tolerances so
 check measures it instead of the paper.
 """
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 
+from pendula import elementary
 from pendula.datasets.checks import tabulate, variable
+from pendula.draws import complex_normal
+from pendula.elementary import complex_of, modulus, product
+from pendula.measures.norms import power_of
 from pendula.models.amplitudes import ENDS, energy, rates
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
@@ -85,7 +89,7 @@ def run_powers(
         try:
             trajectory = run(own, boundary, data, end_time, outputs, solver)
         except IntegrationError:
-            powers[i, 0] = np.sum(np.abs(data) ** 2)
+            powers[i, 0] = power_of(data)
             energies[i] = total_energy(own, boundary, data)
         else:
             powers[i], energies[i] = squared_norm(trajectory.l2), trajectory.energy[0]
@@ -94,19 +98,20 @@ def run_powers(
 
 def random_amplitudes(rng: np.random.Generator, sites: int, norm: float) -> np.ndarray:
     """Return complex Gaussian amplitudes (2, N) scaled to the l2 norm `norm` of the pair."""
-    drawn = rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites))
-    return norm * drawn / np.sqrt(np.sum(np.abs(drawn) ** 2))
+    drawn = complex_normal(rng, (2, sites))
+    return norm / np.sqrt(power_of(drawn)) * drawn
 
 
 def draw_shape(rng: np.random.Generator, sites: int) -> np.ndarray:
     """Return amplitudes (2, N) of norm one: from a single pair to the whole chain, any phases."""
     reach = rng.choice([0.0, 0.5, 1.5, 1e9])
     distance = np.abs(np.arange(sites) - rng.integers(sites))
-    envelope = np.where(distance <= reach, 1.0, 0.0) if reach < 1 else np.exp(-distance / reach)
-    drawn = envelope * (rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites)))
+    near = np.where(distance <= reach, 1.0, 0.0)
+    envelope = near if reach < 1 else elementary.exp(-distance / reach)
+    drawn = envelope * complex_normal(rng, (2, sites))
     if rng.random() < 0.5:
         drawn[1] = -drawn[0]  # the subspace that the drive acts on
-    return drawn / np.sqrt(np.sum(np.abs(drawn) ** 2))
+    return 1.0 / np.sqrt(power_of(drawn)) * drawn
 
 
 def slope(function, point: np.ndarray, direction: np.ndarray) -> float:
@@ -125,13 +130,14 @@ def gradient(function, point: np.ndarray) -> np.ndarray:
     for index in np.ndindex(point.shape):
         unit = np.zeros_like(point)
         unit[index] = 1.0
-        out[index] = 0.5 * (slope(function, point, unit) + 1j * slope(function, point, 1j * unit))
+        parts = slope(function, point, unit), slope(function, point, 1j * unit)
+        out[index] = 0.5 * complex_of(*parts)
     return out
 
 
 def hamiltonian_rates(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
     """Return -i dH/d(conj A), -i dH/d(conj B) of (7) from values of the energy alone, (2, N)."""
-    return -1j * gradient(lambda z: total_energy(constants, boundary, z), amplitudes)
+    return product(-1j, gradient(lambda z: total_energy(constants, boundary, z), amplitudes))
 
 
 def misstated(constants: Constants, omega_off: float = 0.0, gamma_times: float = 1.0) -> Constants:
@@ -154,11 +160,11 @@ def check_gradient(
     stated = misstated(constants, omega_off)
     rng = np.random.default_rng(seed)
     rows = []
-    for boundary, _ in product(BOUNDARIES, range(samples)):
+    for boundary, _ in itertools.product(BOUNDARIES, range(samples)):
         amplitudes = random_amplitudes(rng, sites, np.sqrt(2.0 * sites))
         found = right_hand_side(constants, boundary, amplitudes)
-        missed = np.abs(found - hamiltonian_rates(stated, boundary, amplitudes)).max()
-        size = abs(total_energy(constants, boundary, amplitudes)) + np.abs(found).max()
+        missed = modulus(found - hamiltonian_rates(stated, boundary, amplitudes)).max()
+        size = abs(total_energy(constants, boundary, amplitudes)) + modulus(found).max()
         rows.append({"gradient_error": missed / size})
     return tabulate(
         "Right-hand side of (4) against the gradient (7) of the energy (8)",
@@ -170,18 +176,20 @@ def check_gradient(
 
 def gauge_defect(constants: Constants, boundary: str, amplitudes: np.ndarray) -> float:
     """Return how far turning all phases by 0.7 is from a symmetry of the right-hand side."""
-    turn = np.exp(0.7j)
-    turned = right_hand_side(constants, boundary, turn * amplitudes)
-    return float(np.abs(turned - turn * right_hand_side(constants, boundary, amplitudes)).max())
+    turn = elementary.turn(0.7)
+    turned = right_hand_side(constants, boundary, product(turn, amplitudes))
+    expected = product(turn, right_hand_side(constants, boundary, amplitudes))
+    return float(modulus(turned - expected).max())
 
 
 def sign_defect(
     constants: Constants, boundary: str, amplitudes: np.ndarray, turn: complex
 ) -> float:
     """Return how far turning all phases by i * `turn` is from a change of the sign of gamma."""
-    factor, opposite = 1j * turn, replace(constants, gamma=-constants.gamma)
-    turned = right_hand_side(opposite, boundary, factor * amplitudes)
-    return float(np.abs(turned - factor * right_hand_side(constants, boundary, amplitudes)).max())
+    factor, opposite = product(1j, turn), replace(constants, gamma=-constants.gamma)
+    turned = right_hand_side(opposite, boundary, product(factor, amplitudes))
+    expected = product(factor, right_hand_side(constants, boundary, amplitudes))
+    return float(modulus(turned - expected).max())
 
 
 def check_conservation(
@@ -201,10 +209,10 @@ def check_conservation(
     """
     rng = np.random.default_rng(seed)
     rows = []
-    for boundary, omega in product(BOUNDARIES, omegas):
+    for boundary, omega in itertools.product(BOUNDARIES, omegas):
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         start = random_amplitudes(rng, sites, 2.0)
-        alike = np.stack([start[0], turn * start[0]])
+        alike = np.stack([start[0], product(turn, start[0])])
         trajectory = run(constants, boundary, start, end_time, 50)
         power = squared_norm(trajectory.l2)
         energy = trajectory.energy + omega_off * power

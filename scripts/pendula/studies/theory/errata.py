@@ -5,6 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from pendula.datasets.checks import table, tabulate, variable
+from pendula.draws import complex_normal, uniform
+from pendula.elementary import modulus, square_modulus
+from pendula.measures.norms import power_of
 from pendula.models.bounds import (
     extent,
     theorem_2_constants,
@@ -24,7 +27,7 @@ DEPTH = "-H, which Theorem 2 takes for positive"
 
 def alternating(sites: int, x: float) -> np.ndarray:
     """Return A_n = -B_n = (-1)^n x, shape (2, N)."""
-    wave = x * (-1.0) ** np.arange(sites)
+    wave = x * (1.0 - 2.0 * (np.arange(sites) % 2))
     return np.stack([wave, -wave]).astype(complex)
 
 
@@ -34,7 +37,7 @@ def theorem_3_margin(constants: Constants, amplitudes: np.ndarray, drive: float)
     The paper prints one, the right number is two. The quartic terms of both sides are equal, so
     that the sign does not depend on the size of the data.
     """
-    density = np.abs(amplitudes) ** 2
+    density = square_modulus(amplitudes)
     quartic = np.sum(density**2, axis=1)
     constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
     linear = constant * np.sqrt(amplitudes.shape[1]) * np.sum(np.sqrt(quartic))
@@ -67,13 +70,13 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
     amplitudes = np.zeros((2, sites), complex)
     amplitudes[:, sites // 2] = pair
-    start = float(np.sum(np.abs(amplitudes) ** 2))
+    start = power_of(amplitudes)
     energy = total_energy(constants, "dirichlet", amplitudes)
-    delta_0, c_0 = theorem_2_constants(constants)
+    (delta_0, c_0), gap = theorem_2_constants(constants), theorem_2_gap(constants)
     numbers = {
         "start": start,
         "depth": -energy,
-        "barrier": theorem_2_gap(constants) ** 2,
+        "barrier": gap * gap,
         "delta_0": delta_0,
         "c_0": c_0,
         "widened_barrier": widened_barrier(constants)[1],
@@ -100,11 +103,11 @@ def check_negative_depth(constants: Constants, count: int, seed: int, scale: flo
     rng = np.random.default_rng(seed)
     radius = scale * theorem_2_constants(constants)[0]
     states = [
-        np.sqrt(radius * rng.uniform(1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
+        np.sqrt(radius * uniform(rng, 1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
         for i in range(count)
     ]
     states += [np.array([[x], [0.0]], complex) for x in np.sqrt(radius * np.linspace(0.01, 1, 50))]
-    depth = [-total_energy(constants, "dirichlet", z) / np.sum(np.abs(z) ** 2) for z in states]
+    depth = [-total_energy(constants, "dirichlet", z) / power_of(z) for z in states]
     return table(
         "The sign of -H for data as small as Theorem 2 asks",
         {},
@@ -181,12 +184,12 @@ def check_opposite(constants: Constants, sites: int, end_time: float, seed: int)
     The paper mentions A = B alone, where the drive is silent.
     """
     rng = np.random.default_rng(seed)
-    a = rng.normal(size=sites) + 1j * rng.normal(size=sites)
+    a = complex_normal(rng, sites)
     final = run(constants, "dirichlet", np.stack([a, -a]), end_time).final
     return table(
         "The second invariant reduction, A = -B",
         {},
-        departure=variable(np.abs(final[0] + final[1]).max(), (), "|A + B|", tolerance=0.0),
+        departure=variable(modulus(final[0] + final[1]).max(), (), "|A + B|", tolerance=0.0),
     )
 
 

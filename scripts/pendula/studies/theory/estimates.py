@@ -8,24 +8,23 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from pendula import elementary
 from pendula.datasets.checks import tabulate, variable
-from pendula.measures.norms import growth_margin
+from pendula.draws import uniform
+from pendula.elementary import modulus, product
+from pendula.measures.norms import growth_margin, power_of
 from pendula.problem import Constants
+from pendula.quadrature import gauss_legendre
 
-from .equations import (
-    BOUNDARIES,
-    TIGHT,
-    random_amplitudes,
-    right_hand_side,
-    run,
-)
+from .equations import BOUNDARIES, TIGHT, random_amplitudes, right_hand_side, run
 
 
 def norm_balance(amplitudes: np.ndarray, gamma: float) -> float:
     """Return the right-hand side of the balance equation of P, as Lemma 2 prints it."""
     a, b = amplitudes
-    total = 2 * a * b - 2 * (a * b).conj() + (a**2).conj() + (b**2).conj() - a**2 - b**2
-    return float((1j * gamma * np.sum(total)).real)
+    ab, aa, bb = product(a, b), product(a, a), product(b, b)
+    total = 2 * ab - 2 * ab.conj() + aa.conj() + bb.conj() - aa - bb
+    return -gamma * float(np.sum(total).imag)  # the real part of i gamma times the sum
 
 
 def integrated_balance(
@@ -43,7 +42,7 @@ def integrated_balance(
 
     The state is carried from node to node, eight to a panel.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(8)
+    nodes, weights = gauss_legendre(8)
     half = 0.5 * end_time / panels
     times = np.concatenate([half * (2 * k + 1 + nodes) for k in range(panels)] + [[end_time]])
     state, now, integral = amplitudes, 0.0, 0.0
@@ -52,8 +51,7 @@ def integrated_balance(
         now = time
         if i < len(times) - 1:
             integral += half * weights[i % 8] * norm_balance(state, gamma)
-    change = np.sum(np.abs(state) ** 2) - np.sum(np.abs(amplitudes) ** 2)
-    return float(change), float(integral)
+    return power_of(state) - power_of(amplitudes), float(integral)
 
 
 def check_balance(
@@ -72,7 +70,7 @@ def check_balance(
         for _ in range(10):
             state = random_amplitudes(rng, sites, 3.0)
             rates = right_hand_side(constants, boundary, state)
-            rate = float(2.0 * np.sum((state.conj() * rates).real))
+            rate = float(2.0 * np.sum(product(state.conj(), rates).real))
             errors.append(abs(rate - norm_balance(state, gamma)))
         start = random_amplitudes(rng, sites, 1.5)
         change, integral = integrated_balance(constants, boundary, start, end_time, panels, gamma)
@@ -106,7 +104,8 @@ def check_growth(
     rows = []
     for sample in range(samples):
         boundary = BOUNDARIES[sample % len(BOUNDARIES)]
-        start = random_amplitudes(rng, sites, 10.0 ** rng.uniform(-2.0, 0.7))
+        norm = float(elementary.power(10.0, uniform(rng, -2.0, 0.7)))
+        start = random_amplitudes(rng, sites, norm)
         forth = run(constants, boundary, start, end_time, 100)
         back = run(constants, boundary, start.conj(), end_time, 100)
         forwards = growth_margin(forth.tau, forth.l2, gamma)
@@ -118,7 +117,7 @@ def check_growth(
                 "forwards": forwards["from_start"],
                 "backwards": backwards["from_start"],
                 "steepest": max(forwards["steepest"], backwards["steepest"]),
-                "reversal": np.abs(again - start).max() / np.abs(start).max(),
+                "reversal": modulus(again - start).max() / modulus(start).max(),
             }
         )
     limit = 1.0 + 1e-9
@@ -138,9 +137,9 @@ def check_growth(
 
 def sharpest_growth(gamma: float = 1.0, end_time: float = 4.0) -> float:
     """Return P(tau) over its bound (19) in the sharp case; one but for the tiny cubic term."""
-    a = 1e-8 * np.exp(0.25j * np.pi)
+    a = 1e-8 * elementary.turn(0.25 * np.pi)
     data = np.array([[a], [-a]])
     constants = Constants(epsilon=1.0, gamma=gamma, omega=2.0)
     final = run(constants, "dirichlet", data, end_time).final
-    grown = np.sum(np.abs(final) ** 2) / np.sum(np.abs(data) ** 2)
-    return float(grown / np.exp(4.0 * gamma * end_time))
+    grown = power_of(final) / power_of(data)
+    return float(grown / elementary.exp(4.0 * gamma * end_time))

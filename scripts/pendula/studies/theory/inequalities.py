@@ -9,10 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.datasets.checks import table, variable
+from pendula.draws import uniform
+from pendula.elementary import product, square_modulus
+from pendula.measures.norms import power_of
 from pendula.models.bounds import coercivity, extent, theorem_2_gap
 from pendula.problem import Constants
 
 from .equations import BOUNDARIES, draw_shape, misstated, random_amplitudes, total_energy
+from .errata import alternating
 
 ON_SEQUENCES = ["(17)", "(18)", "(22)", "(27)"]
 ON_ENERGY = ["(21)", "(25)", "(25) widened", "Theorem 3", "size"]
@@ -20,27 +24,32 @@ LONGEST = 13
 """The longest chain that is drawn."""
 
 
-def norm(a: np.ndarray, power: float = 2.0) -> float:
-    """Return the l-p norm of a sequence."""
-    return float(np.sum(np.abs(a) ** power) ** (1.0 / power))
+def norm(a: np.ndarray) -> float:
+    """Return the l2 norm of a sequence."""
+    return float(np.sqrt(np.sum(square_modulus(a))))
+
+
+def norm_of_fourth_powers(a: np.ndarray) -> float:
+    """Return the l4 norm of a sequence."""
+    return float(np.sqrt(np.sqrt(np.sum(square_modulus(a) ** 2))))
 
 
 def sequence_ratios(a: np.ndarray, b: np.ndarray) -> list[float]:
     """Return left over right side of (17), (18), (22) and (27), each at most one."""
     padded = np.concatenate([[0.0], a, [0.0]])
-    bonds = np.sum(np.abs(np.diff(padded)) ** 2)
+    bonds, four = np.sum(square_modulus(np.diff(padded))), norm_of_fourth_powers(a)
     return [
-        bonds / (4.0 * norm(a) ** 2),
-        norm(a * b) / (norm(a) * norm(b)),
-        norm(a, 4.0) / norm(a),
-        norm(a) / (len(a) ** 0.25 * norm(a, 4.0)),
+        bonds / (4.0 * norm(a) * norm(a)),
+        norm(product(a, b)) / (norm(a) * norm(b)),
+        four / norm(a),
+        norm(a) / (np.sqrt(np.sqrt(len(a))) * four),
     ]
 
 
 def draw_range(rng: np.random.Generator) -> tuple[Constants, Constants]:
     """Return constants in the range of Theorem 1 and in that of Theorem 2."""
-    epsilon, gamma = rng.uniform(0.2, 2.0), rng.uniform(0.5, 2.0)
-    high, low = 2.0 * gamma + 4.0 * epsilon + 1.0, -2.0 * gamma - rng.uniform(0.1, 4.0)
+    epsilon, gamma = uniform(rng, 0.2, 2.0), uniform(rng, 0.5, 2.0)
+    high, low = 2.0 * gamma + 4.0 * epsilon + 1.0, -2.0 * gamma - uniform(rng, 0.1, 4.0)
     low = Constants(epsilon=epsilon, gamma=gamma, omega=low)
     return replace(low, omega=high), low
 
@@ -53,25 +62,25 @@ def energy_excess(
     (25) and its widened form are on -H. The size of H is bounded by c P + P^2 / 4. A statement
     may have another gamma.
     """
-    power, sites = norm(amplitudes) ** 2, amplitudes.shape[1]
+    power, sites = power_of(amplitudes), amplitudes.shape[1]
     upper, energy = (total_energy(k, boundary, amplitudes) for k in (high, low))
     high, low = (misstated(k, gamma_times=gamma_times) for k in (high, low))
     margin = high.omega - 2.0 * high.gamma - 4.0 * high.epsilon
     widened = float(coercivity(power, low)) if boundary == "dirichlet" else -np.inf
     found = [
         margin * power - upper,
-        theorem_2_gap(low) * power - power**2 / 4.0 + energy,
+        theorem_2_gap(low) * power - power * power / 4.0 + energy,
         widened + energy,
-        power**2 / (8.0 * sites) - extent(low) * power - energy,
-        abs(energy) - extent(low) * power - power**2 / 4.0,
+        power * power / (8.0 * sites) - extent(low) * power - energy,
+        abs(energy) - extent(low) * power - power * power / 4.0,
     ]
     return [one / power for one in found]
 
 
 def edge_waves(sites: int, size: float) -> list[np.ndarray]:
     """Return the small A = -B that come nearest to (21) and to (25), and -H to its largest size."""
-    wave = size * (-1.0) ** np.arange(sites)
-    return [np.stack([one, -one]) for one in (wave + 0j, np.full(sites, 1j * size), 1j * wave)]
+    wave = alternating(sites, size)[0]
+    return [np.stack([one, -one]) for one in (wave, np.full(sites, 1j * size), 1j * wave)]
 
 
 def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: float = 1.0) -> dict:
@@ -83,13 +92,13 @@ def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: f
     ratios, excess = [], []
     for sample in range(count):
         sites = int(rng.integers(1, LONGEST + 1)) // 2 * 2 + 1
-        amplitudes = rng.uniform(0.1, 6.0) * draw_shape(rng, sites)
+        amplitudes = uniform(rng, 0.1, 6.0) * draw_shape(rng, sites)
         other = random_amplitudes(rng, sites, 1.0)
         boundary, (high, low) = BOUNDARIES[sample % 3], draw_range(rng)
         ratios.append(sequence_ratios(amplitudes[0], other[0]))
         for state in (amplitudes, *edge_waves(sites, 1e-3)):
             excess.append(energy_excess(high, low, state, boundary, gamma_times))
-    wave, one, flat = (-1.0) ** np.arange(1001), np.eye(1, 5)[0], np.ones(7)
+    wave, one, flat = alternating(1001, 1.0)[0], np.eye(1, 5)[0], np.ones(7)
     sharp = np.diag([sequence_ratios(a, a) for a in (wave, one, one, flat)])
     return table(
         "The inequalities behind the theorems",

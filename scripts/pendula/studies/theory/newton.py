@@ -1,26 +1,22 @@
 """Newton's equations (1) for small mu against the amplitudes of (4): Section 2's derivation.
 
-The equations are written here from the paper, and share nothing with the library's model. Runs of
+Equations (1) share nothing with the library's model of (4). Runs of
 one mu go together, each with constants of its own. Angles are in radians.
 """
 
 from collections.abc import Sequence
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
+from pendula import elementary
 from pendula.datasets.checks import table, variable
+from pendula.elementary import complex_of, product
 from pendula.integrators.splitting import LINEAR_PARTS, NONLINEAR_PARTS
+from pendula.models.pendula import move
 from pendula.problem import Constants
 
-from .equations import (
-    misstated,
-    random_amplitudes,
-    right_hand_side,
-    run,
-    total_energy,
-)
+from .equations import misstated, random_amplitudes, right_hand_side, run, total_energy
 
 OUTPUTS = 41
 """Times at which angles are compared, the first of them the start."""
@@ -51,45 +47,19 @@ def pendula_run(
     pairs = zip(constants, data, strict=True)
     slow = np.array([0.5 * mu * mu * right_hand_side(k, "dirichlet", z) for k, z in pairs])
     angles = 2.0 * mu * data.real
-    velocities = 2.0 * mu * (1j * frequencies[:, None, None] * data + slow).real
-    laplacian = np.diag(-2.0 * np.ones(data.shape[-1])) + sum(
-        np.diag(np.ones(data.shape[-1] - 1), k) for k in (-1, 1)
-    )
-    bonds = mu * mu * np.array([k.epsilon for k in constants])[:, None, None] * laplacian
+    velocities = 2.0 * mu * (slow.real - frequencies[:, None, None] * data.imag)
+    bonds = mu * mu * np.array([k.epsilon for k in constants])
     strengths = 2.0 * mu * mu * drives * np.array([k.gamma for k in constants])
-    forces = partial(force, bonds, strengths[:, None, None], 2.0 * frequencies[:, None, None])
     found = [(angles, velocities)]
     for start, end in pairwise(times):
-        found.append(move(*found[-1], forces, start, end))
+        count = int(np.ceil((end - start) / STEP))
+        h, x, v = (end - start) / count, *map(np.copy, found[-1])
+        stages = start + h * (np.arange(count)[:, None] + np.cumsum(LINEAR_PARTS))
+        drive = strengths * elementary.cos(2.0 * frequencies * stages[..., None])
+        move(bonds, drive, h * LINEAR_PARTS, h * NONLINEAR_PARTS, x, v)
+        found.append((x, v))
     angles, velocities = np.array(found).swapaxes(0, 1)
     return angles, velocities
-
-
-def force(bonds, strengths, frequencies, angles: np.ndarray, t: float) -> np.ndarray:
-    """Return the accelerations of (1), shape (run, pendulum x or y, site), between ends at rest.
-
-    For each run `bonds` is the matrix C Lap, and D(t) has an amplitude and a frequency.
-    """
-    apart = angles[:, ::-1] - angles
-    apart *= strengths * np.cos(frequencies * t)
-    apart += angles @ bonds
-    apart -= np.sin(angles)
-    return apart
-
-
-def move(angles, velocities, forces, start: float, end: float):
-    """Return angles and velocities at t = `end` by equal steps of BM6, none longer than STEP."""
-    count = int(np.ceil((end - start) / STEP))
-    h, t, x, v = (end - start) / count, start, angles.copy(), velocities.copy()
-    stages = list(zip(h * LINEAR_PARTS, h * NONLINEAR_PARTS, strict=True))
-    for _ in range(count):
-        for drift, kick in stages:
-            x += drift * v
-            t += drift
-            v += kick * forces(x, t)
-        x += stages[0][0] * v
-        t += stages[0][0]
-    return x, v
 
 
 def one_pair(sites: int, pair) -> np.ndarray:
@@ -101,7 +71,7 @@ def one_pair(sites: int, pair) -> np.ndarray:
 
 def fast_times(mu: float, end: float) -> np.ndarray:
     """Return the times t at which tau = mu^2 t / 2 goes from 0 to `end` in equal steps."""
-    return np.linspace(0.0, 2.0 * end / mu**2, OUTPUTS)
+    return np.linspace(0.0, 2.0 * end / (mu * mu), OUTPUTS)
 
 
 def envelope_run(constants: Constants, amplitudes: np.ndarray, taus) -> np.ndarray:
@@ -114,13 +84,13 @@ def envelope_run(constants: Constants, amplitudes: np.ndarray, taus) -> np.ndarr
 
 def angle_errors(angles, envelope, constants: Constants, mu: float, times) -> np.ndarray:
     """Return max |x - x of (3)| over the chain at each time."""
-    phase = np.exp(1j * frequency(constants, mu) * times)[:, None, None]
-    return np.abs(angles - 2.0 * mu * (envelope * phase).real).max(axis=(1, 2))
+    phase = elementary.turn(frequency(constants, mu) * times)[:, None, None]
+    return np.abs(angles - 2.0 * mu * product(envelope, phase).real).max(axis=(1, 2))
 
 
 def order(errors: np.ndarray, mus) -> np.ndarray:
     """Return the order in mu of errors (mu, ...) between the last two mu."""
-    return np.log(errors[-2] / errors[-1]) / np.log(mus[-2] / mus[-1])
+    return elementary.log(errors[-2] / errors[-1]) / elementary.log(mus[-2] / mus[-1])
 
 
 def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) -> list[float]:
@@ -131,8 +101,8 @@ def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) ->
     """
     times, signs = fast_times(mu, end), np.array([1.0, -1.0])
     angles, shifted = pendula_run([constants] * 2, mu, amplitudes, times, signs)[0].swapaxes(0, 1)
-    half = envelope_run(constants, amplitudes, 0.5 * mu**2 * times)
-    whole = envelope_run(constants, amplitudes, mu**2 * times)
+    half = envelope_run(constants, amplitudes, 0.5 * mu * mu * times)
+    whole = envelope_run(constants, amplitudes, mu * mu * times)
     pairs = ((angles, half), (angles, whole), (shifted, half))
     return [float(angle_errors(x, z, constants, mu, times).max()) for x, z in pairs]
 
@@ -181,13 +151,11 @@ def check_remainder(
             envelope = envelope_run(stated, amplitudes, taus)
             errors[i, j] = angle_errors(angles[:, j], envelope, constants, mu, times)
             lost[i, j] = errors[i, j, -1] / np.abs(angles[:, j]).max()
-    dims = ("mu", "omega", "tau")
+    dims, cubes = ("mu", "omega", "tau"), np.array([mu * mu * mu for mu in mus])
     return table(
         "The remainder of the expansion (3) along Newton's equations (1)",
         {"mu": mus, "omega": omegas, "tau": taus},
-        remainder=variable(
-            errors / np.reshape(mus, (-1, 1, 1)) ** 3, dims, "largest |X| of the chain", "rad"
-        ),
+        remainder=variable(errors / cubes[:, None, None], dims, "largest |X| of the chain", "rad"),
         remainder_order=variable(
             order(errors.max(axis=2), mus),
             ("omega",),
@@ -232,18 +200,19 @@ def rotating_energy(constants: Constants, mu: float, amplitudes: np.ndarray, t) 
     over all bonds, those to the ends at rest among them, and of D(t) (x - y)^2 / 2.
     """
     omega = frequency(constants, mu)
-    angles = 2.0 * mu * (amplitudes * np.exp(1j * omega * t)).real
+    angles = 2.0 * mu * product(amplitudes, elementary.turn(omega * t)).real
     bonds = np.sum(np.diff(np.pad(angles, ((0, 0), (1, 1)))) ** 2)
-    drive = 2.0 * constants.gamma * mu**2 * np.cos(2.0 * omega * t)
-    own = np.sum(2.0 * np.sin(0.5 * angles) ** 2 - 0.5 * (omega * angles) ** 2)
+    drive = 2.0 * constants.gamma * mu * mu * elementary.cos(2.0 * omega * t)
+    own = np.sum(2.0 * elementary.sin(0.5 * angles) ** 2 - 0.5 * (omega * angles) ** 2)
     opposite = np.sum((angles[0] - angles[1]) ** 2)
-    return float(own + 0.5 * constants.epsilon * mu**2 * bonds + 0.5 * drive * opposite)
+    return float(own + 0.5 * constants.epsilon * mu * mu * bonds + 0.5 * drive * opposite)
 
 
 def averaged_energy(constants: Constants, mu: float, amplitudes: np.ndarray) -> float:
     """Return -1 / mu^4 of the mean of that energy over a turn: 32 points take a cosine's x^16."""
     turn = 2.0 * np.pi / frequency(constants, mu) * np.arange(32) / 32
-    return -float(np.mean([rotating_energy(constants, mu, amplitudes, t) for t in turn])) / mu**4
+    mean = float(np.mean([rotating_energy(constants, mu, amplitudes, t) for t in turn]))
+    return -mean / (mu * mu * mu * mu)
 
 
 def check_inherited_energy(
@@ -264,8 +233,8 @@ def check_inherited_energy(
         angles, velocities = (
             found[:, 0] for found in pendula_run([constants], mu, amplitudes, times)
         )
-        turned = (angles - 1j * velocities / omega) / (2.0 * mu)
-        states = turned * np.exp(-1j * omega * times)[:, None, None]
+        turned = 0.5 / mu * complex_of(angles, -velocities / omega)
+        states = product(turned, elementary.turn(-omega * times)[:, None, None])
         energies = np.array([total_energy(stated, "dirichlet", state) for state in states])
         along.append(np.abs(energies - energies[0]).max())
     missed = np.array([static, along]).T
@@ -287,21 +256,22 @@ def driven_growth(gamma: float, mu: float, ratio: float, steps: int = 64) -> flo
     z'' + (1 + 2 D(t)) z = 0 where D has `ratio` times the frequency of the pendula. Classical
     Runge-Kutta over one period of the drive.
     """
-    drive, period = 4.0 * gamma * mu**2, 2.0 * np.pi / ratio
+    drive, period = 4.0 * gamma * mu * mu, 2.0 * np.pi / ratio
     h = period / steps
+    force = -(1.0 + drive * elementary.cos(np.pi / steps * np.arange(2 * steps + 1)))
 
-    def rate(t, z):
-        return np.array([z[1], -(1.0 + drive * np.cos(ratio * t)) * z[0]])
+    def rate(half_steps, z):
+        return np.array([z[1], force[half_steps] * z[0]])
 
     z = np.eye(2)
-    for t in h * np.arange(steps):
-        k1 = rate(t, z)
-        k2 = rate(t + 0.5 * h, z + 0.5 * h * k1)
-        k3 = rate(t + 0.5 * h, z + 0.5 * h * k2)
-        k4 = rate(t + h, z + h * k3)
+    for i in range(0, 2 * steps, 2):
+        k1 = rate(i, z)
+        k2 = rate(i + 1, z + 0.5 * h * k1)
+        k3 = rate(i + 1, z + 0.5 * h * k2)
+        k4 = rate(i + 2, z + h * k3)
         z = z + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    half = max(1.0, 0.5 * abs(np.trace(z)))  # the multipliers are half +- sqrt(half^2 - 1)
-    return float(np.log(half + np.sqrt(half * half - 1.0)) / period / (0.5 * mu**2))
+    half = max(1.0, 0.5 * abs(z[0, 0] + z[1, 1]))  # the multipliers are half +- sqrt(half^2 - 1)
+    return float(elementary.log(half + np.sqrt(half * half - 1.0)) / period / (0.5 * mu * mu))
 
 
 def check_resonance(gamma: float, mus, ratios) -> dict:

@@ -71,6 +71,7 @@ ARGUMENTS = {
     "count": Count,
     "generations": Count,
     "population": Annotated[Whole, Field(ge=4)],
+    "starts": Count,
     # what a wrong statement has in place of the right one
     "omega_off": Number,
     "gamma_times": Number,
@@ -129,7 +130,7 @@ CHECKS = {
         "growth": check("constants sites end_time samples seed"),
         "inequalities": check("count seed"),
         "samples": check("count sizes end_time seed"),
-        "worst": check("epsilon gamma sites end_time generations population seed"),
+        "worst": check("epsilon gamma sites end_time generations population starts seed"),
         "sharpness": check("epsilon gamma sizes"),
         "chain_growth": check("constants sizes pair end_time members seed"),
         "energy_shell": check("constants sizes pair"),

@@ -7,7 +7,11 @@ pair, and the largest norm that data of one energy have.
 import numpy as np
 
 from pendula.datasets.checks import table, variable
+from pendula.draws import uniform
+from pendula.elementary import log
 from pendula.measures.confidence import mean_limits
+from pendula.measures.growth import lay_line
+from pendula.measures.norms import power_of
 from pendula.models.bounds import (
     extent,
     theorem_1_bound,
@@ -37,12 +41,13 @@ def tiny_wave(constants: Constants, sites: int) -> tuple[np.ndarray, float, floa
     k = 0 if low else sites - 1
     shape = SIZE * modes(sites, "dirichlet")[k]
     kappa = constants.epsilon * curvatures(sites, "dirichlet")[k] - constants.omega
-    quarter = 0.5 * np.pi / np.sqrt(kappa**2 - 4.0 * constants.gamma**2)
+    drive = 2.0 * constants.gamma
+    quarter = 0.5 * np.pi / np.sqrt((kappa - drive) * (kappa + drive))
     start = shape * (1.0 if low else 1j)
     data = np.stack([start, -start]).astype(complex)
     numbers = (constants.epsilon, constants.gamma, constants.omega, "dirichlet")
     moved = flow(data, quarter, *numbers)
-    return data, float(np.sum(np.abs(moved) ** 2)), total_energy(constants, "dirichlet", data)
+    return data, power_of(moved), total_energy(constants, "dirichlet", data)
 
 
 def reached(form: str, constants: Constants, sites: int) -> float:
@@ -54,9 +59,9 @@ def reached(form: str, constants: Constants, sites: int) -> float:
     if form == "theorem_3":
         data = alternating(sites, np.sqrt(2.0 * extent(constants)))
         energy = total_energy(constants, "dirichlet", data)
-        return float(np.sum(np.abs(data) ** 2) / theorem_3_bound(energy, sites, constants))
+        return float(power_of(data) / theorem_3_bound(energy, sites, constants))
     data, largest, energy = tiny_wave(constants, sites)
-    start = float(np.sum(np.abs(data) ** 2))
+    start = power_of(data)
     bounds = {
         "theorem_1": theorem_1_bound(energy, constants),
         "theorem_2": theorem_2_bound(energy, start, constants),
@@ -102,12 +107,6 @@ def late_power(constants: Constants, data: np.ndarray, end_time: float) -> float
     return float(power[outputs // 2 :].mean())
 
 
-def line_slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the slope of the line through points (x, y) by least squares, y (..., point)."""
-    apart = x - x.mean()
-    return np.sum(apart * y, axis=-1) / np.sum(apart**2)
-
-
 def check_chain_growth(
     constants: Constants, sizes, pair, end_time: float, members: int, seed: int
 ) -> dict:
@@ -123,17 +122,17 @@ def check_chain_growth(
         data[:, n // 2] = pair
         bounds[i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
         for member in range(members):
-            off = rng.uniform(-1.0, 1.0, (2, 2, n))
+            off = uniform(rng, -1.0, 1.0, (2, 2, n))
             other = data + 1e-6 * (off[0] + 1j * off[1])
             late[member, i] = late_power(constants, other, end_time)
-    x = np.log(sizes)
-    mean, least, most = mean_limits(line_slope(x, np.log(late)))
+    x = log(sizes)
+    mean, least, most = mean_limits([lay_line(x, log(powers)).slope for powers in late])
     return table(
         "What grows with the length of the chain: C_N, and the norm reached from one pair",
         {"member": np.arange(members), "sites": sizes},
         late_power=variable(late, ("member", "sites"), "mean of P over the second half of a run"),
         constant_n=variable(bounds, ("sites",), "C_N of Theorem 3"),
-        constant_exponent=variable(line_slope(x, np.log(bounds)), (), "exponent of C_N in N"),
+        constant_exponent=variable(lay_line(x, log(bounds)).slope, (), "exponent of C_N in N"),
         power_exponent=variable(mean, (), "exponent of that P in N"),
         power_exponent_low=variable(least, (), "lower confidence limit of that exponent"),
         power_exponent_high=variable(most, (), "upper confidence limit of that exponent"),
@@ -170,16 +169,16 @@ def check_energy_shell(constants: Constants, sizes, pair) -> dict:
         data[:, n // 2] = pair
         energy = total_energy(constants, "dirichlet", data)
         found = shell_state(constants, n, energy)
-        powers.append(np.sum(np.abs(data if found is None else found) ** 2))
+        powers.append(power_of(data if found is None else found))
     tiny = [alternating(int(sizes[-1]), SIZE), np.full((2, int(sizes[-1])), SIZE * 1j)]
     tiny[1][1] *= -1.0
-    quotients = [total_energy(constants, "dirichlet", z) / np.sum(np.abs(z) ** 2) for z in tiny]
+    quotients = [total_energy(constants, "dirichlet", z) / power_of(z) for z in tiny]
     return table(
         "The largest norm of data that have the energy of one pair",
         {"sites": sizes},
         shell_power=variable(powers, ("sites",), "P of such data"),
         shell_exponent=variable(
-            line_slope(np.log(sizes), np.log(powers)), (), "exponent of that P in N"
+            lay_line(log(sizes), log(powers)).slope, (), "exponent of that P in N"
         ),
         least_quotient=variable(min(quotients), (), "least H / P of tiny data"),
         largest_quotient=variable(max(quotients), (), "largest H / P of tiny data"),

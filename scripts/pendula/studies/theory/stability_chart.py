@@ -10,13 +10,16 @@ from itertools import product
 import numpy as np
 
 from pendula.datasets.checks import columns, table, tabulate, variable
+from pendula.elementary import log
+from pendula.measures.norms import power_of
 from pendula.models.linear_chain import (
-    curvatures,
     finite_rate,
     finite_threshold,
     flow,
     gamma_0,
     infinite_rate,
+    stable_windows,
+    widest_gamma,
 )
 from pendula.problem import Constants
 
@@ -47,7 +50,7 @@ def tiny_tolerances(rtol: float = 1e-9) -> dict:
 
 def log_slope(start: float, end: float, span: float) -> float:
     """Return the growth rate of a norm from its squares at two times, `span` apart."""
-    return 0.5 * float(np.log(end / start)) / span
+    return 0.5 * float(log(end / start)) / span
 
 
 def flow_slope(
@@ -58,7 +61,7 @@ def flow_slope(
     norms = []
     for tau in (0.5 * end_time, end_time):
         moved = flow(amplitudes, tau, epsilon, gamma, omega, boundary)
-        norms.append(np.sum(np.abs(moved) ** 2))
+        norms.append(power_of(moved))
     return log_slope(*norms, 0.5 * end_time)
 
 
@@ -138,27 +141,6 @@ def misclassified(measured: np.ndarray, finite: np.ndarray, end_time) -> int:
     grows = (finite == 0.0) & (measured > resolution)
     stays = (finite > 2.0 * resolution) & (measured < 0.5 * finite)
     return int(np.sum(grows | stays))
-
-
-def stable_windows(gamma: float, epsilon: float, sites: int, boundary: str) -> np.ndarray:
-    """Return the intervals of Omega in [0, 4 epsilon] where the finite chain is stable, (., 2).
-
-    Between two neighbouring eigenvalues of the Laplacian Omega is stable as long as it keeps a
-    distance of more than 2 |gamma| from both; the band's edges are no eigenvalues of a Dirichlet
-    chain, so that a window may reach them.
-    """
-    levels = np.unique(np.round(epsilon * curvatures(sites, boundary), 14))
-    low = np.concatenate([[0.0], levels + 2.0 * abs(gamma)])
-    high = np.concatenate([levels - 2.0 * abs(gamma), [4.0 * epsilon]])
-    windows = np.stack([np.maximum(low, 0.0), np.minimum(high, 4.0 * epsilon)], axis=1)
-    return windows[windows[:, 1] > windows[:, 0]]
-
-
-def widest_gamma(epsilon: float, sites: int, boundary: str) -> float:
-    """Return the largest |gamma| at which any window of stability is left in [0, 4 epsilon]."""
-    levels = epsilon * np.sort(curvatures(sites, boundary))
-    inner = np.diff(levels).max(initial=0.0) / 4.0
-    return float(max(inner, levels[0] / 2.0, (4.0 * epsilon - levels[-1]) / 2.0))
 
 
 def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:

@@ -11,6 +11,7 @@ l2 and stay bounded in l-infinity.
 import numpy as np
 
 from pendula.datasets.checks import columns, table, variable
+from pendula.elementary import log, power, sin
 from pendula.models.linear_chain import driven, finite_threshold, gamma_0, modes
 from pendula.problem import Constants
 
@@ -41,7 +42,7 @@ def threshold_run(epsilon: float, omega: float, sites: int, times, gamma_times: 
     ratios, solver = [], {"name": "dop853", "rtol": 1e-12, "atol": 1e-12 * START}
     for tau in times:
         final = run(constants, "dirichlet", data, tau, solver=solver).final
-        grown = (final[0] - final[1]) @ shape / START
+        grown = np.sum((final[0] - final[1]) * shape) / START
         ratios.append(abs(grown.imag if along_real else grown.real) / (4.0 * gamma * tau))
     return gamma, np.array(ratios)
 
@@ -49,7 +50,10 @@ def threshold_run(epsilon: float, omega: float, sites: int, times, gamma_times: 
 def decaying(sites: int, decay: float, edge: float) -> np.ndarray:
     """Return (1 + |n|)^-decay on a ring, its sign alternating if the band's edge is at pi."""
     n = np.fft.fftfreq(sites, 1.0 / sites)
-    return (1.0 + np.abs(n)) ** -decay * np.where(edge > 0.0, (-1.0) ** n, 1.0)
+    falling = np.where(n == 0.0, 1.0, 0.0)  # one site
+    if np.isfinite(decay):
+        falling = power(1.0 + np.abs(n), -decay)
+    return falling * np.where((edge > 0.0) & (n % 2.0 == 1.0), -1.0, 1.0)
 
 
 def spreading_norms(
@@ -63,7 +67,7 @@ def spreading_norms(
     gamma = gamma_times * float(gamma_0(omega, epsilon))
     data = np.fft.rfft(decaying(sites, decay, omega))
     theta = 2.0 * np.pi * np.arange(len(data)) / sites
-    kappa = 4.0 * epsilon * np.sin(0.5 * theta) ** 2 - omega
+    kappa = 4.0 * epsilon * sin(0.5 * theta) ** 2 - omega
     norms = []
     for tau in times:
         even, odd = driven(kappa, gamma, tau)
@@ -71,8 +75,9 @@ def spreading_norms(
         q = np.fft.irfft((even + (2.0 * gamma + kappa) * odd) * data, sites)
         beyond = 0.0
         if np.isfinite(decay):
-            beyond = 2.0 * (0.5 * sites) ** (1.0 - 2.0 * decay) / (2.0 * decay - 1.0)
-        square = np.sum(p * p + q * q) + (1.0 + (1.0 + 4.0 * gamma * tau) ** 2) * beyond
+            beyond = 2.0 * power(0.5 * sites, 1.0 - 2.0 * decay) / (2.0 * decay - 1.0)
+        grown = 1.0 + 4.0 * gamma * tau
+        square = np.sum(p * p + q * q) + (1.0 + grown * grown) * beyond
         norms.append([np.sqrt(square), np.sqrt((p * p + q * q).max())])
     return np.array(norms).T
 
@@ -83,6 +88,11 @@ def law(decays: np.ndarray) -> np.ndarray:
     return np.stack([0.5 + slow, slow], axis=-1)
 
 
+def log2(x: np.ndarray) -> np.ndarray:
+    """Return the logarithm to base two."""
+    return log(x) / log(2.0)
+
+
 def exponents(norms: np.ndarray, times: np.ndarray, decays: np.ndarray) -> np.ndarray:
     """Return measured exponents (decay, norm) of norms (decay, norm, time) at doubling times.
 
@@ -90,10 +100,10 @@ def exponents(norms: np.ndarray, times: np.ndarray, decays: np.ndarray) -> np.nd
     increments over two doublings are free of the constant. Of fast ones the slope of the last
     doubling is taken: their increments go to zero.
     """
-    found, slow = np.log2(norms[..., -1] / norms[..., -2]), np.asarray(decays) < 1.0
+    found, slow = log2(norms[..., -1] / norms[..., -2]), np.asarray(decays) < 1.0
     free = norms[slow] / np.stack([np.sqrt(times), np.ones_like(times)])
     steps = np.diff(free[..., -3:])
-    found[slow] = np.log2(steps[..., 1] / steps[..., 0]) + np.array([0.5, 0.0])
+    found[slow] = log2(steps[..., 1] / steps[..., 0]) + np.array([0.5, 0.0])
     return found
 
 

@@ -1,11 +1,14 @@
 """Lemma 2: Picard's method on the integral equations (16), and how solutions hang on their data."""
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
+from pendula import elementary
 from pendula.datasets.checks import table, tabulate, variable
-from pendula.models.bounds import extent
+from pendula.elementary import modulus, square_modulus
+from pendula.measures.norms import power_of
+from pendula.models.bounds import lipschitz
 from pendula.problem import Constants
+from pendula.quadrature import integration_matrix
 
 from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_side, run
 
@@ -13,33 +16,18 @@ NODES = 12
 """Nodes in time: polynomials of that degree hold the solution over a short time to rounding."""
 
 
-def integration_matrix(nodes: np.ndarray) -> np.ndarray:
-    """Return the integrals from 0 to each of `nodes` of the polynomials that are one at a node."""
-    line, basis = 2.0 * nodes - 1.0, np.eye(len(nodes))
-    values = chebyshev.chebvander(line, len(nodes) - 1)
-    integrals = [chebyshev.chebval(line, chebyshev.chebint(one, lbnd=-1.0)) for one in basis]
-    return 0.5 * np.transpose(integrals) @ np.linalg.inv(values)
-
-
-def lipschitz(constants: Constants, radius: float) -> float:
-    """Return a Lipschitz constant in l2 of the right-hand side on a ball of this radius.
-
-    The linear part is bounded by |Omega| + 2 gamma + 4 epsilon by (17), and the cubic part by
-    3 / 2 times the squared radius, since l2 is an algebra (18).
-    """
-    return extent(constants) + 1.5 * radius**2
-
-
 def picard(constants: Constants, boundary: str, start: np.ndarray, span: float, times: int):
     """Return Picard's iterates at the end of `span`, and the largest changes of one to the next."""
-    nodes = np.append(0.5 - 0.5 * np.cos(np.pi * (np.arange(NODES - 1) + 0.5) / (NODES - 1)), 1.0)
+    nodes = np.append(
+        0.5 - 0.5 * elementary.cos(np.pi * (np.arange(NODES - 1) + 0.5) / (NODES - 1)), 1.0
+    )
     weights = span * integration_matrix(nodes)
     states = np.repeat(start[None], NODES, axis=0)
     changes = []
     for _ in range(times):
         rates = np.array([right_hand_side(constants, boundary, state) for state in states])
-        new = start + np.tensordot(weights, rates, axes=1)
-        changes.append(np.sqrt(np.sum(np.abs(new - states) ** 2, axis=(1, 2))).max())
+        new = start + np.sum(weights[:, :, None, None] * rates, axis=1)
+        changes.append(np.sqrt(np.sum(square_modulus(new - states), axis=(1, 2))).max())
         states = new
     return states[-1], np.array(changes)
 
@@ -64,7 +52,7 @@ def check_picard(
             row[f"contraction_{name}"] = (seen[1:] / seen[:-1]).max()
             data = start if sign > 0 else start.conj()  # conjugation reverses time
             exact = run(constants, boundary, data, span).final
-            missed = np.abs(limit - (exact if sign > 0 else exact.conj()))
+            missed = modulus(limit - (exact if sign > 0 else exact.conj()))
             row[f"picard_error_{name}"] = missed.max()
         rows.append(row)
     return tabulate(
@@ -94,10 +82,11 @@ def spread_of(constants, stated, boundary, start, direction, distances, end_time
     grown, allowed = [], []
     for distance in distances:
         other = run(stated, boundary, start + distance * direction, end_time, outputs)
-        apart = np.sqrt(np.sum(np.abs(other.final - base.final) ** 2))
+        apart = np.sqrt(power_of(other.final - base.final))
         largest = max(base.linf.max(), other.linf.max())
         grown.append(apart / distance)
-        allowed.append(np.exp((2.0 * abs(constants.gamma) + largest**2) * end_time))
+        rate = 2.0 * abs(constants.gamma) + largest * largest
+        allowed.append(elementary.exp(rate * end_time))
     return np.array(grown), np.array(allowed)
 
 
@@ -123,8 +112,8 @@ def check_dependence(
         found = spread_of(constants, stated, boundary, start, direction, distances, end_time)
         rows.append(found)
     grown, allowed = np.array(rows).swapaxes(0, 1)
-    steps = np.log(distances[-2] / distances[-1])
-    orders = 1.0 + np.log(grown[:, -2] / grown[:, -1]) / steps
+    steps = elementary.log(distances[-2] / distances[-1])
+    orders = 1.0 + elementary.log(grown[:, -2] / grown[:, -1]) / steps
     dims = ("sample", "distance")
     return table(
         "How far solutions part whose data are near each other",
