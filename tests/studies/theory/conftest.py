@@ -19,5 +19,5 @@ def checked():
 
 @pytest.fixture(scope="session")
 def numbers(checked):
-    """Return a function: the values of one variable of a check."""
-    return lambda name, variable: checked(name)["data_vars"][variable]["data"]
+    """Return a function: the values of one variable of a check, or of one coordinate."""
+    return lambda name, variable, kind="data_vars": checked(name)[kind][variable]["data"]

@@ -8,11 +8,13 @@ from pendula.models.linear_chain import (
     gamma_0,
     growth_rate,
     infinite_rate,
+    stable_windows,
+    widest_gamma,
 )
 from pendula.problem import Constants
 from pendula.studies.theory.dispersion import measured_threshold
 from pendula.studies.theory.equations import run
-from pendula.studies.theory.stability_chart import misclassified, stable_windows, widest_gamma
+from pendula.studies.theory.stability_chart import misclassified
 from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
 
 
