@@ -15,7 +15,7 @@ PICTURE, CHAOTIC_PICTURE = "figures/fig2.png", "figures/fig4.png"
 LEDGER, TABLE, REFERENCE = "claims.json", "tables/claims.md", "truth/fig2_small.nc"
 NAMES = [
     *(REGULAR, CHAOTIC, PICTURE, CHAOTIC_PICTURE, LEDGER, TABLE, REFERENCE),
-    *("figures/fig2.nc", "figures/fig4.nc", "figures/fig2.pdf", "figures/fig4.pdf"),
+    *(f"figures/{stem}.{kind}" for stem in ("fig2", "fig4") for kind in ("nc", "pdf", "json")),
 ]
 CONFIGURATION = {"cases": {"fig2_small": {"end_time": 50, "omega": 8}}}
 

@@ -44,7 +44,7 @@ def test_some_files_of_a_new_configuration_are_refused(run):
 @pytest.mark.parametrize(
     ("word", "files"),
     [
-        ("fig2", ["figures/fig2.nc", "figures/fig2.pdf", "figures/fig2.png"]),
+        ("fig2", [f"figures/fig2.{kind}" for kind in ("json", "nc", "pdf", "png")]),
         ("trajectories/fig4_small", [CHAOTIC]),
         (LEDGER, [LEDGER]),
         ("claims", [LEDGER]),

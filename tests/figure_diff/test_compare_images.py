@@ -8,7 +8,6 @@ from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.drawing import style
 from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, compare_images
 from pendula.figure_diff.compare_images import EXACT, LOOK, Pixels
-from PIL import Image
 
 FAULTS = {
     "swapped colours": {"colours": ("B", "A")},
@@ -21,14 +20,14 @@ FAULTS = {
 @pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
 def test_a_planted_fault_is_named_in_one_line(any_environment, fault):
     made_up.put(any_environment.made, "fig2", regular(), **fault)
-    (line,) = [line for line in any_environment.faults() if ".png: " in line]
+    line = any_environment.findings()[PICTURE].line
     assert line.startswith(f"different: {PICTURE}: ") and "\n" not in line
 
 
 @pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
 def test_faults_are_found_where_the_curves_have_moved(any_environment, fault):
     made_up.put(any_environment.made, "fig4", chaotic(seed=7), **fault)
-    (line,) = any_environment.faults()
+    line = any_environment.findings()[CHAOTIC_PICTURE].line
     assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
 
 
@@ -70,10 +69,13 @@ def test_other_letters_do_not_look_the_same(monkeypatch):
     assert _status(was, now, LOOK) == DIFFERENT
 
 
-def test_a_single_shade_is_nearly_the_same_by_pixels():
+def test_a_single_shade_of_a_pixel_is_found_by_pixels():
     was = _pixels()
-    now = Pixels(np.where(was.colours > 250, 253, was.colours).astype(np.uint8), [])
-    assert _status(was, now, EXACT) == NEARLY
+    colours = was.colours.copy()
+    colours[100, 200, 1] -= 1
+    found = compare_images.judge(PICTURE, was, Pixels(colours, []), EXACT, moved=False)
+    assert found.status == DIFFERENT and found.says == "1 pixels differ, in x 200-200, y 100-100"
+    assert _status(was, Pixels(colours, []), LOOK) == NEARLY
 
 
 @pytest.mark.parametrize("kept", [100, 5000], ids=["header", "half of the pixels"])
@@ -84,10 +86,10 @@ def test_a_damaged_picture(any_environment, kept):
     assert line.startswith(f"{DAMAGED}: {PICTURE}: the picture cannot be read")
 
 
-def test_another_size(run):
-    colours = compare_images.read(run.made / PICTURE).colours
-    Image.fromarray(colours[:-10]).save(run.made / PICTURE)
-    assert "pixels in place of" in run.faults()[0]
+def test_another_size():
+    was = _pixels()
+    found = compare_images.judge(PICTURE, was, Pixels(was.colours[:-10], []), LOOK, moved=False)
+    assert found.status == DIFFERENT and "1200 x 530 pixels in place of 1200 x 540" in found.says
 
 
 def test_a_saved_figure_names_its_panels(run):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import DatasetError
 
-from . import compare_words, hashes
+from . import compare_pdf, compare_words, hashes
 from .baseline import (
     HASHES,
     PICTURES,
@@ -142,6 +142,11 @@ def _hashes_of(path: Path) -> Any:
             return hashes.of(hashes.read(path))
         except DatasetError as error:
             raise AcceptanceError(f"nothing is accepted: {error}") from error
+    if path.suffix == ".pdf":
+        try:
+            return compare_pdf.read(path).content
+        except compare_pdf.DamagedPDFError as error:
+            raise AcceptanceError(f"nothing is accepted: {path} {error}") from error
     content = path.read_bytes()
     if not content:
         raise AcceptanceError(f"nothing is accepted: {path} is empty")

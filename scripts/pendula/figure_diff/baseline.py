@@ -29,7 +29,9 @@ from . import (
     STATUSES,
     Finding,
     compare_data,
+    compare_description,
     compare_images,
+    compare_pdf,
     compare_words,
     hashes,
 )
@@ -37,6 +39,9 @@ from .compare_data import Rule, read_rules
 
 RECORD, HASHES = "accepted.json", "hashes.json"
 """What names every file of the baseline, what drew it and its configuration; and the hashes."""
+
+FIGURES = "figures/"
+"""The folder where each dataset has two pictures and a description of them beside it."""
 
 PICTURES = (".png", ".pdf")
 """Files whose bytes depend on the environment."""
@@ -136,8 +141,8 @@ class _Comparison:
         """Return the finding for a file that both have; `found` holds those of all datasets."""
         if name.endswith(".nc"):
             return _compare_dataset(name, self.made, self.folder, self.hashes[name], self.rules)
-        if name.endswith(PICTURES):
-            return self._compare_picture(name, found.get(str(Path(name).with_suffix(".nc"))))
+        if name.startswith(FIGURES) or name.endswith(PICTURES):
+            return self._compare_figure(name, found.get(str(Path(name).with_suffix(".nc"))))
         content = (self.made / name).read_bytes()
         if hashes.of_bytes(content) == self.hashes[name]:
             return Finding(name, IDENTICAL)
@@ -146,20 +151,23 @@ class _Comparison:
         made = content.decode("utf-8", errors="replace")
         return compare_words.compare(name, accepted, made, datasets)
 
-    def _compare_picture(self, name: str, shown: Finding | None) -> Finding:
-        content = (self.made / name).read_bytes()
-        if hashes.of_bytes(content) == self.hashes[name]:
-            return Finding(name, IDENTICAL)
+    def _compare_figure(self, name: str, shown: Finding | None) -> Finding:
+        """Return the finding for a picture or a description; `shown` is that of its data.
+
+        Even one with the accepted bytes must belong to the data beside it, which may be others.
+        """
         moved = shown is not None and not shown.is_fault and shown.moved
-        if name.endswith(".png"):
-            method = compare_images.EXACT if self.same_environment else compare_images.LOOK
-            pair = self.folder / name, self.made / name
-            return compare_images.compare(name, *pair, method, moved)
-        if not content.startswith(b"%PDF-") or b"%%EOF" not in content[-1024:]:
-            return Finding(name, DAMAGED, "is no whole PDF")
-        if self.same_environment and shown is not None and shown.status == IDENTICAL:
-            return Finding(name, DIFFERENT, "is not the accepted file, although its data are")
-        return Finding(name, NEARLY, "is another file, drawn of other bits or by other versions")
+        accepted, new = self.folder / name, self.made / name
+        if name.endswith(".json"):
+            return compare_description.compare(name, accepted, new, new.with_suffix(".nc"), moved)
+        beside = accepted.with_suffix(".json"), new.with_suffix(".json")
+        if name.endswith(".pdf"):
+            known = self.hashes[name]
+            return compare_pdf.compare(name, known, new, beside, self.same_environment)
+        same_data = shown is not None and shown.status == IDENTICAL
+        exact = self.same_environment and same_data
+        method = compare_images.EXACT if exact else compare_images.LOOK
+        return compare_images.compare(name, accepted, new, method, moved, beside[1])
 
 
 def _absent(name: str, names: set[str], comparison: _Comparison) -> Finding | None:

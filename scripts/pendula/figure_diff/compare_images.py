@@ -1,12 +1,13 @@
 """Compares an image with that of the baseline by one of three methods.
 
-- By pixels, where the environment that drew the image is that of the baseline.
-- By look, where text may be drawn a little differently. Both images are averaged over 4 by 4 pixels
-  (75 dots per inch, which is what an eye sees of a page) and blurred, which removes hinting. Then
-  the ink and the colours around each point that the two do not share are divided by all ink and
-  colours there (the Bray-Curtis distance: 0 same, 1 nothing in common), and the smallest value over
-  all shifts by up to 8 pixels counts. A lost label or a swapped colour differs at any shift, and by
-  all of its own ink, however small it is in the whole image.
+- By pixels, where the environment that drew the image is that of the baseline, and the data have
+  the accepted bits: then every pixel must be the accepted one. Processors do not change any.
+- By look in other environments, where text may be drawn a little differently. Both images are
+  averaged over 4 by 4 pixels (75 dots per inch, which is what an eye sees of a page) and blurred,
+  which removes hinting. Then the ink and the colours around each point that the two do not share
+  are divided by all ink and colours there (the Bray-Curtis distance: 0 same, 1 nothing in common),
+  and the smallest value over all shifts by up to 8 pixels counts. A lost label or a swapped colour
+  differs at any shift, and by all of its own ink, however small it is in the whole image.
 - By ink, where the curves are known to have moved. An image is divided along the edges of its
   panels, which its file names. A chaotic curve that takes another path leaves as much ink in its
   panel, and an axis with a few other ticks as much beside it. A lost label, curve or panel leaves
@@ -22,14 +23,10 @@ from PIL import Image
 from scipy.ndimage import gaussian_filter, uniform_filter
 
 from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from .compare_description import DamagedDescriptionError, read_description
 
 EXACT, LOOK = "exact", "look"
 
-SHADE = 3
-"""Pixels that differ by no more, of 255, are equal: that is the rounding of blended colours."""
-MOST_PIXELS = 1e-4
-"""The fraction of pixels that may differ in the environment of the baseline: a curve that moved by
-a rounding error may cross from one pixel to the next."""
 MOST_UNLIKE = 0.35
 """The local distance that is allowed in another environment: other letters and shifts by a pixel
 reach 0.26 in the figures of this project, a lost label or swapped colours 0.9."""
@@ -54,6 +51,10 @@ Box = tuple[int, int, int, int]
 """Left, top, right, bottom of a panel, in pixels."""
 
 
+UNREADABLE = (OSError, SyntaxError, ValueError)
+"""What Pillow raises of a damaged file."""
+
+
 class DamagedImageError(ValueError):
     """An image that cannot be read; the message says why, and the finding names the file."""
 
@@ -71,27 +72,43 @@ def read(path: Path) -> Pixels:
         with Image.open(path) as image:
             colours = np.asarray(image.convert("RGB"))
             panels = image.info.get("Panels", "")
-    except (OSError, SyntaxError, ValueError) as error:
-        said = str(error).replace(str(path), path.name)  # the page is no place for folders
-        raise DamagedImageError(f"cannot be read ({said})") from None
+    except UNREADABLE as error:
+        raise DamagedImageError(_say(path, error)) from None
     boxes = [tuple(int(number) for number in box.split()) for box in panels.split(";") if box]
     return Pixels(colours, boxes)
 
 
-def compare(name: str, reference: Path, new: Path, method: str, moved: bool) -> Finding:
+def _mark(path: Path) -> str:
+    """Return the fingerprint of the description with which a PNG was written."""
+    try:
+        with Image.open(path) as image:
+            return image.info.get("Description", "")
+    except UNREADABLE as error:
+        raise DamagedImageError(_say(path, error)) from None
+
+
+def _say(path: Path, error: Exception) -> str:
+    said = str(error).replace(str(path), path.name)  # the page is no place for folders
+    return f"cannot be read ({said})"
+
+
+def compare(
+    name: str, reference: Path, new: Path, method: str, moved: bool, description: Path
+) -> Finding:
     """Return the finding for an image; `moved` says that the curves in it are known to have moved.
 
-    `method` is EXACT where the environment is that of the baseline, LOOK elsewhere.
+    `method` is EXACT where the environment and the bits of the data are those of the baseline, and
+    LOOK elsewhere. `description` is that of the new image, which must carry its fingerprint.
     """
-    if reference.read_bytes() == new.read_bytes():
-        return Finding(name, IDENTICAL)
-    pair = []
-    for path, which in ((reference, "the picture of the baseline"), (new, "the picture")):
-        try:
-            pair.append(read(path))
-        except DamagedImageError as error:
-            return Finding(name, DAMAGED, f"{which} {error}")
-    return judge(name, *pair, method, moved)
+    try:
+        if _mark(new) != read_description(description).fingerprint:
+            says = "was not written with its description: it is stale, or of another figure"
+            return Finding(name, DIFFERENT, says)
+        if reference.read_bytes() == new.read_bytes():
+            return Finding(name, IDENTICAL)
+        return judge(name, read(reference), read(new), method, moved)
+    except (DamagedImageError, DamagedDescriptionError) as error:
+        return Finding(name, DAMAGED, f"the picture {error}")
 
 
 def judge(name: str, was: Pixels, now: Pixels, method: str, moved: bool) -> Finding:
@@ -108,11 +125,8 @@ def judge(name: str, was: Pixels, now: Pixels, method: str, moved: bool) -> Find
 
 
 def _by_pixels(was: np.ndarray, now: np.ndarray) -> tuple[str, str]:
-    unlike = (np.maximum(was, now) - np.minimum(was, now)).max(-1) > SHADE
-    part = unlike.mean()
-    status = DIFFERENT if part > MOST_PIXELS else NEARLY
-    where = f", in {_where(unlike)}" if unlike.any() else ""
-    return status, f"{part:.2%} of the pixels differ{where}"
+    unlike = (was != now).any(-1)
+    return DIFFERENT, f"{unlike.sum()} pixels differ, in {_where(unlike)}"
 
 
 def _where(mask: np.ndarray, scale: int = 1) -> str:
