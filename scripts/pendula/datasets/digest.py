@@ -1,29 +1,32 @@
 """Digests of variables: two that are equal hold the same values, on any machine."""
 
-import hashlib
+import json
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
 
 
-def digest_values(dimensions: tuple[str, ...], values: Any) -> str:
-    """Return the SHA-256 of an array: of its dimensions, its kind of numbers, and every bit.
+def plain_bytes(values: np.ndarray) -> bytes:
+    """Return the content of an array in a form that no machine and no way of keeping it changes.
 
-    Processors write a NaN with either sign, which means nothing, so all NaN count as one. Zeros of
-    either sign and infinities stay apart. Words count by their letters and not by how an array
-    keeps them.
+    Processors write a NaN with either sign, which means nothing, so all NaN are written alike.
+    Zeros of either sign and infinities stay apart. Numbers are little-endian.
     """
+    if values.dtype.kind in "OUT":
+        return json.dumps([str(word) for word in values.flat]).encode()
+    if values.dtype.kind == "f":
+        values = np.where(np.isnan(values), values.dtype.type(np.nan), values)
+    return values.astype(values.dtype.newbyteorder("<")).tobytes()
+
+
+def digest_values(dimensions: tuple[str, ...], values: Any) -> str:
+    """Return the SHA-256 of an array: of its dimensions, its kind of numbers, and every bit."""
     array = np.asarray(values)
-    if array.dtype.kind in "OUT":
-        words = [str(word) for word in array.ravel()]
-        kind, content = "words", "".join(f"{len(word)}:{word}" for word in words).encode()
-    else:
-        if array.dtype.kind == "f":
-            array = np.where(np.isnan(array), array.dtype.type(np.nan), array)
-        array = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
-        kind, content = array.dtype.str, array.tobytes()
-    shape = [f"{name}={size}" for name, size in zip(dimensions, np.shape(values), strict=True)]
-    return hashlib.sha256("\n".join([kind, *shape, ""]).encode() + content).hexdigest()
+    kind = "words" if array.dtype.kind in "OUT" else array.dtype.name
+    shape = [f"{name}={size}" for name, size in zip(dimensions, array.shape, strict=True)]
+    head = "\n".join([kind, *shape, ""]).encode()
+    return sha256(head + plain_bytes(array)).hexdigest()
 
 
 def digest(dataset) -> str:
@@ -32,4 +35,4 @@ def digest(dataset) -> str:
         f"{name} {digest_values(variable.dims, variable.values)}"
         for name, variable in sorted(dataset.variables.items())
     ]
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    return sha256("\n".join(parts).encode()).hexdigest()

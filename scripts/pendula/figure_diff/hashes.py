@@ -15,6 +15,7 @@ import netCDF4
 import numpy as np
 
 from pendula.datasets import complete_or_absent
+from pendula.datasets.digest import plain_bytes
 from pendula.datasets.netcdf import DatasetError
 
 DIGITS = 16
@@ -88,16 +89,8 @@ def _of_variable(variable: Variable) -> str:
     pairs = zip(variable.dimensions, values.shape, strict=True)
     shape = ", ".join(f"{dimension} {size}" for dimension, size in pairs)
     kind = "words" if values.dtype.kind == "O" else values.dtype.name
-    hashes = of_bytes(_plain(values)), _of_attributes(variable.attributes)
+    hashes = of_bytes(plain_bytes(values)), _of_attributes(variable.attributes)
     return " ".join([f"{kind} ({shape})", *hashes])
-
-
-def _plain(values: np.ndarray) -> bytes:
-    if values.dtype.kind == "O":
-        return json.dumps([str(word) for word in values.flat]).encode()
-    if values.dtype.kind == "f":
-        values = np.where(np.isnan(values), values.dtype.type(np.nan), values)
-    return values.astype(values.dtype.newbyteorder("<")).tobytes()
 
 
 def _of_attributes(attributes: Mapping[str, Any]) -> str:
