@@ -1,13 +1,27 @@
-"""Running the real snakemake from the tests."""
+"""What many tests use: the real snakemake, and waiting without a clock."""
 
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import yaml
 from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]
+
+HANGS = 600
+"""Seconds after which something hangs: far more than anything takes on the slowest machine, so that
+no test hangs on the clock. It is the only limit of time in the tests."""
+
+
+def wait_for(happened: Callable[[], object]) -> None:
+    """Return as soon as `happened()` is true, however long that takes, unless it hangs."""
+    start = time.monotonic()
+    while not happened():
+        assert time.monotonic() - start < HANGS, "what the test waits for did not happen"
+        time.sleep(0.01)
 
 
 def chosen(study: str):

@@ -70,33 +70,33 @@ solve_delfour_fortin_payre = delfour_fortin_payre.build(mean_riccati, keep)
 
 
 @uncached
-def run_ode45(system, y, times, controls, work, record):
-    return solve_ode45(system, y, times, controls, work, record)
+def run_ode45(system, y, times, controls, work, record, stop):
+    return solve_ode45(system, y, times, controls, work, record, stop)
 
 
 @uncached
-def run_dop853(system, y, times, controls, work, record):
-    return solve_dop853(system, y, times, controls, work, record)
+def run_dop853(system, y, times, controls, work, record, stop):
+    return solve_dop853(system, y, times, controls, work, record, stop)
 
 
 @uncached
-def run_taylor(system, y, times, controls, work, record):
-    return solve_taylor(system, y, times, controls, work, record)
+def run_taylor(system, y, times, controls, work, record, stop):
+    return solve_taylor(system, y, times, controls, work, record, stop)
 
 
 @uncached
-def run_crank_nicolson(system, y, times, controls, work, record):
-    return solve_crank_nicolson(system, y, times, controls, work, record)
+def run_crank_nicolson(system, y, times, controls, work, record, stop):
+    return solve_crank_nicolson(system, y, times, controls, work, record, stop)
 
 
 @uncached
-def run_implicit_midpoint(system, y, times, controls, work, record):
-    return solve_implicit_midpoint(system, y, times, controls, work, record)
+def run_implicit_midpoint(system, y, times, controls, work, record, stop):
+    return solve_implicit_midpoint(system, y, times, controls, work, record, stop)
 
 
 @uncached
-def run_delfour_fortin_payre(system, y, times, controls, work, record):
-    return solve_delfour_fortin_payre(system, y, times, controls, work, record)
+def run_delfour_fortin_payre(system, y, times, controls, work, record, stop):
+    return solve_delfour_fortin_payre(system, y, times, controls, work, record, stop)
 
 
 METHODS = {
@@ -109,14 +109,18 @@ METHODS = {
 }
 
 
-def run(name, system, times, controls, start=START):
-    """Return z at the output times (NaN where none was reached), the final z, and the outcome."""
+def run(name, system, times, controls, start=START, record=None, stop=None):
+    """Return z at the output times (NaN where none was reached), the final z, and the outcome.
+
+    `record` is where z is written, `stop` the flag that ends the run.
+    """
     method, work = METHODS[name]
     y = np.zeros((2, 3))
     y[:, 1] = start.real, start.imag
-    record = np.full((2, len(times)), np.nan)
-    controls = tuple(map(float, controls))
-    outcome = method(system, y, np.asarray(times, float), controls, np.zeros((work, 2, 3)), record)
+    record = np.full((2, len(times)), np.nan) if record is None else record
+    stop = np.zeros(1, np.bool_) if stop is None else stop
+    controls, work = tuple(map(float, controls)), np.zeros((work, 2, 3))
+    outcome = method(system, y, np.asarray(times, float), controls, work, record, stop)
     return record[0] + 1j * record[1], complex(y[0, 1], y[1, 1]), outcome
 
 

@@ -16,8 +16,8 @@ TIMES = np.linspace(0.0, 20.0, 801)  # enough steps that some pass narrowly
 
 
 @uncached
-def run_in_one(chain, y, times, controls, work, record):
-    return solve_in_one(chain, y, times, controls, work, record)
+def run_in_one(chain, y, times, controls, work, record, stop):
+    return solve_in_one(chain, y, times, controls, work, record, stop)
 
 
 def run(method, amplitudes, boundary, even, times=TIMES, every=100):
@@ -27,7 +27,7 @@ def run(method, amplitudes, boundary, even, times=TIMES, every=100):
     y = pack(amplitudes, reduction)
     record = blank_record(2, y.shape[1] - 2, times.size, every)
     work = np.zeros((dop853.WORK, *y.shape))
-    outcome = method(chain, y, times, (1e-9, 1e-9), work, record)
+    outcome = method(chain, y, times, (1e-9, 1e-9), work, record, np.zeros(1, np.bool_))
     assert outcome.status == DONE
     return (y[:, 1:-1], record.l2, record.linf, record.energy, record.modulus), outcome
 

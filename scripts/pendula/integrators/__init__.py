@@ -1,14 +1,15 @@
 """Time integrators: one file a method, one calling convention. None knows a model.
 
     build(rates, observe) -> solve
-    solve(system, y, times, controls, work, record) -> Outcome
+    solve(system, y, times, controls, work, record, stop) -> Outcome
 
 `rates(system, y, dy)` is the right-hand side (`delfour_fortin_payre` takes its mean over a step,
 Taylor the rule of a power series), `observe(system, y, i, record)` reduces the state at output i.
 `work` holds as many arrays of the size of `y` as the module's WORK says. `y` holds pairs of rows
 (real and imaginary parts) with one ghost column at each side; it starts as the initial state and
 ends as the final one. `times` are those of the outputs, from the start on. Nothing is allocated in
-the step loop.
+the step loop. Another thread may raise the flag `stop`, an array of one boolean: the loop reads it
+at every step and ends (see pendula.simulation.interrupts).
 
 Every explicit method measures errors by the largest component and takes the same steps whether a
 solution that is even in n is given whole or by half. Its loop counts outputs by `i`, and steps to
@@ -17,7 +18,7 @@ solution that is even in n is given whole or by half. Its loop counts outputs by
 
 from typing import NamedTuple
 
-DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG = range(5)
+DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG, INTERRUPTED = range(6)
 """The status of a run."""
 
 FAULTS = {
@@ -25,6 +26,7 @@ FAULTS = {
     NOT_FINITE: "the state is no longer finite",
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
     STEP_TOO_LONG: "the step is too long for amplitudes that large, or they are not finite",
+    INTERRUPTED: "it was interrupted",
 }
 """What a status other than DONE means, in words."""
 

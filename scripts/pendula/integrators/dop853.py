@@ -22,7 +22,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_magnitude
 
-from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .dop853_coefficients import (
     A2,
     A3,
@@ -358,7 +358,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
         return error
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record):
+    def solve(system, y, times, controls, work, record, stop):
         t, end = times[0], times[-1]
         state, w, slope, new_slope, out, c = y, work[0], work[1], work[2], work[3], work[4:]
         count = count_tiles(y.shape[1] - 2) if can_be_tiled(system) else 1
@@ -375,6 +375,8 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
         if h <= shortest:  # a first guess only: data at rest would otherwise be refused
             h = 2.0 * shortest
         while i < times.size:
+            if stop[0]:
+                return Outcome(INTERRUPTED, t, steps, rejected, evaluations)
             if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
                 h = end - t
             if not h > shortest:  # also where h is NaN

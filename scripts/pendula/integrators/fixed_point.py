@@ -16,7 +16,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_in_rows
 
-from . import DONE, NO_CONTRACTION, NOT_FINITE, Outcome
+from . import DONE, INTERRUPTED, NO_CONTRACTION, NOT_FINITE, Outcome
 
 PAST = 6
 """Increments that the first guess is extrapolated from."""
@@ -116,14 +116,15 @@ def build(begin, slope, observe):
         return False, evaluations + most
 
     @uncached
-    def halve(system, old, new, h, scratch, enough, most):
+    def halve(system, old, new, h, scratch, enough, most, stop):
         """Cover `h` in equal parts, halved until the iteration contracts.
 
-        Return whether that worked, the number of halvings, and the evaluations.
+        Return whether that worked, the number of halvings, and the evaluations. A step may be cut
+        into a million parts, so the flag is read at each of them.
         """
         fraction, covered = 0.5, 0.0
         halvings, evaluations = 1, 0
-        while covered < 1.0:
+        while covered < 1.0 and not stop[0]:
             copy(old, new)
             good, count = iterate(system, old, new, fraction * h, False, scratch, enough, most)
             evaluations += count
@@ -138,7 +139,7 @@ def build(begin, slope, observe):
         return True, halvings, evaluations
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record):
+    def solve(system, y, times, controls, work, record, stop):
         step, tolerance, most = controls
         new, scratch, past = work[0], work[1:4], work[4:]
         next_past = steps = rejected = evaluations = 0
@@ -157,11 +158,14 @@ def build(begin, slope, observe):
                     accept(y, new, past[next_past])
                     next_past, last = (next_past + 1) % PAST, h
                 else:
-                    good, halvings, count = halve(system, y, new, h, scratch, enough, int(most))
+                    good, halvings, count = halve(
+                        system, y, new, h, scratch, enough, int(most), stop
+                    )
                     rejected, last = rejected + halvings, 0.0
                     evaluations += count
-                if not good:
-                    status = NO_CONTRACTION if is_finite(y) else NOT_FINITE
+                if stop[0] or not good:
+                    fault = NO_CONTRACTION if is_finite(y) else NOT_FINITE
+                    status = INTERRUPTED if stop[0] else fault
                     at = times[i - 1] + part * span / parts
                     return Outcome(status, at, steps, rejected, evaluations)
                 steps += 1

@@ -10,7 +10,7 @@ import numpy as np
 
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 
-from . import DONE, STEP_TOO_LONG, Outcome
+from . import DONE, INTERRUPTED, STEP_TOO_LONG, Outcome
 
 WORK = 2
 """Work arrays of the size of a state."""
@@ -69,7 +69,7 @@ def build(linear_rates, radius, nonlinear_flow, observe):
         return terms
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record):
+    def solve(system, y, times, controls, work, record, stop):
         (step,) = controls
         term, slope = work[0], work[1]
         steps = evaluations = 0
@@ -78,6 +78,8 @@ def build(linear_rates, radius, nonlinear_flow, observe):
             parts = int(np.ceil(span / step * (1.0 - 1e-12)))
             h = span / max(parts, 1)
             for part in range(parts):
+                if stop[0]:
+                    return Outcome(INTERRUPTED, times[i - 1] + part * h, steps, 0, evaluations)
                 for stage in range(NONLINEAR_PARTS.size):
                     # the last linear flow of a step and the first of the next are one
                     joined = 2.0 if stage == 0 and part > 0 else 1.0

@@ -25,7 +25,7 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, inlined_by_numba, kernel
 from pendula.simd import LANES, fill, larger_magnitude, largest_lane, load, store
 
-from . import DONE, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 
 # --- A power series in memory -------------------------------------------------------------------
 
@@ -195,7 +195,7 @@ def build(continue_series, observe):
     """
 
     @inlined_by_numba
-    def solve(system, y, times, controls, work, record):
+    def solve(system, y, times, controls, work, record, stop):
         rtol, atol = controls
         t, end = times[0], times[-1]
         series = lay_out(work, y)
@@ -206,6 +206,8 @@ def build(continue_series, observe):
         steps = 0
         write_state(y, series)
         while i < times.size:
+            if stop[0]:
+                return Outcome(INTERRUPTED, t, steps, 0, ORDER * steps)
             continue_series(system, series)
             h = allowed_step(series, rtol, atol)
             steps += 1

@@ -10,6 +10,7 @@ from pendula.models.amplitudes import Chain
 from pendula.problem import Constants, Problem
 
 from .feasibility import find_obstacle
+from .interrupts import interruptible
 from .lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
 from .observables import Record, blank_record
 from .solvers import SOLVERS
@@ -58,7 +59,8 @@ def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory
     record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
     controls = tuple(float(problem.solver[name]) for name in method.controls)
     chain = make_chain(problem.constants, problem.boundary, reduction)
-    outcome = method.run(chain, y, times, controls, aligned((method.work, *y.shape)), record)
+    work = aligned((method.work, *y.shape))
+    outcome = interruptible(method.run, chain, y, times, controls, work, record)
     if outcome.status != DONE:
         raise _stopped(problem, outcome.time, FAULTS[outcome.status])
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):

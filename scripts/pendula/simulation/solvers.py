@@ -35,38 +35,38 @@ solve_splitting = splitting.build(linear_rates, linear_radius, nonlinear_flow, o
 
 
 @kernel
-def run_ode45(chain, y, times, controls, work, record):
-    return solve_ode45(chain, y, times, controls, work, record)
+def run_ode45(chain, y, times, controls, work, record, stop):
+    return solve_ode45(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_dop853(chain, y, times, controls, work, record):
-    return solve_dop853(chain, y, times, controls, work, record)
+def run_dop853(chain, y, times, controls, work, record, stop):
+    return solve_dop853(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_crank_nicolson(chain, y, times, controls, work, record):
-    return solve_crank_nicolson(chain, y, times, controls, work, record)
+def run_crank_nicolson(chain, y, times, controls, work, record, stop):
+    return solve_crank_nicolson(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_implicit_midpoint(chain, y, times, controls, work, record):
-    return solve_implicit_midpoint(chain, y, times, controls, work, record)
+def run_implicit_midpoint(chain, y, times, controls, work, record, stop):
+    return solve_implicit_midpoint(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_delfour_fortin_payre(chain, y, times, controls, work, record):
-    return solve_delfour_fortin_payre(chain, y, times, controls, work, record)
+def run_delfour_fortin_payre(chain, y, times, controls, work, record, stop):
+    return solve_delfour_fortin_payre(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_taylor(chain, y, times, controls, work, record):
-    return solve_taylor(chain, y, times, controls, work, record)
+def run_taylor(chain, y, times, controls, work, record, stop):
+    return solve_taylor(chain, y, times, controls, work, record, stop)
 
 
 @kernel
-def run_splitting(chain, y, times, controls, work, record):
-    return solve_splitting(chain, y, times, controls, work, record)
+def run_splitting(chain, y, times, controls, work, record, stop):
+    return solve_splitting(chain, y, times, controls, work, record, stop)
 
 
 class Solver(NamedTuple):

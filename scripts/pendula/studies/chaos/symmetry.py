@@ -16,6 +16,7 @@ from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
 from pendula.problem import Problem
+from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
@@ -75,8 +76,8 @@ solve = dop853.build(lopsided_rates, observe_odd)
 
 
 @kernel
-def run_lopsided(chain, y, times, controls, work, odd):
-    return solve(chain, y, times, controls, work, odd)
+def run_lopsided(chain, y, times, controls, work, odd, stop):
+    return solve(chain, y, times, controls, work, odd, stop)
 
 
 def follow_odd_part(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
@@ -86,7 +87,7 @@ def follow_odd_part(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
     controls = tuple(float(problem.solver[key]) for key in ("rtol", "atol"))
     y, odd = pack(amplitudes, WHOLE), np.empty(len(times))
     work = aligned((dop853.WORK, *y.shape))
-    outcome = run_lopsided(chain, y, times, controls, work, odd)
+    outcome = interruptible(run_lopsided, chain, y, times, controls, work, odd)
     if outcome.status != DONE:
         raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {FAULTS[outcome.status]}")
     return odd

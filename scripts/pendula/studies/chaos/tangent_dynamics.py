@@ -15,6 +15,7 @@ from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.amplitudes import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
 from pendula.problem import Problem, output_times
+from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
@@ -90,13 +91,13 @@ solve = dop853.build(bundle_rates, observe_nothing)
 
 
 @kernel
-def carry(chain, bundle, span, controls, work, record, log_lengths, sizes):
+def carry(chain, bundle, span, controls, work, record, log_lengths, sizes, stop):
     """Carry the bundle over as many spans of time as `log_lengths` (span, vector) has rows.
 
     Return the status of the solver.
     """
     for i in range(log_lengths.shape[0]):
-        outcome = solve(chain, bundle, span, controls, work, record)
+        outcome = solve(chain, bundle, span, controls, work, record, stop)
         if outcome.status != DONE:
             return outcome.status
         orthonormalise(chain, bundle, log_lengths[i])
@@ -125,11 +126,10 @@ def grow(
     orthonormalise(chain, bundle, log_lengths[0])
     log_lengths[0] = 0.0
     sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
-    span, record = tau[:2], np.empty(0)
+    span, record, controls = tau[:2], np.empty(0), (tolerance, tolerance)
     work = aligned((dop853.WORK, *bundle.shape))
-    status = carry(
-        chain, bundle, span, (tolerance, tolerance), work, record, log_lengths[1:], sizes[1:]
-    )
+    grown = log_lengths[1:], sizes[1:]
+    status = interruptible(carry, chain, bundle, span, controls, work, record, *grown)
     if status != DONE:
         raise IntegrationError(f"the tangent vectors could not be followed: {FAULTS[status]}")
     return Growth(tau, log_lengths.cumsum(axis=0).T, sizes)

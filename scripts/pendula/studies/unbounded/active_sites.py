@@ -22,6 +22,7 @@ import numpy as np
 from pendula.datasets import complete_or_absent
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.problem import Constants, Problem, place
+from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, find_reduction, pack
 from pendula.simulation.observables import Record, blank_record
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
@@ -84,7 +85,7 @@ def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: 
     controls = tuple(float(solver[name]) for name in method.controls)
     work = aligned((method.work, *state.shape))
     chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
-    outcome = method.run(chain, state, times, controls, work, record)
+    outcome = interruptible(method.run, chain, state, times, controls, work, record)
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]
         raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {reason}")

@@ -1,0 +1,152 @@
+"""Ctrl-C ends a compiled run: every kernel reads the flag, and whoever waits for it raises it."""
+
+import signal
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from helpers import wait_for
+from oracle import SOLVERS as CONTROLS
+from pendula.integrators import INTERRUPTED
+from pendula.simulation import simulate as simulation
+from pendula.simulation.interrupts import interruptible
+from pendula.simulation.lattice import WHOLE, pack
+from pendula.simulation.observables import blank_record
+from pendula.simulation.simulate import IntegrationError, aligned, make_chain, simulate
+from pendula.simulation.solvers import SOLVERS
+from pendula.studies.chaos import symmetry, tangent_dynamics
+from pendula.studies.unbounded import active_sites
+from problems import constants_of, problem_of
+
+# --- The flag in the kernels ----------------------------------------------------------------------
+
+
+def with_flag_up(run, *arguments):
+    """Stand in for `interruptible`: the flag is up from the start."""
+    return run(*arguments, np.ones(1, np.bool_))
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_a_solver_ends_where_the_flag_is_up(name, monkeypatch):
+    problem = problem_of("fig2_small", solver=CONTROLS[name], end_time=1.0)
+    assert simulate(problem).outcome.time == 1.0
+    monkeypatch.setattr(simulation, "interruptible", with_flag_up)
+    with pytest.raises(IntegrationError, match="it was interrupted"):
+        simulate(problem)
+
+
+def odd_part(problem):
+    return symmetry.follow_odd_part(problem, problem.amplitudes)
+
+
+def tangent(problem):
+    return tangent_dynamics.grow(problem, np.ones((1, *problem.amplitudes.shape), complex), 1.0)
+
+
+def piece_without_ends(problem):
+    state = active_sites.begin(problem.initial, problem.half_width)
+    return active_sites.advance(problem.constants, state, problem.times, problem.solver)
+
+
+@pytest.mark.parametrize(
+    ("module", "run"),
+    [(symmetry, odd_part), (tangent_dynamics, tangent), (active_sites, piece_without_ends)],
+)
+def test_the_runs_that_studies_start_themselves_end_there_too(module, run, monkeypatch):
+    problem = problem_of("fig2_small", solver=CONTROLS["dop853"], end_time=1.0)
+    run(problem)
+    monkeypatch.setattr(module, "interruptible", with_flag_up)
+    with pytest.raises(IntegrationError, match="it was interrupted"):
+        run(problem)
+
+
+# --- From Ctrl-C to the flag ----------------------------------------------------------------------
+
+
+@pytest.fixture
+def ctrl_c():
+    """Return what acts as Ctrl-C, also where a shell started the tests to ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield lambda: signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+    signal.signal(signal.SIGINT, before)
+
+
+class LongRun:
+    """A run of hours on a chain so stiff that no solver can take long steps."""
+
+    times = np.array([0.0, 1e-4, 2e-4, 3e3])
+
+    def __init__(self, name):
+        self.method = SOLVERS[name]
+        self.controls = CONTROLS[name] | {"rtol": 1e-4, "atol": 1e-4, "step": 1e-5}
+        self.outcomes, problem = [], problem_of("fig2_small", half_width=2000)
+        self.state = pack(problem.amplitudes, WHOLE)
+        self.record = blank_record(2, self.state.shape[1] - 2, self.times.size, 0)
+        self.record.energy[:] = np.nan
+        self.chain = make_chain(constants_of((1e4, 1.0, 0.0)), "dirichlet", WHOLE)
+
+    def start(self):
+        """Begin the run and wait for it."""
+        controls = tuple(float(self.controls[key]) for key in self.method.controls)
+        work = aligned((self.method.work, *self.state.shape))
+        return interruptible(
+            self.kernel, self.chain, self.state, self.times, controls, work, self.record
+        )
+
+    def kernel(self, *arguments):
+        self.outcomes.append(self.method.run(*arguments))
+        return self.outcomes[0]
+
+    def is_under_way(self) -> bool:
+        """Return whether the kernel has come to the output before the last."""
+        return bool(np.isfinite(self.record.energy[-2]))
+
+
+def press_when(happened, ctrl_c) -> None:
+    """Press Ctrl-C once, as soon as `happened()`."""
+
+    def watch():
+        wait_for(happened)
+        ctrl_c()
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_ctrl_c_ends_a_run_that_would_take_hours(name, ctrl_c):
+    run = LongRun(name)
+    press_when(run.is_under_way, ctrl_c)
+    with pytest.raises(KeyboardInterrupt):
+        run.start()
+    wait_for(lambda: run.outcomes)
+    assert run.outcomes[0].status == INTERRUPTED and run.outcomes[0].steps > 0
+
+
+def test_ctrl_c_ends_all_runs_of_a_pool_of_threads(ctrl_c):
+    runs = [LongRun("taylor"), LongRun("dop853")]
+    press_when(lambda: all(run.is_under_way() for run in runs), ctrl_c)
+    with pytest.raises(KeyboardInterrupt), ThreadPoolExecutor(len(runs)) as pool:
+        list(pool.map(LongRun.start, runs))
+    assert [run.outcomes[0].status for run in runs] == [INTERRUPTED] * len(runs)
+
+
+def test_a_run_after_an_interrupted_one_is_as_ever(ctrl_c):
+    problem = problem_of("fig2_small", end_time=1.0)
+    before, run = simulate(problem), LongRun("taylor")
+    press_when(run.is_under_way, ctrl_c)
+    with pytest.raises(KeyboardInterrupt):
+        run.start()
+    np.testing.assert_array_equal(simulate(problem).final, before.final)
+
+
+def test_a_fault_of_the_run_reaches_the_caller():
+    def run(stop):
+        raise MemoryError("too large")
+
+    with pytest.raises(MemoryError, match="too large"):
+        interruptible(run)
+
+
+def test_a_run_that_is_not_interrupted_returns_its_result_with_the_flag_down():
+    assert interruptible(lambda number, stop: (number, bool(stop[0])), 3) == (3, False)
