@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .elementary import complex_of
+from .elementary import complex_of, log
 
 
 def complex_normal(rng: np.random.Generator, shape) -> np.ndarray:
@@ -14,3 +14,8 @@ def complex_normal(rng: np.random.Generator, shape) -> np.ndarray:
 def uniform(rng: np.random.Generator, low: float, high: float, size=None):
     """Return uniform numbers; the generator's own scaling may be fused on some processors."""
     return low + (high - low) * rng.random(size)
+
+
+def exponential(rng: np.random.Generator) -> float:
+    """Return an exponential number of mean one."""
+    return float(-log(1.0 - rng.random()))

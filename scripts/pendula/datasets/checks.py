@@ -19,12 +19,26 @@ def table(title: str, coords: dict, **variables: dict) -> dict:
     return {"coords": described, "data_vars": variables, "attrs": {"title": title}}
 
 
-def variable(values, dims: Iterable[str], long_name: str, units: str = "1", tolerance=None) -> dict:
-    """Return one variable; if it has a `tolerance`, a sound check keeps the values below that."""
+def variable(
+    values, dims: Iterable[str], long_name: str, units: str = "1", tolerance=None, digits=None
+) -> dict:
+    """Return one variable; if it has a `tolerance`, a sound check keeps the values below that.
+
+    Where a library decides the last bits of the values, they are `rounded` to so many `digits`.
+    """
     attrs = {"long_name": long_name, "units": units}
+    if digits is not None:
+        values, attrs["significant_digits"] = rounded(values, digits), digits
     if tolerance is not None:
         attrs["tolerance"] = float(tolerance)
     return {"dims": tuple(dims), "data": np.asarray(values), "attrs": attrs}
+
+
+def rounded(values, digits: int) -> np.ndarray:
+    """Return the values rounded to so many significant digits."""
+    values = np.asarray(values, dtype=float)
+    texts = [f"{value:.{digits}g}" for value in values.ravel()]
+    return np.array(texts, dtype=float).reshape(values.shape)
 
 
 def columns(dims: Iterable[str], about: Mapping[str, tuple], numbers: Mapping) -> dict[str, dict]:

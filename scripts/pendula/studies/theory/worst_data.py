@@ -19,7 +19,7 @@ from functools import partial
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.draws import uniform
+from pendula.draws import exponential, uniform
 from pendula.elementary import complex_of, exp, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import (
@@ -45,7 +45,7 @@ def draw_constants(rng: np.random.Generator, family: str) -> Constants:
     """Return constants inside the range of parameters of a family."""
     epsilon, gamma = uniform(rng, 0.2, 2.0), uniform(rng, 0.0, 2.0)
     if family == "theorem_1":
-        omega = 2.0 * gamma + 4.0 * epsilon + rng.exponential()
+        omega = 2.0 * gamma + 4.0 * epsilon + exponential(rng)
     elif family == "theorem_3":
         omega = uniform(rng, -6.0, 10.0)
     else:
