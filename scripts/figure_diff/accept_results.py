@@ -24,7 +24,7 @@ def accept_results(
     planned = plan(made_names, made, folder, configuration, None if all_of_it else names)
     print("\n".join(planned.lines))
     if dry:
-        print("Nothing is changed; `snakemake accept_figures` changes it.")
+        print("Nothing was changed; `snakemake accept_figures` makes these changes.")
     else:
         take(planned, made, folder)
 

@@ -137,7 +137,7 @@ def test_a_preview_says_the_same_and_changes_nothing(run, monkeypatch, capsys):
         said.append(capsys.readouterr().out.splitlines())
         if dry:
             assert contents(run.accepted) == before
-    assert said[0][:2] == said[1] and "Nothing is changed" in said[0][2]
+    assert said[0][:2] == said[1] and "Nothing was changed" in said[0][2]
     assert not run.faults()
 
 

@@ -25,7 +25,8 @@ def below_results(paths):
 
 def accepted_files():
     """Return the files of the baseline that are there: a change of one asks for a new comparison."""
-    names = ["accepted.json", "hashes.json", "tolerances.yaml", *below_results(everything())]
+    names = ["accepted.json", "hashes.json", "tolerances.yaml", "spreads.nc"]
+    names += below_results(everything())
     return [path for name in names if os.path.exists(path := f"{BASELINE}/{name}")]
 
 
