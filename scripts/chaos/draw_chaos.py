@@ -15,13 +15,21 @@ def draw_chaos(
     symmetry_png: str,
     symmetry_pdf: str,
     symmetry_data: str,
+    symmetry_description: str,
 ) -> None:
     """Draw the exponents, then the odd parts beside what the exponents predict."""
     growth = read(lyapunov)
     drawn = figures.gather_lyapunov(growth)
     save(figures.draw_lyapunov(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_symmetry(read(symmetry), growth)
-    save(figures.draw_symmetry(drawn), drawn, symmetry_png, symmetry_pdf, symmetry_data)
+    save(
+        figures.draw_symmetry(drawn),
+        drawn,
+        symmetry_png,
+        symmetry_pdf,
+        symmetry_data,
+        symmetry_description,
+    )
 
 
 if __name__ == "__main__":

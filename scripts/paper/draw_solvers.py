@@ -10,6 +10,7 @@ def draw_solvers(
     energy_png: str,
     energy_pdf: str,
     energy_data: str,
+    energy_description: str,
     png: str,
     pdf: str,
     data: str,
@@ -18,7 +19,7 @@ def draw_solvers(
     """Draw the drift of the energy and the differences of the norms, as they were measured."""
     measured = read(solvers)
     drawn = figures.gather_drift(measured)
-    save(figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data)
+    save(figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data, energy_description)
     drawn = figures.gather_agreement(measured)
     save(figures.draw_agreement(drawn), drawn, png, pdf, data, description)
 

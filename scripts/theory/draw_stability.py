@@ -18,13 +18,14 @@ def draw_stability(
     growth_png: str,
     growth_pdf: str,
     growth_data: str,
+    growth_description: str,
 ) -> None:
     """Draw the chart with the paper's `points` (Omega, gamma), and the growth rates."""
     charts = read(chart), read(short_chart)
     drawn = figures.gather_chart(*charts, read(windows), points)
     save(figures.draw_chart(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_rates(*charts, read(threshold))
-    save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data)
+    save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data, growth_description)
 
 
 if __name__ == "__main__":
