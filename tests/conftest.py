@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from helpers import ROOT, snakemake
+from helpers import ROOT, skips_in_words, snakemake
 from hypothesis import settings
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
@@ -16,6 +16,15 @@ pytest_plugins = ["figure_fixtures"]
 
 settings.register_profile("project", deadline=None, derandomize=True, database=None)
 settings.load_profile("project")
+
+
+def pytest_terminal_summary(terminalreporter):
+    """List each test that was skipped, with the reason and the way to have it run."""
+    lines = skips_in_words(terminalreporter.stats.get("skipped", ()))
+    if lines:
+        terminalreporter.section("not run")
+    for line in lines:
+        terminalreporter.line(line)
 
 
 @pytest.fixture(scope="session")

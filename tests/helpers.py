@@ -1,11 +1,15 @@
-"""What many tests use: the real snakemake, and waiting without a clock."""
+"""What many tests use: the real snakemake, waiting without a clock, and skips with a way out."""
 
+import importlib
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from types import ModuleType
+from typing import NoReturn
 
+import pytest
 import yaml
 from pendula.configuration.messages import load
 
@@ -14,6 +18,34 @@ ROOT = Path(__file__).resolve().parents[1]
 HANGS = 600
 """Seconds after which something hangs: far more than anything takes on the slowest machine, so that
 no test hangs on the clock. It is the only limit of time in the tests."""
+
+
+WAY = "; to have it run: "
+
+
+def skip(reason: str, way: str) -> NoReturn:
+    """Skip this test; `reason` says what is missing, `way` what to install or where to run it."""
+    pytest.skip(f"{reason}{WAY}{way}", allow_module_level=True)
+
+
+def package(module: str, install: str) -> ModuleType:
+    """Return a module that some tests need; where it is missing, skip and say what to install."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        skip(f"{module.split('.')[0]} is not installed", f"pip install {install}")
+
+
+def skips_in_words(skipped: Iterable) -> list[str]:
+    """Return what was skipped, from the reports of pytest: each reason once, then its tests."""
+    tests: dict[str, dict] = {}
+    for report in skipped:
+        said = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+        tests.setdefault(said.removeprefix("Skipped: "), {})[report.nodeid] = None
+    lines = []
+    for said, names in sorted(tests.items()):
+        lines += [f"{len(names)} skipped: {said}", *(f"    {name}" for name in names)]
+    return lines
 
 
 def wait_for(happened: Callable[[], object]) -> None:

@@ -104,6 +104,10 @@ def _off(kept: frozenset[str]) -> list[str]:
     return [group for group in known if group not in kept]
 
 
+ELSEWHERE = "run it on an x86-64 processor that has AVX-512 and FMA, with glibc"
+"""Where every machine of PLAYED can be played."""
+
+
 def why_not(name: str) -> str:
     """Return in words why this machine cannot play another; nothing where it can."""
     if platform.machine() != "x86_64" or platform.libc_ver()[0] != "glibc":
@@ -112,7 +116,7 @@ def why_not(name: str) -> str:
     # fused operations can only be seen to be off where the processor has them
     lacking = [feature for feature in (*PLAYED[name].needs, "fma") if not here.get(feature)]
     if lacking:
-        return f"this processor has no {', '.join(lacking)}; run this on one that has"
+        return f"this processor has no {', '.join(lacking)}"
     return ""
 
 

@@ -7,6 +7,7 @@ import venv
 from pathlib import Path
 
 import pytest
+from helpers import skip
 
 ROOT = Path(__file__).resolve().parents[1]
 USE = """
@@ -45,7 +46,7 @@ def run(*command, **options):
 def test_an_editable_install_is_found_from_anywhere(python, tmp_path):
     installed = run(python, "-m", "pip", "install", "--no-deps", "-e", ROOT)
     if "No matching distribution found for setuptools" in installed.stderr:
-        pytest.skip("setuptools could not be fetched to build with")
+        skip("setuptools, which builds the package, cannot be fetched", "run it with a network")
     assert installed.returncode == 0, installed.stdout + installed.stderr
     used = run(python, "-c", USE.format(root=str(ROOT)), cwd=tmp_path)
     assert used.returncode == 0, used.stderr

@@ -8,6 +8,7 @@ from pathlib import Path
 import bits
 import machines
 import pytest
+from helpers import skip
 
 HASHES = {
     "taylor": "f71cfb065655de7a",
@@ -36,7 +37,7 @@ def run_on(machine, cache, threads):
 @pytest.mark.parametrize("machine", machines.PLAYED)
 def test_code_for_another_processor_gives_the_same_bits_cold_warm_and_threaded(machine, tmp_path):
     if why := machines.why_not(machine):
-        pytest.skip(why)
+        skip(why, machines.ELSEWHERE)
     cold, warm = run_on(machine, tmp_path, 1), run_on(machine, tmp_path, 2)
     assert set(cold["cached"].values()) == {0} and min(warm["cached"].values()) > 0
     assert cold["hashes"] == warm["hashes"] == {name: [value] for name, value in HASHES.items()}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from helpers import skip
 from oracle import SOLVERS, random_chain
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE
@@ -14,6 +15,7 @@ from pendula.simulation.simulate import simulate
 
 from benchmarks.contestants import PEERS
 
+WAY = "install that beside environment.txt, in the same environment"
 CASES = {  # a peer's tolerance, and the largest error of an amplitude that it may leave
     "scipy_rk45_numpy": (1e-9, 1e-6),
     "scipy_dop853_numpy": (1e-11, 1e-8),
@@ -52,7 +54,7 @@ def test_every_peer_has_a_case():
 def test_peers_agree_with_ours(name):
     peer = PEERS[name]
     if reason := peer.why_absent():
-        pytest.skip(reason)
+        skip(reason, WAY)
     rtol, bound = CASES[name]
     given = problem()
     exact = simulate(given, WHOLE).final
@@ -68,7 +70,7 @@ def test_peers_agree_with_ours(name):
 @pytest.mark.parametrize("name", ["cpp_taylor", "cpp_taylor_contracted"])
 def test_the_taylor_method_in_cpp_is_ours_to_rounding(name, half_width):
     if reason := PEERS[name].why_absent():
-        pytest.skip(reason)
+        skip(reason, WAY)
     given = problem(half_width=half_width)
     expected = simulate(given.changed(solver=SOLVERS["taylor"])).final
     actual, _ = PEERS[name].prepare(given)(SOLVERS["taylor"]["rtol"])

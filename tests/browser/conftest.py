@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from helpers import package, skip
 
 FLAGS = (
     *(
@@ -24,14 +25,13 @@ def chromium() -> tuple[str, str]:
     names = (("chromium", "chromium-browser", "google-chrome"), ("chromedriver",))
     found = [next(filter(None, map(shutil.which, choice)), None) for choice in names]
     if not all(found):
-        pytest.skip("needs chromium and chromedriver (Debian: chromium, chromium-driver)")
+        skip("there is no browser with a driver", "apt-get install chromium chromium-driver")
     return found[0], found[1]
 
 
 def driver(folder: Path, *flags: str):
     """Return a started browser that keeps a record of its messages and of its requests."""
-    reason = "needs selenium: pip install -r tests/browser/requirements.txt"
-    webdriver = pytest.importorskip("selenium.webdriver", reason=reason)
+    webdriver = package("selenium.webdriver", "-r tests/browser/requirements.txt")
     browser, program = chromium()
     options = webdriver.ChromeOptions()
     for flag in (*FLAGS, f"--user-data-dir={folder}", *flags):

@@ -3,8 +3,9 @@
 import json
 
 import pytest
+from helpers import package
 
-runner = pytest.importorskip("compliance_checker.runner")
+runner = package("compliance_checker.runner", "-r tests/conventions/requirements.txt")
 
 CONVENTIONS = "cf:1.11"
 

@@ -1,7 +1,6 @@
 """The rule `reference`: asked for by name only, and what it writes."""
 
-import pytest
-from helpers import ROOT, planned, snakemake
+from helpers import ROOT, package, planned, snakemake
 from pendula.datasets.netcdf import read
 
 
@@ -12,7 +11,7 @@ def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path):
 
 
 def test_a_short_reference_by_the_real_snakemake(tmp_path):
-    pytest.importorskip("heyoka")
+    package("heyoka", "heyoka==7.13.2")
     target = "results/reference/fig4_small.double.nc"
     result = snakemake(ROOT, tmp_path, target)
     assert result.returncode == 0, result.stdout + result.stderr

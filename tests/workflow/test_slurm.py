@@ -1,6 +1,5 @@
 """The whole quick run by a real Slurm on this machine: the same numbers as without it."""
 
-import importlib.util
 import os
 import shutil
 import subprocess
@@ -10,13 +9,12 @@ from pathlib import Path
 import pytest
 import xarray as xr
 import yaml
-from helpers import ROOT, command_of, planned
+from helpers import HANGS, ROOT, command_of, package, planned, skip
 
 CLUSTER = ROOT / "tests/slurm/small_cluster.py"
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/profile.yaml").read_text())
 TOPICS = ("trajectories", "sweeps", "checks", "unbounded")
 TIMES = ["seconds"]  # of the hard cases: what no two runs have alike
-SECONDS = 900
 
 
 @pytest.fixture(scope="module")
@@ -25,16 +23,18 @@ def slurm_run(tmp_path_factory) -> Path:
     daemons = ("slurmctld", "slurmd", "munged")
     path = f"{os.environ['PATH']}:/usr/sbin"
     if absent := [name for name in daemons if not shutil.which(name, path=path)]:
-        pytest.skip(f"no Slurm here: {', '.join(absent)} missing")
-    if importlib.util.find_spec("snakemake_executor_plugin_slurm") is None:
-        pytest.skip("profiles/slurm/requirements.txt is not installed")
+        skip(
+            f"there is no Slurm here: {', '.join(absent)} missing",
+            "apt-get install slurm-wlm munge",
+        )
+    package("snakemake_executor_plugin_slurm", "-r profiles/slurm/requirements.txt")
     directory = tmp_path_factory.mktemp("slurm")
     # A cluster without accounting, and jobs so short that waiting to ask for them would double it
     options = ["--slurm-status-command=squeue", "--slurm-init-seconds-before-status-checks=3"]
     profile = ["--workflow-profile", str(ROOT / "profiles/slurm")]
     run = command_of(ROOT, directory, ROOT / "config/quick.yaml", *profile, *options)
     command = [sys.executable, str(CLUSTER), *run]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=6 * HANGS)
     assert done.returncode == 0, done.stdout + done.stderr
     (directory / "said.txt").write_text(done.stdout + done.stderr)
     return directory

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from helpers import chosen
+from helpers import chosen, package
 from oracle import hamiltonian, random_chain, slope
 from pendula.datasets.netcdf import read
 from pendula.simulation.lattice import Reduction, pack
@@ -85,7 +85,7 @@ def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
 
 
 def test_a_parameter_is_the_decimal_that_is_printed():
-    heyoka = pytest.importorskip("heyoka")
+    heyoka = package("heyoka", HEYOKA)
     tenth = Numbers(200).given(0.1)
     assert tenth * 10 == 1 and tenth == heyoka.real("0.1", 200)
     assert Numbers(200, decimal=False).given(0.1) == heyoka.real(0.1, 200) != tenth
@@ -93,7 +93,7 @@ def test_a_parameter_is_the_decimal_that_is_printed():
 
 @pytest.mark.parametrize("half_width", [0, 1, 6])
 def test_the_equations_are_those_of_the_oracle(half_width):
-    heyoka = pytest.importorskip("heyoka")
+    heyoka = package("heyoka", HEYOKA)
     z = random_chain(half_width, even=True)
     pairs = multiprecision.right_hand_side(
         heyoka, multiprecision.RealConstants(*NUMBERS), half_width
@@ -108,13 +108,13 @@ def test_the_equations_are_those_of_the_oracle(half_width):
     "changes", [{"boundary": "free"}, {"initial": {1: (1.0, 0.0)}}, {"boundary": "periodic"}]
 )
 def test_what_half_a_dirichlet_chain_cannot_hold_is_refused(changes):
-    pytest.importorskip("heyoka")
+    package("heyoka", HEYOKA)
     with pytest.raises(ValueError, match="the reference"):
         start(problem_of(**changes), Numbers(100))
 
 
 def test_the_start_is_the_lattice_of_the_other_solvers():
-    pytest.importorskip("heyoka")
+    package("heyoka", HEYOKA)
     initial = {-2: (0.5j, 1), 0: (1, 0.25), 2: (0.5j, 1)}
     problem = problem_of(initial=initial)
     state = start(problem, Numbers(100))
@@ -123,7 +123,7 @@ def test_the_start_is_the_lattice_of_the_other_solvers():
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
 def test_a_short_run_made_again_gives_the_same_doubles(case, tmp_path):
-    pytest.importorskip("heyoka")
+    package("heyoka", HEYOKA)
     path = tmp_path / "again.nc"
     plain = problem_of(case).plain()
     integrate_reference(str(path), case, plain, [0.31, 1, 2], chosen("reference").bits[case], True)
@@ -136,7 +136,7 @@ def test_a_short_run_made_again_gives_the_same_doubles(case, tmp_path):
 
 
 def test_fewer_bits_and_another_order_give_an_error_of_their_size():
-    pytest.importorskip("heyoka")
+    package("heyoka", HEYOKA)
     short = problem_of("fig3_large", half_width=6, end_time=0.5)
     coarse, fine = (integrate(short, [], bits) for bits in (100, 150))
     assert coarse.order < fine.order
