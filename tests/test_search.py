@@ -1,7 +1,8 @@
 """The search for a highest point, on hills whose tops are known."""
 
 import numpy as np
-from pendula.search import maximise
+import pytest
+from pendula.search import maximise, settings
 
 
 def hill(points):
@@ -33,3 +34,49 @@ def test_a_flat_function_does_not_stop_it():
 def test_another_seed_takes_another_path():
     first, second = (maximise(hill, np.zeros(4), 0.5, 5, 12, seed)[1] for seed in (3, 4))
     assert first != second
+
+
+@pytest.mark.parametrize(
+    ("n", "size", "mu_eff", "path_c", "rank_one", "length"),
+    [
+        (4, 12, 3.729458934303067, 0.5, 0.06285462000247571, 1.880952380952381),
+        (21, 24, 7.02637555759215, 0.16886357665233717, 0.003965764541729823, 4.52851604754477),
+        (3, 200, 52.60152859296629, 0.5118856074761333, 0.02813274717232452, 1.5968775302586076),
+    ],
+)
+def test_its_constants_are_those_of_the_package_of_its_author(
+    n, size, mu_eff, path_c, rank_one, length
+):
+    """By `cma` 4.5.0 without active weights; its step control and rank_mu are other variants."""
+    found = settings(n, size)
+    assert found.weights.sum() == pytest.approx(1.0) and len(found.weights) == size // 2
+    assert found.mu_eff == pytest.approx(mu_eff, rel=1e-14)
+    assert found.path_c == pytest.approx(path_c, rel=1e-14)
+    assert found.rank_one == pytest.approx(rank_one, rel=1e-14)
+    assert found.typical_length == pytest.approx(length, rel=1e-14)
+
+
+def test_a_single_parent_adds_nothing_to_the_path_and_very_many_replace_the_covariance():
+    alone, many = settings(4, 2), settings(3, 200)
+    assert alone.mu_eff == 1.0 and alone.rank_mu == 0.0
+    assert (alone.path_sigma, alone.damping) == pytest.approx((0.3, 1.3))
+    assert many.rank_one + many.rank_mu == 1.0
+    assert 1.0 < many.damping - many.path_sigma < 2.0 * np.sqrt(many.mu_eff / 4.0)
+
+
+def test_chance_alone_neither_stretches_nor_shrinks_the_steps():
+    """Of values without a meaning nothing can be learnt, so that the covariance stays the same.
+
+    The path to the next generations enters by its square: its sign has no effect.
+    """
+    growth = []
+    for seed in range(100):
+        values, spreads = np.random.default_rng([99, seed]), []
+
+        def chance(points, values=values, spreads=spreads):
+            spreads.append(np.log(points.var(axis=0).mean()))
+            return values.random(len(points))
+
+        maximise(chance, np.zeros(4), 1.0, 36, 12, seed)
+        growth.append(np.mean(spreads[24:]) - np.mean(spreads[:12]))
+    assert -0.8 < np.mean(growth) < 0.1  # less at first, since the paths begin at zero
