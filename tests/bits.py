@@ -2,11 +2,13 @@
 
     python bits.py [threads]
 
-prints, as JSON, the hash of each run and how often each kernel came from the cache.
+prints, as JSON, the family of the processor, the hash of each run, and how often each kernel came
+from the cache.
 """
 
 import hashlib
 import json
+import platform
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
@@ -51,7 +53,8 @@ def main(threads: int) -> dict:
     found = {name: set() for name in CONTROLS}
     for (name, _), value in zip(RUNS * threads, hashes, strict=True):
         found[name].add(value)
-    return {"hashes": {name: sorted(values) for name, values in found.items()}, "cached": cached}
+    hashes = {name: sorted(values) for name, values in found.items()}
+    return {"machine": platform.machine(), "hashes": hashes, "cached": cached}
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The promise of all solvers: the same bits whatever the code was compiled for."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -22,14 +23,14 @@ HASHES = {
 them: if it was meant, put here what `python tests/bits.py` prints, and say why in the commit."""
 
 SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
+COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 
-def run_on(machine, cache, threads):
-    """Run the cases in a process of its own on a played machine."""
+def run(python, environment, cache, threads):
+    """Run the cases in a process of its own."""
     settings = {"PYTHONPATH": str(SCRIPTS), "NUMBA_CACHE_DIR": str(cache)}
-    command = [sys.executable, bits.__file__, str(threads)]
-    environment = machines.environment(machine) | settings
-    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    command = [python, bits.__file__, str(threads)]
+    done = subprocess.run(command, env=environment | settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
@@ -38,9 +39,18 @@ def run_on(machine, cache, threads):
 def test_code_for_another_processor_gives_the_same_bits_cold_warm_and_threaded(machine, tmp_path):
     if why := machines.why_not(machine):
         skip(why, machines.ELSEWHERE)
-    cold, warm = run_on(machine, tmp_path, 1), run_on(machine, tmp_path, 2)
+    played = machines.environment(machine)
+    cold, warm = (run(sys.executable, played, tmp_path, threads) for threads in (1, 2))
     assert set(cold["cached"].values()) == {0} and min(warm["cached"].values()) > 0
-    assert cold["hashes"] == warm["hashes"] == {name: [value] for name, value in HASHES.items()}
+    assert cold["hashes"] == warm["hashes"] == COMMITTED
+
+
+def test_another_family_of_processors_gives_the_same_bits(tmp_path):
+    python = os.environ.get("PENDULA_PYTHON_OF_AARCH64")
+    if not python:
+        skip("there is no Python of another family of processors", "run .ci/elsewhere aarch64")
+    found = run(python, dict(os.environ), tmp_path, 1)
+    assert found["machine"] == "aarch64" and found["hashes"] == COMMITTED
 
 
 @pytest.mark.parametrize(("name", "even"), bits.RUNS)
