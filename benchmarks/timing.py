@@ -87,7 +87,7 @@ def peak_memory(action: Callable[[], Any]) -> int:
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Break the block off with TooLongError; compiled code is left to its end first."""
+    """Break the block off with TooLongError; a compiled run ends at its next step."""
 
     def stop(*_):
         raise TooLongError

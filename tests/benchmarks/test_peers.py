@@ -63,7 +63,7 @@ def test_peers_agree_with_ours(name):
     again, _ = solve(rtol)
     assert np.abs(first - exact).max() < bound
     np.testing.assert_array_equal(again, first)
-    assert 0.0 < seconds < 60.0
+    assert seconds > 0.0
 
 
 @pytest.mark.parametrize("half_width", [3, 4, 5, 6])

@@ -28,7 +28,7 @@ def save(folder, data, drawn=None):
 
 def test_saving_twice_writes_the_same_bytes(data, tmp_path):
     first = save(tmp_path / "one", data)
-    time.sleep(1.1)  # a date in seconds would now differ
+    time.sleep(1.1)  # a date in seconds would differ now; a longer wait changes nothing
     assert save(tmp_path / "two", data) == first
 
 

@@ -23,6 +23,9 @@ from slurm_configuration import PATHS, SEARCHED, configure
 
 PROGRAMS = ("slurmctld", "slurmd", "munged", "sbatch", "srun")
 
+HANGS = 600.0
+"""Seconds after which something hangs: far more than anything here takes on a slow machine."""
+
 
 def missing() -> list[str]:
     """Return the programs that are not installed."""
@@ -100,11 +103,11 @@ def _end_jobs(folder: Path, environment: dict[str, str]) -> None:
 
 
 def _ask(command: list[str], environment: dict[str, str]) -> str:
-    asked = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=30)
+    asked = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HANGS)
     return asked.stdout.strip()
 
 
-def _until(done, fault: str, folder: Path, seconds: float = 30.0) -> None:
+def _until(done, fault: str, folder: Path, seconds: float = HANGS) -> None:
     end = time.monotonic() + seconds
     while not done():
         if time.monotonic() > end:

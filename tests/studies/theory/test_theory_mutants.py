@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from helpers import HANGS
 
 LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
 MUTANTS = Path(__file__).parent / "mutants.py"
@@ -58,7 +59,7 @@ def failing_check(folder, edits) -> str:
         path.write_text(text.replace(old, new), encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(scripts), "NUMBA_DISABLE_JIT": "1"}
     command = [sys.executable, "-W", "ignore", str(MUTANTS)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HANGS)
     assert done.returncode == 0, done.stderr
     return done.stdout.strip()
 
