@@ -102,8 +102,29 @@ def test_complex_numbers():
     a, b = tiny[:750] + 1j * near[:750], near[:750] + 1j * tiny[750:]
     assert np.allclose(e.product(a, b), a * b, rtol=1e-15, atol=1e-15)
     assert np.allclose(e.modulus(a), abs(a), rtol=1e-15, atol=0.0)
+    far = 10.0 ** np.arange(-300, 308, 4.0) * (3.0 + 4.0j)
+    assert np.allclose(e.modulus(far), abs(far), rtol=3e-16, atol=0.0)
     assert np.allclose(e.turn(near), np.exp(1j * near), rtol=0.0, atol=1e-15)
+    assert np.allclose(e.quotient(b, a), b / a, rtol=2e-15, atol=0.0)
+    numbers = near[:750] + 1j * near[750:]
+    assert np.allclose(e.square_root(numbers), np.sqrt(numbers), rtol=1e-15, atol=1e-15)
+    assert e.square_root(-4.0) == 2j and e.square_root(0.0) == 0.0
     assert e.product(2.0, 3.0 - 1j) == 6.0 - 2j and isinstance(e.modulus(3.0 + 4j), float)
+
+
+def test_interpolation_is_that_of_numpy():
+    points, heights = np.sort(wide), near
+    x = np.concatenate([np.linspace(points[0], points[-1], 999), points])
+    assert np.array_equal(e.interpolated(x, points, heights), np.interp(x, points, heights))
+
+
+def test_normal_draws_are_those_of_numpy_but_for_the_last_bits_of_the_tail():
+    found = e.normal(np.random.default_rng(3), 20_000)
+    drawn = np.random.default_rng(3).normal(size=20_000)
+    tail = abs(drawn) > 3.65
+    assert 0 < tail.sum() < 20 and np.array_equal(found[~tail], drawn[~tail])
+    assert (found[tail] != drawn[tail]).any() and abs(found - drawn).max() < 1e-12
+    assert (np.ldexp(found[tail], 40) % 1.0 == 0.0).all()
 
 
 def values():

@@ -150,6 +150,22 @@ def geometric(start: float, stop: float, count: int) -> np.ndarray:
         return np.array([start, *(float(first * ratio**step) for step in steps), stop], float)
 
 
+def interpolated(x, points: np.ndarray, values: np.ndarray):
+    """Return piecewise linear values at `x`, within the rising `points`, as np.interp does."""
+    i = np.clip(np.searchsorted(points, x, side="right") - 1, 0, len(points) - 2)
+    slope = (values[i + 1] - values[i]) / (points[i + 1] - points[i])
+    return np.where(x >= points[-1], values[-1], slope * (x - points[i]) + values[i])[()]
+
+
+def normal(generator: np.random.Generator, size) -> np.ndarray:
+    """Return standard normal draws of NumPy, those of its tail rounded to 40 binary places.
+
+    The tail alone takes a function of the C library, log1p.
+    """
+    drawn = generator.normal(size=size)
+    return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)
+
+
 def fifth_root(x: float) -> float:
     """Return x^(1/5) of one number x > 0, with an error below 1 ulp; 0, inf and NaN stay.
 
@@ -239,9 +255,29 @@ def square_modulus(z):
     return z.real * z.real + z.imag * z.imag
 
 
+def quotient(a, b):
+    """Return the quotient of complex numbers or arrays, by the product with conj(b)."""
+    return product(a, np.conj(b)) / square_modulus(b)
+
+
+def square_root(z):
+    """Return the square root with a real part of at least zero; not accurate near z = 0."""
+    z = np.asarray(z)
+    size = modulus(z)
+    small = np.sqrt(0.5 * (size + np.abs(z.real)))
+    other = 0.5 * np.abs(z.imag) / np.where(small > 0.0, small, 1.0)
+    ahead = z.real >= 0.0
+    imaginary = np.copysign(np.where(ahead, other, small), z.imag)
+    return complex_of(np.where(ahead, small, other), imaginary)
+
+
 def modulus(z):
-    """Return abs(z), with an error of 1 ulp, where its square neither over- nor underflows."""
-    return np.sqrt(square_modulus(z))
+    """Return abs(z), with an error of 1 ulp; a power of two keeps squares within range."""
+    z = np.asarray(z)
+    largest = np.maximum(np.abs(z.real), np.abs(z.imag))
+    k = np.frexp(np.where(np.isfinite(largest), largest, 1.0))[1]
+    real, imaginary = np.ldexp(z.real, -k), np.ldexp(z.imag, -k)
+    return np.ldexp(np.sqrt(real * real + imaginary * imaginary), k)
 
 
 def turn(angle):

@@ -1,8 +1,8 @@
 """Which cases are chaotic, as the verdicts need it: by cut-offs that can be moved."""
 
-import numpy as np
 import xarray as xr
 
+from pendula.elementary import log
 from pendula.measures.growth import ERRORS, MANY, is_chaotic
 
 from .cutoff import Cutoff
@@ -25,4 +25,5 @@ def chaotic(lyapunov: xr.Dataset) -> xr.DataArray:
 
 def regular(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return exponents of the same cases as if nothing grew, for controls."""
-    return lyapunov.assign(log_growth=np.log(lyapunov["l2"]) + 0.0 * lyapunov["log_growth"])
+    size = lyapunov["l2"].copy(data=log(lyapunov["l2"].values))
+    return lyapunov.assign(log_growth=size + 0.0 * lyapunov["log_growth"])

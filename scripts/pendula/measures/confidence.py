@@ -4,11 +4,13 @@ Quantiles of the distributions are rounded to six digits, because the last bits 
 functions behind them differ between machines.
 """
 
-from math import exp, log, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 from scipy import special
+
+from pendula.elementary import exp, log
 
 CONFIDENCE = 0.95
 """Limits enclose the true value in so many of all repetitions, as is the custom."""
@@ -72,12 +74,12 @@ def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> L
     infinite where the lower mean cannot be told from zero.
     """
     (below, above), t = mean, student(members - 1, confidence)
-    variances = [(t * one) ** 2 for one in error]
-    bottom = below**2 - variances[0]
+    variances = [(t * one) * (t * one) for one in error]
+    bottom = below * below - variances[0]
     ratio = above / below
     if bottom <= 0.0:
         return Limits(ratio, -np.inf, np.inf)
-    root = sqrt(variances[1] * bottom + variances[0] * above**2)
+    root = sqrt(variances[1] * bottom + variances[0] * above * above)
     return Limits(ratio, (above * below - root) / bottom, (above * below + root) / bottom)
 
 
@@ -87,10 +89,10 @@ def ratio_of_limits(above: Limits, below: Limits) -> Limits:
     The distances of the limits add in squares on a logarithmic scale: the method of variance
     estimates recovery (Zou and Donner, Stat. Med. 27 (2008) 1693). Limits have one confidence.
     """
-    down = sqrt(log(above.value / above.low) ** 2 + log(below.high / below.value) ** 2)
-    up = sqrt(log(above.high / above.value) ** 2 + log(below.value / below.low) ** 2)
+    down = _both(log(above.value / above.low), log(below.high / below.value))
+    up = _both(log(above.high / above.value), log(below.value / below.low))
     ratio = above.value / below.value
-    return Limits(ratio, ratio * exp(-down), ratio * exp(up))
+    return Limits(ratio, ratio * float(exp(-down)), ratio * float(exp(up)))
 
 
 def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Limits:
@@ -159,8 +161,12 @@ def chance_of_law(lives, watched: float) -> float:
 
 def _welch(parts, members) -> float:
     """Return the degrees of freedom of a difference, from the squared errors of both means."""
-    below = sum(part**2 / (count - 1) for part, count in zip(parts, members, strict=True))
-    return sum(parts) ** 2 / below if below else np.inf
+    below = sum(part * part / (count - 1) for part, count in zip(parts, members, strict=True))
+    return sum(parts) * sum(parts) / below if below else np.inf
+
+
+def _both(one: float, other: float) -> float:
+    return sqrt(one * one + other * other)
 
 
 def _rounded(value: float) -> float:

@@ -15,6 +15,8 @@ absent or of another problem, is NaN.
 
 import numpy as np
 
+from pendula.elementary import modulus
+
 VISIBLE = 0.01
 """ASSUME: the part of full scale from which on a reader sees another curve."""
 
@@ -93,4 +95,4 @@ def state_error(found: np.ndarray, exact: np.ndarray) -> float:
 
     It compares two states site by site, where `norm_difference` compares curves of norms.
     """
-    return float(np.abs(found - exact).max() / np.abs(exact).max())
+    return float(modulus(found - exact).max() / modulus(exact).max())

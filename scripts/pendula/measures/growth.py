@@ -4,13 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from pendula.elementary import interpolated, log
+
 from .confidence import mean_limits
 from .spreading import lay_line
 
 POINTS = 60
 """Points of a fit, equally spaced in log tau, so that no decade of time outweighs another."""
 
-MANY = np.log(100.0)
+MANY = float(log(100.0))
 """The logarithm of a growth over the second half of a run that no power law reaches: tau^6 grows by
 a factor of 64."""
 ERRORS = 3.0
@@ -24,7 +26,7 @@ def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[
     It is the mean slope of log values (member, time) over log tau, with its limits over the
     members. An offset bends it: a curve that is steady from some time on has it at the end only.
     """
-    edges = tau[-1] * 0.5 ** np.arange(octaves, -1, -1)
+    edges = tau[-1] * np.ldexp(1.0, -np.arange(octaves, -1, -1))
     found = []
     for first, last in pairwise(edges):
         kept = tau <= last * (1.0 + 1e-9)
@@ -34,8 +36,8 @@ def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[
 
 
 def _log_points(tau: np.ndarray, values: np.ndarray, start: float):
-    x = np.linspace(np.log(max(start, tau[tau > 0][0])), np.log(tau[-1]), POINTS)
-    return x, np.interp(x, np.log(tau[tau > 0]), np.log(values[tau > 0]))
+    x = np.linspace(log(max(start, tau[tau > 0][0])), log(tau[-1]), POINTS)
+    return x, interpolated(x, log(tau[tau > 0]), log(values[tau > 0]))
 
 
 def mean_rate(tau: np.ndarray, log_growth: np.ndarray, start: float) -> np.ndarray:
@@ -68,7 +70,7 @@ def is_chaotic(
     """
     middle = tau[-1] / 2
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
-        relative = log_growth - np.log(size)
+        relative = log_growth - log(size)
         rate = mean_rate(tau, relative, middle)
         error = mean_rate_error(tau, relative, middle)
     return (rate - errors * error) * (tau[-1] - middle) > many

@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.elementary import exp, geometric, log, power
+
 from .confidence import Limits, student
 
 SPANS = 8
@@ -38,17 +40,17 @@ BOUNDED = {
     "limit_less_1_over_tau": Law(lambda tau: -1.0 / tau),
     "limit_less_1_over_root_tau": Law(lambda tau: -1.0 / np.sqrt(tau)),
     "limit_less_1_over_fourth_root_tau": Law(lambda tau: -1.0 / np.sqrt(np.sqrt(tau))),
-    "limit_less_1_over_tenth_root_tau": Law(lambda tau: -(tau**-0.1)),
+    "limit_less_1_over_tenth_root_tau": Law(lambda tau: -power(tau, -0.1)),
 }
 GROWING = {
-    "log_tau": Law(np.log),
+    "log_tau": Law(log),
     "fourth_root_of_log_tau": Law(
-        np.log,
-        lambda y: y**4,
+        log,
+        lambda y: (y * y) * (y * y),
         lambda z: np.sqrt(np.sqrt(np.maximum(z, 0.0))),
-        lambda y: 4.0 * y**3,
+        lambda y: 4.0 * (y * y * y),
     ),
-    "power_of_tau": Law(np.log, np.log, np.exp, lambda y: 1.0 / y),
+    "power_of_tau": Law(log, log, exp, lambda y: 1.0 / y),
 }
 """By their names in the ledger. A bounded curve may come to its limit from below or from above.
 
@@ -83,7 +85,7 @@ def span_means(tau: np.ndarray, curves: np.ndarray, start: float) -> Means:
     The variance of a span's mean is taken to fall as one over its length, which is right for
     spans that are longer than the curve's memory: so the scatter of all spans tells one number.
     """
-    edges = np.geomspace(start, tau[-1], SPANS + 1)
+    edges = geometric(start, float(tau[-1]), SPANS + 1)
     kept = [(tau >= a) & (tau < b) for a, b in pairwise(edges)]
     kept[-1] |= tau == tau[-1]
     means = np.array([[curve[span].mean() for span in kept] for curve in curves])

@@ -24,7 +24,7 @@ def levelling_of_means(
     The noise is `apart` standard errors of the difference, a quantile of Student's t. The
     half-width is infinite if fewer than `least` means agree.
     """
-    noise = apart * np.hypot(errors, errors[-1])
+    noise = apart * np.sqrt(errors * errors + errors[-1] * errors[-1])
     return _first_of_tail(half_widths, np.abs(means - means[-1]) <= noise, least)
 
 
@@ -36,6 +36,13 @@ def _first_of_tail(half_widths: np.ndarray, near: np.ndarray, least: int) -> flo
 def relative_range(values: np.ndarray) -> float:
     """Return the range of the values over their mean."""
     return float((np.max(values) - np.min(values)) / abs(np.mean(values)))
+
+
+def correlation(one: np.ndarray, other: np.ndarray) -> float:
+    """Return the correlation of two series (time,); 0 where one does not change."""
+    one, other = one - one.mean(), other - other.mean()
+    scale = np.sqrt((one * one).mean() * (other * other).mean())
+    return float((one * other).mean() / scale) if scale > 0 else 0.0
 
 
 def bands(norms: np.ndarray, quantiles) -> np.ndarray:

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.elementary import exp, expm1, log
+
 from .confidence import CONFIDENCE, Limits, mean_limits, student
 
 BLOCKS = 10
@@ -87,7 +89,7 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> float:
     The best of a grid is refined by the method of Gauss and Newton. Near q = 0 the law is a
     logarithm, and below it tends to a limit.
     """
-    x = np.log(tau / tau[-1])
+    x = log(tau / tau[-1])
     grid = np.arange(LEAST, MOST + 0.5 * GRID, GRID)
     first = q = float(min(grid, key=lambda tried: _left_over(x, squares, tried)))
     for _ in range(STEPS):
@@ -110,8 +112,8 @@ def _left_over(x: np.ndarray, squares: np.ndarray, q: float) -> float:
 def _law(x: np.ndarray, q: float) -> tuple[np.ndarray, np.ndarray]:
     """Return (exp(2 q x) - 1) / (2 q), which is x at q = 0, and its derivative by q."""
     p = 2.0 * (q if abs(q) > NEARLY_ZERO else NEARLY_ZERO)
-    law = np.expm1(p * x) / p
-    return law, 2.0 * (x * np.exp(p * x) - law) / p
+    law = expm1(p * x) / p
+    return law, 2.0 * (x * exp(p * x) - law) / p
 
 
 def fit_exponent(tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFIDENCE) -> Limits:

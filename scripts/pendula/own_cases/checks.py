@@ -15,6 +15,7 @@ import xarray as xr
 from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
+from pendula.elementary import log
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
@@ -98,7 +99,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
     tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
     middle = tau[-1] / 2
     with np.errstate(divide="ignore", invalid="ignore"):  # a chain at rest has no relative errors
-        relative = log_growth - np.log(size)
+        relative = log_growth - log(size)
         late = relative[-1] - relative[np.searchsorted(tau, middle)]
         amplified = amplification(tau, log_growth, size)
     numbers = {

@@ -9,6 +9,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from pendula.elementary import log
 from pendula.integrators import MOST_STEPS
 from pendula.integrators.taylor import ORDER
 from pendula.problem import Constants, Problem
@@ -95,7 +96,7 @@ def _find_in_series(constants: Constants, peak: float, span: float, solver: Mapp
     rate = _rate(constants, peak)
     if solver["name"] != "taylor" or peak == 0.0 or rate * span < 1e-6:
         return None
-    digits = np.log10(peak) + ORDER * np.log10(rate)
+    digits = (log(peak) + ORDER * log(rate)) / log(10.0)
     if abs(digits) > 270.0:
         return f"the power series needs numbers of 1e{digits:.0f}: choose another unit of time"
     return None

@@ -329,7 +329,7 @@ def ensemble_equilibrium(members) -> Finding:
         return amplitudes.min(axis=(1, 2)) / share
 
     least_of_all = limits(members, "fig4_small", least)
-    changes = limits(members, "fig4_small", lambda case: (change("l2")(case) + 1.0) ** 2 - 1.0)
+    changes = limits(members, "fig4_small", lambda case: np.square(change("l2")(case) + 1.0) - 1.0)
     lows, moves = named(least_of_all, "low", "least"), named(distance(changes), "high", "change")
     everywhere = Above(
         FACTOR, *lows,

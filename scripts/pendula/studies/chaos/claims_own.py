@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.elementary import log
 from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import cases_reversed, checks, claim, wrong_check
 from pendula.ledger.criterion import (
@@ -134,7 +135,7 @@ def even_bands_wider(members, lyapunov) -> Finding:
     }
     measured["mean_ratio"] = np.exp(ratio.mean())
     measured["lower_limit"] = np.exp(ratio.mean() - quantile * error)
-    measured["off"] = abs(ratio.mean() - 0.5 * np.log(2.0)) / error
+    measured["off"] = abs(ratio.mean() - 0.5 * log(2.0)) / error
     criterion = AllOf(
         Above(1.0, "lower_limit", says="lower limit of the mean ratio of widths"),
         Below(SAME, "off", says="distance of the mean from the root of two over its error"),

@@ -169,7 +169,7 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
     growth, levels = growth_and_levels(found)
     rising = {}
     for kind, means in found.items():
-        noise = means.apart * np.hypot(means.error[1:], means.error[:-1])
+        noise = means.apart * np.sqrt(means.error[1:] ** 2 + means.error[:-1] ** 2)
         rising[f"{kind}_rising"] = np.mean(np.diff(means.mean) > noise)
     first = min(levels.values())
     caveat = f"up to M = {first:.0f}, where it levels off" if np.isfinite(first) else ""
@@ -287,9 +287,9 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
 def ensemble_fig6_not_technical(even, uneven) -> Finding:
     omega = float(even["omega"].sel(case="fig3_large"))
     c_0 = theorem_2_constants(Constants.of({**even.attrs, "omega": omega}))[1]
-    start = float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0]) ** 2
+    start = np.square(float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0]))
     lows = {
-        f"{kind}_low": (means.mean[-1] - means.off[-1]) ** 2 / start
+        f"{kind}_low": np.square(means.mean[-1] - means.off[-1]) / start
         for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items()
     }
     caveat = f"growth without bound in time is not decided by a fixed window; {nearby(even)}"

@@ -12,6 +12,7 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.elementary import complex_of, modulus, normal, product
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, name_window
@@ -29,8 +30,8 @@ def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.nd
     """
     reach = initial.shape[1] // 2
     drawn = (reach + 1, 2)
-    factors = 1.0 + size * (rng.normal(size=drawn) + 1j * rng.normal(size=drawn))
-    return initial * factors[np.abs(np.arange(-reach, reach + 1))].T
+    factors = 1.0 + size * complex_of(normal(rng, drawn), normal(rng, drawn))
+    return product(initial, factors[np.abs(np.arange(-reach, reach + 1))].T)
 
 
 def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
@@ -42,8 +43,9 @@ def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator)
     # ASSUME: what breaks evenness in an ordinary solver is the rounding of its first steps, when
     # the excited site and its neighbours move and the rest of the chain is exactly at rest.
     wider = np.pad(initial, ((0, 0), (1, 1)))
-    scale = np.where(wider == 0, np.abs(initial).max(), np.abs(wider))
-    return wider + size * scale * (rng.normal(size=wider.shape) + 1j * rng.normal(size=wider.shape))
+    scale = np.where(wider == 0, modulus(initial).max(), modulus(wider))
+    drawn = complex_of(normal(rng, wider.shape), normal(rng, wider.shape))
+    return wider + size * scale * drawn
 
 
 PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pendula.drawing import panels, style
+from pendula.elementary import exp, geometric, log
 
 COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 """By detuning, of different lightness."""
@@ -77,7 +78,7 @@ def _draw_running(axes: Axes, data: xr.Dataset) -> None:
 
 def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
     """Return where to sample equal steps of time so that a logarithmic axis is not crowded."""
-    return np.unique(np.geomspace(1, tau.size, count).round().astype(int)) - 1
+    return np.unique(geometric(1.0, tau.size, count).round().astype(int)) - 1
 
 
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
@@ -137,7 +138,7 @@ def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylabel(r"measured divergence time $\tau$")
     axes.set_title("runs differ by 1 %", loc="left")
     look = {"color": "0.3", "linestyle": "none", "markersize": 4}
-    exponents = np.log10(data["rtol"].values).round().astype(int)
+    exponents = (log(data["rtol"].values) / log(10.0)).round().astype(int)
     handles = [
         Line2D([], [], marker=marker, label=rf"$10^{{{exponent}}}$", **look)
         for marker, exponent in zip(MARKERS, exponents, strict=False)
@@ -161,8 +162,10 @@ def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
     """Return the odd parts, and what the odd tangent dynamics makes of the same perturbation."""
     log_growth = lyapunov["log_growth"].sel(parity="odd", drop=True)
     l2 = lyapunov["l2"]
-    log = log_growth + np.log(symmetry.attrs["perturbation"] * l2.isel(tau=0, drop=True) / l2)
-    predicted = np.exp(log.clip(max=0.0)).sel(tau=log["tau"] <= float(symmetry["tau"].max()))
+    relative = symmetry.attrs["perturbation"] * l2.isel(tau=0, drop=True) / l2
+    curve = (log_growth + relative.copy(data=log(relative.values))).clip(max=0.0)
+    predicted = curve.copy(data=exp(curve.values))
+    predicted = predicted.sel(tau=predicted["tau"] <= float(symmetry["tau"].max()))
     predicted.attrs = {"long_name": "odd part predicted by tangent dynamics"}
     predicted = predicted.rename(tau="predicted_tau")
     predicted["predicted_tau"].attrs = {"long_name": "slow time of the prediction"}

@@ -12,6 +12,7 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.elementary import modulus
 from pendula.measures.confidence import (
     Limits,
     chance_of_law,
@@ -182,7 +183,7 @@ def compare_numerics(
         rates.append(rate_after(times, settled, problem.end_time).limits)
     over = ("choice",)
     drifts, work = zip(*found, strict=True)
-    a0 = float(np.abs(problem.initial[0]).max())
+    a0 = float(modulus(problem.initial[0]).max())
     return {
         "compared_amplitude": Variable((), a0, "initial amplitude A_0 of the compared ensembles"),
         "choice_tolerance": Variable(over, [one for one, _ in choices], "tolerance of the solver"),

@@ -12,6 +12,7 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.elementary import exp, log
 from pendula.measures.confidence import Limits, student
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
@@ -61,14 +62,16 @@ def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> 
     Errors are made all along, each in proportion to the `size` of the solution at its time s, and
     grown by exp(log_growth(tau) - log_growth(s)). All arguments are (time,), as is the result.
     """
-    made = np.log(size[1:] * np.diff(tau)) - log_growth[1:]
-    total = np.logaddexp.accumulate(made) + log_growth[1:] - np.log(size[1:])
+    made = log(size[1:] * np.diff(tau)) - log_growth[1:]
+    peak = np.maximum.accumulate(made)
+    kept = [exp(made[: i + 1] - top).sum() for i, top in enumerate(peak)]
+    total = peak + log(np.array(kept)) + log_growth[1:] - log(size[1:])
     return np.concatenate([[-np.inf], total])
 
 
 def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
     """Return the first tau at which `error` a unit of tau has grown to VISIBLE; inf if at none."""
-    return first_above(tau, log_amplification, np.log(VISIBLE / error))
+    return first_above(tau, log_amplification, log(VISIBLE / error))
 
 
 class Divergence(NamedTuple):
@@ -152,11 +155,11 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     seen, measured, rounding = [], [], []
     series = zip(growth["log_growth"].values[:, even], growth["l2"].values, strict=True)
     for problem, (log_growth, l2) in zip(problems.values(), series, strict=True):
-        log = amplification(tau, log_growth, l2)
+        amplified = amplification(tau, log_growth, l2)
         found = measure_divergence(problem, tolerances)
-        seen.append([predict(tau, log, made) for made in found.early / np.exp(log[early])])
+        seen.append([predict(tau, amplified, made) for made in found.early / exp(amplified[early])])
         measured.append(found.time)
-        rounding.append(predict(tau, log, ROUNDING))
+        rounding.append(predict(tau, amplified, ROUNDING))
     grid = ("case", "rtol")
     return {
         "rtol": Variable(("rtol",), np.asarray(tolerances), "tolerance of dop853"),

@@ -11,7 +11,9 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases
+from pendula.elementary import square_modulus
 from pendula.measures.confidence import student
+from pendula.measures.levels import correlation
 from pendula.problem import Problem, name_window
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, pair_l2, pair_linf
@@ -47,13 +49,6 @@ def reduce_run(run: Trajectory, windows: list[Window], every: int) -> dict[str, 
     }
 
 
-def correlation(one: np.ndarray, other: np.ndarray) -> float:
-    """Return the correlation of two series (time,); 0 where one does not change."""
-    one, other = one - one.mean(), other - other.mean()
-    scale = np.sqrt((one * one).mean() * (other * other).mean())
-    return float((one * other).mean() / scale) if scale > 0 else 0.0
-
-
 # --- Widths of bands ------------------------------------------------------------------------------
 
 
@@ -82,7 +77,8 @@ def measure_spread(values: np.ndarray) -> Spread:
 def width_ratio(even: Spread, uneven: Spread, members: int) -> tuple[float, float, float]:
     """Return the width of even ensembles over that of uneven ones, and its confidence limits."""
     ratio = np.sqrt(even.variance / uneven.variance)
-    off = student(members - 1) * 0.5 * np.hypot(even.error, uneven.error)
+    error = np.sqrt(even.error * even.error + uneven.error * uneven.error)
+    off = student(members - 1) * 0.5 * error
     return ratio, ratio * (1.0 - off), ratio * (1.0 + off)
 
 
@@ -139,7 +135,7 @@ def member_numbers(
 
 def _starts(problems: dict[str, Problem]) -> dict[str, Variable]:
     """Return the norms of the data themselves by case."""
-    sizes = [np.abs(problem.initial) ** 2 for problem in problems.values()]
+    sizes = [square_modulus(problem.initial) for problem in problems.values()]
     starts = {
         "l2_start": ([np.sqrt(one.sum()) for one in sizes], "l2 norm of the data, of the pair"),
         "linf_start": ([np.sqrt(one.max()) for one in sizes], "l-infinity norm of the data"),

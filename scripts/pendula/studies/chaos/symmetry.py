@@ -12,6 +12,7 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
+from pendula.elementary import square_modulus
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
@@ -110,7 +111,7 @@ def break_symmetry(problem: Problem, size: float, members: int, seed: int = 0) -
     perturbed = []
     for _ in range(members):
         odd = random_tangent(amplitudes.shape[1], "odd", rng)
-        odd *= size * np.linalg.norm(amplitudes) / np.linalg.norm(odd)
+        odd *= size * np.sqrt(square_modulus(amplitudes).sum() / square_modulus(odd).sum())
         perturbed.append(follow_odd_part(problem, amplitudes + odd))
     return OddPart(follow_odd_part(problem, amplitudes), np.array(perturbed))
 

@@ -5,12 +5,13 @@ are integrated together, and the vectors made orthonormal again at equal steps o
 Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9).
 """
 
-from math import log, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from pendula.compiled import kernel
+from pendula.elementary import log
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.amplitudes import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
@@ -52,20 +53,20 @@ def scale(u, factor):
 
 
 @kernel
-def orthonormalise(chain, bundle, log_lengths):
-    """Make the tangent vectors in `bundle` orthonormal; write the logarithms of their lengths.
+def orthonormalise(chain, bundle, lengths):
+    """Make the tangent vectors in `bundle` orthonormal; write their lengths.
 
     This is the modified Gram-Schmidt method: the first vector keeps its direction, and each other
-    one loses its components along those before it. `log_lengths` is (vector,).
+    one loses its components along those before it. `lengths` is (vector,).
     """
-    for k in range(log_lengths.size):
+    for k in range(lengths.size):
         first = (k + 1) * ROWS
         u = bundle[first : first + ROWS]
         for before in range(ROWS, first, ROWS):
             v = bundle[before : before + ROWS]
             subtract(u, inner(chain, u, v), v)
         length = sqrt(inner(chain, u, u))
-        log_lengths[k] = log(length)
+        lengths[k] = length
         scale(u, 1.0 / length)
 
 
@@ -91,16 +92,16 @@ solve = dop853.build(bundle_rates, observe_nothing)
 
 
 @kernel
-def carry(chain, bundle, span, controls, work, record, log_lengths, sizes, stop):
-    """Carry the bundle over as many spans of time as `log_lengths` (span, vector) has rows.
+def carry(chain, bundle, span, controls, work, record, lengths, sizes, stop):
+    """Carry the bundle over as many spans of time as `lengths` (span, vector) has rows.
 
     Return the status of the solver.
     """
-    for i in range(log_lengths.shape[0]):
+    for i in range(lengths.shape[0]):
         outcome = solve(chain, bundle, span, controls, work, record, stop)
         if outcome.status != DONE:
             return outcome.status
-        orthonormalise(chain, bundle, log_lengths[i])
+        orthonormalise(chain, bundle, lengths[i])
         sizes[i] = sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
     return DONE
 
@@ -122,14 +123,14 @@ def grow(
     chain = make_chain(problem.constants, problem.boundary, reduction)
     bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *tangents)])
     tau = output_times(end_time, step)
-    log_lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
-    orthonormalise(chain, bundle, log_lengths[0])
-    log_lengths[0] = 0.0
+    lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
+    orthonormalise(chain, bundle, lengths[0])
+    lengths[0] = 1.0
     sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
     span, record, controls = tau[:2], np.empty(0), (tolerance, tolerance)
     work = aligned((dop853.WORK, *bundle.shape))
-    grown = log_lengths[1:], sizes[1:]
+    grown = lengths[1:], sizes[1:]
     status = interruptible(carry, chain, bundle, span, controls, work, record, *grown)
     if status != DONE:
         raise IntegrationError(f"the tangent vectors could not be followed: {FAULTS[status]}")
-    return Growth(tau, log_lengths.cumsum(axis=0).T, sizes)
+    return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)

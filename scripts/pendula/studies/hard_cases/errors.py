@@ -7,6 +7,7 @@ relative to the largest.
 
 import numpy as np
 
+from pendula.elementary import complex_of, modulus, normal, product, square_modulus, turn
 from pendula.measures.difference import state_error
 from pendula.models.linear_chain import flow, gamma_0
 from pendula.problem import Constants, Problem, on_sites, place
@@ -22,7 +23,7 @@ OUTPUTS = 5
 def random_data(sites: int, size: float) -> np.ndarray:
     """Return complex Gaussian amplitudes (2, N), each of order `size`, the same every time."""
     rng = np.random.default_rng(sites)
-    return size * (rng.normal(size=(2, sites)) + 1j * rng.normal(size=(2, sites)))
+    return size * complex_of(normal(rng, (2, sites)), normal(rng, (2, sites)))
 
 
 def of(epsilon: float = 1.0, gamma: float = 1.0, omega: float = 0.0) -> Constants:
@@ -65,8 +66,8 @@ def miss_of_rotation(solver, size, omega=-4.0, sites=5, turns=1.0) -> float:
     `turns` is the time in units in which the largest data turn by about a radian.
     """
     data = random_data(sites, size)
-    tau = turns / (1.0 + size**2)
-    exact = data * np.exp(-1j * tau * (omega + 0.5 * np.abs(data) ** 2))
+    tau = turns / (1.0 + size * size)
+    exact = product(data, turn(-tau * (omega + 0.5 * square_modulus(data))))
     return state_error(run(of(epsilon=0.0, gamma=0.0, omega=omega), data, tau, solver).final, exact)
 
 
@@ -86,7 +87,7 @@ def drift_of_energy(solver, tau, omega=-4.0, half_width=1, outputs=1000) -> floa
 
 def motion_of_rest(solver, tau) -> float:
     """Return the largest amplitude that grows out of none."""
-    return float(np.abs(run(of(), np.zeros((2, 5), complex), tau, solver).final).max())
+    return float(modulus(run(of(), np.zeros((2, 5), complex), tau, solver).final).max())
 
 
 def other_of(solver: dict) -> dict:

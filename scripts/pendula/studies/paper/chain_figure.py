@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
+from pendula.elementary import cos, sin
 
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
@@ -21,7 +22,7 @@ def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset
     """
     offsets = np.arange(pairs) - pairs // 2
     place = SPACING * offsets[:, None]
-    turned = np.asarray(angles) * np.cos(np.pi * offsets[:, None] / (pairs + 1))
+    turned = np.asarray(angles) * cos(np.pi * offsets[:, None] / (pairs + 1))
     strings = _project(place, np.array([-OVERHANG, DEPTH + OVERHANG]), 0)
     pivots = _project(place, np.array([0, DEPTH]), 0)
     hung = ("offset", "pendulum", "axis")
@@ -52,16 +53,16 @@ def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.
 
 
 def _hang(place: np.ndarray, turned: np.ndarray) -> np.ndarray:
-    back = np.array([0, DEPTH]) + LENGTH * np.sin(turned)
-    return _project(place, back, -LENGTH * np.cos(turned))
+    back = np.array([0, DEPTH]) + LENGTH * sin(turned)
+    return _project(place, back, -LENGTH * cos(turned))
 
 
 def _coil() -> np.ndarray:
     """Return a coil along the chain from one pivot, the origin, to the next."""
     turn = np.linspace(0, 2 * np.pi * COILS, 24 * COILS + 1)
     share = LEAD + (1 - 2 * LEAD) * turn / turn[-1]
-    across = SPACING * share + 0.45 * COIL_RADIUS * (np.cos(turn) - 1)
-    coil = np.stack([across, COIL_RADIUS * np.sin(turn)], axis=-1)
+    across = SPACING * share + 0.45 * COIL_RADIUS * (cos(turn) - 1)
+    coil = np.stack([across, COIL_RADIUS * sin(turn)], axis=-1)
     return np.concatenate([[[0, 0]], coil, [[SPACING, 0]]])
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.elementary import log
 from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import (
     CHANGE,
@@ -29,6 +30,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
+from pendula.measures.levels import correlation
 from pendula.measures.norms import constants, largest, total_power
 from pendula.models.bounds import proven_region, theorem_1_bound, theorem_3_bound
 from pendula.models.linear_chain import gamma_0
@@ -123,9 +125,7 @@ def fig2_centre(small) -> Finding:
 )
 def fig2_exchange(small) -> Finding:
     a, b = late(small)["l2"].values ** 2
-    with np.errstate(invalid="ignore"):  # constant norms have no correlation
-        correlation, swing = np.corrcoef(a, b)[0, 1], float(np.ptp(a) / np.mean(a))
-    measured = {"correlation": correlation, "swing_of_A": swing}
+    measured = {"correlation": correlation(a, b), "swing_of_A": float(np.ptp(a) / np.mean(a))}
     against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
     return judge(measured, AllOf(against, Above(CHANGE, "swing_of_A")))
 
@@ -256,7 +256,7 @@ def region_of(run) -> str:
 )
 def fig4_unstable(small) -> Finding:
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]
-    measured = {"mean_rate": 0.5 * np.log(growth) / UNSTABLE}
+    measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}
     says = f"mean rate of growth up to tau = {UNSTABLE:g}"
     return judge(measured, Above(FOLDED, "mean_rate", says=says))
 

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets import complete_or_absent
+from pendula.elementary import log
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.problem import Constants, Problem, place
 from pendula.simulation.interrupts import interruptible
@@ -67,7 +68,7 @@ def widen(state: np.ndarray, half_width: int | None, rest: float) -> np.ndarray:
     """Return the state with a block of sites at rest added where its end is no longer at rest."""
     power = site_powers(state)
     width = power.size - 1
-    if width == half_width or not power[-GUARD:].max() > rest**2 * power.max():
+    if width == half_width or not power[-GUARD:].max() > rest * rest * power.max():
         return state
     wider = width + BLOCK if half_width is None else min(width + BLOCK, half_width)
     opened = np.zeros((state.shape[0], wider + 3))
@@ -161,7 +162,7 @@ def _outermost(power: np.ndarray, level: float) -> float:
     site = int(np.flatnonzero(power > level).max(initial=-1))
     if site < 0 or site + 1 == power.size or power[site + 1] == 0.0:
         return float(site)
-    beyond = np.log(power[site] / level) / np.log(power[site] / power[site + 1])
+    beyond = log(power[site] / level) / log(power[site] / power[site + 1])
     return site + round(float(beyond), DIGITS)
 
 

@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.elementary import complex_of, log, product, square_modulus, turn
 from pendula.measures.confidence import CONFIDENCE, Limits
 from pendula.measures.spreading import fit_line
 from pendula.problem import Constants
@@ -33,9 +34,9 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
     epsilon, gamma, omega = astuple(constants)
     a, b = complex_pair(state)
-    squares = np.array([_square(a), _square(b)])
+    squares = np.array([square_modulus(a), square_modulus(b)])
     difference = a - b
-    bonds = _square(np.diff(np.pad([a, b], ((0, 0), (0, 1))), axis=1))
+    bonds = square_modulus(np.diff(np.pad([a, b], ((0, 0), (0, 1))), axis=1))
     return np.array(
         [
             0.25 * (squares**2).sum(axis=0),
@@ -46,16 +47,11 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     )
 
 
-def _square(z: np.ndarray) -> np.ndarray:
-    """Return |z|^2 without the root that np.abs takes, whose last bits differ between machines."""
-    return z.real**2 + z.imag**2
-
-
 def complex_pair(state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return A and B on the sites 0..W of a state with ghost columns."""
     inner = state[:, 1:-1]
-    a = inner[0] + 1j * inner[1]
-    return a, (inner[2] + 1j * inner[3] if len(inner) == 4 else a)
+    a = complex_of(inner[0], inner[1])
+    return a, (complex_of(inner[2], inner[3]) if len(inner) == 4 else a)
 
 
 def with_ghosts(sites: np.ndarray) -> np.ndarray:
@@ -70,7 +66,7 @@ def bulk_of(state: np.ndarray, front: int) -> slice:
 
 def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> np.ndarray:
     """Return the means of P and of the terms of (8) over the bulk behind each front, (front, 5)."""
-    power = sum(_square(z) for z in complex_pair(state))
+    power = sum(square_modulus(z) for z in complex_pair(state))
     values = np.array([power, *energy_terms(state, constants)])
     return np.array([values[:, bulk_of(state, front)].mean(axis=1) for front in fronts])
 
@@ -87,7 +83,8 @@ def tail_scale(sites: np.ndarray, front: int, share: float = 0.1) -> float:
     power grows as scale log N.
     """
     inside = bulk_of(with_ghosts(sites), front)
-    fourth = np.concatenate([np.abs(z[inside]) ** 4 for z in complex_pair(with_ghosts(sites))])
+    pair = complex_pair(with_ghosts(sites))
+    fourth = np.concatenate([square_modulus(z[inside]) ** 2 for z in pair])
     level = np.quantile(fourth, 1.0 - share)
     return float((fourth[fourth > level] - level).mean())
 
@@ -105,7 +102,10 @@ def spectrum(amplitudes: np.ndarray, length: int) -> np.ndarray:
     Its mean over k is the mean of |A_n|^2. Sites beyond the last whole piece are left out.
     """
     pieces = amplitudes[: len(amplitudes) // length * length].reshape(-1, length)
-    return (np.abs(np.fft.fft(pieces, axis=1)) ** 2).mean(axis=0) / length
+    sites = np.arange(length)
+    waves = turn(-2.0 * np.pi / length * (np.outer(sites, sites) % length))  # (site, wave)
+    amplitudes = sum(product(pieces[:, n, None], waves[n]) for n in range(length))
+    return square_modulus(amplitudes).mean(axis=0) / length
 
 
 def distribution(moduli: np.ndarray, edges: np.ndarray) -> np.ndarray:
@@ -169,7 +169,7 @@ def _slope_power(run, confidence: float) -> Limits:
         return Limits(np.nan, np.nan, np.nan)
     tau = run["tau"].values
     kept = tau >= FIRST_OF_LINE * tau[-1]
-    sites = 2.0 * (speed * tau[kept] - delay * np.log(tau[kept]))
+    sites = 2.0 * (speed * tau[kept] - delay * log(tau[kept]))
     squares = run["l2"].transpose("member", "tau").values[:, kept] ** 2
     return fit_line(sites, squares, sites[0], confidence).slope
 

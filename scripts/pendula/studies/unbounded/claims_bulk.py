@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from pendula.elementary import interpolated
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -72,8 +73,8 @@ def at_energy(thermal, energy: float) -> dict[str, float]:
         raise UndecidableError(f"no thermal state with the energy {energy:.3g} a site was solved")
     cubic = thermal["warm_terms"].sel(term="cubic").values
     return {
-        "power": float(np.interp(energy, solved, thermal["warm_power"].values)),
-        "cubic": float(np.interp(energy, solved, cubic)),
+        "power": float(interpolated(energy, solved, thermal["warm_power"].values)),
+        "cubic": float(interpolated(energy, solved, cubic)),
     }
 
 

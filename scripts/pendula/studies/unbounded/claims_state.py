@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from pendula.elementary import exp, log
 from pendula.ledger.claim import FACTOR, SETTLED, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -84,7 +85,7 @@ def unbounded_front(run) -> Finding:
 def without_its_rise(run):
     """Return the run with the rise of l-infinity taken off: what is left has a bound."""
     means = span_means(run["tau"].values, curves_of(run, "linf"), BEGIN.value)
-    rise = compare(means)[1]["log_tau"].slope.value * np.log(run["tau"].clip(min=1.0))
+    rise = compare(means)[1]["log_tau"].slope.value * log(run["tau"].values.clip(min=1.0))
     return run.assign(linf=run["linf"] - rise)
 
 
@@ -96,12 +97,12 @@ def towards_a_limit(run, way: Callable = lambda tau: 1.0 / np.sqrt(tau)):
 
 def soon_at_a_limit(run):
     """Return the run with l-infinity on its way to a limit by a law that is none of the fitted."""
-    return towards_a_limit(run, lambda tau: np.exp(-tau / 30.0))
+    return towards_a_limit(run, lambda tau: exp(-tau / 30.0))
 
 
 def at_last_at_a_limit(run):
     """Return the run with l-infinity on its way to a limit that is far ahead."""
-    return towards_a_limit(run, lambda tau: 1.0 / (1.0 + np.log(tau)))
+    return towards_a_limit(run, lambda tau: 1.0 / (1.0 + log(tau)))
 
 
 def of_the_other_norm(run):

@@ -187,7 +187,7 @@ def _draw_map(axes: Axes, one: xr.Dataset, letter: str) -> QuadMesh:
 def _log_edges(widths: np.ndarray) -> np.ndarray:
     """Return the edges of cells around half-widths on a logarithmic axis."""
     inner = np.sqrt(widths[1:] * widths[:-1])
-    return np.array([widths[0] ** 2 / inner[0], *inner, widths[-1] ** 2 / inner[-1]])
+    return np.array([widths[0] * widths[0] / inner[0], *inner, widths[-1] * widths[-1] / inner[-1]])
 
 
 def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:

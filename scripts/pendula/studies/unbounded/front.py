@@ -21,7 +21,21 @@ import xarray as xr
 
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.trajectories import shared_by
+from pendula.elementary import (
+    complex_of,
+    cos,
+    cosh,
+    exp,
+    log,
+    modulus,
+    product,
+    quotient,
+    sin,
+    sinh,
+    square_root,
+)
 from pendula.measures.confidence import mean_limits
+from pendula.measures.spreading import lay_line
 from pendula.problem import Constants
 
 from .bulk import (
@@ -69,7 +83,8 @@ class LinearFront(NamedTuple):
         """Sites times tau^(1/2): at tau the front has yet to lose `rest` tau^(-1/2) sites."""
         if not self.decay:
             return 0.0
-        return float(3.0 * np.sqrt(np.pi) * (1.0 / np.sqrt(self.diffusion)).real / self.decay**2)
+        across = quotient(1.0, square_root(self.diffusion)).real
+        return float(3.0 * np.sqrt(np.pi) * across / (self.decay * self.decay))
 
 
 def is_unstable(constants: Constants) -> bool:
@@ -80,7 +95,7 @@ def is_unstable(constants: Constants) -> bool:
 
 def linear_front(constants: Constants) -> LinearFront:
     """Return the front of data of finite extent in the linearised infinite chain."""
-    waves, decays = np.linspace(0.0, np.pi, 801), np.geomspace(1e-3, 6.0, 400)
+    waves, decays = np.linspace(0.0, np.pi, 801), exp(np.linspace(log(1e-3), log(6.0), 400))
     if not is_unstable(constants):
         speeds = group_velocity(waves[1:-1], constants)
         best = int(np.argmax(speeds))
@@ -91,38 +106,44 @@ def linear_front(constants: Constants) -> LinearFront:
         box = np.linspace(-1.0, 1.0, 21)
         speed, wave, decay = _least(wave + q_span * box, decay + d_span * box, constants)
         q_span, d_span = 0.3 * q_span, 0.3 * d_span
-    return LinearFront(speed, decay, wave, _diffusion(wave + 1j * decay, constants))
+    return LinearFront(speed, decay, wave, _diffusion(wave, decay, constants))
 
 
-def _diffusion(k: complex, constants: Constants) -> complex:
+def _diffusion(wave: float, decay: float, constants: Constants) -> complex:
     """Return -s''(k) / 2 of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
     epsilon, gamma, omega = astuple(constants)
-    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - omega
-    slope, curvature = 2.0 * epsilon * np.sin(k), 2.0 * epsilon * np.cos(k)
-    s = np.sqrt(4.0 * gamma**2 - kappa**2 + 0j)
-    s = s if s.real > 0.0 else -s
-    first = -kappa * slope / s
-    return complex((slope**2 + kappa * curvature + first**2) / (2.0 * s))
+    cosine = complex_of(cos(wave) * cosh(decay), -sin(wave) * sinh(decay))
+    sine = complex_of(sin(wave) * cosh(decay), cos(wave) * sinh(decay))
+    kappa = 2.0 * epsilon * (1.0 - cosine) - omega
+    slope, curvature = 2.0 * epsilon * sine, 2.0 * epsilon * cosine
+    s = square_root(4.0 * gamma * gamma - product(kappa, kappa))
+    first = quotient(product(kappa, slope), s)
+    twice = product(slope, slope) + product(kappa, curvature) + product(first, first)
+    return complex(quotient(twice, 2.0 * s))
 
 
-def growth_rate(k, constants: Constants):
-    """Return Re s of the growing branch at complex wave numbers k."""
-    kappa = 2.0 * constants.epsilon * (1.0 - np.cos(k)) - constants.omega
-    return np.abs(np.sqrt(4.0 * constants.gamma**2 - kappa**2 + 0j).real)
+def growth_rate(wave, decay, constants: Constants):
+    """Return Re s of the growing branch at the complex wave numbers wave + i decay."""
+    epsilon, gamma, omega = astuple(constants)
+    kappa = 2.0 * epsilon * (1.0 - cos(wave) * cosh(decay)) - omega
+    across = 2.0 * epsilon * sin(wave) * sinh(decay)  # Im kappa
+    along = 4.0 * gamma * gamma - kappa * kappa + across * across
+    return square_root(complex_of(along, -2.0 * kappa * across)).real
 
 
 def group_velocity(k, constants: Constants):
     """Return |d omega_2 / dk| of real wave numbers where omega_2 is real and not zero."""
     epsilon, gamma = constants.epsilon, constants.gamma
-    kappa = 2.0 * epsilon * (1.0 - np.cos(k)) - constants.omega
-    return np.abs(2.0 * epsilon * np.sin(k) * kappa) / np.sqrt(kappa**2 - 4.0 * gamma**2)
+    kappa = 2.0 * epsilon * (1.0 - cos(k)) - constants.omega
+    square = (kappa - 2.0 * gamma) * (kappa + 2.0 * gamma)
+    return np.abs(2.0 * epsilon * sin(k) * kappa) / np.sqrt(square)
 
 
 def _least(
     waves: np.ndarray, decays: np.ndarray, constants: Constants
 ) -> tuple[float, float, float]:
     """Return (speed, wave number, decay) of the least over decays of the largest over waves."""
-    speeds = growth_rate(waves[:, None] + 1j * decays, constants) / decays
+    speeds = growth_rate(waves[:, None], decays, constants) / decays
     j = int(np.argmin(speeds.max(axis=0)))
     i = int(np.argmax(speeds[:, j]))
     return float(speeds[i, j]), float(waves[i]), float(decays[j])
@@ -146,7 +167,7 @@ BINS, HIGHEST, MODULI = 24, 1.2, 40
 def speed_of(tau: np.ndarray, front: np.ndarray) -> float:
     """Return the slope of the front's site over time, of the late part of a run."""
     late = tau >= SETTLED * tau[-1]
-    return float(np.polyfit(tau[late], front[late], 1)[0])
+    return lay_line(tau[late], front[late]).slope
 
 
 def resolution(tau: np.ndarray) -> float:
@@ -169,7 +190,7 @@ def speeds(run, level: float = FRONT, corrected: bool = False) -> tuple[np.ndarr
     way = run["front"].sel(front_power=level).transpose("variant", "member", "piece_tau").values
     if corrected:
         delay, rest = (run[f"predicted_{name}"].values[:, None, None] for name in ("delay", "rest"))
-        way = way + delay * np.log(tau) + rest / np.sqrt(tau)
+        way = way + delay * log(tau) + rest / np.sqrt(tau)
     found = np.array([[speed_of(tau, series) for series in members] for members in way])
     limits = mean_limits(found.T)
     half = np.where(np.isfinite(limits.half), limits.half, 0.0)
@@ -252,7 +273,7 @@ def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
     way = one["front"].sel(front_power=FRONT).transpose("member", "piece_tau").values
     behind = (way - v * tau).mean(axis=0)
     # waves at its edge move a front to and fro: means over short spans of log time show its way
-    spans = np.digitize(np.log(tau), np.linspace(np.log(tau[0]), np.log(tau[-1]), SPANS))
+    spans = np.digitize(log(tau), np.linspace(log(tau[0]), log(tau[-1]), SPANS))
     found = [spans == span for span in np.unique(spans)]
     return {
         "way_tau": Variable(("span",), [tau[s].mean() for s in found], "slow time, mean of a span"),
@@ -274,7 +295,7 @@ def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
         inside = bulk_of(state, front)
         for amplitude in complex_pair(state):
             spectra.append(spectrum(amplitude[inside], LENGTH))
-            moduli.append(np.abs(amplitude[inside]))
+            moduli.append(modulus(amplitude[inside]))
     moduli = np.concatenate(moduli)
     cells = np.linspace(0.0, 1.05 * moduli.max(), MODULI + 1)
     return {

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
+from pendula.elementary import geometric, interpolated, log
 
 LATE = 10
 """The lines of the delay are laid through so many of the last points of the front's way."""
@@ -55,7 +56,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
         axes.plot(
             data["piece_tau"], data["front"].sel(omega=omega), color=colour, lw=1.4, label=label
         )
-        speed = np.interp(omega, data["line_omega"], data["line_speed"])
+        speed = interpolated(omega, data["line_omega"].values, data["line_speed"].values)
         ends = np.array([0.0, float(data["piece_tau"][-1])])
         axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
     axes.lines[-1].set_label(r"$v^*\tau$")
@@ -107,14 +108,14 @@ def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
 def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     tau = data["way_tau"].values
     axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5, label="measured")
-    fine = np.geomspace(tau[0], tau[-1], 200)
+    fine = geometric(tau[0], tau[-1], 200)
     delay, rest = float(data["delay"]), float(data["front_rest"])
     looks = (
         ("--", rest * 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"),
         ("-", rest, "and the next term"),
     )
     for dashes, next_term, label in looks:
-        at, line = (-delay * np.log(t) - next_term / np.sqrt(t) for t in (tau[-LATE:], fine))
+        at, line = (-delay * log(t) - next_term / np.sqrt(t) for t in (tau[-LATE:], fine))
         line += float(data["behind"][-LATE:].mean()) - at.mean()
         axes.plot(fine, line, color="black", lw=0.9, ls=dashes, label=label)
     axes.set_xscale("log")

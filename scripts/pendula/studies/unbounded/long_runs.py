@@ -14,6 +14,7 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import describe_run, shared_by
+from pendula.elementary import geometric, interpolated, log, modulus, normal
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
 from pendula.problem import Problem
@@ -42,7 +43,7 @@ def member(initial: np.ndarray, number: int) -> np.ndarray:
     """
     if number == 0:
         return initial
-    factors = 1.0 + SIZE * np.random.default_rng([SEED, number]).normal(size=2)
+    factors = 1.0 + SIZE * normal(np.random.default_rng([SEED, number]), 2)
     return initial * factors[:, None]
 
 
@@ -104,7 +105,7 @@ def _bulk(means: np.ndarray) -> dict[str, Variable]:
 
 def _central(problem: Problem) -> float:
     """Return |A_0| at the start."""
-    return abs(problem.initial[0, problem.initial.shape[1] // 2])
+    return modulus(problem.initial[0, problem.initial.shape[1] // 2])
 
 
 def _padded(states: list[list[np.ndarray]]) -> np.ndarray:
@@ -156,13 +157,13 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
 
 
 def _times(run: xr.Dataset) -> np.ndarray:
-    return np.geomspace(1.0, float(run["tau"][-1]), POINTS)
+    return geometric(1.0, float(run["tau"][-1]), POINTS)
 
 
 def _series(run: xr.Dataset, name: str) -> list[np.ndarray]:
     """Return a norm at POINTS times, its BAND over the members."""
     values = run[name].transpose("member", "tau").values
-    drawn = np.array([np.interp(_times(run), run["tau"].values, series) for series in values])
+    drawn = np.array([interpolated(_times(run), run["tau"].values, series) for series in values])
     return [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
 
 
@@ -211,10 +212,10 @@ def _rate(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, np.ndarray]:
     """Return l2^2 / tau of one ensemble over SPANS of time: its BAND, limits, and law."""
     tau = run["tau"].values
     squares = run["l2"].transpose("member", "tau").values ** 2
-    edges = np.geomspace(FIRST, tau[-1], SPANS + 1)
+    edges = geometric(FIRST, float(tau[-1]), SPANS + 1)
     spans = [(tau >= a) & (tau <= b) for a, b in pairwise(edges)]
     means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans])
-    passed = tau - _delay(run) * np.log(np.maximum(tau, 1.0))
+    passed = tau - _delay(run) * log(np.maximum(tau, 1.0))
     law = [_law(run, thermal) * (passed[span] / tau[span]).mean() for span in spans]
     late = tau >= FIRST_OF_LINE * tau[-1]
     offset = (squares.mean(axis=0) - _law(run, thermal) * passed)[late].mean()

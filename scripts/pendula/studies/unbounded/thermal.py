@@ -18,6 +18,7 @@ import numpy as np
 from scipy.special import j1
 
 from pendula.datasets.netcdf import Variable
+from pendula.elementary import cos, exp, log, sin
 from pendula.problem import Constants
 
 from .bulk import LENGTH, POWER, TERMS, statistics_of
@@ -62,7 +63,7 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
     """
     epsilon, gamma, omega = astuple(constants)
     c = 4.0 * epsilon + 2.0 * gamma - omega
-    least = 16.0 * min(c, 0.0) ** 2
+    least = 16.0 * min(c, 0.0) * min(c, 0.0)
     return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))
 
 
@@ -119,8 +120,8 @@ def _refined(constants, beta, grid, energy, steps: int = 12):
         excess, operator, vector = _excess(constants, beta, grid, energy, vector)
         if abs(excess) < 1e-10:
             return beta, operator, vector
-        slope = (excess - before) / np.log(beta / old)
-        old, beta = beta, beta * float(np.exp(np.clip(-excess / slope, -0.5, 0.5)))
+        slope = (excess - before) / log(beta / old)
+        old, beta = beta, beta * float(exp(np.clip(-excess / slope, -0.5, 0.5)))
     raise ArithmeticError("no temperature with this energy was found")
 
 
@@ -147,7 +148,7 @@ def products_of(state: ThermalState, lags: int) -> np.ndarray:
     """
     parities = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 1, 1, 0))
     found = [_products(state, axis, parity, lags) for axis, parity in enumerate(parities)]
-    return np.array(found) * (-1.0) ** np.arange(lags)
+    return np.array(found) * np.where(np.arange(lags) % 2, -1.0, 1.0)
 
 
 def _products(state: ThermalState, axis: int, parity: tuple, lags: int) -> np.ndarray:
@@ -173,15 +174,15 @@ def correlation_length(products: np.ndarray) -> float:
     for even in products[:, 0::2]:
         last = np.flatnonzero(even).max()
         ratios.append(even[last] / even[last - 1])
-    return float(-2.0 / np.log(max(ratios)))
+    return float(-2.0 / log(max(ratios)))
 
 
 def spectrum_of(products: np.ndarray) -> np.ndarray:
     """Return the spectrum of A, as `bulk.spectrum` takes it from pieces as long as the products."""
     lags = np.arange(products.shape[1])
     shares = (1.0 - lags / len(lags)) * 0.5 * products.sum(axis=0)
-    waves = np.cos(2.0 * np.pi / len(lags) * (np.outer(lags, lags) % len(lags)))
-    return 2.0 * waves @ shares - shares[0]
+    waves = cos(2.0 * np.pi / len(lags) * (np.outer(lags, lags) % len(lags)))
+    return 2.0 * (waves * shares).sum(axis=1) - shares[0]
 
 
 def density_of(state: ThermalState, cells: np.ndarray, finer: int = 28) -> np.ndarray:
@@ -193,8 +194,8 @@ def density_of(state: ThermalState, cells: np.ndarray, finer: int = 28) -> np.nd
     nodes = half_nodes(state.operator.nodes[:, -1], finer)
     k = _wave_numbers(nodes, float(cells[-1]))
     weights = _characteristic(nodes, _chances(state, nodes), k)
-    size = np.hypot(k[:, None], k)
-    weights *= 4.0 * (k[1] - k[0]) ** 2 / (2.0 * np.pi * size)
+    size = np.sqrt(k[:, None] ** 2 + k**2)
+    weights *= 4.0 * (k[1] - k[0]) * (k[1] - k[0]) / (2.0 * np.pi * size)
     below = np.array([r * np.sum(weights * j1(size * r)) for r in cells])
     return np.diff(below) / np.diff(cells)
 
@@ -222,7 +223,7 @@ def _characteristic(nodes: np.ndarray, chances: np.ndarray, k: np.ndarray) -> np
     waves = np.multiply.outer(k, nodes / np.sqrt(2.0))  # (k, coordinate, node)
     both = chances.reshape(2, nodes.shape[1] ** 2, -1)
     found = np.zeros((len(k), len(k)))
-    for wave, chance in ((np.cos(waves), both[0] + both[1]), (np.sin(waves), both[0] - both[1])):
+    for wave, chance in ((cos(waves), both[0] + both[1]), (sin(waves), both[0] - both[1])):
         real = np.einsum("ki,kj->kij", wave[:, 0], wave[:, 1]).reshape(len(k), -1)
         imaginary = np.einsum("ki,kj->kij", wave[:, 2], wave[:, 3]).reshape(len(k), -1)
         found += real @ chance @ imaginary.T

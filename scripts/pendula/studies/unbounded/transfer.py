@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
+from pendula.elementary import exp
 from pendula.problem import Constants
 
 TAIL = 1e-9
@@ -51,7 +52,7 @@ def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray
     """Return the factors of a bond on even and odd functions, (parity, coordinate, to, node)."""
     step = 2.0 * nodes[:, 0, None, None]  # the midpoint rule
     apart, across = to[:, :, None] - nodes[:, None, :], to[:, :, None] + nodes[:, None, :]
-    near, far = (step * np.exp(-beta * epsilon * d * d) for d in (apart, across))
+    near, far = (step * exp(-beta * epsilon * d * d) for d in (apart, across))
     return np.array([near + far, near - far])
 
 
@@ -69,7 +70,7 @@ def site_terms(constants: Constants, nodes: np.ndarray) -> tuple[np.ndarray, ...
 def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Operator:
     """Return the operator on given nodes."""
     power, quartic, whole = site_terms(constants, nodes)
-    roots = np.exp(-0.5 * beta * (whole - whole.min()))
+    roots = exp(-0.5 * beta * (whole - whole.min()))
     bonds = bonds_between(beta, constants.epsilon, nodes, nodes)
     return Operator(constants, beta, nodes, bonds, roots, quartic, power)
 
