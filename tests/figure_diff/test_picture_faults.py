@@ -16,7 +16,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from pendula.drawing import style
 from pendula.drawing.description import as_text, describe
 from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, MISSING, NEARLY
-from pendula.figure_diff.compare_description import judge, read_description
+from pendula.figure_diff.compare_description import judge, read_description, shows_rounding
 
 STEM = "fig4_spacetime"
 """The table of tolerances knows data of this name as chaotic."""
@@ -467,6 +467,16 @@ def test_how_a_library_packs_streams_does_not_matter(drawn, monkeypatch):
     put(drawn.made, chaotic())
     assert (drawn.made / PDF).read_bytes() != before
     assert drawn.findings(EVERY)[PDF].status == IDENTICAL
+
+
+def test_errors_of_rounding_move_with_any_bits(tmp_path):
+    """A logarithmic axis shows them however regular the data are."""
+    for low, shown in ((1e-12, True), (1e-6, False)):
+        plant = left(lambda axes, low=low: axes.set(yscale="log", ylim=(low, 8)))
+        (tmp_path / "it.json").write_text(as_text(description(regular(), plant)))
+        assert shows_rounding(tmp_path / "it.json") == shown
+    (tmp_path / "it.json").write_text(as_text(description(regular())))
+    assert not shows_rounding(tmp_path / "it.json")
 
 
 def test_regular_data_of_other_bits_move_no_limit():

@@ -156,11 +156,13 @@ class _Comparison:
 
         Even one with the accepted bytes must belong to the data beside it, which may be others.
         """
-        moved = shown is not None and not shown.is_fault and shown.moved
         accepted, new = self.folder / name, self.made / name
+        described = accepted.with_suffix(".json")
+        moved = shown is not None and shown.status == NEARLY
+        moved = moved and (shown.moved or compare_description.shows_rounding(described))
         if name.endswith(".json"):
             return compare_description.compare(name, accepted, new, new.with_suffix(".nc"), moved)
-        beside = accepted.with_suffix(".json"), new.with_suffix(".json")
+        beside = described, new.with_suffix(".json")
         if name.endswith(".pdf"):
             known = self.hashes[name]
             return compare_pdf.compare(name, known, new, beside, self.same_environment)

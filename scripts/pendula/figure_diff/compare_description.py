@@ -30,6 +30,9 @@ MANY = 10
 """Of a curve with so many points at most half may come or go with chaotic data: gaps of a
 logarithmic axis move, but a curve does not vanish."""
 
+ROUNDING = 1e-8
+"""A logarithmic axis that begins lower shows errors of rounding, which keep their size only."""
+
 ITEMS = {
     "panels": "panel",
     "legends": "legend",
@@ -77,6 +80,19 @@ def read_description(path: Path) -> Described:
     if not complete:
         raise DamagedDescriptionError("has a description that cannot be read")
     return Described(content, fingerprint(text))
+
+
+def shows_rounding(path: Path) -> bool:
+    """Return whether a panel has a logarithmic axis on which errors of rounding can be seen.
+
+    There any other bits move curves visibly. A description that cannot be read shows nothing.
+    """
+    try:
+        panels = read_description(path).content["panels"]
+    except DamagedDescriptionError:
+        return False
+    axes = [panel[name] for panel in panels for name in "xy" if name in panel]
+    return any(axis["scale"] == "log" and min(axis["limits"]) < ROUNDING for axis in axes)
 
 
 def compare(name: str, accepted: Path, made: Path, data: Path, moved: bool) -> Finding:
