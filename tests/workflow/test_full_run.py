@@ -5,6 +5,7 @@ import json
 import numpy as np
 import xarray as xr
 from helpers import ROOT, snakemake
+from pendula.drawing.description import fingerprint
 
 CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
@@ -18,6 +19,8 @@ def test_every_figure_is_there_with_its_data(finished):
         assert png.startswith(b"\x89PNG") and pdf.startswith(b"%PDF")
         with xr.open_dataset(finished / f"results/figures/{name}.nc") as data:
             assert data.data_vars
+        described = (finished / f"results/figures/{name}.json").read_text(encoding="utf-8")
+        assert all(fingerprint(described).encode() in picture for picture in (png, pdf))
 
 
 def test_a_trajectory_keeps_the_data_contract(finished):
