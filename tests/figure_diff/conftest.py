@@ -8,9 +8,11 @@ from typing import NamedTuple
 import made_up_results as made_up
 import pytest
 from pendula.datasets.netcdf import read
-from pendula.figure_diff import Finding, acceptance, baseline, compare_data
+from pendula.figure_diff import Finding, acceptance, baseline, tolerances
 
-TOLERANCES = Path(__file__).resolve().parents[1] / "baseline" / compare_data.TOLERANCES
+from benchmarks import spreads
+
+TABLE = Path(__file__).resolve().parents[1] / "baseline" / tolerances.TOLERANCES
 
 
 class Run(NamedTuple):
@@ -53,11 +55,22 @@ class Run(NamedTuple):
 
 
 @pytest.fixture(scope="session")
-def accepted_run(tmp_path_factory) -> Run:
+def ensemble(tmp_path_factory) -> list[spreads.Measured]:
+    """Return what ten made-up runs say about the chaotic curves."""
+    folder = tmp_path_factory.mktemp("ensemble")
+    members = [made_up.make_chaos(folder / str(seed), seed) for seed in range(10)]
+    rules = tolerances.read_rules(TABLE.parent)
+    return spreads.measure(members, made_up.CHAOTIC_DATASETS, rules)
+
+
+@pytest.fixture(scope="session")
+def accepted_run(tmp_path_factory, ensemble) -> Run:
     folder = tmp_path_factory.mktemp("figure_diff")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
     run.accept()
-    shutil.copy(TOLERANCES, run.accepted)
+    shutil.copy(TABLE, run.accepted)
+    excess = spreads.accusations(ensemble)
+    spreads.write(run.accepted / tolerances.SPREADS, ensemble, excess)
     return run
 
 

@@ -13,6 +13,7 @@ TAU = np.linspace(0, 50, 2001)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
 PICTURE, CHAOTIC_PICTURE = "figures/fig2.png", "figures/fig4.png"
 LEDGER, TABLE, REFERENCE = "claims.json", "tables/claims.md", "truth/fig2_small.nc"
+CHAOTIC_DATASETS = [CHAOTIC, "figures/fig4.nc", "figures/fig4_spacetime.nc"]
 NAMES = [
     *(REGULAR, CHAOTIC, PICTURE, CHAOTIC_PICTURE, LEDGER, TABLE, REFERENCE),
     *(f"figures/{stem}.{kind}" for stem in ("fig2", "fig4") for kind in ("nc", "pdf", "json")),
@@ -102,6 +103,13 @@ def put_words(folder: Path, rows: list[dict], text: str) -> None:
     (folder / TABLE).parent.mkdir(parents=True, exist_ok=True)
     (folder / LEDGER).write_text(json.dumps(rows, indent=1) + "\n")
     (folder / TABLE).write_text(text)
+
+
+def make_chaos(folder: Path, seed: int = 0, **changes) -> Path:
+    """Write the chaotic datasets of a run, each of another seed, since no test wants copies."""
+    for place, name in enumerate(CHAOTIC_DATASETS):
+        save(folder / name, chaotic(seed + 100 * place, **changes))
+    return folder
 
 
 def make_run(folder: Path) -> Path:

@@ -9,6 +9,7 @@ from helpers import ROOT
 PARTS = (
     *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
     *("tests/baseline/reference", "tests/baseline/speed", "tests/baseline/tolerances.yaml"),
+    "tests/baseline/spreads.nc",
 )
 
 

@@ -35,7 +35,7 @@ from . import (
     compare_words,
     hashes,
 )
-from .compare_data import Rule, read_rules
+from .tolerances import Tolerances, read_tolerances
 
 RECORD, HASHES = "accepted.json", "hashes.json"
 """What names every file of the baseline, what drew it and its configuration; and the hashes."""
@@ -134,13 +134,14 @@ class _Comparison:
 
     def __init__(self, made: Path, folder: Path, record: Mapping[str, Any]):
         self.made, self.folder = made, folder
-        self.hashes, self.rules = accepted_hashes(folder), read_rules(folder)
+        self.hashes, self.tolerances = accepted_hashes(folder), read_tolerances(folder)
         self.same_environment = record["environment"] == environment()
 
     def compare(self, name: str, found: Mapping[str, Finding]) -> Finding:
         """Return the finding for a file that both have; `found` holds those of all datasets."""
         if name.endswith(".nc"):
-            return _compare_dataset(name, self.made, self.folder, self.hashes[name], self.rules)
+            accepted = self.hashes[name]
+            return _compare_dataset(name, self.made, self.folder, accepted, self.tolerances)
         if name.startswith(FIGURES) or name.endswith(PICTURES):
             return self._compare_figure(name, found.get(str(Path(name).with_suffix(".nc"))))
         content = (self.made / name).read_bytes()
@@ -185,7 +186,7 @@ def _absent(name: str, names: set[str], comparison: _Comparison) -> Finding | No
 
 
 def _compare_dataset(
-    name: str, made: Path, folder: Path, accepted: hashes.Hashes, rules: list[Rule]
+    name: str, made: Path, folder: Path, accepted: hashes.Hashes, tolerances: Tolerances
 ) -> Finding:
     """Return the finding by hashes, then by type and attributes, and by numbers last."""
     try:
@@ -211,19 +212,22 @@ def _compare_dataset(
         return Finding(name, DIFFERENT, "; ".join(faults[:3]) + more)
     if not unlike:
         return Finding(name, DIFFERENT, "has other hashes than were accepted, for no visible cause")
-    return _compare_numbers(name, known, hashes.as_kept(new), unlike, rules)
+    pair = hashes.as_dataset(known), hashes.as_dataset(hashes.as_kept(new))
+    found = compare_data.compare(name, *pair, tolerances, lambda other: _as_kept(made / other))
+    return _without_the_bits(found, unlike)
 
 
-def _compare_numbers(
-    name: str, known: hashes.Content, new: hashes.Content, unlike: list[str], rules: list[Rule]
-) -> Finding:
-    """Return the finding for datasets of one form with other bits; it never is `identical`."""
-    found = compare_data.compare(name, *map(hashes.as_dataset, (known, new)), rules)
+def _as_kept(path: Path):
+    return hashes.as_dataset(hashes.as_kept(hashes.read(path)))
+
+
+def _without_the_bits(found: Finding, unlike: list[str]) -> Finding:
+    """Return what the numbers say of datasets of one form with other bits: never `identical`."""
     if found.is_fault:
         return found
     others = f" and {len(unlike) - 3} more" if len(unlike) > 3 else ""
     bits = f"other bits in {', '.join(unlike[:3])}{others}"
     if found.status == IDENTICAL:
         says = f"{bits}, by less than single precision shows (6e-8)"
-        return Finding(name, NEARLY, says)
-    return Finding(name, NEARLY, f"{bits}: {found.says}", found.moved)
+        return Finding(found.name, NEARLY, says)
+    return Finding(found.name, NEARLY, f"{bits}: {found.says}", found.moved)

@@ -1,108 +1,31 @@
-"""Compares a dataset with that of the baseline, curve by curve.
+"""Compares a dataset with that of the baseline, curve by curve, where its bits are not the same.
 
 A variable is split into curves, one for each combination of its named coordinates. Each curve is
 compared by the method of the first rule that fits its label. A deviation is counted in units of
-what the rule allows, so that more than 1 is a fault by any method.
-
-The rules stand in one table, tests/baseline/tolerances.yaml, and not in the folders of the studies,
-because one chaotic case appears in the files of several studies and the first match counts: only
-one list, read from top to bottom, shows which rule wins.
+what is allowed, so that more than 1 is a fault by any method.
 """
 
-from collections.abc import Iterator
-from fnmatch import fnmatchcase
-from pathlib import Path
-from typing import Literal, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from pendula.datasets.netcdf import DatasetError
 
 from . import DIFFERENT, IDENTICAL, NEARLY, Finding
-
-TOLERANCES = "tolerances.yaml"
-
-
-class ToleranceError(ValueError):
-    """The tolerances cannot be read; the message names the file and says what to do."""
-
-
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-class Bands(_Table):
-    """How much statistics of a curve may change beyond the horizon, relatively; None allows all."""
-
-    mean: float | None = Field(None, gt=0)
-    standard_deviation: float | None = Field(None, gt=0)
-    maximum: float | None = Field(None, gt=0)
-
-
-class Rule(_Table):
-    """How to compare the curves whose label (see `curves`) matches a pattern."""
-
-    labels: list[str] = Field(min_length=1)
-    method: Literal["pointwise", "chaotic", "magnitude"]
-    """`chaotic` compares pointwise up to the horizon, and by statistics beyond it."""
-    limit: float = Field(gt=0)
-    """A fraction of the largest value of the curve; for `magnitude`, a number of decades."""
-    reason: str = Field(min_length=1)
-    horizon: float = 0.0
-    """The time tau up to which the curve is compared point by point."""
-    bands: Bands = Bands()
-    below: float = float("inf")
-    """The rule holds only for curves whose largest value is smaller than this."""
-
-    def fits(self, label: str, largest: float) -> bool:
-        """Return whether this rule holds for the curve `label` with this largest value."""
-        small = largest < self.below or self.below == float("inf")
-        return small and any(fnmatchcase(label, pattern) for pattern in self.labels)
-
-
-REGULAR = Rule(
-    labels=["*"],
-    method="pointwise",
-    limit=1e-6,
-    reason="regular: other roundings give 1e-9, and the baseline's single precision 6e-8",
-)
-"""This rule holds for every curve that no rule of the table names."""
-
-
-class _Rules(_Table):
-    bands: dict[str, Bands] = {}
-    """Only for YAML anchors: the rules refer to them."""
-    horizons: dict[str, float] = {}
-    rules: list[Rule]
-
-
-def read_rules(baseline: Path) -> list[Rule]:
-    """Return the rules in the baseline's folder, then the one for regular curves.
-
-    Without a table every curve counts as regular, which is the strictest comparison. A table that
-    cannot be read raises ToleranceError.
-    """
-    path = baseline / TOLERANCES
-    try:
-        table = _Rules.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
-    except FileNotFoundError:
-        return [REGULAR]
-    except (yaml.YAMLError, ValidationError) as error:
-        raise ToleranceError(f"{path} cannot be read; mend these entries:\n{error}") from None
-    return [*table.rules, REGULAR]
-
-
-def rule_for(rules: list[Rule], label: str, largest: float) -> Rule:
-    """Return the first of the rules that fits; the last of `read_rules` fits every curve."""
-    return next(rule for rule in rules if rule.fits(label, largest))
-
+from .structure import DISTANCES, STATISTICS, describe, distances
+from .tolerances import REGULAR_LIMIT, TOGETHER, Rule, Spread, Spreads, Tolerances, rule_for
 
 VISIBLE = 1e-4
 """A tenth of a pixel in a panel 900 pixels wide, as a fraction of its height or width."""
 
-FLOOR = 1e-12
-"""Errors below this count as alike: they are sums of roundings, which have no fixed order."""
+SMALLEST = 2.0**-53
+"""Where moduli are compared by their logarithms, smaller ones count as this rounding error of 1."""
+
+
+MOST_OVER = 100.0
+"""The logarithm of the largest factor that is counted: no number overflows."""
 
 
 class Curve(NamedTuple):
@@ -110,8 +33,9 @@ class Curve(NamedTuple):
 
     label: str
     values: np.ndarray
+    """Any dimensions; that of time is the last."""
     tau: np.ndarray | None
-    """The time of each value in the shape of the values, or None for values without a time."""
+    """The times along the last dimension, or None for values without a time."""
 
     @property
     def largest(self) -> float:
@@ -131,25 +55,39 @@ class Deviation(NamedTuple):
 
 
 SAME = Deviation(0.0, "")
-WITHIN = Deviation(0.0, "differs, but its statistics are the same", moved=True)
 
 
-def compare(name: str, accepted: xr.Dataset, made: xr.Dataset, rules: list[Rule]) -> Finding:
-    """Return the finding for the dataset `name`: it names the curve that is off the most."""
+def compare(
+    name: str,
+    accepted: xr.Dataset,
+    made: xr.Dataset,
+    tolerances: Tolerances,
+    made_too: Callable[[str], xr.Dataset] | None = None,
+) -> Finding:
+    """Return the finding for the dataset `name`: it names the curve that is off the most.
+
+    `made_too` returns another dataset of the run by its name, so that copies can be compared.
+    """
+    rules, spreads = tolerances
     stem = name.removesuffix(".nc")
     was, now = ({c.label: c for c in curves(data, stem)} for data in (accepted, made))
     if was.keys() != now.keys():
         return Finding(name, DIFFERENT, _unmatched(was, now))
-    compared = {
-        label: deviation(was[label], now[label], rule_for(rules, label, was[label].largest))
-        for label in was
-    }
-    found = {label: each for label, each in compared.items() if each != SAME}
+    found = {}
+    for label, curve in was.items():
+        rule = rule_for(rules, label, curve.largest)
+        found[label] = deviation(curve, now[label], rule, spreads.of(label, rule))
+    means = (together(found, rules, spreads) for found in (was, now))
+    found |= dict(_together(*means, spreads))
+    if made_too is not None:
+        found |= _copies(now, spreads, made_too)
+    found = {label: each for label, each in found.items() if each != SAME}
     if not found:
         return Finding(name, IDENTICAL)
     worst = max(found, key=lambda label: found[label].excess)
     faults = sum(each.excess > 1 for each in found.values())
-    says = _say(worst.partition(":")[2], found[worst], faults)
+    others = f" (and {faults - 1} more curves)" if faults > 1 else ""
+    says = f"{worst.partition(':')[2]} {found[worst].says}{others}"
     moved = any(each.moved for each in found.values())
     return Finding(name, DIFFERENT if faults else NEARLY, says, moved)
 
@@ -159,26 +97,28 @@ def curves(data: xr.Dataset, stem: str) -> Iterator[Curve]:
 
     A label reads `figures/fig3:l2 amplitude=large component=A`.
     """
-    for name, variable in data.variables.items():
-        words = [
-            dim for dim in variable.dims if dim in data.coords and data[dim].dtype.kind in "UOT"
-        ]
-        array = variable.transpose(*words, ...)
-        shape = tuple(variable.sizes[dim] for dim in words)
-        tau = _times(data, array.dims[len(words) :], array.shape[len(words) :])
-        for index in np.ndindex(shape):
-            chosen = [f"{d}={data[d].values[i]}" for d, i in zip(words, index, strict=True)]
-            yield Curve(" ".join([f"{stem}:{name}", *chosen]), array.values[index], tau)
+    variables = dict(data.variables)
+    values = {name: variable.values for name, variable in variables.items()}
+    for name, variable in variables.items():
+        dims = variable.dims
+        words = [dim for dim in dims if dim in values and values[dim].dtype.kind in "UOT"]
+        timed, tau = _times(values, [dim for dim in dims if dim not in words])
+        others = [dim for dim in dims if dim not in (*words, *timed)]
+        array = values[name].transpose([dims.index(dim) for dim in (*words, *others, *timed)])
+        for index in np.ndindex(array.shape[: len(words)]):
+            chosen = [f"{dim}={values[dim][i]}" for dim, i in zip(words, index, strict=True)]
+            yield Curve(" ".join([f"{stem}:{name}", *chosen]), array[index], tau)
 
 
-def _times(data: xr.Dataset, dims: tuple[str, ...], shape: tuple[int, ...]) -> np.ndarray | None:
-    """Return the times along the first dimension that has them, in the given shape."""
-    for axis, dim in enumerate(dims):
+def _times(
+    values: Mapping[str, np.ndarray], dims: list[str]
+) -> tuple[list[str], np.ndarray | None]:
+    """Return the first dimension that has times (in a list, or an empty one), and its times."""
+    for dim in dims:
         for name in (dim, f"{dim}_tau"):
-            if name.endswith("tau") and name in data.variables and data[name].ndim == 1:
-                along = [-1 if place == axis else 1 for place in range(len(dims))]
-                return np.broadcast_to(data[name].values.reshape(along), shape)
-    return None
+            if name.endswith("tau") and name in values and values[name].ndim == 1:
+                return [dim], values[name]
+    return [], None
 
 
 def _unmatched(was: dict[str, Curve], now: dict[str, Curve]) -> str:
@@ -192,94 +132,154 @@ def _unmatched(was: dict[str, Curve], now: dict[str, Curve]) -> str:
     return ", ".join(said)
 
 
-def _say(label: str, found: Deviation, faults: int) -> str:
-    others = f" (and {faults - 1} more curves)" if faults > 1 else ""
-    allowed = " is allowed" if found != WITHIN and np.isfinite(found.excess) else ""
-    return f"{label} {found.says}{allowed}{others}"
-
-
-def deviation(reference: Curve, new: Curve, rule: Rule) -> Deviation:
-    """Return how far `new` is from `reference` under this rule."""
-    if reference.values.shape != new.values.shape:
-        says = f"has the shape {new.values.shape} in place of {reference.values.shape}"
-        return Deviation(np.inf, says)
-    if reference.values.dtype.kind != new.values.dtype.kind:
+def deviation(reference: Curve, new: Curve, rule: Rule, spread: Spread | None) -> Deviation:
+    """Return how far `new` is from `reference` under this rule and the measured spread."""
+    was, now = reference.values, new.values
+    if was.shape != now.shape:
+        return Deviation(np.inf, f"has the shape {now.shape} in place of {was.shape}")
+    if was.dtype.kind != now.dtype.kind:
         return Deviation(np.inf, "holds values of another type")
-    if reference.values.dtype.kind != "f":
-        return _exact(reference.values, new.values)
-    if np.array_equal(reference.values, new.values, equal_nan=True):
+    if np.array_equal(was, now, equal_nan=was.dtype.kind == "f"):
         return SAME
-    if not np.array_equal(*map(_without_finite, (reference.values, new.values)), equal_nan=True):
-        return Deviation(np.inf, "has gaps (NaN) or infinities elsewhere")
-    return METHODS[rule.method](reference, new, rule)
+    moves = rule.method != "pointwise" and spread is not None
+    if was.dtype.kind != "f" and not (moves and was.dtype.kind in "iub"):
+        return _exact(was, now)
+    if not moves:
+        return _gaps(was, now) or _pointwise(reference, new)
+    return _chaotic(reference, new, rule, spread)
 
 
-def _without_finite(values: np.ndarray) -> np.ndarray:
-    """Return the values with 0 for every finite one: what is left are gaps and infinities."""
-    return np.where(np.isfinite(values), 0, values)
-
-
-def _exact(reference: np.ndarray, new: np.ndarray) -> Deviation:
-    unlike = np.atleast_1d(reference != new)
-    if not unlike.any():
-        return SAME
-    was, now = np.atleast_1d(reference)[unlike][0], np.atleast_1d(new)[unlike][0]
+def _exact(was: np.ndarray, now: np.ndarray) -> Deviation:
+    unlike = np.atleast_1d(was != now)
+    was, now = np.atleast_1d(was)[unlike][0], np.atleast_1d(now)[unlike][0]
     return Deviation(np.inf, f"is {now!s} in place of {was!s}")
 
 
-def _pointwise(reference: Curve, new: Curve, rule: Rule) -> Deviation:
-    """Return the largest difference, as a fraction of the largest value of the curve."""
-    was, now = (np.atleast_1d(c.values).astype(float) for c in (reference, new))
-    difference = np.nan_to_num(abs(now - was))
-    scale = reference._replace(values=was).largest or 1.0
-    place = np.unravel_index(difference.argmax(), difference.shape)
-    off = difference[place] / scale
-    tau = "" if reference.tau is None else f" at tau = {np.atleast_1d(reference.tau)[place]:.4g}"
-    says = f"is off by {off:.2g} of its scale{tau}, {rule.limit:.2g}"
-    return Deviation(off / rule.limit, says, moved=off > VISIBLE)
+def _gaps(was: np.ndarray, now: np.ndarray) -> Deviation | None:
+    """Return a fault unless NaN and both infinities are where they were."""
+    finite = np.isfinite(was) & np.isfinite(now)
+    if np.array_equal(np.where(finite, 0, was), np.where(finite, 0, now), equal_nan=True):
+        return None
+    return Deviation(np.inf, "has gaps (NaN or infinity) elsewhere or of another sign", moved=True)
 
 
-def _chaotic(reference: Curve, new: Curve, rule: Rule) -> Deviation:
-    """Compare pointwise up to the horizon, and by statistics beyond it."""
-    if reference.tau is None:
-        return _by_statistics(reference.values, new.values, rule)
-    trusted = reference.tau <= rule.horizon
-    early = [Curve(c.label, np.where(trusted, c.values, 0), c.tau) for c in (reference, new)]
-    before = _pointwise(*early, rule)
-    if before.excess > 1 or trusted.all():
-        return before
-    beyond = _by_statistics(reference.values[~trusted], new.values[~trusted], rule)
-    return max(before, beyond, key=lambda found: found.excess)._replace(moved=True)
-
-
-def _by_statistics(reference: np.ndarray, new: np.ndarray, rule: Rule) -> Deviation:
-    """Compare each statistic that has a band, relative to its value in the reference."""
-    found, finite = [], np.isfinite(reference)
-    reference, new = reference[finite], new[finite]
-    if not reference.size:
+def _pointwise(reference: Curve, new: Curve, until: int | None = None) -> Deviation:
+    """Return the largest difference of the first samples, as a fraction of the largest value."""
+    was, now = (np.atleast_1d(c.values).astype(float)[..., :until] for c in (reference, new))
+    finite = np.isfinite(was)
+    difference = abs(np.where(finite, now, 0) - np.where(finite, was, 0))
+    if not difference.size:
         return SAME
-    for name, measure in STATISTICS.items():
-        band = getattr(rule.bands, name)
-        was, now = float(measure(reference)), float(measure(new))
-        if band is None or was == now:
+    place = np.unravel_index(difference.argmax(), difference.shape)
+    off = float(difference[place]) / (reference.largest or 1.0)
+    tau = "" if reference.tau is None else f" at tau = {reference.tau[place[-1]]:.4g}"
+    says = f"is off by {off:.2g} of its scale{tau}, {REGULAR_LIMIT:.2g} is allowed"
+    return Deviation(off / REGULAR_LIMIT, says, moved=off > VISIBLE)
+
+
+def _chaotic(reference: Curve, new: Curve, rule: Rule, spread: Spread) -> Deviation:
+    """Compare pointwise up to the horizon, and by statistics and distances beyond it."""
+    start = trusted(reference, spread.horizon)
+    if spread.keeps_gaps and (fault := _gaps(reference.values, new.values)):
+        return fault
+    was, now = (lines(curve, rule) / spread.scale for curve in (reference, new))
+    found = [
+        _pointwise(reference, new, start),
+        _by_statistics(describe(was, start), describe(now, start), spread),
+        _by_distance(distances(was, now, start), spread),
+    ]
+    return max(found, key=lambda each: each.excess)._replace(moved=True)
+
+
+def _by_statistics(was: np.ndarray, now: np.ndarray, spread: Spread) -> Deviation:
+    """Return the statistic that changed the most, in units of what its spread allows."""
+    off = abs(now - was)
+    excess = np.where(np.isfinite(spread.allowed), off / spread.allowed, 0)
+    worst = int(excess.argmax())
+    name = list(STATISTICS)[worst]
+    says = (
+        f"has the {name} {now[worst]:.4g} in place of {was[worst]:.4g} ({STATISTICS[name]}), "
+        f"a change by {spread.allowed[worst]:.2g} is allowed"
+    )
+    return Deviation(float(excess[worst]), says, moved=True)
+
+
+def _by_distance(apart: np.ndarray, spread: Spread) -> Deviation:
+    """Return the distance that is the largest, in units of what two right runs may be apart."""
+    over = np.where(np.isfinite(spread.farthest), apart - spread.farthest, -np.inf)
+    excess = np.exp(np.minimum(over, MOST_OVER))
+    worst = int(excess.argmax())
+    says = (
+        f"is apart by {np.exp(apart[worst]):.2g} of its scale "
+        f"({list(DISTANCES.values())[worst].removeprefix('log of the ')}), "
+        f"{np.exp(min(spread.farthest[worst], MOST_OVER)):.2g} is allowed"
+    )
+    return Deviation(float(excess[worst]), says, moved=True)
+
+
+def together(found: dict[str, Curve], rules: list[Rule], spreads: Spreads) -> dict[str, np.ndarray]:
+    """Return the mean statistics over all chaotic curves of each variable that has several.
+
+    A factor that all curves share stands out of the mean, which scatters less than one curve.
+    """
+    of_variable: dict[str, list[np.ndarray]] = {}
+    for label, curve in found.items():
+        if spread := spreads.get(label):
+            rule = rule_for(rules, label, curve.largest)
+            told = describe(lines(curve, rule) / spread.scale, trusted(curve, spread.horizon))
+            of_variable.setdefault(label.partition(" ")[0], []).append(told)
+    many = {name: rows for name, rows in of_variable.items() if len(rows) > 1}
+    return {f"{name} {TOGETHER}": np.mean(rows, 0) for name, rows in many.items()}
+
+
+def _together(was: dict[str, np.ndarray], now: dict[str, np.ndarray], spreads: Spreads):
+    for label in was.keys() & now.keys():
+        if (spread := spreads.get(label)) and not np.array_equal(
+            was[label], now[label], equal_nan=True
+        ):
+            yield label, _by_statistics(was[label], now[label], spread)
+
+
+def _copies(
+    now: dict[str, Curve], spreads: Spreads, made_too: Callable[[str], xr.Dataset]
+) -> dict[str, Deviation]:
+    """Return the faults of chaotic curves that are the same as another in every right run.
+
+    A figure shows a trajectory that a file of its own holds, so a change of one of them alone is
+    found, however small it is beside what chaos changes.
+    """
+    found, others = {}, {}
+    for label, curve in now.items():
+        spread = spreads.get(label)
+        if spread is None or not spread.copy_of:
             continue
-        off = abs(now - was) / (abs(was) or 1.0)
-        says = f"has the {name.replace('_', ' ')} {now:.4g} in place of {was:.4g}, {band:.2g} of it"
-        found.append(Deviation(off / band, says, moved=True))
-    return max(found, default=WITHIN, key=lambda each: each.excess)
+        stem = spread.copy_of.partition(":")[0]
+        if stem not in others:
+            others[stem] = _curves_of(stem, made_too)
+        other = others[stem].get(spread.copy_of)
+        if other is not None and not np.array_equal(curve.values, other.values, equal_nan=True):
+            says = f"is not the same as {spread.copy_of}, of which it is a copy in a right run"
+            found[label] = Deviation(np.inf, says, moved=True)
+    return found
 
 
-def _magnitude(reference: Curve, new: Curve, rule: Rule) -> Deviation:
-    """Compare the sizes of errors, as a factor; below the floor all sizes count as alike."""
-    was, now = (max(curve.largest, FLOOR) for curve in (reference, new))
-    decades = abs(np.log10(now / was))
-    says = f"is of size {now:.2g} in place of {was:.2g}, a factor of {10**rule.limit:.2g}"
-    return Deviation(decades / rule.limit, says, moved=True)
+def _curves_of(stem: str, made_too: Callable[[str], xr.Dataset]) -> dict[str, Curve]:
+    """Return the curves of another dataset; of one that is missing or damaged, none."""
+    try:
+        return {each.label: each for each in curves(made_too(f"{stem}.nc"), stem)}
+    except DatasetError:
+        return {}
 
 
-STATISTICS = {
-    "mean": np.mean,
-    "standard_deviation": np.std,
-    "maximum": lambda values: np.max(abs(values)),
-}
-METHODS = {"pointwise": _pointwise, "chaotic": _chaotic, "magnitude": _magnitude}
+def trusted(curve: Curve, horizon: float) -> int:
+    """Return how many samples of a curve lie up to the horizon of trust."""
+    return 0 if curve.tau is None else int((curve.tau <= horizon).sum())
+
+
+def lines(curve: Curve, rule: Rule) -> np.ndarray:
+    """Return what is compared of a curve, in the shape (row, sample)."""
+    values = np.atleast_1d(curve.values).astype(float)
+    values = values.reshape(-1, values.shape[-1])
+    if rule.method == "size":
+        values = np.array([[curve.largest]])
+    return np.log(np.maximum(abs(values), SMALLEST)) if rule.logs else values

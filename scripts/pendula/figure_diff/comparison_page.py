@@ -13,15 +13,11 @@ from pendula.report import page
 from pendula.report.page import address_of
 
 from . import IDENTICAL, STATUSES, Finding
-from .compare_data import Rule, read_rules
 from .compare_images import DamagedImageError, read
+from .tolerances import NEEDS_A_REASON, Allowance, allowances, read_tolerances
 
 THUMBNAIL = 320
 """Width in pixels of images that are identical; the others are shown whole."""
-
-
-NEEDS_A_REASON = 0.1
-"""An allowance above this fraction stands on the page with its reason."""
 
 
 def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
@@ -33,22 +29,33 @@ def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> 
         faults=sum(finding.is_fault for finding in findings),
         statuses=STATUSES,
         note=note,
-        allowances=[each for rule in read_rules(folder) if (each := _allowance(rule))],
+        allowances=_allowed(folder),
         share=f"{NEEDS_A_REASON:.0%}",
         sections=[_section(status, findings, made, folder) for status in STATUSES],
     )
 
 
-def _allowance(rule: Rule) -> dict[str, str] | None:
-    """Return for which curves a rule allows more than NEEDS_A_REASON, how much, and why."""
-    limits = {"points": rule.limit, **rule.bands.model_dump(exclude_none=True)}
-    large = {name: limit for name, limit in limits.items() if limit > NEEDS_A_REASON}
-    if rule.method == "magnitude":
-        large = {"size": 10**rule.limit - 1}
-    if not large:
-        return None
-    says = ", ".join(f"{name.replace('_', ' ')} {limit:.0%}" for name, limit in large.items())
-    return {"curves": " ".join(rule.labels), "allowed": says, "reason": rule.reason}
+def _allowed(folder: Path) -> list[dict[str, str]]:
+    """Return for which curves more than NEEDS_A_REASON is allowed, how much, and why."""
+    large = [each for each in allowances(*read_tolerances(folder)) if each.needs_a_reason]
+    of_rule = {each.rule.name: each.rule for each in large}
+    return [
+        {
+            "curves": " ".join(rule.labels),
+            "allowed": ", ".join(map(_in_words, (each for each in large if each.rule == rule))),
+            "reason": f"{rule.reason} {rule.wide}".strip(),
+        }
+        for rule in of_rule.values()
+    ]
+
+
+def _in_words(allowance: Allowance) -> str:
+    usual, most = map(_share, (allowance.median, allowance.largest))
+    return f"{allowance.statistic} {usual} (at most {most})"
+
+
+def _share(fraction: float) -> str:
+    return f"{fraction:.0%}" if fraction < 10 else f"a factor of {1 + fraction:.1g}"
 
 
 def _section(status: str, findings: Sequence[Finding], made: Path, folder: Path) -> dict[str, Any]:
