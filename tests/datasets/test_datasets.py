@@ -25,6 +25,11 @@ def test_what_is_written_is_read(tmp_path):
     assert data["l2"].attrs["units"] == "1"
 
 
+def test_a_rounded_variable_says_its_digits(tmp_path):
+    write(tmp_path / "a.nc", {"l2": Variable((), 0.3, attributes={"significant_digits": 2})}, {})
+    assert read(tmp_path / "a.nc")["l2"].attrs["significant_digits"] == 2
+
+
 def test_every_file_says_what_it_is_and_by_what_it_was_made(tmp_path):
     write(tmp_path / "a.nc", SERIES, {"title": "Norms of mine"})
     attributes = read(tmp_path / "a.nc").attrs

@@ -25,6 +25,7 @@ class Variable(NamedTuple):
     values: Any
     long_name: str = ""  # that of the registry
     units: str = "1"
+    attributes: Mapping[str, Any] = {}  # others, such as `significant_digits` of rounded values
 
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
@@ -45,13 +46,17 @@ def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
     def one(name: str, variable: Variable) -> xarray.Variable:
         values = np.asarray(variable.values)
         values = values.astype(object) if values.dtype.kind == "U" else values
-        words = describe(name, variable.long_name, variable.units)
+        words = _attributes(name, variable)
         return xarray.Variable(variable.dimensions, values, words)
 
     all_of_them = {name: one(name, variable) for name, variable in variables.items()}
     coordinates = {k: v for k, v in all_of_them.items() if v.dims == (k,)}
     values = {k: v for k, v in all_of_them.items() if k not in coordinates}
     return xarray.Dataset(values, coordinates, complete(attributes, "in memory"))
+
+
+def _attributes(name: str, variable: Variable) -> dict[str, Any]:
+    return describe(name, variable.long_name, variable.units) | dict(variable.attributes)
 
 
 def _created(path: Path) -> netCDF4.Dataset:
@@ -89,7 +94,7 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
     else:
         compression = "zlib" if values.size > 1_000 else None
         target = file.createVariable(name, values.dtype, variable.dimensions, compression)
-    target.setncatts(describe(name, variable.long_name, variable.units))
+    target.setncatts(_attributes(name, variable))
     target[...] = values
 
 

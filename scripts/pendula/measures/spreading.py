@@ -90,7 +90,7 @@ def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> float:
     logarithm, and below it tends to a limit.
     """
     x = log(tau / tau[-1])
-    grid = np.arange(LEAST, MOST + 0.5 * GRID, GRID)
+    grid = np.linspace(LEAST, MOST, round((MOST - LEAST) / GRID) + 1)
     first = q = float(min(grid, key=lambda tried: _left_over(x, squares, tried)))
     for _ in range(STEPS):
         law, change = _law(x, q)

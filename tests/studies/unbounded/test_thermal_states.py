@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from metropolis import energy_of, mean_and_error, sample
 from oracle import hamiltonian, random_chain
+from pendula.datasets.checks import rounded
 from pendula.studies.unbounded.bulk import TERMS, spectrum
 from pendula.studies.unbounded.thermal import (
     correlation_length,
     density_of,
     products_of,
-    rounded,
     spectrum_of,
     state_of_energy,
     terms_of,

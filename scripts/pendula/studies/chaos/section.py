@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from pendula.datasets.registry import SOLVER_NAMES
+from pendula.elementary import exp
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
 from pendula.report.page import Picture
@@ -26,7 +27,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "chaotic": [case_of(growth.sel(case=case)) for case in chaotic],
         "count": results.quote(LYAPUNOV, len(chaotic)),
         "rates": results.say(LYAPUNOV, span(rates.sel(case=chaotic), 2) if chaotic else "none"),
-        "limit": number(float(np.exp(MANY))),
+        "limit": number(float(exp(MANY))),
         "visible": percent(float(trust["size"].sel(level="visible"))),
         "end": results.quote(TRUST, float(trust["tau"].max())),
         "head": ["case", "growth, even", "growth, odd",
