@@ -4,6 +4,7 @@ import json
 
 from helpers import ROOT, edit, planned, snakemake
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 
 def said(result) -> str:
@@ -26,7 +27,10 @@ def test_accepting_comparing_and_failing(finished, clone):
     picture = finished / "results/figures/fig5.png"
     with Image.open(picture) as image:
         darker = image.convert("RGB").point(lambda shade: shade * 0.8)
-    darker.save(picture)
+        about = PngInfo()
+        for key, text in image.text.items():
+            about.add_text(key, text)
+    darker.save(picture, pnginfo=about)
     (clone / "tests/baseline/checks/growth.nc").unlink()
     change_claims(finished, '"verdict": "confirmed"', '"verdict": "not reproduced"')
     result = snakemake(clone, finished, "figure_diff")
