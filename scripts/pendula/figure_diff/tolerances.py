@@ -27,7 +27,8 @@ TOLERANCES, SPREADS = "tolerances.yaml", "spreads.nc"
 
 FALSE_ALARMS = 0.01
 """The chance that one comparison of a whole right reproduction names any curve by mistake. It is
-divided by the number of all statistics that are compared (Bonferroni)."""
+divided by the number of all statistics that are compared (Bonferroni), and holds as far as their
+spreads have Student's law; `benchmarks/spreads.py` widens those that have a heavier tail."""
 
 NEEDS_A_REASON = 0.1
 """An allowance above this fraction has to be defended in words (`wide` in the table)."""
