@@ -5,10 +5,18 @@ import numpy as np
 from .elementary import complex_of, log
 
 
+def normal(rng: np.random.Generator, size) -> np.ndarray:
+    """Return standard normal draws of NumPy, those of its tail rounded to 40 binary places.
+
+    The tail alone takes a function of the C library, log1p.
+    """
+    drawn = rng.normal(size=size)
+    return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)
+
+
 def complex_normal(rng: np.random.Generator, shape) -> np.ndarray:
     """Return complex numbers whose real and imaginary parts are normal."""
-    real = rng.normal(size=shape)
-    return complex_of(real, rng.normal(size=shape))
+    return complex_of(normal(rng, shape), normal(rng, shape))
 
 
 def uniform(rng: np.random.Generator, low: float, high: float, size=None):

@@ -157,15 +157,6 @@ def interpolated(x, points: np.ndarray, values: np.ndarray):
     return np.where(x >= points[-1], values[-1], slope * (x - points[i]) + values[i])[()]
 
 
-def normal(generator: np.random.Generator, size) -> np.ndarray:
-    """Return standard normal draws of NumPy, those of its tail rounded to 40 binary places.
-
-    The tail alone takes a function of the C library, log1p.
-    """
-    drawn = generator.normal(size=size)
-    return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)
-
-
 def fifth_root(x: float) -> float:
     """Return x^(1/5) of one number x > 0, with an error below 1 ulp; 0, inf and NaN stay.
 

@@ -12,7 +12,8 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.elementary import complex_of, modulus, normal, product
+from pendula.draws import complex_normal
+from pendula.elementary import modulus, product
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, name_window
@@ -30,7 +31,7 @@ def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.nd
     """
     reach = initial.shape[1] // 2
     drawn = (reach + 1, 2)
-    factors = 1.0 + size * complex_of(normal(rng, drawn), normal(rng, drawn))
+    factors = 1.0 + size * complex_normal(rng, drawn)
     return product(initial, factors[np.abs(np.arange(-reach, reach + 1))].T)
 
 
@@ -44,8 +45,7 @@ def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator)
     # the excited site and its neighbours move and the rest of the chain is exactly at rest.
     wider = np.pad(initial, ((0, 0), (1, 1)))
     scale = np.where(wider == 0, modulus(initial).max(), modulus(wider))
-    drawn = complex_of(normal(rng, wider.shape), normal(rng, wider.shape))
-    return wider + size * scale * drawn
+    return wider + size * scale * complex_normal(rng, wider.shape)
 
 
 PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}

@@ -7,7 +7,8 @@ relative to the largest.
 
 import numpy as np
 
-from pendula.elementary import complex_of, modulus, normal, product, square_modulus, turn
+from pendula.draws import complex_normal
+from pendula.elementary import modulus, product, square_modulus, turn
 from pendula.measures.difference import state_error
 from pendula.models.linear_chain import flow, gamma_0
 from pendula.problem import Constants, Problem, on_sites, place
@@ -23,7 +24,7 @@ OUTPUTS = 5
 def random_data(sites: int, size: float) -> np.ndarray:
     """Return complex Gaussian amplitudes (2, N), each of order `size`, the same every time."""
     rng = np.random.default_rng(sites)
-    return size * complex_of(normal(rng, (2, sites)), normal(rng, (2, sites)))
+    return size * complex_normal(rng, (2, sites))
 
 
 def of(epsilon: float = 1.0, gamma: float = 1.0, omega: float = 0.0) -> Constants:

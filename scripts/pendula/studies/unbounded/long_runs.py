@@ -14,7 +14,8 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import describe_run, shared_by
-from pendula.elementary import geometric, interpolated, log, modulus, normal
+from pendula.draws import normal
+from pendula.elementary import geometric, interpolated, log, modulus
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
 from pendula.problem import Problem
