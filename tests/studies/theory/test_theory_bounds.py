@@ -152,6 +152,19 @@ def test_a_search_for_theorem_3_that_is_twice_as_long_ends_at_the_same_number(nu
     assert found == pytest.approx(known, abs=1e-6)
 
 
+def test_the_ratio_of_theorem_3_grows_with_the_size_of_data_and_tends_to_one():
+    """So its search needs a limit on P."""
+    rng = np.random.default_rng(6)
+    drawn = rng.normal(size=(40, 2, 3)) + 1j * rng.normal(size=(40, 2, 3))
+    for shape in (*drawn, drawn[0] / np.abs(drawn[0])):
+        data = [size * shape for size in 2.0 ** np.arange(-3.0, 14.0)]
+        powers = np.array([np.sum(np.abs(z) ** 2) for z in data])
+        energies = np.array([total_energy(NEGATIVE, "dirichlet", z) for z in data])
+        reached = powers / theorem_3_bound(energies, 3, NEGATIVE)
+        assert np.all(np.diff(reached) > 0.0)
+    assert reached[-1] == pytest.approx(1.0, abs=1e-5)
+
+
 def test_the_worst_data_for_theorem_3_are_real_and_alternate(numbers):
     """A = -B = (x, -y, x), searched on two numbers, gives what the search on thirteen finds."""
     x, y = np.meshgrid(np.linspace(5.0, 7.0, 401), np.linspace(5.0, 7.5, 501))
