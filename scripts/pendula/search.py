@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .draws import normal
 from .elementary import exp, log
 from .matrices import cholesky, multiply, times
 
@@ -58,7 +59,7 @@ def maximise(objective, start: np.ndarray, spread: float, generations: int, size
     covariance, drift, path, forgotten = np.eye(n), np.zeros(n), np.zeros(n), 1.0
     best_point, best, history = mean, -np.inf, []
     for _ in range(generations):
-        drawn = rng.normal(size=(size, n))
+        drawn = normal(rng, (size, n))
         least = LEAST_SCALE * covariance.diagonal().max()
         steps = times(cholesky(covariance + least * np.eye(n)), drawn)
         values = objective(mean + sigma * steps)

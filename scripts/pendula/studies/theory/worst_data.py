@@ -19,7 +19,7 @@ from functools import partial
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.draws import exponential, uniform
+from pendula.draws import exponential, normal, uniform
 from pendula.elementary import complex_of, exp, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import (
@@ -136,7 +136,7 @@ SAME_HILL = 1e-6
 
 def first_point(sites: int, key) -> np.ndarray:
     """Return the start of a search: random data with A = -B, on which the drive acts."""
-    half = np.random.default_rng(key).normal(size=2 * sites)
+    half = normal(np.random.default_rng(key), 2 * sites)
     return np.concatenate([half, -half, [0.0]])
 
 
