@@ -48,7 +48,7 @@ def test_accepting_comparing_and_failing(finished, clone):
     assert result.returncode == 0 and "in place of confirmed" in said(result)
     result = snakemake(clone, finished, "figure_diff")
     assert result.returncode != 0 and "different: figures/fig5.png" in said(result)
-    assert "claims.json" not in said(result)
+    assert "different: claims.json" not in said(result)
 
 
 def test_everything_that_a_full_run_makes_is_in_the_baseline(finished, clone):
