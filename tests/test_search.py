@@ -80,3 +80,9 @@ def test_chance_alone_neither_stretches_nor_shrinks_the_steps():
         maximise(chance, np.zeros(4), 1.0, 36, 12, seed)
         growth.append(np.mean(spreads[24:]) - np.mean(spreads[:12]))
     assert -0.8 < np.mean(growth) < 0.1  # less at first, since the paths begin at zero
+
+
+def test_a_slope_without_a_top_is_climbed_as_long_as_one_likes():
+    """Its steps grow in one direction alone, until rounding would spoil the covariance."""
+    _, _, history = maximise(lambda points: points[:, 0], np.zeros(3), 1.0, 400, 8, 0)
+    assert np.all(np.isfinite(history)) and history[-1] > 1e6 * history[50] > 0.0

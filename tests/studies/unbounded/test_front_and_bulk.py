@@ -14,6 +14,7 @@ from pendula.studies.unbounded.bulk import (
     with_ghosts,
 )
 from pendula.studies.unbounded.front import (
+    group_velocity,
     growth_rate,
     is_unstable,
     linear_front,
@@ -76,17 +77,22 @@ def test_a_linear_front_bounds_the_linear_chain():
     assert abs(reached - (front.speed * tau - front.delay * np.log(tau))) < 2.0
 
 
-def test_the_curvature_at_the_saddle_is_that_of_the_rate():
-    for omega in (-1.5, 0.0, 2.0, 5.5):
-        front = linear_front(constants(omega))
-        k, step = front.wave_number + 1j * front.decay, 1e-3
+@pytest.mark.parametrize(
+    "numbers", [*((1.0, 1.0, omega) for omega in (-1.5, 0.0, 2.0, 5.5)), (0.7, 0.9, 0.4)]
+)
+def test_the_curvature_at_the_saddle_is_that_of_the_rate(numbers):
+    epsilon, gamma, omega = numbers
+    front, step = linear_front(constants_of(numbers)), 1e-3
+    k = front.wave_number + 1j * front.decay
 
-        def branch(k, omega=omega):
-            s = np.sqrt(4.0 - (2.0 * (1.0 - np.cos(k)) - omega) ** 2 + 0j)
-            return s if s.real > 0 else -s
+    def branch(k):
+        s = np.sqrt(4.0 * gamma**2 - (2.0 * epsilon * (1.0 - np.cos(k)) - omega) ** 2 + 0j)
+        return s if s.real > 0 else -s
 
-        second = (branch(k + step) - 2.0 * branch(k) + branch(k - step)) / step**2
-        assert front.diffusion == pytest.approx(-0.5 * second, rel=1e-4)
+    second = (branch(k + step) - 2.0 * branch(k) + branch(k - step)) / step**2
+    assert front.diffusion == pytest.approx(-0.5 * second, rel=1e-4)
+    lost = 3.0 * np.sqrt(np.pi) * (front.diffusion**-0.5).real / front.decay**2
+    assert (front.delay, front.rest) == pytest.approx((1.5 / front.decay, lost))
 
 
 def front_of(way, tau, rest=0.0):
@@ -174,3 +180,31 @@ def test_rest_is_unstable_from_two_gamma_below_the_band_to_two_gamma_above_it(ep
     low, high = -2.0 * gamma, 4.0 * epsilon + 2.0 * gamma
     for omega, unstable in ((low, 0), (low + 1e-9, 1), (high - 1e-9, 1), (high + 1e-9, 0)):
         assert is_unstable(constants_of((epsilon, gamma, omega))) == bool(unstable)
+
+
+def of_wave(k, numbers):
+    """Return s of a wave of D = A - B: x' = -(kappa + 2 gamma) y and y' = (kappa - 2 gamma) x."""
+    epsilon, gamma, omega = numbers
+    kappa = 2.0 * epsilon - 2.0 * epsilon * np.cos(k) - omega
+    matrix = np.array([[0.0, -kappa - 2.0 * gamma], [kappa - 2.0 * gamma, 0.0]])
+    return max(np.linalg.eigvals(matrix), key=lambda s: (s.real, s.imag))
+
+
+@pytest.mark.parametrize("numbers", [(0.8, 0.3, -1.5), (1.3, 0.6, 9.0), (0.7, 0.9, 0.4)])
+def test_waves_grow_and_move_as_the_matrix_of_each_says(numbers):
+    constants, step = constants_of(numbers), 1e-5
+    for k in (0.4, 1.3, 2.9):
+        assert growth_rate(k, constants) == pytest.approx(of_wave(k, numbers).real, abs=1e-12)
+        ahead, behind = of_wave(k + step, numbers), of_wave(k - step, numbers)
+        if ahead.imag:
+            speed = abs(ahead.imag - behind.imag) / (2.0 * step)
+            assert group_velocity(k, constants) == pytest.approx(speed, rel=1e-6)
+
+
+def test_without_a_front_that_is_pulled_the_fastest_wave_leads():
+    numbers = (0.8, 0.3, -1.5)
+    k = np.linspace(0.0, np.pi, 20001)
+    frequencies = np.array([of_wave(one, numbers).imag for one in k])
+    front = linear_front(constants_of(numbers))
+    assert front.speed == pytest.approx((np.abs(np.diff(frequencies)) / k[1]).max(), rel=1e-5)
+    assert front.delay == front.rest == 0.0

@@ -7,6 +7,7 @@ from oracle import hamiltonian, random_chain
 from pendula.datasets.checks import rounded
 from pendula.studies.unbounded.bulk import TERMS, spectrum
 from pendula.studies.unbounded.thermal import (
+    REACH,
     correlation_length,
     density_of,
     products_of,
@@ -14,6 +15,7 @@ from pendula.studies.unbounded.thermal import (
     state_of_energy,
     terms_of,
     thermal_variables,
+    widest,
 )
 from problems import constants_of
 
@@ -141,3 +143,18 @@ def test_what_is_published_is_rounded():
     assert variables["power"].values[0] == float(f"{states[0].power:.7g}")
     assert variables["power_error"].values[0] >= 0.5e-7 * states[0].power
     assert rounded([1234.56789, -0.00123456789], 4).tolist() == [1235.0, -0.001235]
+
+
+@pytest.mark.parametrize("numbers", [(1.0, 1.0, -4.0), (0.7, 1.3, 2.0), (0.5, 0.2, 9.0)])
+def test_the_grid_reaches_as_far_as_the_deepest_wave_has_weight(numbers):
+    """On a ring A_n = -B_n = (-1)^n x has the least energy of all states of its power."""
+
+    def energy(power):
+        wave = np.sqrt(power / 2.0) * (-1.0) ** np.arange(4)
+        return hamiltonian(np.array([wave, -wave]).astype(complex), numbers, "periodic") / 4.0
+
+    least = min(energy(power) for power in np.linspace(0.0, 100.0, 10001))
+    for beta in (0.1, 2.0):
+        edges = widest(constants_of(numbers), beta)
+        np.testing.assert_array_equal(edges, edges[0])
+        assert beta * (energy(edges[0] ** 2) - least) == pytest.approx(REACH, rel=1e-5)
