@@ -112,3 +112,12 @@ def test_an_exponential_law_is_told_from_a_dead_time():
     assert confidence.chance_of_law(np.where(lives < 2.0, lives, np.inf), 2.0) > 0.05
     assert confidence.chance_of_law(lives + 0.5, 10.0) < 1e-3
     assert confidence.chance_of_law([np.inf, np.inf], 2.0) == 1.0
+
+
+def test_every_chance_of_an_exponential_law_is_alike_where_it_holds():
+    lives = np.random.default_rng(4).exponential(3.0, size=(3000, 30))
+    chances = [confidence.chance_of_law(draw, 1e9) for draw in lives]
+    for level in (0.05, 0.2, 0.5):
+        assert np.mean(np.array(chances) < level) == pytest.approx(level, abs=0.03)
+    # one life is as far from the law as can be: Stephens's 1 + 0.12 + 0.11, and 10 % at 1.224
+    assert confidence.chance_of_law([3.0], 10.0) == pytest.approx(0.097, abs=1e-3)

@@ -7,6 +7,7 @@ from oracle import random_chain
 from pendula.ledger.criterion import Verdict
 from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import (
+    LENGTH,
     bulk_means,
     bulk_of,
     bulk_powers,
@@ -15,6 +16,7 @@ from pendula.studies.unbounded.bulk import (
     mean_powers,
     mean_terms,
     slope_powers,
+    statistics_of,
     tail_scale,
     thermal_powers,
 )
@@ -150,3 +152,10 @@ def test_the_tail_of_an_exponential_law_has_its_scale():
     steps = np.zeros((4, 101))
     steps[0] = np.arange(101) ** 0.25  # |A|^4 of 1 to 89 and 89 zeros: above 71.3 lie 72 to 89
     assert tail_scale(steps, 100) == pytest.approx(80.5 - 71.3)
+
+
+def test_waves_and_moduli_are_given_at_the_middle_of_their_cells():
+    found = statistics_of(np.zeros(LENGTH), np.zeros(2), np.array([0.0, 1.0, 3.0]))
+    assert found["wave_number"].values[[0, 16, 32]].tolist() == [0.0, np.pi / 2.0, np.pi]
+    assert len(found["wave_number"].values) == 64
+    assert found["modulus"].values.tolist() == [0.5, 2.0]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from made_up_unbounded import PIECES, SITES, spread, thermal
 from oracle import hamiltonian, random_chain
 from pendula.studies.unbounded.active_sites import LEVELS, find_front
 from pendula.studies.unbounded.bulk import (
@@ -18,6 +19,7 @@ from pendula.studies.unbounded.front import (
     growth_rate,
     is_unstable,
     linear_front,
+    measure_front,
     resolution,
     speeds,
 )
@@ -208,3 +210,49 @@ def test_without_a_front_that_is_pulled_the_fastest_wave_leads():
     front = linear_front(constants_of(numbers))
     assert front.speed == pytest.approx((np.abs(np.diff(frequencies)) / k[1]).max(), rel=1e-5)
     assert front.delay == front.rest == 0.0
+
+
+def test_a_front_next_to_nothing_stands_on_its_last_site():
+    state = np.zeros((2, 12))
+    state[0, 3:6] = 3.0  # sites 2 to 4, and nothing before or behind them
+    assert find_front(state).tolist() == [4.0] * len(LEVELS)
+    state[0, 1:-1] = 3.0
+    assert find_front(state).tolist() == [9.0] * len(LEVELS)
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """The fronts of made-up runs at Omega = -1, 2 and 5, and one in which more is to be seen."""
+    bulk = spread(0.5, members=3)
+    bulk["state"] = bulk["state"].copy(data=2.0 + 0.0 * bulk["state"])
+    omegas = spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0))
+    return measure_front(omegas, bulk, spread(0.5, omegas=(-4.0,)), thermal()), bulk
+
+
+def test_the_way_of_a_front_is_told_behind_its_speed_in_spans_of_log_time(measured):
+    found, _ = measured
+    tau = found["way_tau"].values
+    assert 20 < len(tau) <= 36 and (np.diff(tau) > 0.0).all() and tau[0] >= PIECES[0]
+    assert np.log(tau[-2] / tau[-6]) == pytest.approx(4.0 * np.log(100.0) / 35.0, abs=0.04)
+    np.testing.assert_allclose(found["behind"], -1.4 * np.log(tau), atol=1.0)  # whole sites
+    assert (found["delay"], found["front_rest"]) == (1.4, 0.0)
+
+
+def test_the_profile_behind_a_front_is_that_of_its_sites(measured):
+    """All sites hold 2 + 2i twice: P = 16, no drive, and one bond at the end of the state."""
+    found, bulk = measured
+    front = int(bulk["front"][0, 0, -1, 1])
+    np.testing.assert_allclose(found["scaled_site"], (np.arange(24) + 0.5) * 0.05)
+    cubic, detuning, drive, _ = found["mean_terms"].values
+    inside = found["scaled_site"].values * front < SITES - 30
+    np.testing.assert_allclose(cubic[inside], 0.25 * 2.0 * 64.0)
+    assert (detuning == 0.0).all() and (drive == 0.0).all()
+    assert (
+        found["spectrum"].values[0] == pytest.approx(8.0 * 64)
+        and found["spectrum"][1:].max() < 1e-9
+    )
+    cell = np.diff(found["modulus"].values)[0]
+    assert float(found["density"].sum()) * cell == pytest.approx(1.0)
+    assert found["modulus"].values[[0, -1]] == pytest.approx(
+        np.sqrt(8.0) * 1.05 * np.array([0.5, 39.5]) / 40.0
+    )
