@@ -96,3 +96,18 @@ def test_data_as_large_as_the_absolute_tolerance_are_not_refused():
 
 def of_size(peak, **controls):
     return make_problem(np.full((2, 3), peak + 0j), solver=SOLVERS["dop853"] | controls)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "peak", "rate"),
+    [
+        ((-1.0, 0.0, 0.0), 0.0, 4.0), ((0.0, -1.0, 0.0), 0.0, 2.0), ((0.0, 0.0, -1.0), 0.0, 1.0),
+        ((0.0, 0.0, 0.0), 4.0, 8.0), ((1.0, 1.0, 1.0), 2.0, 9.0),
+    ],
+)  # fmt: skip
+def test_the_angle_that_a_run_may_turn_is_counted_with_the_weight_of_each_term(numbers, peak, rate):
+    data = np.full((2, 3), peak + 0j)
+    for part, refused in ((0.99, False), (1.01, True)):
+        span = part * 1e9 / rate
+        problem = make_problem(data, numbers, end_time=span, output_step=span)
+        assert ("radians" in (find_obstacle(problem) or "")) == refused

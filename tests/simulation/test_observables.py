@@ -84,3 +84,12 @@ def test_one_component_is_observed_once():
     observe(chain_for("dirichlet", synchronised), pack(z, synchronised), 0, record)
     np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(z[0]), rtol=1e-14)
     np.testing.assert_allclose(record.modulus[0, :, 0], np.abs(z[0]), rtol=1e-14)
+
+
+@pytest.mark.parametrize("reduction", [WHOLE, HALF])
+def test_norms_do_not_look_at_ghosts(reduction):
+    z = random_chain(3, **reduction._asdict())
+    y = pack(z, reduction)
+    y[:, [0, -1]] = 1e3
+    linf, l2 = norms(chain_for("free", reduction), y, 0)
+    assert (linf, l2) == pytest.approx((np.abs(z[0]).max(), np.linalg.norm(z[0])))

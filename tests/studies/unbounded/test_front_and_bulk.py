@@ -243,10 +243,11 @@ def test_the_profile_behind_a_front_is_that_of_its_sites(measured):
     found, bulk = measured
     front = int(bulk["front"][0, 0, -1, 1])
     np.testing.assert_allclose(found["scaled_site"], (np.arange(24) + 0.5) * 0.05)
-    cubic, detuning, drive, _ = found["mean_terms"].values
+    cubic, detuning, drive, bonds = found["mean_terms"].values
     inside = found["scaled_site"].values * front < SITES - 30
     np.testing.assert_allclose(cubic[inside], 0.25 * 2.0 * 64.0)
     assert (detuning == 0.0).all() and (drive == 0.0).all()
+    assert np.flatnonzero(bonds).tolist() == [int((SITES - 1) / (0.05 * front))]
     assert (
         found["spectrum"].values[0] == pytest.approx(8.0 * 64)
         and found["spectrum"][1:].max() < 1e-9
