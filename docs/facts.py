@@ -52,6 +52,10 @@ class Baseline:
         """Return the rows of the ledger of the last full run that was accepted."""
         return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
 
+    def mutation(self) -> dict:
+        """Return the score of the last trial of mutants that was kept."""
+        return json.loads((self.folder / "quoted/mutation.json").read_text(encoding="utf-8"))
+
 
 def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[str, dict]:
     """Return the facts of every topic; the last two are config.yaml and chaos.yaml as read."""
@@ -66,7 +70,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         theory,
         references,
     )
-    topics += (speed, hard_cases)
+    topics += (speed, hard_cases, mutation)
     return {topic.__name__: topic(baseline) for topic in topics} | {
         "configured": configured(configuration, chaos_study)
     }
@@ -518,4 +522,19 @@ def hard_cases(baseline: Baseline) -> dict:
             {"solver": solver, "drift": number(drift, 2)}
             for solver, drift in zip(long["solver"].values, long["error"].values, strict=True)
         ],
+    }
+
+
+def mutation(baseline: Baseline) -> dict:
+    """Return which part of the mutants of decisive modules the tests notice."""
+    kept = baseline.mutation()
+    return {
+        "modules": str(kept["modules"]),
+        "mutants": f"{kept['mutants']:,}",
+        "sample": str(kept["sample"]),
+        "score": percent(kept["score"], 3),
+        "low": percent(kept["low"], 3),
+        "high": percent(kept["high"], 3),
+        "confidence": percent(kept["confidence"]),
+        "limits": " that plain Python can run" if kept["plain"] else "",
     }

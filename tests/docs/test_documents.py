@@ -75,7 +75,13 @@ COUNTED = {
         "theory.broken_sites",
         "theory.sites",
     ),
-    *("unbounded.spreading", "hard_cases.runs", "hard_cases.refused", "hard_cases.unexpected"),
+    *(
+        "mutation",
+        "unbounded.spreading",
+        "hard_cases.runs",
+        "hard_cases.refused",
+        "hard_cases.unexpected",
+    ),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
     *("solvers.kept", "ensembles.peak_at", "ensembles.late_from"),
 }

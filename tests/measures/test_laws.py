@@ -62,3 +62,10 @@ def test_errors_are_those_of_the_means_however_long_the_curves_remember():
 
 def test_one_member_shows_no_scatter():
     assert np.isnan(span_means(TAU, curves(LAWS["constant"], 1), START).errors).all()
+
+
+def test_each_output_belongs_to_one_span_the_last_one_included():
+    for place, span in ((-1, SPANS - 1), (-2, SPANS - 1), (int(START * 4), 0)):
+        curve = np.zeros((2, TAU.size))
+        curve[:, place] = 1.0, 2.0
+        assert np.flatnonzero(span_means(TAU, curve, START).values).tolist() == [span]
