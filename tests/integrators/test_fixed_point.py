@@ -160,3 +160,9 @@ def test_an_iteration_that_goes_to_and_fro_is_given_up_as_well(scheme):
     _, _, outcome = systems.run(scheme, (-1.0, 0.0), [0.0, 2.0], (2.0, 1e-13, 200), 1 + 0j)
     assert (outcome.status, outcome.rejected) == (DONE, 1)
     assert 3 + 2 * 40 < outcome.evaluations < 3 + 2 * 50
+
+
+@each_scheme
+def test_a_run_ends_at_its_last_output(scheme):
+    _, _, outcome = systems.run(scheme, (-1.0, 0.2), [0.0, 0.1, 0.4, 0.5], (0.1, 1e-14, 50), 1 + 0j)
+    assert (outcome.status, outcome.time) == (DONE, 0.5)
