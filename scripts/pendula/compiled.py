@@ -10,7 +10,7 @@ folder that is named after the text of its module and of all that the module imp
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
 *, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
-do not, so kernels take those of `elementary` (tests/test_same_bits.py).
+do not, so kernels take those of `numerics` (tests/test_same_bits.py).
 """
 
 import os

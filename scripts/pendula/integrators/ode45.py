@@ -22,8 +22,8 @@ from math import sqrt
 
 import numpy as np
 
-from pendula import elementary
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
+from pendula.numerics import elementary
 from pendula.simd import largest_in_rows
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome

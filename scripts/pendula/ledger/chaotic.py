@@ -2,8 +2,8 @@
 
 import xarray as xr
 
-from pendula.elementary import log
 from pendula.measures.growth import ERRORS, MANY, is_chaotic
+from pendula.numerics.elementary import log
 
 from .cutoff import Cutoff
 

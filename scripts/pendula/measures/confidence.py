@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import special
 
-from pendula.elementary import exp, log
+from pendula.numerics.elementary import exp, log
 
 CONFIDENCE = 0.95
 """Limits enclose the true value in so many of all repetitions, as is the custom."""

@@ -15,7 +15,7 @@ absent or of another problem, is NaN.
 
 import numpy as np
 
-from pendula.elementary import modulus
+from pendula.numerics.elementary import modulus
 
 VISIBLE = 0.01
 """ASSUME: the part of full scale from which on a reader sees another curve."""

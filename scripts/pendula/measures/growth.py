@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from pendula.elementary import interpolated, log
+from pendula.numerics.elementary import interpolated, log
 
 from .confidence import mean_limits
 from .spreading import lay_line

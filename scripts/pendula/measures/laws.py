@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.elementary import exp, geometric, log, power
+from pendula.numerics.elementary import exp, geometric, log, power
 
 from .confidence import Limits, student
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pendula.elementary import exp, log, square_modulus
+from pendula.numerics.elementary import exp, log, square_modulus
 from pendula.problem import Constants
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.elementary import exp, expm1, log
+from pendula.numerics.elementary import exp, expm1, log
 
 from .confidence import CONFIDENCE, Limits, mean_limits, student
 

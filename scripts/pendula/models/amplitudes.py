@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula import elementary
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.numerics import elementary
 from pendula.simd import LANES, vec4_views
 
 # --- The chain and its ends ---------------------------------------------------------------------

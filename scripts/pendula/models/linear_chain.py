@@ -9,9 +9,9 @@ Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N site
 
 import numpy as np
 
-from pendula import elementary
-from pendula.elementary import complex_of
-from pendula.matrices import times
+from pendula.numerics import elementary
+from pendula.numerics.elementary import complex_of
+from pendula.numerics.matrices import times
 
 
 def curvatures(sites: int, boundary: str) -> np.ndarray:

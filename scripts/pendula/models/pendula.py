@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pendula import elementary
 from pendula.compiled import inlined_by_llvm, kernel
-from pendula.elementary import HALF_PI
+from pendula.numerics import elementary
+from pendula.numerics.elementary import HALF_PI
 
 sine_near_zero, cosine_near_zero = map(
     inlined_by_llvm, (elementary.sine_near_zero, elementary.cosine_near_zero)

@@ -15,16 +15,16 @@ import xarray as xr
 from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
-from pendula.elementary import log
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
+from pendula.numerics.elementary import log
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
-from pendula.studies.chaos import random_tangent
 from pendula.studies.chaos.lyapunov import ROUNDING, SEED, amplification, predict
 from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
+from pendula.studies.chaos.tangents import random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 

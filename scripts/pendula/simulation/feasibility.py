@@ -9,9 +9,9 @@ from dataclasses import asdict
 
 import numpy as np
 
-from pendula.elementary import log
 from pendula.integrators import MOST_STEPS
 from pendula.integrators.taylor import ORDER
+from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem
 
 LONGEST_SERIES = 20.0

@@ -7,8 +7,9 @@ from pendula.measures.growth import is_chaotic, mean_rate
 from pendula.models.amplitudes import Chain
 from pendula.models.tangent import ROWS
 from pendula.simulation.lattice import Reduction, choose_ends, pack
-from pendula.studies.chaos import PARITIES, lyapunov
+from pendula.studies.chaos import lyapunov
 from pendula.studies.chaos.tangent_dynamics import inner, orthonormalise
+from pendula.studies.chaos.tangents import PARITIES
 from problems import problem_of
 
 WHOLE = Reduction(even=False, synchronised=False)

@@ -5,8 +5,9 @@ import pytest
 from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
-from pendula.studies.chaos import random_tangent, symmetry
+from pendula.studies.chaos import symmetry
 from pendula.studies.chaos.tangent_dynamics import grow
+from pendula.studies.chaos.tangents import random_tangent
 from problems import problem_of
 
 CONSTANTS = (0.7, 1.3, -2.1)

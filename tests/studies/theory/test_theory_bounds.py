@@ -18,7 +18,7 @@ from pendula.models.bounds import (
     widened_bound,
     widened_delta_0,
 )
-from pendula.search import maximise
+from pendula.numerics.search import maximise
 from pendula.studies.theory.equations import total_energy
 from pendula.studies.theory.inequalities import draw_range, energy_excess
 from pendula.studies.theory.worst_data import first_point, ratios, ring_energy

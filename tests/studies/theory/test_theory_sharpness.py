@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from pendula.models.bounds import theorem_3_bound
+from pendula.numerics.quadrature import integration_matrix
 from pendula.problem import Constants
-from pendula.quadrature import integration_matrix
 from pendula.studies.theory.equations import BOUNDARIES, right_hand_side, total_energy
 from pendula.studies.theory.sharpness import least_constant, reached, shell_state
 from pendula.studies.theory.well_posed import picard

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from pendula.elementary import exp, log
 from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import cases_reversed, checks, claim, wrong_check
 from pendula.ledger.criterion import (
@@ -17,6 +16,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import Limits, ratio_of_limits, student
+from pendula.numerics.elementary import exp, log
 
 from .claims import LATER, SEEN
 

@@ -12,10 +12,10 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.draws import complex_normal
-from pendula.elementary import modulus, product
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
+from pendula.numerics.draws import complex_normal
+from pendula.numerics.elementary import modulus, product
 from pendula.problem import Problem, name_window
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pendula.drawing import panels, style
-from pendula.elementary import exp, geometric, log
+from pendula.numerics.elementary import exp, geometric, log
 
 COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 """By detuning, of different lightness."""

@@ -12,7 +12,6 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.elementary import modulus
 from pendula.measures.confidence import (
     Limits,
     chance_of_law,
@@ -21,6 +20,7 @@ from pendula.measures.confidence import (
     share_limits,
 )
 from pendula.measures.norms import drift
+from pendula.numerics.elementary import modulus
 from pendula.problem import Problem, output_times
 from pendula.simulation.simulate import simulate
 

@@ -12,16 +12,16 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.elementary import exp, log
 from pendula.measures.confidence import Limits, student
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
+from pendula.numerics.elementary import exp, log
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import Trajectory, simulate
 
-from . import PARITIES, random_tangent
 from .tangent_dynamics import Growth, grow
+from .tangents import PARITIES, random_tangent
 
 SEED = 20170817
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases
-from pendula.elementary import square_modulus
 from pendula.measures.confidence import student
 from pendula.measures.levels import correlation
+from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem, name_window
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, pair_l2, pair_linf

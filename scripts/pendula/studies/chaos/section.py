@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from pendula.datasets.registry import SOLVER_NAMES
-from pendula.elementary import exp
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
+from pendula.numerics.elementary import exp
 from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import case_of, number, percent, span, with_error

@@ -12,16 +12,16 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.elementary import square_modulus
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import first_above
 from pendula.models.amplitudes import at_every_site, close, field, modulus2
+from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
 
-from . import random_tangent
+from .tangents import random_tangent
 
 BROKEN = 0.01
 """Relative size of the odd part from which on a solution no longer counts as even."""

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.elementary import log
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.amplitudes import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
+from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, pack

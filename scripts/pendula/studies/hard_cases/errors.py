@@ -7,10 +7,10 @@ relative to the largest.
 
 import numpy as np
 
-from pendula.draws import complex_normal
-from pendula.elementary import modulus, product, square_modulus, turn
 from pendula.measures.difference import state_error
 from pendula.models.linear_chain import flow, gamma_0
+from pendula.numerics.draws import complex_normal
+from pendula.numerics.elementary import modulus, product, square_modulus, turn
 from pendula.problem import Constants, Problem, on_sites, place
 from pendula.simulation.simulate import Trajectory, simulate
 

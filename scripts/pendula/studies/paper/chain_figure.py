@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
-from pendula.elementary import cos, sin
+from pendula.numerics.elementary import cos, sin
 
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2

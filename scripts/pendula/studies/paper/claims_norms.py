@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from pendula.elementary import log
 from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import (
     CHANGE,
@@ -34,6 +33,7 @@ from pendula.measures.levels import correlation
 from pendula.measures.norms import constants, largest, total_power
 from pendula.models.bounds import proven_region, theorem_1_bound, theorem_3_bound
 from pendula.models.linear_chain import gamma_0
+from pendula.numerics.elementary import log
 
 SECTION = 5
 

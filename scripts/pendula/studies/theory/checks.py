@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from pendula import elementary
+from pendula.numerics import elementary
 from pendula.problem import Constants
 
 from . import (

@@ -6,9 +6,6 @@ from math import prod
 import numpy as np
 
 from pendula.datasets.checks import table, tabulate, variable
-from pendula.draws import uniform
-from pendula.elementary import log, modulus
-from pendula.matrices import growth_bound, multiply, symmetric_eigenvalues, times
 from pendula.models.amplitudes import rates
 from pendula.models.linear_chain import (
     curvatures,
@@ -17,6 +14,9 @@ from pendula.models.linear_chain import (
     modes,
     squared_frequencies,
 )
+from pendula.numerics.draws import uniform
+from pendula.numerics.elementary import log, modulus
+from pendula.numerics.matrices import growth_bound, multiply, symmetric_eigenvalues, times
 from pendula.problem import Constants
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import make_chain

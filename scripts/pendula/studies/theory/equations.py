@@ -10,12 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from pendula import elementary
 from pendula.datasets.checks import tabulate, variable
-from pendula.draws import complex_normal
-from pendula.elementary import complex_of, modulus, product
 from pendula.measures.norms import power_of
 from pendula.models.amplitudes import ENDS, energy, rates
+from pendula.numerics import elementary
+from pendula.numerics.draws import complex_normal
+from pendula.numerics.elementary import complex_of, modulus, product
 from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE, pack, unpack
 from pendula.simulation.simulate import IntegrationError, Trajectory, make_chain, simulate

@@ -5,8 +5,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from pendula.datasets.checks import table, tabulate, variable
-from pendula.draws import complex_normal, uniform
-from pendula.elementary import modulus, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import (
     extent,
@@ -16,6 +14,8 @@ from pendula.models.bounds import (
     widened_bound,
     widened_delta_0,
 )
+from pendula.numerics.draws import complex_normal, uniform
+from pendula.numerics.elementary import modulus, square_modulus
 from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation.simulate import Trajectory, simulate
 

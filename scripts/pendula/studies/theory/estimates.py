@@ -8,13 +8,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pendula import elementary
 from pendula.datasets.checks import tabulate, variable
-from pendula.draws import uniform
-from pendula.elementary import modulus, product
 from pendula.measures.norms import growth_margin, power_of
+from pendula.numerics import elementary
+from pendula.numerics.draws import uniform
+from pendula.numerics.elementary import modulus, product
+from pendula.numerics.quadrature import gauss_legendre
 from pendula.problem import Constants
-from pendula.quadrature import gauss_legendre
 
 from .equations import BOUNDARIES, TIGHT, random_amplitudes, right_hand_side, run
 

@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.draws import uniform
-from pendula.elementary import product, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import coercivity, extent, theorem_2_gap
+from pendula.numerics.draws import uniform
+from pendula.numerics.elementary import product, square_modulus
 from pendula.problem import Constants
 
 from .equations import BOUNDARIES, draw_shape, misstated, random_amplitudes, total_energy

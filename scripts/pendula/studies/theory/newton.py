@@ -9,11 +9,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from pendula import elementary
 from pendula.datasets.checks import table, variable
-from pendula.elementary import complex_of, product
 from pendula.integrators.splitting import LINEAR_PARTS, NONLINEAR_PARTS
 from pendula.models.pendula import move
+from pendula.numerics import elementary
+from pendula.numerics.elementary import complex_of, product
 from pendula.problem import Constants
 
 from .equations import misstated, random_amplitudes, right_hand_side, run, total_energy

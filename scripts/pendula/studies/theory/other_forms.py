@@ -10,12 +10,12 @@ from functools import partial
 
 import numpy as np
 
-from pendula import elementary
 from pendula.datasets.checks import tabulate
-from pendula.elementary import modulus, product, square_modulus
-from pendula.extrapolation import extrapolated
-from pendula.matrices import times
 from pendula.models.linear_chain import curvatures, modes
+from pendula.numerics import elementary
+from pendula.numerics.elementary import modulus, product, square_modulus
+from pendula.numerics.extrapolation import extrapolated
+from pendula.numerics.matrices import times
 from pendula.problem import Constants
 
 from .equations import (

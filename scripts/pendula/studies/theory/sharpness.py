@@ -7,8 +7,6 @@ pair, and the largest norm that data of one energy have.
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.draws import uniform
-from pendula.elementary import log
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import lay_line
 from pendula.measures.norms import power_of
@@ -20,6 +18,8 @@ from pendula.models.bounds import (
     theorem_3_bound,
 )
 from pendula.models.linear_chain import curvatures, flow, modes
+from pendula.numerics.draws import uniform
+from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
 from .equations import run, squared_norm, total_energy

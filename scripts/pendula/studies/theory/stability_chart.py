@@ -10,7 +10,6 @@ from itertools import product
 import numpy as np
 
 from pendula.datasets.checks import columns, table, tabulate, variable
-from pendula.elementary import log
 from pendula.measures.norms import power_of
 from pendula.models.linear_chain import (
     finite_rate,
@@ -21,6 +20,7 @@ from pendula.models.linear_chain import (
     stable_windows,
     widest_gamma,
 )
+from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
 from .equations import random_amplitudes, run_powers

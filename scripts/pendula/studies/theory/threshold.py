@@ -11,8 +11,8 @@ l2 and stay bounded in l-infinity.
 import numpy as np
 
 from pendula.datasets.checks import columns, rounded, table, variable
-from pendula.elementary import log, power, sin
 from pendula.models.linear_chain import driven, finite_threshold, gamma_0, modes
+from pendula.numerics.elementary import log, power, sin
 from pendula.problem import Constants
 
 from .equations import run

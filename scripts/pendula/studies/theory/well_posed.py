@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from pendula import elementary
 from pendula.datasets.checks import table, tabulate, variable
-from pendula.elementary import modulus, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import lipschitz
+from pendula.numerics import elementary
+from pendula.numerics.elementary import modulus, square_modulus
+from pendula.numerics.quadrature import integration_matrix
 from pendula.problem import Constants
-from pendula.quadrature import integration_matrix
 
 from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_side, run
 

@@ -19,8 +19,6 @@ from functools import partial
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.draws import exponential, normal, uniform
-from pendula.elementary import complex_of, exp, square_modulus
 from pendula.measures.norms import power_of
 from pendula.models.bounds import (
     extent,
@@ -33,8 +31,10 @@ from pendula.models.bounds import (
     widened_bound,
 )
 from pendula.models.linear_chain import curvatures
+from pendula.numerics.draws import exponential, normal, uniform
+from pendula.numerics.elementary import complex_of, exp, square_modulus
+from pendula.numerics.search import maximise
 from pendula.problem import Constants
-from pendula.search import maximise
 
 from .equations import BOUNDARIES, draw_shape, misstated, run_powers, total_energy
 

@@ -20,8 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets import complete_or_absent
-from pendula.elementary import log
 from pendula.integrators import DONE, FAULTS, Outcome
+from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem, place
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, find_reduction, pack

@@ -15,9 +15,9 @@ from itertools import pairwise
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.elementary import complex_of, log, product, square_modulus, turn
 from pendula.measures.confidence import CONFIDENCE, Limits
 from pendula.measures.spreading import fit_line
+from pendula.numerics.elementary import complex_of, log, product, square_modulus, turn
 from pendula.problem import Constants
 
 TERMS = ("cubic", "detuning", "drive", "bonds")

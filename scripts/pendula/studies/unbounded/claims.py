@@ -12,7 +12,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pendula.elementary import log
 from pendula.ledger.claim import (
     CONSTANT,
     FACTOR,
@@ -34,6 +33,7 @@ from pendula.ledger.criterion import (
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import Limits, mean_limits
 from pendula.measures.spreading import fit_exponent, fit_line
+from pendula.numerics.elementary import log
 
 SECTION = 5
 

@@ -9,7 +9,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pendula.elementary import interpolated
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -23,6 +22,7 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.measures.confidence import Limits, mean_limits
+from pendula.numerics.elementary import interpolated
 
 from .bulk import (
     TERMS,

@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pendula.elementary import exp, log
 from pendula.ledger.claim import FACTOR, SETTLED, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -22,6 +21,7 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import mean_limits
 from pendula.measures.difference import VISIBLE
 from pendula.measures.laws import Fitted, best, compare, span_means
+from pendula.numerics.elementary import exp, log
 
 from .bulk import end_of_bulk, tail_scale
 from .claims import SURE, curves_of, times_of

@@ -21,7 +21,9 @@ import xarray as xr
 
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.trajectories import shared_by
-from pendula.elementary import (
+from pendula.measures.confidence import mean_limits
+from pendula.measures.spreading import lay_line
+from pendula.numerics.elementary import (
     complex_of,
     cos,
     cosh,
@@ -34,8 +36,6 @@ from pendula.elementary import (
     sinh,
     square_root,
 )
-from pendula.measures.confidence import mean_limits
-from pendula.measures.spreading import lay_line
 from pendula.problem import Constants
 
 from .bulk import (

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
-from pendula.elementary import geometric, interpolated, log
+from pendula.numerics.elementary import geometric, interpolated, log
 
 LATE = 10
 """The lines of the delay are laid through so many of the last points of the front's way."""

@@ -14,10 +14,10 @@ import xarray as xr
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import describe_run, shared_by
-from pendula.draws import normal
-from pendula.elementary import geometric, interpolated, log, modulus
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
+from pendula.numerics.draws import normal
+from pendula.numerics.elementary import geometric, interpolated, log, modulus
 from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_long

@@ -20,7 +20,7 @@ from scipy.special import j1
 
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
-from pendula.elementary import cos, exp, log, sin
+from pendula.numerics.elementary import cos, exp, log, sin
 from pendula.problem import Constants
 
 from .bulk import LENGTH, POWER, TERMS, statistics_of

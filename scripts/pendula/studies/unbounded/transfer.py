@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.elementary import exp
+from pendula.numerics.elementary import exp
 from pendula.problem import Constants
 
 TAIL = 1e-9

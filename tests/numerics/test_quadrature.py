@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from pendula.extrapolation import extrapolated
-from pendula.quadrature import gauss_legendre, integration_matrix
+from pendula.numerics.extrapolation import extrapolated
+from pendula.numerics.quadrature import gauss_legendre, integration_matrix
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 8, 20])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.search import maximise, settings
+from pendula.numerics.search import maximise, settings
 
 
 def hill(points):

@@ -1,7 +1,7 @@
 """Random numbers: their ranges and moments."""
 
 import numpy as np
-from pendula.draws import complex_normal, exponential, normal, uniform
+from pendula.numerics.draws import complex_normal, exponential, normal, uniform
 
 
 def test_uniform_numbers_fill_their_range():

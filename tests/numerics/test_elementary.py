@@ -6,8 +6,8 @@ from math import factorial, ulp
 
 import numpy as np
 import pytest
-from pendula import elementary as e
 from pendula.compiled import kernel
+from pendula.numerics import elementary as e
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899")
 SAMPLES = 1500

@@ -7,8 +7,9 @@ rounds alike everywhere. NumPy takes each operation by itself, and numba without
 none. Coefficients are those of Taylor's series.
 
 Functions of `x` take a number or an array of real numbers and return the same; NaN stays NaN.
-Outside their domain they return what the limit is, without a warning. tests/test_elementary.py
-measures their errors and holds the hashes of their bits. The reductions follow fdlibm (Sun, 1993).
+Outside their domain they return what the limit is, without a warning. Their errors are measured and
+the hashes of their bits held by tests/numerics/test_elementary.py. The reductions follow fdlibm
+(Sun, 1993).
 """
 
 from decimal import Decimal, localcontext

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.matrices import cholesky, growth_bound, multiply, symmetric_eigenvalues, times
+from pendula.numerics.matrices import cholesky, growth_bound, multiply, symmetric_eigenvalues, times
 
 rng = np.random.default_rng(8)
 SQUARE = rng.normal(size=(3, 7, 7))
