@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.datasets.digest import digest
+from pendula.datasets.digest import digest, fingerprint
 from pendula.drawing import style
-from pendula.drawing.description import as_text, describe, fingerprint
+from pendula.drawing.description import as_text, describe
 
 DATA = xr.Dataset({"height": ("place", [1.0, 10.0, 4.0]), "depth": ("place", [2.0, np.nan, 8.0])})
 

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import xarray as xr
 from helpers import ROOT, snakemake
-from pendula.drawing.description import fingerprint
+from pendula.datasets.digest import fingerprint
 
 CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]

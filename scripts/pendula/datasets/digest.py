@@ -36,3 +36,8 @@ def digest(dataset) -> str:
         for name, variable in sorted(dataset.variables.items())
     ]
     return sha256("\n".join(parts).encode()).hexdigest()
+
+
+def fingerprint(text: str) -> str:
+    """Return what PNG and PDF carry of the description that stands beside them: its SHA-256."""
+    return sha256(text.encode("utf-8")).hexdigest()

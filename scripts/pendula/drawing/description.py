@@ -9,7 +9,6 @@ otherwise. Places in inches or pixels are left out, since they follow the width 
 annotation stands at a point of its panel.
 """
 
-import hashlib
 import json
 from collections.abc import Iterable
 from typing import Any
@@ -68,11 +67,6 @@ def as_text(description: Any, indent: int = 0) -> str:
     margin = " " * indent
     inner = f",\n{margin} ".join(parts)
     return f"{opening}\n{margin} {inner}\n{margin}{closing}"
-
-
-def fingerprint(text: str) -> str:
-    """Return what PNG and PDF carry of the description that stands beside them: its SHA-256."""
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 def _colour_bars(axes: Axes) -> list[Axes]:

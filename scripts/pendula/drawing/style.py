@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
 from pendula.datasets import complete_or_absent
+from pendula.datasets.digest import fingerprint
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
 
-from .description import as_text, describe, fingerprint
+from .description import as_text, describe
 
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""

@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pendula.datasets.digest import digest
+from pendula.datasets.digest import digest, fingerprint
 from pendula.datasets.netcdf import DatasetError, read
-from pendula.drawing.description import fingerprint
 
 from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
 
