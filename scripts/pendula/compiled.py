@@ -8,18 +8,28 @@ of the functions that it calls: it would return numbers of the old code. So each
 folder that is named after the text of its module and of all that the module imports (see
 `sources`). An edit of any of them starts an empty folder.
 
+Names. Machine code calls other functions by their names, in which numba puts the number that a
+function has in its process. Two solvers that one builder made can so get one name, if two processes
+compiled and kept them, and a third that loads both would run one of them in place of the other
+(numba issue 10486). So each process counts from a random number.
+
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
 *, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
 do not, so kernels take those of `numerics` (tests/test_same_bits.py).
 """
 
+import itertools
 import os
+import secrets
 from collections.abc import Callable
 from pathlib import Path
 
 import numba
+from numba.core.bytecode import FunctionIdentity
 
 from .sources import digest_of_modules
+
+FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
 
 
 def kernel(function: Callable) -> Callable:

@@ -1,0 +1,56 @@
+"""The cache of kernels: what one process keeps, another must load as it was."""
+
+import json
+import os
+import subprocess
+import sys
+
+from pendula.sources import SCRIPTS
+
+LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(80))
+MADE = f"""
+from pendula.compiled import kernel, uncached
+
+def build(inner):
+    @uncached
+    def long(x):  # so long that it is called and not inlined
+{LONG}
+        return x
+    return long
+
+@uncached
+def sums(x, y):
+    return x + y
+
+@uncached
+def products(x, y):
+    return x * y
+
+long_sums, long_products = build(sums), build(products)
+
+@kernel
+def of_sums(x):
+    return long_sums(x)
+
+@kernel
+def of_products(x):
+    return long_products(x)
+"""
+
+
+def say(folder, *names):
+    """Return what these kernels give in a process of its own, which keeps and loads them."""
+    calls = ", ".join(f"made.{name}(0.5)" for name in names)
+    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{folder}", "NUMBA_CACHE_DIR": str(folder)}
+    command = [sys.executable, "-c", f"import made; print([{calls}])"]
+    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_kernels_that_two_processes_kept_stay_apart_in_a_third(tmp_path):
+    """Each process numbers its functions alike, so `long` had the same name in both."""
+    (tmp_path / "made.py").write_text(MADE)
+    apart = say(tmp_path, "of_sums") + say(tmp_path, "of_products")
+    assert apart[0] != apart[1]
+    assert say(tmp_path, "of_sums", "of_products") == apart
