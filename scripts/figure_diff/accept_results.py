@@ -16,7 +16,7 @@ def accept_results(
     """Put the files `results` (results/topic/name) into `baseline`; first say what that changes.
 
     `names` are all files to be accepted, by their paths below results/: the whole run where
-    `all_of_it`. Of them the baseline loses those that `results` does not hold. If `dry`, nothing is
+    `all_of_it`. The baseline loses those of them that `results` does not hold. If `dry`, nothing is
     changed.
     """
     made, folder = Path("results"), Path(baseline)

@@ -8,7 +8,8 @@ takes far longer than the code itself is ended and counts as killed. Mutants tha
 lists change no result, and do not count. Nothing changes in the project: all happens in a copy.
 
 With --keep the score goes to tests/baseline/quoted/mutation.json, from which docs/ quote it. With
---log a file keeps each outcome, and a later run does not repeat what was killed then.
+--log a file keeps each outcome, and a later run does not repeat what was killed then: take a new
+file when tests have changed.
 """
 
 import argparse
@@ -40,7 +41,7 @@ OPERATORS = [f"Replace{kind}_{pair}" for kind, pairs in REPLACED.items() for pai
 OPERATORS += ["ReplaceAndWithOr", "ReplaceOrWithAnd", "ReplaceTrueWithFalse"]
 OPERATORS += ["ReplaceFalseWithTrue", "ReplaceBreakWithContinue", "ReplaceContinueWithBreak"]
 OPERATORS += ["AddNot", "ZeroIterationForLoop", "NumberReplacer"]
-"""Those of Cosmic Ray whose mutants still compute; others, as of + by <<, fail at once."""
+"""Operators whose mutants still compute: a mutant with << in place of + fails at once."""
 
 
 class Place(NamedTuple):
@@ -161,7 +162,7 @@ def main() -> None:
     parser.add_argument("modules", nargs="*", help="modules of decisive.yaml, by default all")
     parser.add_argument("--sample", type=int, default=300, help="mutants to try at most")
     parser.add_argument("--seed", type=int, default=2017)
-    parser.add_argument("--log", type=Path, default=Path(tempfile.gettempdir()) / "mutants.jsonl")
+    parser.add_argument("--log", type=Path, help="file of outcomes, to go on from")
     parser.add_argument(
         "--plain", action="store_true", help="leave compiled tests out: a lower bound, much sooner"
     )
@@ -173,7 +174,8 @@ def main() -> None:
         texts = {module: trial.text_of(module) for module in given.modules or tests}
         places = [place for module, text in texts.items() for place in places_in(module, text)]
         drawn = sorted(places, key=lambda place: drawn_number(given.seed, place))
-        found = outcomes(trial, drawn[: given.sample], texts, tests, given.log)
+        log = given.log or Path(folder) / "outcomes.jsonl"
+        found = outcomes(trial, drawn[: given.sample], texts, tests, log)
     score = {"plain": given.plain, **summary(found, len(places), given.seed, len(texts))}
     text = json.dumps(score, indent=1, ensure_ascii=False) + "\n"
     print(f"\n{text}")

@@ -5,8 +5,8 @@ curves apart, is kept as text: the figure diff compares it word by word on any m
 pixels of letters depend on a library of fonts.
 
 Numbers keep DIGITS digits, which is finer than a pixel and coarser than what processors round
-otherwise. Places in inches or pixels are left out, since they follow the width of letters; an
-annotation stands at a point of its panel.
+otherwise. Places on the page are left out, since they follow the width of letters; an annotation
+stands at a point of its panel, or some points of type away from it.
 """
 
 import json

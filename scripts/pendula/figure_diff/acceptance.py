@@ -1,4 +1,4 @@
-"""Takes a run, or some of its files, as the new baseline: what may be taken, what that changes."""
+"""Takes a run, or some of its files, as the new baseline, and says before what that changes."""
 
 import difflib
 import json

@@ -1,9 +1,9 @@
 """The accepted results in tests/baseline: what they hold, and how a run is compared with them.
 
 The baseline holds a hash of every file of a full run, and of every variable of its datasets. A file
-with the accepted hash is the same, and nothing else is read of it. Of any other file the baseline
-keeps what shows where and by how much it differs: datasets at every sample in single precision,
-pictures, the ledger and tables.
+with the accepted hash is the same; only a picture must also belong to its data. Of any other file
+the baseline keeps what shows where and by how much it differs: datasets at every sample in single
+precision, pictures, the ledger and tables.
 """
 
 import json

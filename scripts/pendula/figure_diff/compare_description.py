@@ -45,7 +45,7 @@ ITEMS = {
 """Lists of a description, and how one of their items is called."""
 
 NAMES = ("title", "label", "text")
-"""By which an item is told from others of its kind, the first that it has."""
+"""The first of these that an item has names it among the others of its kind."""
 
 
 class DamagedDescriptionError(ValueError):

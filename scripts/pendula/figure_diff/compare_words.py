@@ -1,9 +1,10 @@
 """Compares what is made of words: the ledger and its controls row by row, tables line by line.
 
-All their numbers come from datasets, so these decide how far a number may have moved. If every
-dataset holds its bits, not a letter may change. If some moved regularly, a number may move as
-little. If some moved visibly (in chaos, within what statistics allow), their statistics have been
-compared already, and numbers may follow them; but no verdict and no other word may change.
+All their numbers come from datasets, so the datasets decide how far a number may differ. If every
+dataset holds its bits, not a letter may change. If some differ by less than one can see, a number
+may change by 1e-4 of itself. If some moved visibly (in chaos, within what statistics allow), their
+statistics have been compared already, and numbers may follow them; but no verdict and no other word
+may change.
 """
 
 import json

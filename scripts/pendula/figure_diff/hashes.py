@@ -26,7 +26,7 @@ NO_RESULT = ("version", "history")
 number, so no hash holds them."""
 
 LEAST = 1e-30
-"""Single precision loses digits below 1e-38, and ends at 3e38."""
+"""Single precision loses digits below 1e-38 and ends at 3e38; this keeps well away from both."""
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
 MOST_WORK = 0.1

@@ -8,7 +8,8 @@ from .elementary import complex_of, log
 def normal(rng: np.random.Generator, size) -> np.ndarray:
     """Return standard normal draws of NumPy, those of its tail rounded to 40 binary places.
 
-    The tail alone takes a function of the C library, log1p.
+    NumPy takes the values of the tail from the C library's log1p. Its exp decides only
+    whether a few draws are kept, and a last bit turns such a decision as good as never.
     """
     drawn = rng.normal(size=size)
     return np.where(np.abs(drawn) > 3.65, np.ldexp(np.rint(np.ldexp(drawn, 40)), -40), drawn)

@@ -6,10 +6,10 @@ after an exact reduction of its argument, by + - * / and square roots in one ord
 rounds alike everywhere. NumPy takes each operation by itself, and numba without fastmath fuses
 none. Coefficients are those of Taylor's series.
 
-Functions of `x` take a number or an array of real numbers and return the same; NaN stays NaN.
-Outside their domain they return what the limit is, without a warning. Their errors are measured and
-the hashes of their bits held by tests/numerics/test_elementary.py. The reductions follow fdlibm
-(Sun, 1993).
+Functions of `x` take a number or an array of real numbers and return the same; NaN stays NaN. Each
+says for which arguments it holds; logarithms give their limits at 0 and infinity. Their errors are
+measured and the hashes of their bits held by tests/numerics/test_elementary.py. The reductions
+follow fdlibm (Sun, 1993).
 """
 
 from decimal import Decimal, localcontext

@@ -30,7 +30,7 @@ def cholesky(matrix: np.ndarray) -> np.ndarray:
 
 
 def growth_bound(matrix: np.ndarray) -> float:
-    """Return a bound of the growth rate under x' = matrix x: that of |x| by the symmetric part."""
+    """Return a bound of the rate at which |x| grows under x' = matrix x, by its symmetric part."""
     return float(np.sum(np.abs(0.5 * (matrix + matrix.T)), axis=1).max())
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 LOOK = 0.1
-"""Seconds between two looks of a caller in another thread than the main one, see below."""
+"""Seconds between two looks of a waiting caller at what happened meanwhile."""
 PATIENCE = 0.5
 """Seconds that an interrupted caller waits for the end of a step; compilation may take longer."""
 
