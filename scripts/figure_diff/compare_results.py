@@ -32,9 +32,7 @@ def compare_results(
 def _note(folder: Path) -> str:
     then, now = recorded(folder)["environment"], environment()
     if then == now:
-        return (
-            "Where data are the accepted ones, pictures are compared pixel by pixel."
-        )
+        return "Where data are the accepted ones, pictures are compared pixel by pixel."
     changed = [f"{key} {then.get(key)} to {now[key]}" for key in now if then.get(key) != now[key]]
     return f"Pictures compared by their look: the environment changed ({', '.join(changed)})."
 
