@@ -66,7 +66,7 @@ def test_nothing_is_to_be_done_where_it_is_unpacked(unpacked):
 def test_figures_are_drawn_from_the_deposited_datasets_alone(packed, unpacked):
     figures = unpacked / "results/figures"
     lost = [path for name in ("fig3", "bounds") for path in figures.glob(f"{name}.*")]
-    assert len(lost) == 6
+    assert len(lost) == 8
     for path in lost:
         path.unlink()
     result = snakemake(unpacked, unpacked, "figures")

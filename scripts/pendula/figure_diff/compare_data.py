@@ -167,7 +167,7 @@ def _pointwise(reference: Curve, new: Curve, until: int | None = None) -> Deviat
     """Return the largest difference of the first samples, as a fraction of the largest value."""
     was, now = (np.atleast_1d(c.values).astype(float)[..., :until] for c in (reference, new))
     finite = np.isfinite(was)
-    difference = abs(np.where(finite, now, 0) - np.where(finite, was, 0))
+    difference = _distance(np.where(finite, was, 0), np.where(finite, now, 0))
     if not difference.size:
         return SAME
     place = np.unravel_index(difference.argmax(), difference.shape)
@@ -175,6 +175,14 @@ def _pointwise(reference: Curve, new: Curve, until: int | None = None) -> Deviat
     tau = "" if reference.tau is None else f" at tau = {reference.tau[place[-1]]:.4g}"
     says = f"is off by {off:.2g} of its scale{tau}, {REGULAR_LIMIT:.2g} is allowed"
     return Deviation(off / REGULAR_LIMIT, says, moved=off > VISIBLE)
+
+
+def _distance(was: np.ndarray, now: np.ndarray) -> np.ndarray:
+    """Return abs(now - was): 0 where both are NaN, infinite where only one of them is a number."""
+    with np.errstate(invalid="ignore"):
+        apart = abs(now - was)
+    same = (was == now) | (np.isnan(was) & np.isnan(now))
+    return np.where(same, 0.0, np.where(np.isnan(apart), np.inf, apart))
 
 
 def _chaotic(reference: Curve, new: Curve, rule: Rule, spread: Spread) -> Deviation:
@@ -193,8 +201,12 @@ def _chaotic(reference: Curve, new: Curve, rule: Rule, spread: Spread) -> Deviat
 
 def _by_statistics(was: np.ndarray, now: np.ndarray, spread: Spread) -> Deviation:
     """Return the statistic that changed the most, in units of what its spread allows."""
-    off = abs(now - was)
-    excess = np.where(np.isfinite(spread.allowed), off / spread.allowed, 0)
+    off = _distance(was, now)
+    free = ~np.isfinite(spread.allowed) & np.isfinite(off)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        excess = np.where(
+            free | (off == 0), 0.0, np.where(np.isinf(off), np.inf, off / spread.allowed)
+        )
     worst = int(excess.argmax())
     name = list(STATISTICS)[worst]
     says = (
@@ -207,7 +219,7 @@ def _by_statistics(was: np.ndarray, now: np.ndarray, spread: Spread) -> Deviatio
 def _by_distance(apart: np.ndarray, spread: Spread) -> Deviation:
     """Return the distance that is the largest, in units of what two right runs may be apart."""
     over = np.where(np.isfinite(spread.farthest), apart - spread.farthest, -np.inf)
-    excess = np.exp(np.minimum(over, MOST_OVER))
+    excess = np.where(np.isnan(over), np.inf, np.exp(np.minimum(over, MOST_OVER)))
     worst = int(excess.argmax())
     says = (
         f"is apart by {np.exp(apart[worst]):.2g} of its scale "

@@ -165,7 +165,7 @@ TURNED = {
     "ensemble_fig6_not_technical": (UNEVEN, scaled("l2_mean", 0.2)),
     "ensemble_fig6_time": (UNEVEN, scaled("l2_mean", 0.1)),
     "rate_is_resolved": (LIVES, with_a_faster_choice),
-    "even_bands_wider": (MEMBERS, scaled("width_ratio_low", 0.6)),
+    "even_bands_wider": (MEMBERS, scaled("width_ratio", 0.7)),
 }
 
 
