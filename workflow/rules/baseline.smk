@@ -1,0 +1,70 @@
+# What the baseline holds: the files of a full run, the settings they are of, and what is accepted.
+BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{workflow.basedir}/tests/baseline")
+
+
+def everything():
+    """Return each file that a full run makes or needs and whose content is settled by its inputs.
+
+    The report is left out, which holds the times of the run, and so are logs and records of code.
+    """
+    made = {
+        *rules.all.input,
+        *(f"results/{name}.nc" for name in makers()),
+        *rules.hard_cases.output,
+        *references(*PAPER_CASES, "fig4_small.double"),
+    }
+    return sorted(path for path in made if path.endswith((".nc", ".json", ".md", ".png", ".pdf")))
+
+
+def below_results(paths):
+    return [path.removeprefix("results/") for path in paths]
+
+
+def accepted_files():
+    """Return the files of the baseline that are there: a change of one asks for a new comparison."""
+    names = ["accepted.json", "hashes.json", "tolerances.yaml", "spreads.nc"]
+    names += below_results(everything())
+    return [path for name in names if os.path.exists(path := f"{BASELINE}/{name}")]
+
+
+def plain(settings):
+    return json.loads(settings.model_dump_json())
+
+
+def committed_settings():
+    """Return what config/*.yaml say, without what the command line added."""
+    committed = {}
+    for name in ("config", *STUDIES):
+        with open(f"{workflow.basedir}/config/{name}.yaml", encoding="utf-8") as file:
+            committed.update(yaml.load(file, yaml.CSafeLoader))
+    return load(committed)
+
+
+def chosen_names():
+    """Return the names of the files to accept, or stop before any job with the reason."""
+    from pendula.figure_diff import acceptance, baseline  # here, since only accepting needs them
+
+    folder, words = Path(BASELINE), OPTIONS["accept"] or []
+    words = words.split() if isinstance(words, str) else [str(word) for word in words]
+    names = below_results(everything())
+    known = sorted({*names, *baseline.recorded(folder)["files"]})
+    try:
+        acceptance.check(plain(SETTINGS), plain(committed_settings()), folder, bool(words))
+        return acceptance.choose(words, known) if words else names
+    except acceptance.AcceptanceError as error:
+        raise WorkflowError(str(error)) from None
+
+
+def acceptance_params(dry):
+    return {
+        "names": lambda wildcards: chosen_names(),
+        "baseline": lambda wildcards: BASELINE,
+        "configuration": plain(SETTINGS),
+        "all_of_it": not OPTIONS["accept"],
+        "dry": dry,
+    }
+
+
+def chosen_files(wildcards):
+    chosen = set(chosen_names())
+    return [path for path in everything() if path.removeprefix("results/") in chosen]
