@@ -91,7 +91,7 @@ def raise_spike(array):
 
 
 def bound(*values) -> Callable:
-    """Return a change of the bounds, of which the accepted ones are infinity and 9.5."""
+    """Return a change of the bounds; the accepted bounds are infinity and 9.5."""
     return lambda data: data.assign(bound=("component", list(values), data["bound"].attrs))
 
 

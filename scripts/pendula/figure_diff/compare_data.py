@@ -270,7 +270,7 @@ def _copies(
             others[stem] = _curves_of(stem, made_too)
         other = others[stem].get(spread.copy_of)
         if other is not None and not np.array_equal(curve.values, other.values, equal_nan=True):
-            says = f"is not the same as {spread.copy_of}, of which it is a copy in a right run"
+            says = f"is not the same as {spread.copy_of}, but in a right run it is a copy of it"
             found[label] = Deviation(np.inf, says, moved=True)
     return found
 

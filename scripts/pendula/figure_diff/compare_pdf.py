@@ -111,7 +111,7 @@ def _unpack(data: bytes, number: int, places: dict[int, int]) -> bytes:
 def compare(
     name: str, accepted: str, made: Path, descriptions: tuple[Path, Path], exact: bool
 ) -> Finding:
-    """Return the finding for the PDF `made`, of which the baseline keeps `accepted`.
+    """Return the finding for the PDF `made`; `accepted` is what the baseline keeps of it.
 
     `descriptions` are those of the baseline and of the run; `accepted` is the hash of the accepted
     content; `exact` says that the versions are those that drew it.

@@ -36,7 +36,7 @@ def interruptible(run: Callable, *arguments) -> Any:
         except BaseException as fault:
             faults.append(fault)
 
-    # a daemon, since the interpreter need not wait for what still compiles
+    # A daemon thread, so that the interpreter can leave while that thread still compiles.
     thread = threading.Thread(target=work, daemon=True)
     try:
         thread.start()
