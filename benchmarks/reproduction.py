@@ -26,7 +26,7 @@ LEFT_OUT = shutil.ignore_patterns(
 def run(project: Path) -> float:
     """Run snakemake in `project` and return the wall time in seconds."""
     command = [sys.executable, "-m", "snakemake"]
-    environment = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    environment = {k: v for k, v in os.environ.items() if k != "PENDULA_CACHE"}
     _, seconds = timed(
         lambda: subprocess.run(
             command, cwd=project, env=environment, check=True, capture_output=True

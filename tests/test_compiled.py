@@ -41,7 +41,7 @@ def of_products(x):
 def say(folder, *names):
     """Return what these kernels give in a process of its own, which keeps and loads them."""
     calls = ", ".join(f"made.{name}(0.5)" for name in names)
-    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{folder}", "NUMBA_CACHE_DIR": str(folder)}
+    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{folder}", "PENDULA_CACHE": str(folder)}
     command = [sys.executable, "-c", f"import made; print([{calls}])"]
     done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -54,3 +54,24 @@ def test_kernels_that_two_processes_kept_stay_apart_in_a_third(tmp_path):
     apart = say(tmp_path, "of_sums") + say(tmp_path, "of_products")
     assert apart[0] != apart[1]
     assert say(tmp_path, "of_sums", "of_products") == apart
+
+
+def test_the_forks_of_a_process_name_their_functions_apart(tmp_path):
+    code = """
+import os
+from pendula.compiled import FunctionIdentity
+for _ in range(2):
+    if os.fork() == 0:
+        print(next(FunctionIdentity._unique_ids), flush=True)
+        os._exit(0)
+    os.wait()
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    first, second = done.stdout.split()
+    assert first != second

@@ -28,7 +28,7 @@ COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 def run(python, environment, cache, threads):
     """Run the cases in a process of its own."""
-    settings = {"PYTHONPATH": str(SCRIPTS), "NUMBA_CACHE_DIR": str(cache)}
+    settings = {"PYTHONPATH": str(SCRIPTS), "PENDULA_CACHE": str(cache)}
     command = [python, bits.__file__, str(threads)]
     done = subprocess.run(command, env=environment | settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

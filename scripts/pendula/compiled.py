@@ -3,15 +3,12 @@
 A `kernel` is compiled for plain values and kept on disk. What it calls may be other kernels, or
 functions that are compiled into it: `uncached` ones, `inlined_by_numba` and `inlined_by_llvm`.
 
-Cache. numba's on-disk cache notices a change in the file of a cached function, but not in the files
-of the functions that it calls: it would return numbers of the old code. So each kernel is kept in a
-folder that is named after the text of its module and of all that the module imports (see
-`sources`). An edit of any of them starts an empty folder.
+Cache. `kernel_cache` keeps machine code by its content, in one folder for all projects of a user.
 
 Names. Machine code calls other functions by their names, in which numba puts the number that a
 function has in its process. Two solvers that one builder made can so get one name, if two processes
 compiled and kept them, and a third that loads both would run one of them in place of the other
-(numba issue 10486). So each process counts from a random number.
+(numba issue 10486). So each process counts from a random number, and so does each of its forks.
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
 *, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
@@ -22,26 +19,29 @@ import itertools
 import os
 import secrets
 from collections.abc import Callable
-from pathlib import Path
 
 import numba
 from numba.core.bytecode import FunctionIdentity
 
-from .sources import digest_of_modules
+from .kernel_cache import KernelCache, kept_in
 
-FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
+
+def _count_from_a_random_number() -> None:
+    FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
+
+
+_count_from_a_random_number()
+if hasattr(os, "register_at_fork"):  # Windows has no forks
+    os.register_at_fork(after_in_child=_count_from_a_random_number)
 
 
 def kernel(function: Callable) -> Callable:
     """Compile a function of plain values and keep the machine code on disk."""
-    module = Path(function.__code__.co_filename).resolve()
-    root = os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent / "__pycache__"
-    usual = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(Path(root) / f"kernels-{digest_of_modules(module)[:16]}")
-    try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
-    finally:
-        numba.config.CACHE_DIR = usual
+    compiled = numba.njit(error_model="numpy", nogil=True)(function)
+    folder = kept_in()
+    if folder and not numba.config.DISABLE_JIT:
+        compiled._cache = KernelCache(function, folder)
+    return compiled
 
 
 uncached = numba.njit(error_model="numpy", nogil=True)

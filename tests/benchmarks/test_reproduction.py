@@ -29,11 +29,11 @@ def test_a_job_with_several_outputs_counts_once(tmp_path):
 
 def test_a_run_finds_no_kernels_but_its_own(tmp_path, monkeypatch):
     started = {}
-    monkeypatch.setenv("NUMBA_CACHE_DIR", "/elsewhere")
+    monkeypatch.setenv("PENDULA_CACHE", "/elsewhere")
     monkeypatch.setattr(subprocess, "run", lambda command, **options: started.update(options))
     assert 0.0 <= reproduction.run(tmp_path) < 1.0
     assert started["cwd"] == tmp_path and started["check"]
-    assert "NUMBA_CACHE_DIR" not in started["env"]
+    assert "PENDULA_CACHE" not in started["env"]
 
 
 def test_three_runs_and_the_jobs_of_the_last_are_told(monkeypatch, capsys):

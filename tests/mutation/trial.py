@@ -131,7 +131,7 @@ class Trial:
             os.chdir(self.folder)
             sys.dont_write_bytecode = True  # its time stamps are too coarse for one mutant a second
             os.environ |= {"NUMBA_DISABLE_JIT": str(int(plain)), "NUMBA_OPT": "0"}
-            os.environ["NUMBA_CACHE_DIR"] = str(self.kernels)
+            os.environ["PENDULA_CACHE"] = str(self.kernels)
             numba.config.reload_config()
             options = ["-x"] if not plugins else []
             options += [

@@ -1,0 +1,126 @@
+"""Where compiled kernels are kept between processes, projects and runs of one user.
+
+Compiling takes longer than most runs, so machine code is kept. numba could keep it, but it names
+what it keeps after the path and the time stamp of a source file: a moved or cloned project compiles
+everything again, an edit of another file that the kernel calls goes unnoticed, and two processes
+that compile one function for two types of arguments at once may write both to the same file. Here a
+file is named by all that its content follows from: the text of the kernel's module and of all that
+it imports, the versions and settings of the compiler, the processor, and the types of the
+arguments. It appears whole or not at all, and it begins with a hash of the rest. So it cannot be
+stale, torn, or that of another kernel, wherever the project lies.
+
+The folder is that of the platform for caches (~/.cache/pendula on Linux). The environment variable
+PENDULA_CACHE names another, or says `off`.
+"""
+
+import hashlib
+import os
+import pickle
+import platform
+import shutil
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import llvmlite
+import numba
+import platformdirs
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
+
+from .sources import digest_of_modules
+
+VARIABLE = "PENDULA_CACHE"
+OFF = "off"
+UNUSED = 30 * 86400.0
+"""Seconds after which machine code of a text that nobody runs any more is removed."""
+DIGEST = hashlib.sha256().digest_size
+
+
+def kept_in() -> Path | None:
+    """Return the folder of all kernels, or None where the user switched it off."""
+    named = os.environ.get(VARIABLE)
+    if named == OFF:
+        return None
+    return Path(named) if named else platformdirs.user_cache_path("pendula")
+
+
+class KernelCache(_Cache):
+    """The machine code of one function, in the form that a dispatcher of numba asks for."""
+
+    def __init__(self, function: Callable, root: Path):
+        """Keep the machine code of `function`, which is no closure, below the folder `root`."""
+        module = Path(function.__code__.co_filename).resolve()
+        self._name = function.__qualname__
+        self._folder = root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
+
+    @property
+    def cache_path(self) -> str:
+        """The folder of the machine code of this module."""
+        return str(self._folder)
+
+    def load_overload(self, signature, target_context) -> CompileResult | None:
+        """Return the machine code for these types of arguments, or None where there is none."""
+        target_context.refresh()
+        try:
+            content = self._file(signature, target_context.codegen()).read_bytes()
+            os.utime(self._folder)
+        except OSError:
+            return None
+        kept, payload = content[:DIGEST], content[DIGEST:]
+        if kept != hashlib.sha256(payload).digest():
+            return None  # a damaged file is compiled and written again
+        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+
+    def save_overload(self, signature, data: CompileResult) -> None:
+        """Keep machine code. Where that is impossible the run goes on, with a warning."""
+        payload = dumps(data._reduce())
+        file = self._file(signature, data.codegen)
+        try:
+            if not self._folder.exists():
+                self._remove_unused()
+                self._folder.mkdir(parents=True, exist_ok=True)
+            partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
+            try:
+                partial.write_bytes(hashlib.sha256(payload).digest() + payload)
+                partial.replace(file)
+            finally:
+                partial.unlink(missing_ok=True)
+        except OSError as fault:
+            warnings.warn(
+                f"compiled kernels cannot be kept in {self._folder.parent}, so that each job"
+                f" compiles its own ({fault}); name another folder by {VARIABLE}, or"
+                f" `{VARIABLE}={OFF}`",
+                stacklevel=2,
+            )
+
+    def enable(self) -> None:
+        """Do nothing: a kernel whose code shall not be kept has no such cache."""
+
+    disable = enable
+
+    def flush(self) -> None:
+        """Remove the machine code of this function's module."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _file(self, signature, codegen) -> Path:
+        return self._folder / f"{self._name}-{_digest(signature, codegen.magic_tuple())}.kernel"
+
+    def _remove_unused(self) -> None:
+        """Remove what was compiled from former texts of this module, unless it was used of late."""
+        former = self._folder.name.rpartition("-")[0]
+        for folder in self._folder.parent.glob(f"{former}-*"):
+            if time.time() - folder.stat().st_mtime > UNUSED:
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+def _digest(*parts) -> str:
+    return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:16]
+
+
+def _compiler() -> list[str]:
+    """Return the versions and the settings that machine code depends on."""
+    settings = sorted(f"{k}={v}" for k, v in os.environ.items() if k.startswith("NUMBA_"))
+    return [platform.python_version(), numba.__version__, llvmlite.__version__, *settings]

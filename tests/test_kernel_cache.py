@@ -1,0 +1,108 @@
+"""Where kernels are kept: found wherever the project lies, never stale, torn, or of other types."""
+
+import os
+import shutil
+import time
+from importlib.util import module_from_spec, spec_from_file_location
+
+import numba
+import pytest
+from pendula import kernel_cache, sources
+from pendula.kernel_cache import UNUSED, VARIABLE, KernelCache, kept_in
+
+MADE = "def double(x):\n    return 2 * x\n"
+
+
+@pytest.fixture
+def module(tmp_path):
+    path = tmp_path / "project" / "made.py"
+    path.parent.mkdir()
+    path.write_text(MADE)
+    return path
+
+
+@pytest.fixture
+def kept(tmp_path):
+    return tmp_path / "kept"
+
+
+def compile_anew(path, kept):
+    """Return what a new process makes of `double`: a compiled function that has run nothing yet."""
+    for remembered in (sources.digest_of, sources.digest_of_modules, sources._imports_of):
+        remembered.cache_clear()
+    spec = spec_from_file_location("made", path)
+    made = module_from_spec(spec)
+    spec.loader.exec_module(made)
+    compiled = numba.njit(made.double)
+    compiled._cache = KernelCache(made.double, kept)
+    return compiled
+
+
+def found(compiled) -> int:
+    return sum(compiled.stats.cache_hits.values())
+
+
+def test_each_type_of_argument_has_a_file_of_its_own(module, kept):
+    first, second = compile_anew(module, kept), compile_anew(module, kept)
+    assert (first(3), second(2.5)) == (6, 5.0)  # neither knew of the other when it was compiled
+    third = compile_anew(module, kept)
+    assert (third(3), third(2.5), found(third)) == (6, 5.0, 2)
+    assert len(list(kept.rglob("*.kernel"))) == len(list(kept.rglob("*.*"))) == 2
+
+
+def test_a_copied_project_with_new_time_stamps_finds_its_kernels(module, kept):
+    compile_anew(module, kept)(3)
+    moved = shutil.copytree(module.parent, module.parent.with_name("copy")) / module.name
+    os.utime(moved, (0, 0))
+    compiled = compile_anew(moved, kept)
+    assert compiled(3) == 6 and found(compiled) == 1
+
+
+def test_an_edited_module_or_another_setting_of_the_compiler_finds_none(module, kept, monkeypatch):
+    compile_anew(module, kept)(3)
+    with monkeypatch.context() as changed:
+        changed.setenv("NUMBA_OPT", "1")
+        assert found(compile_anew(module, kept)) == 0 and compile_anew(module, kept)(3) == 6
+    module.write_text(MADE.replace("2 * x", "7 * x"))
+    edited = compile_anew(module, kept)
+    assert edited(3) == 21 and found(edited) == 0
+
+
+@pytest.mark.parametrize("damage", ["empty", "cut", "changed"])
+def test_a_damaged_file_is_compiled_and_written_again(module, kept, damage):
+    compile_anew(module, kept)(3)
+    (file,) = kept.rglob("*.kernel")
+    whole = file.read_bytes()
+    damaged = {"empty": b"", "cut": whole[:-9], "changed": whole[:-1] + b"?"}
+    file.write_bytes(damaged[damage])
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0 and len(file.read_bytes()) == len(whole)
+
+
+def test_a_folder_that_cannot_be_written_costs_a_warning_and_no_run(module, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    compiled = compile_anew(module, tmp_path / "file")
+    with pytest.warns(UserWarning, match=f"cannot be kept in .*file.*{VARIABLE}=off"):
+        assert compiled(3) == 6
+
+
+def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(module, kept):
+    compile_anew(module, kept)(3)
+    (old,) = kept.iterdir()
+    module.write_text(MADE + "# edited\n")
+    compile_anew(module, kept)(3)
+    assert old.exists()  # a run of another branch may need it tomorrow
+    long_ago = time.time() - 2 * UNUSED
+    os.utime(old, (long_ago, long_ago))
+    module.write_text(MADE + "# edited twice\n")
+    compile_anew(module, kept)(3)
+    assert not old.exists() and len(list(kept.iterdir())) == 2
+
+
+def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    assert kept_in() == tmp_path
+    monkeypatch.setenv(VARIABLE, kernel_cache.OFF)
+    assert kept_in() is None
+    monkeypatch.delenv(VARIABLE)
+    assert kept_in() == kernel_cache.platformdirs.user_cache_path("pendula")
