@@ -1,4 +1,4 @@
-"""The promise of all solvers: the same bits whatever the code was compiled for."""
+"""The promise of all numbers: the same bits whatever the code was compiled for."""
 
 import json
 import os
@@ -8,8 +8,12 @@ from pathlib import Path
 
 import bits
 import machines
+import netCDF4
+import numpy as np
 import pytest
+import some_numbers
 from helpers import skip
+from unlike import unlike
 
 HASHES = {
     "taylor": "f71cfb065655de7a",
@@ -28,11 +32,35 @@ COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 def run(python, environment, cache, threads):
     """Run the cases in a process of its own."""
-    settings = {"PYTHONPATH": str(SCRIPTS), "PENDULA_CACHE": str(cache)}
-    command = [python, bits.__file__, str(threads)]
-    done = subprocess.run(command, env=environment | settings, capture_output=True, text=True)
+    settings = {"PENDULA_CACHE": str(cache)}
+    return json.loads(output_of([python, bits.__file__, threads], environment | settings))
+
+
+def output_of(command, environment):
+    """Return what a program prints that uses the library."""
+    settings = environment | {"PYTHONPATH": str(SCRIPTS)}
+    done = subprocess.run([*map(str, command)], env=settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def numbers_by(tmp_path_factory):
+    """Return a function: the folder with the datasets of some_numbers.py by a Python there."""
+    given = tmp_path_factory.mktemp("given")
+    some_numbers.prepare(given)
+
+    def make(python, environment):
+        made = tmp_path_factory.mktemp("made")
+        output_of([python, some_numbers.__file__, given, made], environment)
+        return made
+
+    return make
+
+
+@pytest.fixture(scope="module")
+def numbers_here(numbers_by):
+    return numbers_by(sys.executable, machines.environment(machines.THIS_ONE))
 
 
 @pytest.mark.parametrize("machine", machines.PLAYED)
@@ -45,12 +73,43 @@ def test_code_for_another_processor_gives_the_same_bits_cold_warm_and_threaded(m
     assert cold["hashes"] == warm["hashes"] == COMMITTED
 
 
-def test_another_family_of_processors_gives_the_same_bits(tmp_path):
-    python = os.environ.get("PENDULA_PYTHON_OF_AARCH64")
-    if not python:
-        skip("there is no Python of another family of processors", "run .ci/elsewhere aarch64")
-    found = run(python, dict(os.environ), tmp_path, 1)
+def test_numbers_that_no_solver_gives_are_the_same_on_another_machine(numbers_by, numbers_here):
+    machine = "generic"  # it has the most other bits, and each takes seconds
+    if why := machines.why_not(machine):
+        skip(why, machines.ELSEWHERE)
+    there = numbers_by(sys.executable, machines.environment(machine))
+    assert unlike(numbers_here, there, ".nc") == []
+    assert {path.stem for path in there.iterdir()} == set(some_numbers.NAMES)
+
+
+def test_a_bit_that_differs_is_told_by_file_variable_and_size(tmp_path):
+    for folder, last in (("here", 2.0), ("there", np.nextafter(2.0, 3))):
+        path = tmp_path / folder / "checks/one.nc"
+        path.parent.mkdir(parents=True)
+        with netCDF4.Dataset(path, "w") as data:
+            data.createDimension("tau", 2)
+            for name in ("same", "other"):
+                data.createVariable(name, float, "tau")[:] = [1, last if name == "other" else 2]
+    assert unlike(tmp_path / "here", tmp_path / "there", ".nc") == [
+        "checks/one.nc: other differs by 4.4e-16 of 2"
+    ]
+
+
+@pytest.fixture
+def python_of_another_family():
+    return os.environ.get("PENDULA_PYTHON_OF_AARCH64") or skip(
+        "there is no Python of another family of processors", "run .ci/elsewhere aarch64"
+    )
+
+
+def test_another_family_of_processors_gives_the_same_bits(python_of_another_family, tmp_path):
+    found = run(python_of_another_family, dict(os.environ), tmp_path, 1)
     assert found["machine"] == "aarch64" and found["hashes"] == COMMITTED
+
+
+def test_another_family_gives_the_same_numbers(python_of_another_family, numbers_by, numbers_here):
+    there = numbers_by(python_of_another_family, dict(os.environ))
+    assert unlike(numbers_here, there, ".nc") == []
 
 
 @pytest.mark.parametrize(("name", "even"), bits.RUNS)

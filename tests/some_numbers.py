@@ -1,0 +1,78 @@
+"""Datasets whose numbers come from `numerics`; started as a program on each machine.
+
+    python tests/some_numbers.py given made
+
+makes them from the made-up runs in the folder `given`, and from small arguments, in the functions
+that the rules call, and writes them to the folder `made`. What solvers give is asked by bits.py.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import xarray
+from helpers import chosen
+from made_up_unbounded import named, unbounded_runs
+from pendula.datasets.netcdf import read, save, write
+from pendula.numerics.search import maximise
+from pendula.problem import Constants
+from pendula.studies.theory.checks import run_check
+from pendula.studies.unbounded.front import measure_front
+from pendula.studies.unbounded.long_runs import measure_growth
+from pendula.studies.unbounded.thermal import state_of_energy, thermal_variables
+
+CHECKS = {
+    "dispersion": {},  # eigenvalues, also double ones
+    "windows": {},  # bisection
+    "sharp_threshold": {},  # singular values
+    "inequalities": {"count": 50},  # random numbers
+    "sharpness": {"sizes": [3, 9]},  # extrapolation
+}
+"""One check for each kind of function in `numerics`, with what makes it take no time."""
+NODES = 6
+GROWN = ("fig4_small", "fig3_large", "fig3_small", "fig2_large")
+UNBOUNDED = ("growth", "front", "thermal")
+NAMES = (*CHECKS, "search", *UNBOUNDED)
+
+
+def prepare(folder: Path) -> None:
+    """Write the made-up runs, once for all machines: NumPy's own functions make them."""
+    for name, data in unbounded_runs().items():
+        save(str(folder / f"{Path(name).name}.nc"), data)
+
+
+def searched() -> xarray.Dataset:
+    """Return the path of a search on a curved ridge, which one bit can send another way."""
+
+    def ridge(points: np.ndarray) -> np.ndarray:
+        x, y = points.T
+        return -(100.0 * (y - x * x) * (y - x * x) + (1.0 - x) * (1.0 - x))
+
+    point, _, history = maximise(ridge, np.array([-1.0, 1.0]), 0.5, 60, 12, 1)
+    return named(xarray.Dataset({"point": ("axis", point), "history": ("generation", history)}))
+
+
+def unbounded(given: Path) -> dict[str, xarray.Dataset]:
+    """Return what is fitted to and averaged over runs without ends, and thermal states."""
+    runs = {path.stem: read(str(path)) for path in given.glob("*.nc")}
+    growth = measure_growth({name: runs[name] for name in GROWN}, runs["thermal"])
+    ends = (runs["omegas"], runs["fig4_small"], runs["fig3_large"], runs["thermal"])
+    return {"growth": growth, "front": measure_front(*ends)}
+
+
+def make(given: Path, made: Path) -> None:
+    """Write the datasets of NAMES to the folder `made`."""
+    theory = chosen("theory")
+    arguments = theory.arguments("equations") | theory.arguments("stability")
+    arguments |= theory.arguments("bounds")
+    checks = {name: run_check(name, arguments[name] | less) for name, less in CHECKS.items()}
+    datasets = {name: xarray.Dataset.from_dict(check) for name, check in checks.items()}
+    for name, data in (datasets | {"search": searched()} | unbounded(given)).items():
+        save(str(made / f"{name}.nc"), data)
+    constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
+    cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))
+    write(str(made / "thermal.nc"), thermal_variables([cold], [warm]), {})
+
+
+if __name__ == "__main__":
+    make(*map(Path, sys.argv[1:]))
