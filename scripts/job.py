@@ -1,11 +1,17 @@
 """Run one public function as a Snakemake job: plain arguments in, everything said into the log."""
 
+import atexit
+import gc
 import sys
 import time
 import traceback
 from collections.abc import Callable
 
 import psutil
+
+# When Python ends, it looks for cycles among a million objects that are about to go anyway. This
+# would take a fifth of a second in every job.
+atexit.register(gc.freeze)
 
 TOOK = "wall time: "
 """How the last line of a log begins."""
