@@ -8,8 +8,9 @@ takes far longer than the code itself is ended and counts as killed. Mutants tha
 lists change no result, and do not count. Nothing changes in the project: all happens in a copy.
 
 With --keep the score goes to tests/baseline/quoted/mutation.json, from which docs/ quote it. With
---log a file keeps each outcome, and a later run does not repeat what was killed then: take a new
-file when tests have changed.
+--folder a folder keeps kernels, times of tests and outcomes, and a later run does not repeat them.
+An outcome is that of one text of the module and of its tests: if either changes, the mutant is
+tried again. A change elsewhere in the library asks for a new folder.
 """
 
 import argparse
@@ -108,18 +109,19 @@ def outcomes(
 ) -> list[dict]:
     """Return the outcome of each mutant that is not equivalent; stop early at Ctrl-C."""
     done = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
-    known = {tuple(one.values())[:3]: one["outcome"] for one in done if one["outcome"] != SURVIVED}
+    known = {one["digest"]: one["outcome"] for one in done}
     found, ignored = [], equivalent()
     try:
         for place in places:
             text, mutant = mutate(place, texts[place.module])
             if mutant in ignored:
                 continue
-            outcome = known.get(tuple(mutant.values()))
+            digest = trial.digest(text, tests[place.module])
+            outcome = known.get(digest)
             if outcome is None:
                 outcome = trial.outcome(place.module, text, tests[place.module])
                 with open(log, "a", encoding="utf-8") as kept:
-                    print(json.dumps({**mutant, "outcome": outcome}), file=kept)
+                    print(json.dumps({**mutant, "outcome": outcome, "digest": digest}), file=kept)
             found.append({**mutant, "outcome": outcome})
             survived = sum(one["outcome"] == SURVIVED for one in found)
             print(f"{len(found)} mutants, {survived} survived", end="\r", flush=True)
@@ -162,7 +164,7 @@ def main() -> None:
     parser.add_argument("modules", nargs="*", help="modules of decisive.yaml, by default all")
     parser.add_argument("--sample", type=int, default=300, help="mutants to try at most")
     parser.add_argument("--seed", type=int, default=2017)
-    parser.add_argument("--log", type=Path, help="file of outcomes, to go on from")
+    parser.add_argument("--folder", type=Path, help="folder to go on from, or to begin")
     parser.add_argument(
         "--plain", action="store_true", help="leave compiled tests out: a lower bound, much sooner"
     )
@@ -170,11 +172,11 @@ def main() -> None:
     given = parser.parse_args()
     tests = yaml.safe_load((HERE / "decisive.yaml").read_text(encoding="utf-8"))
     with tempfile.TemporaryDirectory() as folder:
-        trial = Trial(Path(folder), not given.plain)
+        trial = Trial(given.folder or Path(folder), not given.plain)
         texts = {module: trial.text_of(module) for module in given.modules or tests}
         places = [place for module, text in texts.items() for place in places_in(module, text)]
         drawn = sorted(places, key=lambda place: drawn_number(given.seed, place))
-        log = given.log or Path(folder) / "outcomes.jsonl"
+        log = trial.folder / "outcomes.jsonl"
         found = outcomes(trial, drawn[: given.sample], texts, tests, log)
     score = {"plain": given.plain, **summary(found, len(places), given.seed, len(texts))}
     text = json.dumps(score, indent=1, ensure_ascii=False) + "\n"

@@ -4,13 +4,14 @@ Each mutant needs a new interpreter, and what most of its time goes into is the 
 imports of libraries, so they are imported here once, and compilation, so most tests run without.
 """
 
+import hashlib
 import json
 import os
 import resource
 import shutil
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from math import inf
 from pathlib import Path
@@ -33,7 +34,7 @@ FILES = ("pyproject.toml", "environment.txt", "Snakefile")
 
 SHORT = 1.5
 """Seconds of the processor that a test may take as plain Python."""
-PATIENCE = 5.0, 30.0
+PATIENCE = 5.0, 10.0
 """A mutant is ended after so many times what the code itself takes, and so many seconds more."""
 
 KILLED, ENDED, SURVIVED = "killed", "ended", "survived"
@@ -43,16 +44,32 @@ class Trial:
     """A copy of the project in which mutants of its library meet tests."""
 
     def __init__(self, folder: Path, compiled: bool = True):
-        """Copy the project; without `compiled` tests that plain Python cannot run are left out."""
+        """Copy the project; without `compiled` tests that plain Python cannot run are left out.
+
+        Kernels and times of tests that the folder holds from an earlier trial are used again.
+        """
         self.compiled = compiled
         self.folder, self.kernels, self.log = folder, folder / "kernels", folder / "log"
-        self.passed, self._known, self._others = folder / "passed.json", {}, {}
+        self.passed, self.times = folder / "passed.json", folder / "times.json"
         ignore = shutil.ignore_patterns("__pycache__")
         for name in COPIED:
+            shutil.rmtree(folder / name, ignore_errors=True)
             shutil.copytree(ROOT / name, folder / name, ignore=ignore)
         for name in FILES:
-            shutil.copy(ROOT / name, folder)
-        self.kernels.mkdir()
+            shutil.copy2(ROOT / name, folder)
+        self.kernels.mkdir(parents=True, exist_ok=True)
+        library = sorted((folder / "scripts/pendula").rglob("*.py"))
+        self._library = "".join(path.read_text(encoding="utf-8") for path in library)
+        self._known = json.loads(self.times.read_text()) if self.times.exists() else {}
+
+    def digest(self, text: str, tests: Iterable[str]) -> str:
+        """Return a hash of a text and of the tests that judge it, with what lies beside them."""
+        files = {self.folder / test for test in tests}
+        folders = {self.folder / "tests", *(file.parent for file in files)}
+        files |= {path for folder in folders for path in folder.glob("*.py")
+                  if not path.name.startswith("test_")}  # fmt: skip
+        parts = [text, *(path.read_text(encoding="utf-8") for path in sorted(files))]
+        return hashlib.sha256(json.dumps([self.compiled, *parts]).encode()).hexdigest()
 
     def text_of(self, module: str) -> str:
         """Return the text of a module of the library."""
@@ -67,7 +84,7 @@ class Trial:
         It meets first the tests that run as plain Python, and if it survives, the others.
         """
         for plain in (True, False) if self.compiled else (True,):
-            chosen, seconds = self._unchanged(tuple(tests), plain)
+            chosen, seconds = self._unchanged(tests, plain)
             if chosen:
                 with self._changed(module, text):
                     limit = PATIENCE[0] * seconds + PATIENCE[1]
@@ -78,42 +95,55 @@ class Trial:
 
     @contextmanager
     def _changed(self, module: str, text: str) -> Iterator[None]:
-        """Put a text in place of a module for a while; leave no kernel of it behind."""
-        path, original = self._path_of(module), self.text_of(module)
+        """Put a text in place of a module for a while; leave no kernel of it behind.
+
+        The module's old time stamp comes back too, since numba and Python would otherwise take
+        what they keep of it for stale.
+        """
+        path, kept = self._path_of(module), self.folder / "unchanged"
         kernels = set(self.kernels.iterdir())
+        shutil.copy2(path, kept)
         path.write_text(text, encoding="utf-8")
         try:
             yield
         finally:
-            path.write_text(original, encoding="utf-8")
+            shutil.copy2(kept, path)
             for new in set(self.kernels.iterdir()) - kernels:
                 shutil.rmtree(new)
 
-    def _unchanged(self, tests: tuple[str, ...], plain: bool) -> tuple[list[str], float]:
+    def _unchanged(self, tests: list[str], plain: bool) -> tuple[list[str], float]:
         """Return the tests that run as plain Python, or the others, and the seconds they take.
 
         It runs them once without a mutant. Raises RuntimeError where one fails.
         """
-        if (tests, plain) not in self._known:
-            if plain:
-                _, seconds = self._run(tests, inf, True, _Passed(self.passed))
-                passed = json.loads(self.passed.read_text())
-                quick_first = sorted(passed, key=passed.get)
-                self._others[tests] = [test for test in passed if passed[test] == inf]
-                chosen = [test for test in quick_first if passed[test] < inf]
-            else:
-                chosen, seconds, outcome = self._others[tests], 0.0, SURVIVED
-                if chosen:
-                    outcome, seconds = self._run(chosen, inf, False)
-                if outcome != SURVIVED:
-                    raise RuntimeError(f"tests fail without a mutant: {self.log.read_text()}")
-            self._known[tests, plain] = chosen, seconds
-        return self._known[tests, plain]
+        digest, kind = self.digest(self._library, tests), "plain" if plain else "others"
+        if digest not in self._known:
+            self._known[digest] = self._times_as_plain_python(tests)
+        chosen, seconds = self._known[digest][kind]
+        if seconds is None:
+            outcome, seconds = self._run(chosen, inf, False, writes=True)
+            if outcome != SURVIVED:
+                raise RuntimeError(f"tests fail without a mutant: {self.log.read_text()}")
+            self._known[digest][kind] = chosen, seconds
+        self.times.write_text(json.dumps(self._known))
+        return chosen, seconds
 
-    def _run(self, tests, seconds, plain, *plugins) -> tuple[str, float]:
-        """Return the outcome of tests in a fork, and the time that the processor took."""
+    def _times_as_plain_python(self, tests: list[str]) -> dict[str, tuple]:
+        """Return the tests that run as plain Python, quick ones first, and all others."""
+        self._run(tests, inf, True, _Passed(self.passed), writes=True)
+        passed = json.loads(self.passed.read_text())
+        plain = sorted((test for test in passed if passed[test] < inf), key=passed.get)
+        others = [test for test in passed if passed[test] == inf]
+        return {"plain": (plain, sum(map(passed.get, plain))), "others": (others, None)}
+
+    def _run(self, tests, seconds, plain, *plugins, writes=False) -> tuple[str, float]:
+        """Return the outcome of tests in a fork, and the time that the processor took.
+
+        With `writes` it keeps the bytecode of all modules, which must not be that of a mutant.
+        """
         child = os.fork()
         if child == 0:
+            sys.dont_write_bytecode = not writes
             self._test(tests, seconds, plain, plugins)
         _, status, usage = os.wait4(child, 0)
         outcome = ENDED if os.WIFSIGNALED(status) else KILLED if status else SURVIVED
@@ -129,21 +159,11 @@ class Trial:
             if seconds < inf:
                 resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
             os.chdir(self.folder)
-            sys.dont_write_bytecode = True  # its time stamps are too coarse for one mutant a second
             os.environ |= {"NUMBA_DISABLE_JIT": str(int(plain)), "NUMBA_OPT": "0"}
             os.environ["PENDULA_CACHE"] = str(self.kernels)
             numba.config.reload_config()
-            options = ["-x"] if not plugins else []
-            options += [
-                "-q",
-                "-o",
-                "addopts=",
-                "-p",
-                "no:cacheprovider",
-                "-p",
-                "no:xdist",
-                "--tb=no",
-            ]
+            options = ["-q", "-o", "addopts=", "-p", "no:cacheprovider", "-p", "no:xdist"]
+            options += ["--tb=no", "--assert=plain", *([] if plugins else ["-x"])]
             status = int(pytest.main([*options, "--rootdir", str(self.folder), *tests], plugins))
         finally:
             os._exit(status)
