@@ -1,16 +1,21 @@
 """The speed of linear spreading, and the state behind the front."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_unbounded import PIECES, SITES, spread, thermal
+from made_up_unbounded import PIECES, spread, thermal
 from oracle import hamiltonian, random_chain
 from pendula.studies.unbounded.active_sites import LEVELS, find_front
 from pendula.studies.unbounded.bulk import (
+    TERMS,
     complex_pair,
     distribution,
     energy_terms,
+    mean_powers,
     profile,
+    slope_powers,
     spectrum,
     with_ghosts,
 )
@@ -222,40 +227,107 @@ def test_a_front_next_to_nothing_stands_on_its_last_site():
     assert find_front(state).tolist() == [9.0] * len(LEVELS)
 
 
+def along(dimension, values):
+    """Return values along a dimension, to be added to what a made-up run holds."""
+    return xr.DataArray(values, dims=dimension)
+
+
+def told_apart(run):
+    """Return a run whose fronts differ by their power, by a pace a variant, and by the member."""
+    members, pace = np.arange(run.sizes["member"]), 0.3 * np.arange(run.sizes["variant"])
+    front = run["front"] + along("front_power", [7.0, 0.0, -7.0, -14.0])
+    front = front + 3.0 * along("member", members)
+    return run.assign(front=front + along("variant", pace) * along("piece_tau", PIECES))
+
+
 @pytest.fixture(scope="module")
 def measured():
-    """The fronts of made-up runs at Omega = -1, 2 and 5, and one in which more is to be seen."""
-    bulk = spread(0.5, members=3)
-    bulk["state"] = bulk["state"].copy(data=2.0 + 0.0 * bulk["state"])
-    omegas = spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0))
-    return measure_front(omegas, bulk, spread(0.5, omegas=(-4.0,)), thermal()), bulk
+    """The fronts of made-up runs that all differ, and the runs and thermal states behind them."""
+    bulk = told_apart(spread(0.5, members=3, omegas=(0.5,)))
+    omegas = told_apart(spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)))
+    omegas["bulk_power"] = omegas["bulk_power"] * along("variant", [1.0, 1.1, 1.2])
+    states, large = thermal(), told_apart(spread(0.5, omegas=(-4.0,)))
+    for name in ("power", "density", "spectrum"):
+        states[name] = states[name].copy(data=states[name] * (1.0 + along("omega", np.arange(4))))
+    return measure_front(omegas, bulk, large, states), omegas, bulk, states
+
+
+def test_each_omega_has_the_speed_and_the_power_of_its_members(measured):
+    found, omegas, _, states = measured
+    assert found["omega"].values.tolist() == [-1.0, 2.0, 5.0]
+    for name, corrected in (("speed", False), ("corrected_speed", True)):
+        values, limits = speeds(omegas, corrected=corrected)
+        np.testing.assert_array_equal(found[name], values)
+        np.testing.assert_array_equal(found[f"{name}_error"], limits)
+    np.testing.assert_allclose(found["corrected_speed"], [2.9, 3.2, 3.5], atol=2e-3)
+    np.testing.assert_array_equal(found["predicted_speed"], 2.9)
+    powers = mean_powers(omegas)
+    np.testing.assert_allclose(found["mean_power"], powers.mean(axis=1), rtol=1e-12)
+    half = 12.7062 * np.abs(np.diff(powers)[:, 0]) / 2.0  # Student's t of two members
+    np.testing.assert_allclose(found["mean_power_error"], half, rtol=1e-5)
+    np.testing.assert_array_equal(found["expected_power"], states["power"][[0, 2, 3]])
+    slopes = [(one.value, one.half) for one in slope_powers(omegas)]
+    told = np.transpose([found["slope_power"], found["slope_power_error"]])
+    np.testing.assert_array_equal(told, slopes)
+
+
+def test_the_line_of_speeds_is_that_of_the_saddle_points(measured):
+    found, *_ = measured
+    np.testing.assert_array_equal(found["line_omega"], -4.0 + 0.125 * np.arange(97))
+    at = found["line_speed"].assign_coords(line_omega=found["line_omega"])
+    assert at.sel(line_omega=2.0) == linear_front(constants(2.0)).speed
+    assert at.sel(line_omega=-3.0) == linear_front(constants(-3.0)).speed
+
+
+def test_the_ways_shown_are_those_of_first_members_at_their_powers(measured):
+    found, *_ = measured
+    np.testing.assert_array_equal(found["piece_tau"], PIECES)
+    np.testing.assert_array_equal(found["large_tau"], PIECES)
+    way = np.floor(2.9 * PIECES - 1.4 * np.log(PIECES))
+    steps = 0.3 * np.arange(3)[:, None] * PIECES
+    np.testing.assert_allclose(found["front"], way + steps, rtol=1e-12)
+    np.testing.assert_allclose(found["large_front"], way - 14.0, rtol=1e-12)
+    assert (found.attrs["omega"], found.attrs["large_omega"]) == (0.5, -4.0)
 
 
 def test_the_way_of_a_front_is_told_behind_its_speed_in_spans_of_log_time(measured):
-    found, _ = measured
+    found, *_ = measured
     tau = found["way_tau"].values
     assert 20 < len(tau) <= 36 and (np.diff(tau) > 0.0).all() and tau[0] >= PIECES[0]
     assert np.log(tau[-2] / tau[-6]) == pytest.approx(4.0 * np.log(100.0) / 35.0, abs=0.04)
-    np.testing.assert_allclose(found["behind"], -1.4 * np.log(tau), atol=1.0)  # whole sites
+    # whole sites, and three members at 0, 3 and 6
+    np.testing.assert_allclose(found["behind"] - 3.0, -1.4 * np.log(tau), atol=1.0)
     assert (found["delay"], found["front_rest"]) == (1.4, 0.0)
 
 
-def test_the_profile_behind_a_front_is_that_of_its_sites(measured):
-    """All sites hold 2 + 2i twice: P = 16, no drive, and one bond at the end of the state."""
-    found, bulk = measured
-    front = int(bulk["front"][0, 0, -1, 1])
+def test_the_state_behind_a_front_is_the_mean_over_members_of_the_sites_behind_each(measured):
+    found, _, bulk, _ = measured
+    states = [with_ghosts(state) for state in bulk["state"].values[0]]
+    fronts = bulk["front"].values[0, :, -1, 1].astype(int)
+    assert len(set(fronts)) == 3
     np.testing.assert_allclose(found["scaled_site"], (np.arange(24) + 0.5) * 0.05)
-    cubic, detuning, drive, bonds = found["mean_terms"].values
-    inside = found["scaled_site"].values * front < SITES - 30
-    np.testing.assert_allclose(cubic[inside], 0.25 * 2.0 * 64.0)
-    assert (detuning == 0.0).all() and (drive == 0.0).all()
-    assert np.flatnonzero(bonds).tolist() == [int((SITES - 1) / (0.05 * front))]
-    assert (
-        found["spectrum"].values[0] == pytest.approx(8.0 * 64)
-        and found["spectrum"][1:].max() < 1e-9
-    )
-    cell = np.diff(found["modulus"].values)[0]
-    assert float(found["density"].sum()) * cell == pytest.approx(1.0)
-    assert found["modulus"].values[[0, -1]] == pytest.approx(
-        np.sqrt(8.0) * 1.05 * np.array([0.5, 39.5]) / 40.0
-    )
+    far = ((0, 0), (0, 1000))  # beyond its last site a chain is at rest
+    terms = [np.pad(energy_terms(state, constants(0.5)), far) for state in states]
+    for cell, (low, high) in enumerate(pairwise(np.linspace(0.0, 1.2, 25))):
+        inside = [
+            one[:, int(low * front) : int(high * front)].mean(axis=1)
+            for one, front in zip(terms, fronts, strict=True)
+        ]
+        np.testing.assert_allclose(found["mean_terms"][:, cell], np.mean(inside, axis=0), atol=1e-9)
+    assert list(found["term"].values) == list(TERMS)
+    waves = [z[1 : int(0.9 * 580)] for state in states for z in complex_pair(state)]
+    spectra = np.mean([spectrum(z, 64) for z in waves], axis=0)
+    np.testing.assert_allclose(found["spectrum"], spectra, rtol=1e-12)
+    moduli = np.abs(np.concatenate(waves))
+    cells = np.linspace(0.0, 1.05 * moduli.max(), 41)
+    np.testing.assert_allclose(found["modulus"], 0.5 * (cells[1:] + cells[:-1]), rtol=1e-12)
+    counts = np.histogram(moduli, cells, density=True)[0]
+    np.testing.assert_allclose(found["density"], counts, rtol=1e-12)
+
+
+def test_the_bulk_is_compared_with_the_thermal_state_nearest_to_its_omega(measured):
+    found, _, _, states = measured
+    np.testing.assert_array_equal(found["thermal_omega"], states["omega"])
+    np.testing.assert_array_equal(found["thermal_power"], states["power"])
+    for name in ("modulus", "density", "spectrum"):
+        np.testing.assert_array_equal(found[f"thermal_{name}"], states.sel(omega=0.0)[name])

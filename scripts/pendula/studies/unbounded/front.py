@@ -255,7 +255,7 @@ def _powers(omegas: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
 def _ways(omegas: xr.Dataset, large: xr.Dataset) -> dict[str, Variable]:
     """Return the fronts of the ensembles' first members against time."""
     first = omegas["front"].sel(front_power=FRONT).isel(member=0).values
-    of_bulk = large["front"].sel(front_power=BULK).isel(variant=0, member=0).values
+    of_bulk = large["front"].sel(front_power=BULK).squeeze("variant").isel(member=0).values
     stable = ("large_piece",)
     return {
         "piece_tau": Variable(("piece_tau",), omegas["piece_tau"].values, PIECE_TAU),
@@ -268,7 +268,7 @@ def _ways(omegas: xr.Dataset, large: xr.Dataset) -> dict[str, Variable]:
 def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
     """Return how far the front falls behind the speed of linear spreading, mean over members."""
     tau = bulk["piece_tau"].values
-    one = bulk.isel(variant=0)
+    one = bulk.squeeze("variant")
     v, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
     way = one["front"].sel(front_power=FRONT).transpose("member", "piece_tau").values
     behind = (way - v * tau).mean(axis=0)
@@ -285,8 +285,9 @@ def _delay(bulk: xr.Dataset) -> dict[str, Variable]:
 
 def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
     """Return profiles, spectrum and distribution of the final states of all members."""
-    states = [with_ghosts(state) for state in bulk["state"].isel(variant=0).values]
-    fronts = bulk["front"].isel(variant=0, piece_tau=-1).sel(front_power=FRONT).values.astype(int)
+    bulk = bulk.squeeze("variant")
+    states = [with_ghosts(state) for state in bulk["state"].values]
+    fronts = bulk["front"].isel(piece_tau=-1).sel(front_power=FRONT).values.astype(int)
     edges = np.linspace(0.0, HIGHEST, BINS + 1)
     terms, spectra, moduli = [], [], []
     for state, front in zip(states, fronts, strict=True):
