@@ -159,7 +159,8 @@ class Trial:
             if seconds < inf:
                 resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
             os.chdir(self.folder)
-            os.environ |= {"NUMBA_DISABLE_JIT": str(int(plain)), "NUMBA_OPT": "0"}
+            # 1 compiles in about the time of 0, whose kernels numba cannot keep
+            os.environ |= {"NUMBA_DISABLE_JIT": str(int(plain)), "NUMBA_OPT": "1"}
             os.environ["PENDULA_CACHE"] = str(self.kernels)
             numba.config.reload_config()
             options = ["-q", "-o", "addopts=", "-p", "no:cacheprovider", "-p", "no:xdist"]
