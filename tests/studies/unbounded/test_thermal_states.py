@@ -137,12 +137,41 @@ def test_where_every_state_has_energy_there_is_none():
         state_of_energy(constants_of((1.0, 1.0, 8.0)))
 
 
-def test_what_is_published_is_rounded():
-    states = [state_of_energy(constants_of((1.0, 1.0, 2.0)), nodes=8)]
-    variables = thermal_variables(states, states)
-    assert variables["power"].values[0] == float(f"{states[0].power:.7g}")
-    assert variables["power_error"].values[0] >= 0.5e-7 * states[0].power
+@pytest.fixture(scope="module")
+def published():
+    """States of no energy at two Omega, warm ones, and what is published of them."""
+    states = [state_of_energy(constants_of((1.0, 1.0, omega)), nodes=8) for omega in (0.0, 2.0)]
+    warm = [state_of_energy(constants_of((1.0, 1.0, -4.0)), one, nodes=8) for one in (0.0, 3.0)]
+    return states, warm, {name: one.values for name, one in thermal_variables(states, warm).items()}
+
+
+def test_what_is_published_is_rounded(published):
+    (state, _), _, found = published
+    assert found["power"][0] == float(f"{state.power:.7g}")
+    assert found["power_error"][0] >= 0.5e-7 * state.power
     assert rounded([1234.56789, -0.00123456789], 4).tolist() == [1235.0, -0.001235]
+
+
+def test_what_is_published_is_what_the_states_are_like(published):
+    *both, found = published
+    assert found["omega"] == [0.0, 2.0] and found["site_energy"] == [0.0, 3.0]
+    for prefix, states in zip(("", "warm_"), both, strict=True):
+        for name in ("beta", "power"):
+            told = [getattr(state, name) for state in states]
+            np.testing.assert_allclose(found[prefix + name], told, rtol=1e-6)
+        errors = [state.power_error for state in states]
+        np.testing.assert_allclose(found[f"{prefix}power_error"], errors, rtol=0.05)
+        terms = [terms_of(state) for state in states]
+        np.testing.assert_allclose(found[f"{prefix}terms"], terms, rtol=1e-6)
+    np.testing.assert_allclose(found["modulus"], 0.15 * (np.arange(80) + 0.5), rtol=1e-12)
+    assert np.min(found["density"]) >= 0.0
+    for i, state in enumerate(both[0]):
+        products = products_of(state, 64)
+        np.testing.assert_allclose(found["density"][i], density_of(state, CELLS), atol=1e-8)
+        np.testing.assert_allclose(found["spectrum"][i], spectrum_of(products), rtol=1e-5)
+        assert found["correlation_length"][i] == pytest.approx(
+            correlation_length(products), rel=1e-3
+        )
 
 
 @pytest.mark.parametrize("numbers", [(1.0, 1.0, -4.0), (0.7, 1.3, 2.0), (0.5, 0.2, 9.0)])
