@@ -6,8 +6,6 @@ from pendula.problem import on_sites
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
-    BLOCK,
-    GUARD,
     advance,
     begin,
     run_long,
@@ -19,6 +17,8 @@ from problems import constants_of, problem_of
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 REST = 1e-20
+BLOCK, GUARD = 64, 32
+"""Sites by which the chain grows, and how many of its last ones must be at rest."""
 
 
 def problem(case="fig3_small", half_width=None, **changes):

@@ -1,5 +1,6 @@
 """The speed of linear spreading, and the state behind the front."""
 
+import hashlib
 from itertools import pairwise
 
 import numpy as np
@@ -136,9 +137,8 @@ def test_a_front_is_found_between_two_sites():
     state = np.zeros((4, 14))
     state[0, 1:-1] = np.sqrt(power)
     found = find_front(state)
-    exact = np.log(4.0 / LEVELS) / 2.0
-    np.testing.assert_allclose(found[:-1], exact[:-1], atol=6e-4)
-    assert found[-1] == -1.0
+    exact = [round(np.log(4.0 / level) / 2.0, 3) for level in (1e-6, 1e-2, 1.0)]
+    np.testing.assert_allclose(found, [*exact, -1.0], atol=1e-9)  # a thousandth of a site is kept
 
 
 def test_terms_of_the_energy_add_up_to_it():
@@ -166,10 +166,11 @@ def test_profile_spectrum_and_distribution():
 
 
 def test_the_first_third_of_a_run_is_left_out_of_its_speed():
-    tau = 3.0 * np.arange(1.0, 101.0)
+    """Of a run to 300 the part from 100 on counts, with 100 itself."""
+    tau = np.arange(1.0, 301.0)
     late = front_of(np.where(tau < 100.0, 0.0, 2.5 * tau), tau)
     assert speeds(late)[0][0] == pytest.approx(2.5, abs=1e-12)
-    later = front_of(np.where(tau < 103.0, 0.0, 2.5 * tau), tau)
+    later = front_of(np.where(tau < 101.0, 0.0, 2.5 * tau), tau)
     assert abs(speeds(later)[0][0] - 2.5) > 0.01
 
 
@@ -214,7 +215,10 @@ def test_without_a_front_that_is_pulled_the_fastest_wave_leads():
     frequencies = np.array([of_wave(one, numbers).imag for one in k])
     front = linear_front(constants_of(numbers))
     assert front.speed == pytest.approx((np.abs(np.diff(frequencies)) / k[1]).max(), rel=1e-5)
-    assert front.delay == front.rest == 0.0
+    assert front.delay == front.rest == front.diffusion == 0.0
+    growth = of_wave(front.wave_number, numbers)
+    near = [of_wave(front.wave_number + step, numbers) for step in (-2e-3, 2e-3)]
+    assert growth.imag - near[0].imag == pytest.approx(near[1].imag - growth.imag, rel=1e-3)
 
 
 def test_a_front_next_to_nothing_stands_on_its_last_site():
@@ -237,7 +241,8 @@ def told_apart(run):
     members, pace = np.arange(run.sizes["member"]), 0.3 * np.arange(run.sizes["variant"])
     front = run["front"] + along("front_power", [7.0, 0.0, -7.0, -14.0])
     front = front + 3.0 * along("member", members)
-    return run.assign(front=front + along("variant", pace) * along("piece_tau", PIECES))
+    front = front + along("variant", pace) * along("piece_tau", PIECES)
+    return run.assign(front=front, predicted_rest=0.0 * run["predicted_rest"] + 0.7)
 
 
 @pytest.fixture(scope="module")
@@ -259,7 +264,7 @@ def test_each_omega_has_the_speed_and_the_power_of_its_members(measured):
         values, limits = speeds(omegas, corrected=corrected)
         np.testing.assert_array_equal(found[name], values)
         np.testing.assert_array_equal(found[f"{name}_error"], limits)
-    np.testing.assert_allclose(found["corrected_speed"], [2.9, 3.2, 3.5], atol=2e-3)
+    np.testing.assert_allclose(found["corrected_speed"], [2.9, 3.2, 3.5], atol=3e-3)
     np.testing.assert_array_equal(found["predicted_speed"], 2.9)
     powers = mean_powers(omegas)
     np.testing.assert_allclose(found["mean_power"], powers.mean(axis=1), rtol=1e-12)
@@ -291,13 +296,14 @@ def test_the_ways_shown_are_those_of_first_members_at_their_powers(measured):
 
 
 def test_the_way_of_a_front_is_told_behind_its_speed_in_spans_of_log_time(measured):
-    found, *_ = measured
-    tau = found["way_tau"].values
-    assert 20 < len(tau) <= 36 and (np.diff(tau) > 0.0).all() and tau[0] >= PIECES[0]
-    assert np.log(tau[-2] / tau[-6]) == pytest.approx(4.0 * np.log(100.0) / 35.0, abs=0.04)
-    # whole sites, and three members at 0, 3 and 6
-    np.testing.assert_allclose(found["behind"] - 3.0, -1.4 * np.log(tau), atol=1.0)
-    assert (found["delay"], found["front_rest"]) == (1.4, 0.0)
+    found, _, bulk, _ = measured
+    edges = [*np.geomspace(2.0, 200.0, 36), np.inf]
+    spans = [(PIECES - low >= 0.0) & (PIECES - high < 0.0) for low, high in pairwise(edges)]
+    spans = [span for span in spans if span.any()]
+    np.testing.assert_allclose(found["way_tau"], [PIECES[span].mean() for span in spans])
+    behind = bulk["front"].values[0, :, :, 1].mean(axis=0) - 2.9 * PIECES
+    np.testing.assert_allclose(found["behind"], [behind[span].mean() for span in spans], atol=1e-9)
+    assert (found["delay"], found["front_rest"]) == (1.4, 0.7)
 
 
 def test_the_state_behind_a_front_is_the_mean_over_members_of_the_sites_behind_each(measured):
@@ -331,3 +337,13 @@ def test_the_bulk_is_compared_with_the_thermal_state_nearest_to_its_omega(measur
     np.testing.assert_array_equal(found["thermal_power"], states["power"])
     for name in ("modulus", "density", "spectrum"):
         np.testing.assert_array_equal(found[f"thermal_{name}"], states.sel(omega=0.0)[name])
+
+
+HASH = "b7420dc425ab8093"
+"""Of the bits that every machine must get of the fronts below."""
+
+
+def test_the_bits_of_predicted_fronts_are_those_of_every_machine():
+    fronts = [linear_front(constants(omega)) for omega in (-3.0, -1.5, 0.0, 2.0, 5.5)]
+    told = [(*front[:3], front.diffusion.real, front.diffusion.imag) for front in fronts]
+    assert hashlib.sha256(np.array(told).tobytes()).hexdigest()[:16] == HASH
