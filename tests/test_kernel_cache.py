@@ -106,3 +106,10 @@ def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
     assert kept_in() is None
     monkeypatch.delenv(VARIABLE)
     assert kept_in() == kernel_cache.platformdirs.user_cache_path("pendula")
+
+
+def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
+    large = "import numpy as np\nTABLE = np.ones(200_000)\n"  # numba compiles in where it lies
+    module.write_text(large + MADE.replace("2 * x", "2 * x * TABLE[x]"))
+    assert compile_anew(module, kept)(3) == 6.0
+    assert not list(kept.rglob("*.kernel"))

@@ -75,7 +75,12 @@ class KernelCache(_Cache):
         return CompileResult._rebuild(target_context, *pickle.loads(payload))
 
     def save_overload(self, signature, data: CompileResult) -> None:
-        """Keep machine code. Where that is impossible the run goes on, with a warning."""
+        """Keep machine code. Where that is impossible the run goes on, with a warning.
+
+        Code that holds addresses of this process, as of a large global array, is not kept.
+        """
+        if data.library.has_dynamic_globals:
+            return
         payload = dumps(data._reduce())
         file = self._file(signature, data.codegen)
         try:
