@@ -141,6 +141,14 @@ def test_a_system_at_rest_lets_the_step_grow_sixfold():
     assert (outcome.steps, outcome.rejected) == (10, 0)
 
 
+@pytest.mark.parametrize(("beyond", "expected"), [(-1e-3, 3), (5e-10, 3), (5e-9, 4)])
+def test_no_remnant_of_the_order_of_rounding_is_left(beyond, expected):
+    """At rest the third step is 36e-6 long and ends at 43e-6; a step may stretch by 1e-9."""
+    times = [0.0, 43e-6 + beyond * 36e-6]
+    _, _, outcome = systems.run("dop853", 1.0, times, (1e-6, 1e-6), start=0j)
+    assert outcome.steps == expected
+
+
 def test_a_single_step_errs_by_its_ninth_power_or_less():
     errors = np.zeros(2)
     for i, times in enumerate(([0.0, 0.3], [0.0, 0.15])):
