@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from oracle import random_chain
-from pendula.measures.growth import is_chaotic, mean_rate
+from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.amplitudes import Chain
 from pendula.models.tangent import ROWS
 from pendula.simulation.lattice import Reduction, choose_ends, pack
@@ -76,3 +76,30 @@ def test_data_that_are_not_even_have_no_parities():
     lopsided = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
     with pytest.raises(ValueError, match="even in n"):
         lyapunov.follow_parity(lopsided, "odd", 1.0)
+
+
+def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
+    found = lyapunov.spectrum_of(whole_spectrum, 50.0)
+    tau, growth = whole_spectrum.tau, whole_spectrum.log_growth
+    np.testing.assert_array_equal(found.value, mean_rate(tau, growth, 50.0))
+    off = 2.36462 * mean_rate_error(tau, growth, 50.0)  # Student's t of seven degrees of freedom
+    np.testing.assert_allclose([found.value - found.low, found.high - found.value], [off, off])
+
+
+def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_without_a_drive():
+    cases = {name: problem_of(name) for name in ("fig3_large", "fig3_small")}
+    found = {name: one.values for name, one in lyapunov.spectra(cases, {1: 20.0, 2: 8.0}).items()}
+    assert found["spectrum_case"] == list(cases) and found["spectrum_half_width"] == [1, 2]
+    assert found["spectrum_end_time"] == [20.0, 8.0]
+    np.testing.assert_array_equal(found["index"], np.arange(1, 21))
+    for i, problem in enumerate(cases.values()):
+        for j, (half_width, end, gamma) in enumerate(((1, 20.0, 1.0), (2, 8.0, 1.0), (1, 20.0, 0))):
+            short = problem.changed(half_width=half_width, gamma=float(gamma))
+            one = lyapunov.spectrum_of(lyapunov.follow_all(short, end, tolerance=1e-12), end / 4)
+            rest = np.full(20 - len(one.value), np.nan)
+            key, at = ("", (i, j)) if gamma else ("_undriven", i)
+            told = found[f"exponents{key}"][at], found[f"exponents_error{key}"][at]
+            np.testing.assert_array_equal(told[0], [*one.value, *rest])
+            np.testing.assert_array_equal(told[1], [*one.half, *rest])
+            if gamma:
+                assert found["vanishing"][at] == np.sum((one.low <= 0.0) & (one.high >= 0.0)) > 0

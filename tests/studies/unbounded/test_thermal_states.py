@@ -142,18 +142,30 @@ def published():
     """States of no energy at two Omega, warm ones, and what is published of them."""
     states = [state_of_energy(constants_of((1.0, 1.0, omega)), nodes=8) for omega in (0.0, 2.0)]
     warm = [state_of_energy(constants_of((1.0, 1.0, -4.0)), one, nodes=8) for one in (0.0, 3.0)]
-    return states, warm, {name: one.values for name, one in thermal_variables(states, warm).items()}
+    return states, warm, thermal_variables(states, warm)
 
 
-def test_what_is_published_is_rounded(published):
+def test_what_is_published_is_rounded_to_the_digits_that_it_states(published):
     (state, _), _, found = published
-    assert found["power"][0] == float(f"{state.power:.7g}")
-    assert found["power_error"][0] >= 0.5e-7 * state.power
+    assert found["power"].values[0] == float(f"{state.power:.7g}")
+    assert found["power_error"].values[0] >= 0.5e-7 * state.power
     assert rounded([1234.56789, -0.00123456789], 4).tolist() == [1235.0, -0.001235]
+    digits = {"beta": 7, "power": 7, "terms": 7, "power_error": 2}
+    digits |= {f"warm_{name}": count for name, count in digits.items()}
+    for name, count in (digits | {"spectrum": 6, "correlation_length": 4}).items():
+        assert found[name].attributes == {"significant_digits": count}
+        values = np.asarray(found[name].values)
+        np.testing.assert_array_equal(values, rounded(values, count))
+        assert (values != rounded(values, count - 1)).any()
+    density = found["density"]
+    assert density.attributes == {"decimal_places": 8}
+    assert (density.values == np.round(density.values, 8)).all()
+    assert (density.values != np.round(density.values, 7)).any()
 
 
 def test_what_is_published_is_what_the_states_are_like(published):
     *both, found = published
+    found = {name: one.values for name, one in found.items()}
     assert found["omega"] == [0.0, 2.0] and found["site_energy"] == [0.0, 3.0]
     for prefix, states in zip(("", "warm_"), both, strict=True):
         for name in ("beta", "power"):
