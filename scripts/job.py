@@ -2,10 +2,13 @@
 
 import atexit
 import gc
+import os
+import signal
 import sys
 import time
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 
 import psutil
 
@@ -15,6 +18,29 @@ atexit.register(gc.freeze)
 
 TOOK = "wall time: "
 """How the last line of a log begins."""
+
+INTERRUPTED = 130
+"""The exit status of a job that Ctrl-C ended, as shells give it."""
+
+
+class _Log:
+    """A log that a full disk does not stop: the job's own message is then still on the screen."""
+
+    def __init__(self, path: str):
+        self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
+
+    def write(self, text: str) -> int:
+        with suppress(OSError):
+            self.file.write(text)
+            self.file.flush()
+        return len(text)
+
+    def flush(self) -> None:
+        """All is written at once."""
+
+    def close(self) -> None:
+        with suppress(OSError):
+            self.file.close()
 
 
 class _Tee:
@@ -37,9 +63,10 @@ class _Tee:
 def run(function: Callable, snakemake) -> None:
     """Call `function` with the rule's named input, output and params as keyword arguments.
 
-    `code`, the record of the modules that the job depends on, is for Snakemake alone. A traceback
-    goes to the screen and to the rule's log, and the job fails. The last line of a log is the time
-    that the job took, its start included; it stands in no dataset, for two runs differ in it.
+    `code`, the record of the modules that the job depends on, is for Snakemake alone. Where the
+    function fails, so does the job: the screen and the log say why, and only the log has the
+    traceback. The last line of a log is the time that the job took, its start included; it stands
+    in no dataset, for two runs differ in it.
     """
     arguments = {
         **dict(snakemake.input.items()),
@@ -47,13 +74,33 @@ def run(function: Callable, snakemake) -> None:
         **dict(snakemake.params.items()),
     }
     arguments.pop("code", None)
-    with open(snakemake.log[0], "w", encoding="utf-8") as log:
-        sys.stdout = sys.stderr = _Tee(sys.__stderr__, log)
-        try:
-            function(**arguments)
-        except Exception:
-            traceback.print_exc()
-            sys.exit(1)
-        finally:
-            sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
-            log.write(f"{TOOK}{time.time() - psutil.Process().create_time():.1f} s\n")
+    # What ends a job kindly, as a cluster does at its limit of time, acts as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    path = snakemake.log[0]
+    log = _Log(path)
+    sys.stdout = sys.stderr = _Tee(sys.__stderr__, log)
+    try:
+        function(**arguments)
+    except Exception as error:
+        print(f"{say(error)}\n(the log has the traceback: {path})")
+        log.write(traceback.format_exc())
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("interrupted: run the same command again to continue")
+        log.write(traceback.format_exc())
+        _took(log)
+        os._exit(INTERRUPTED)  # at once: a thread may be compiling, and is not waited for
+    finally:
+        sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
+        _took(log)
+        log.close()
+
+
+def say(error: Exception) -> str:
+    """Return an error in words; one that is not ours is named too, since its words may be few."""
+    ours = type(error).__module__.startswith("pendula")
+    return str(error) if ours else f"{type(error).__name__}: {error}"
+
+
+def _took(log: _Log) -> None:
+    log.write(f"{TOOK}{time.time() - psutil.Process().create_time():.1f} s\n")

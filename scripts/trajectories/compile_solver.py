@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from pendula.datasets import complete_or_absent
 from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation import solvers
 from pendula.simulation.simulate import simulate
@@ -21,7 +22,8 @@ def compile_solver(kernels: str, solver: dict) -> None:
     )
     simulate(problem)
     digest = digest_of_modules(Path(solvers.__file__).resolve())
-    Path(kernels).write_text(f"{digest}\n", encoding="utf-8")
+    with complete_or_absent(kernels) as partial:
+        partial.write_text(f"{digest}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

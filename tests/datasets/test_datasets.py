@@ -87,6 +87,11 @@ def test_a_damaged_file_is_named_with_the_way_out(tmp_path, keep):
         read(path)
 
 
+def test_what_others_write_is_read_too(tmp_path):
+    xr.Dataset({"mine": ("n", [1.0, 2.0])}).to_netcdf(tmp_path / "a.nc")
+    assert list(read(tmp_path / "a.nc")["mine"].values) == [1.0, 2.0]
+
+
 def test_a_full_disk_leaves_no_file_and_keeps_the_old_one(tmp_path):
     """The limit on a file's size stands for the full disk: the write fails half-way."""
     path = tmp_path / "a.nc"

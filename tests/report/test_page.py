@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from jinja2 import UndefinedError
 from pendula.report import page
-from pendula.report.page import PictureError, picture
+from pendula.report.page import END, PictureError, picture
 from pendula.report.results import ReportError, Results
 
 HERE = Path(page.__file__).parent
@@ -46,7 +46,7 @@ def test_a_missing_value_is_an_error_and_text_is_escaped(tmp_path, monkeypatch):
 
 def test_a_picture_holds_its_bytes_and_knows_its_size(tmp_path):
     png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + b"IHDR" + struct.pack(">II", 30, 20)
-    (tmp_path / "a.png").write_bytes(png)
+    (tmp_path / "a.png").write_bytes(png + END)
     shown = picture(tmp_path / "a.png", "words", "figures/a.png")
     assert (shown.width, shown.height, shown.alt) == (30, 20, "words")
     assert shown.address.startswith("data:image/png;base64,iVBOR")
@@ -54,10 +54,16 @@ def test_a_picture_holds_its_bytes_and_knows_its_size(tmp_path):
 
 def test_a_picture_that_is_none_is_named(tmp_path):
     (tmp_path / "a.png").write_text("text")
-    with pytest.raises(PictureError, match=r"a\.png is no PNG"):
+    with pytest.raises(PictureError, match=r"a\.png is no whole PNG"):
         picture(tmp_path / "a.png", "", "")
     with pytest.raises(PictureError, match=r"b\.png is missing: run snakemake"):
         picture(tmp_path / "b.png", "", "")
+
+
+def test_half_of_a_picture_is_none(tmp_path):
+    (tmp_path / "a.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    with pytest.raises(PictureError, match=r"a\.png is no whole PNG: delete it and run snakemake"):
+        picture(tmp_path / "a.png", "", "")
 
 
 def test_links_are_seen_from_the_page():

@@ -22,6 +22,7 @@ from rocrate.model import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from pendula import __version__
+from pendula.datasets.netcdf import readable
 
 from .contents import Content
 
@@ -244,7 +245,7 @@ def _add_file(crate: ROCrate, name: str, text: str, members: Mapping[str, Conten
 def _place(name: str, content: Content) -> str | None:
     """Return what a file is: a dataset says it in its title, any other file by its place."""
     if fnmatchcase(name, "results/*.nc") and isinstance(content, Path):
-        with netCDF4.Dataset(content) as data:
+        with readable(content), netCDF4.Dataset(content) as data:
             if title := getattr(data, "title", ""):
                 return title
     return next((text for pattern, text in PLACES.items() if fnmatchcase(name, pattern)), None)

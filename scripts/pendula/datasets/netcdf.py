@@ -3,19 +3,17 @@
 Writing needs netCDF4 alone, so that a simulation does not pay for importing xarray.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
 
-from . import complete_or_absent
+from . import DatasetError, complete_or_absent, not_written
 from .registry import complete, describe
-
-
-class DatasetError(RuntimeError):
-    """A dataset that cannot be written, or read back; the message names the file."""
+from .seal import check, seal
 
 
 class Variable(NamedTuple):
@@ -31,12 +29,16 @@ class Variable(NamedTuple):
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
     """Write a dataset; a fault (a full disk, say) leaves no file, and its message names it."""
     try:
-        with complete_or_absent(path) as partial, _created(partial) as file:
-            file.setncatts(complete(attributes, Path(path).stem))
-            for name, variable in variables.items():
-                _write_variable(file, name, variable)
+        with complete_or_absent(path) as partial:
+            with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+                file.setncatts(complete(attributes, Path(path).stem))
+                for name, variable in variables.items():
+                    _write_variable(file, name, variable)
+            seal(partial)
+    except DatasetError:
+        raise
     except (OSError, RuntimeError) as error:
-        raise _not_written(path, error) from error
+        raise not_written(path, error) from error
 
 
 def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
@@ -59,10 +61,6 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
     return describe(name, variable.long_name, variable.units) | dict(variable.attributes)
 
 
-def _created(path: Path) -> netCDF4.Dataset:
-    return netCDF4.Dataset(path, "w", format="NETCDF4")
-
-
 def save(path: str | Path, dataset) -> None:
     """Write an xarray.Dataset as `write` does."""
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))
@@ -72,15 +70,24 @@ def save(path: str | Path, dataset) -> None:
         # CF forbids a missing value in coordinates, and xarray would state one for every variable.
         # It stands beside the compression that the caller may have asked for.
         variable.encoding["_FillValue"] = None
+        if _has_checksum(variable.values):
+            variable.encoding |= {"fletcher32": True, "contiguous": False}
     try:
         with complete_or_absent(path) as partial:
             stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
+            seal(partial)
+    except DatasetError:
+        raise
     except (OSError, RuntimeError) as error:
-        raise _not_written(path, error) from error
+        raise not_written(path, error) from error
 
 
-def _not_written(path: str | Path, error: Exception) -> DatasetError:
-    return DatasetError(f"could not write {path}: {error} (is the disk full?)")
+def _has_checksum(values: np.ndarray) -> bool:
+    """Return whether HDF5 can keep a checksum of the values: of words and single numbers it cannot.
+
+    They, and all else in a file, have the digest of `stored`.
+    """
+    return values.ndim > 0 and values.size > 0 and values.dtype.kind in "biuf"
 
 
 def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> None:
@@ -93,21 +100,39 @@ def _write_variable(file: netCDF4.Dataset, name: str, variable: Variable) -> Non
         values = values.astype(object)
     else:
         compression = "zlib" if values.size > 1_000 else None
-        target = file.createVariable(name, values.dtype, variable.dimensions, compression)
+        checksum = _has_checksum(values)
+        target = file.createVariable(
+            name, values.dtype, variable.dimensions, compression, fletcher32=checksum
+        )
     target.setncatts(_attributes(name, variable))
     target[...] = values
 
 
 def read(path: str | Path):
-    """Return the dataset at `path` as an xarray.Dataset in memory, its file closed."""
+    """Return the dataset at `path` as an xarray.Dataset in memory, its file closed.
+
+    Raises DatasetError where it is missing, damaged, or not what was written.
+    """
     import xarray  # here, so that writing does without it
 
-    try:
+    with readable(path):
         return xarray.load_dataset(path, engine="netcdf4")
+
+
+@contextmanager
+def readable(path: str | Path) -> Iterator[None]:
+    """Check the file's seal, and raise DatasetError, which says the way out, for all that fails.
+
+    A damaged file can hold an unreadable name or an impossible size, for which libraries have many
+    kinds of errors.
+    """
+    try:
+        check(path)
+        yield
     except FileNotFoundError:
         raise DatasetError(f"{path} is missing: run snakemake to make it") from None
-    except (OSError, RuntimeError, ValueError) as error:
+    except Exception as error:
         raise DatasetError(
-            f"{path} is damaged and cannot be read ({error}): "
+            f"{path} is damaged and cannot be read ({str(error) or type(error).__name__}): "
             "delete it and run snakemake to make it again"
         ) from error

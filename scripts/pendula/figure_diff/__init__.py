@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from pendula.datasets.netcdf import readable
+
 IDENTICAL, NEARLY = "identical", "nearly the same"
 DIFFERENT, DAMAGED, MISSING, EXTRA = "different", "damaged", "missing", "extra"
 FAULTS = (DIFFERENT, DAMAGED, MISSING, EXTRA)
@@ -44,4 +46,5 @@ def dump(findings: Iterable[Finding], path: str | Path) -> None:
 
 def load(path: str | Path) -> list[Finding]:
     """Return the findings that `dump` wrote to `path`."""
-    return [Finding(**entry) for entry in json.loads(Path(path).read_text(encoding="utf-8"))]
+    with readable(path):
+        return [Finding(**entry) for entry in json.loads(Path(path).read_text(encoding="utf-8"))]

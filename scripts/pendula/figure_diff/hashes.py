@@ -16,7 +16,7 @@ import numpy as np
 
 from pendula.datasets import complete_or_absent
 from pendula.datasets.digest import plain_bytes
-from pendula.datasets.netcdf import DatasetError
+from pendula.datasets.netcdf import readable
 
 DIGITS = 16
 """Hexadecimal digits of a hash: by chance one of 1e19 other contents has the same."""
@@ -55,14 +55,11 @@ class Content(NamedTuple):
 
 def read(path: Path) -> Content:
     """Return all that the file holds; a damaged one raises DatasetError, which names it."""
-    try:
-        with netCDF4.Dataset(path) as file:
-            file.set_auto_maskandscale(False)
-            file.set_auto_chartostring(False)
-            variables = {name: _variable(found) for name, found in file.variables.items()}
-            return Content(_attributes(file), variables)
-    except (OSError, RuntimeError) as error:
-        raise DatasetError(f"{path} is damaged and cannot be read ({error})") from error
+    with readable(path), netCDF4.Dataset(path) as file:
+        file.set_auto_maskandscale(False)
+        file.set_auto_chartostring(False)
+        variables = {name: _variable(found) for name, found in file.variables.items()}
+        return Content(_attributes(file), variables)
 
 
 def _variable(found: netCDF4.Variable) -> Variable:

@@ -4,6 +4,7 @@ import json
 from collections import Counter
 from typing import Any
 
+from pendula.datasets.netcdf import readable
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
@@ -15,7 +16,9 @@ LEDGER = "claims.json"
 
 def load(results: Results) -> list[dict]:
     """Return the rows of the ledger."""
-    return json.loads(results.path(LEDGER).read_text(encoding="utf-8"))
+    path = results.path(LEDGER)
+    with readable(path):
+        return json.loads(path.read_text(encoding="utf-8"))
 
 
 def gather(results: Results) -> dict[str, Any]:

@@ -1,7 +1,10 @@
 """Long runs in pieces: checkpoints keep the bits, members differ, maps know free chains."""
 
+import random
+
 import numpy as np
 import pytest
+from pendula.datasets import DatasetError
 from pendula.studies.unbounded import active_sites
 from pendula.studies.unbounded.active_sites import SERIES, run_long
 from pendula.studies.unbounded.long_runs import maxima, member, window_map
@@ -57,6 +60,29 @@ def test_a_checkpoint_of_another_problem_is_not_taken(interrupted, monkeypatch):
     assert len(done) == 12
     run_long(PROBLEM, 0.1 * REST, interrupted)
     assert len(done) == 12 + 20
+
+
+@pytest.mark.parametrize("part", [0.0, 0.01, 0.5, 0.999])
+def test_a_checkpoint_cut_short_is_refused_with_the_way_out(interrupted, part):
+    content = interrupted.read_bytes()
+    interrupted.write_bytes(content[: int(part * len(content))])
+    with pytest.raises(DatasetError, match=r"kept\.npz is damaged .* delete it and run snakemake"):
+        run_long(PROBLEM, REST, interrupted)
+
+
+def test_a_flipped_bit_in_a_checkpoint_is_refused_or_changes_nothing(interrupted):
+    content, kept = interrupted.read_bytes(), active_sites.describe_run(PROBLEM, REST)
+    whole = active_sites.recall_checkpoint(interrupted, kept)
+    for bit in random.Random(0).sample(range(8 * len(content)), 200):
+        changed = bytearray(content)
+        changed[bit // 8] ^= 1 << bit % 8
+        interrupted.write_bytes(changed)
+        try:
+            found = active_sites.recall_checkpoint(interrupted, kept)
+        except DatasetError:
+            continue
+        for name in (*SERIES, "state"):
+            np.testing.assert_array_equal(found[name], whole[name])
 
 
 def test_series_are_at_every_output_once():

@@ -14,6 +14,7 @@ STUDIES = HERE.parents[1] / "studies"
 
 ASSETS = ("style.css", "script.js")
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
+END = b"\0\0\0\0IEND\xaeB`\x82"
 
 
 def render(template: str, folder: Path = STUDIES, **values) -> str:
@@ -54,8 +55,8 @@ def picture(path: str | Path, alt: str, link: str) -> Picture:
         png = Path(path).read_bytes()
     except FileNotFoundError:
         raise PictureError(f"{path} is missing: run snakemake to make it") from None
-    if not png.startswith(SIGNATURE) or len(png) < 24:
-        raise PictureError(f"{path} is no PNG: delete it and run snakemake to make it again")
+    if not (png.startswith(SIGNATURE) and png.endswith(END)):
+        raise PictureError(f"{path} is no whole PNG: delete it and run snakemake to make it again")
     width, height = struct.unpack(">II", png[16:24])
     return Picture(address_of(png), width, height, alt, link)
 

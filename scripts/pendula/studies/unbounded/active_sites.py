@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets import complete_or_absent
+from pendula.datasets.netcdf import readable
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem, place
@@ -207,10 +208,13 @@ def keep_checkpoint(path: str | Path, description: str, arrays: dict[str, np.nda
 
 
 def recall_checkpoint(path: str | Path, description: str) -> dict[str, np.ndarray] | None:
-    """Return the arrays kept at `path`; None if there are none, or those of another run."""
+    """Return the arrays kept at `path`; None if there are none, or those of another run.
+
+    Raises DatasetError where the file is damaged.
+    """
     if not Path(path).exists():
         return None
-    with np.load(path) as kept:
+    with readable(path), open(path, "rb") as file, np.load(file) as kept:
         if str(kept["description"]) != description:
             return None
-        return {name: kept[name] for name in kept.files if name != "description"}
+        return {name: kept[name] for name in (*SERIES, "state")}

@@ -1,0 +1,89 @@
+"""A disk that takes no more, or something in the way: no half of a file, and a way out in words."""
+
+import errno
+import os
+import resource
+import signal
+
+import pytest
+from pendula.datasets import DatasetError, complete_or_absent
+
+
+@pytest.fixture
+def full_disk():
+    """Make every write fail beyond some kilobytes: a limit on sizes stands for the full disk."""
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4_000, limits[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    signal.signal(signal.SIGXFSZ, ignored)
+
+
+def test_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):
+    path = tmp_path / "page.html"
+    with (
+        pytest.raises(DatasetError, match=r"could not write .*/page\.html: .* MB left.*make room"),
+        complete_or_absent(path) as partial,
+    ):
+        partial.write_text("x" * 10_000)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_figure_on_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):
+    import xarray as xr
+    from pendula.drawing.style import new_figure, save
+
+    figure = new_figure(3, 2)
+    figure.add_subplot().plot([0, 1], [0, 1])
+    names = ["fig.png", "fig.pdf", "fig.nc", "fig.json"]
+    with pytest.raises(DatasetError, match=r"could not write .*/fig\.(png|pdf|nc|json): "):
+        save(figure, xr.Dataset(), *(tmp_path / name for name in names))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_inside_of_another_is_told_by_the_name_of_the_outer_one(tmp_path):
+    path = tmp_path / "a.nc"
+    with (
+        pytest.raises(DatasetError, match=rf"could not write {path}: "),
+        complete_or_absent(path) as outer,
+        complete_or_absent(outer),
+    ):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_a_file_in_the_way_of_a_folder_is_named(tmp_path):
+    (tmp_path / "results").write_text("mine")
+    path = tmp_path / "results/figures/a.png"
+    with (
+        pytest.raises(DatasetError, match=r"a\.png: .*results is a file and no folder; move it"),
+        complete_or_absent(path) as partial,
+    ):
+        partial.touch()
+    assert (tmp_path / "results").read_text() == "mine"
+
+
+def test_a_folder_in_the_way_of_a_file_is_named(tmp_path):
+    path = tmp_path / "a.png"
+    path.mkdir()
+    with (
+        pytest.raises(DatasetError, match=r"a\.png: it is a folder; move it"),
+        complete_or_absent(path) as partial,
+    ):
+        partial.touch()
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_fault_of_another_file_is_told_as_it_is(tmp_path):
+    with pytest.raises(FileNotFoundError), complete_or_absent(tmp_path / "a"):
+        (tmp_path / "b").read_text()
+
+
+def test_a_read_only_folder_is_named(tmp_path, monkeypatch):
+    """Asked of the system's answer: root may write everywhere."""
+    monkeypatch.setattr(os, "access", lambda folder, mode: False)
+    with (
+        pytest.raises(DatasetError, match=rf"Read-only file system; make {tmp_path} writable"),
+        complete_or_absent(tmp_path / "a") as partial,
+    ):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS), str(partial))
