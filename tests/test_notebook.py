@@ -1,7 +1,6 @@
 """The interface for notebooks: what it returns, refuses and shows, and what importing it costs."""
 
 import doctest
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -51,16 +50,6 @@ def test_every_public_name_is_there_and_explained():
 def test_the_examples_in_the_docstrings_run():
     found = doctest.testmod(notebook, optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
     assert found.attempted and not found.failed
-
-
-def test_the_example_of_the_documents_runs_and_says_what_it_says():
-    text = (ROOT / "docs/own_cases.md").read_text()
-    (block,) = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)
-    example = doctest.DocTestParser().get_doctest(block, {}, "own_cases", "docs/own_cases.md", 0)
-    said = []
-    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
-    runner.run(example, out=said.append)
-    assert not runner.failures, "".join(said)
 
 
 def test_a_run_is_what_the_workflow_writes_and_the_final_state(case, run, tmp_path):

@@ -8,7 +8,6 @@ import code_records
 import pytest
 import yaml
 from pendula import sources
-from pendula.configuration.messages import load
 from pendula.studies import STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -187,16 +186,6 @@ def test_the_library_does_not_know_snakemake():
     for path in (sources.SCRIPTS / "pendula").rglob("*.py"):
         names = [n.id for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Name)]
         assert "snakemake" not in names, path
-
-
-def test_the_case_shown_in_the_documents_is_valid():
-    blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs/own_cases.md").read_text(), re.DOTALL)
-    settings = {}
-    for block in blocks:
-        settings |= yaml.safe_load(block)
-    loaded = load(settings)
-    assert loaded.problem("mine")["initial"] == {0: (2, -0.3 + 0.4j), 3: (0.5, 0)}
-    assert loaded.sweeps["mine_wider"].case == "mine"
 
 
 def test_ci_finds_the_test_command_of_the_readme():

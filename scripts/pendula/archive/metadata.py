@@ -174,7 +174,7 @@ PLACES = {  # The first pattern that fits counts; a file that none fits belongs 
 FOLDERS = {
     "benchmarks/": "Measurements of speed against error",
     "config/": "The paper's cases and sweeps",
-    "docs/": "Findings, cases of one's own, accuracy and speed, clusters and archives",
+    "docs/": "A page for each task, what was found, accuracy and speed, datasets, baseline",
     "profiles/": "How Snakemake runs: here, and on a cluster",
     "scripts/": "The library, and one script for each rule",
     "tests/": "The tests, and the accepted results",

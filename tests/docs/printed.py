@@ -1,0 +1,140 @@
+"""The blocks of README and docs/ in the order in which a reader meets them, and how they are run.
+
+A block without a word after its fence holds commands. `text` is what the commands before it print,
+with "..." for what differs from run to run. `yaml` is a file, whose first line names it. `pycon` is
+a session of Python. A comment `<!-- fails -->` above a block says that its commands must fail.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+from pendula.archive.contents import code_files
+from snakemake.utils import update_config
+
+FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+KINDS = ("", "text", "yaml", "pycon")
+
+
+class Block(NamedTuple):
+    """One fenced block of a page."""
+
+    page: str
+    line: int
+    kind: str
+    mark: str
+    text: str
+
+    @property
+    def name(self) -> str:
+        return f"{self.page}:{self.line}"
+
+
+class Done(NamedTuple):
+    """What became of a block that was run."""
+
+    code: int
+    said: str
+
+
+def pages(project: Path) -> list[str]:
+    """Return README and the pages in the order of its links: a page builds on those before it."""
+    linked = re.findall(r"\((docs/\w+\.md)", (project / "README.md").read_text(encoding="utf-8"))
+    return ["README.md", *dict.fromkeys(linked)]
+
+
+def blocks(project: Path, page: str) -> list[Block]:
+    """Return the fenced blocks of a page."""
+    text = (project / page).read_text(encoding="utf-8")
+    return [
+        Block(page, text.count("\n", 0, found.start(2)) + 1, found[2], found[1] or "", found[3])
+        for found in FENCED.finditer(text)
+    ]
+
+
+def file_of(block: Block) -> str:
+    """Return the name of the file that a block of YAML is."""
+    (name,) = re.findall(r"\A# (\w+\.yaml)$", block.text, re.MULTILINE)
+    return name
+
+
+def shown(text: str, said: str) -> bool:
+    """Return whether the lines of a text stand in what was said, in order; "..." is anything."""
+    lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
+    ways = [re.escape(line).replace(r"\.\.\.", ".*") for line in lines]
+    plain = "\n".join(" ".join(line.split()) for line in said.splitlines())
+    return re.search("(?:.*\n)*?.*".join(ways), plain) is not None
+
+
+def prepare(project: Path, finished: Path, clone: Path) -> None:
+    """Make a clone in which the printed commands take seconds.
+
+    It holds what git tracks, the finished quick run as its results, and the quick configuration as
+    its own, so that no command has to ask for it. The packages are those of the tests.
+    """
+    for name in code_files(project):
+        (clone / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(project / name, clone / name)
+    git = ["git", "-C", str(clone)]
+    for words in (["init", "--quiet"], ["add", "--all"]):
+        subprocess.run([*git, *words], check=True)
+    for folder in ("results", ".snakemake"):
+        shutil.copytree(finished / folder, clone / folder)
+    _take_quick_configuration(clone / "config")
+    _share_packages(clone / ".venv")
+
+
+def _take_quick_configuration(folder: Path) -> None:
+    quick = yaml.safe_load((folder / "quick.yaml").read_text())
+    for path in sorted(folder.glob("*.yaml")):
+        settings = yaml.safe_load(path.read_text())
+        if path.name != "quick.yaml":
+            update_config(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
+            path.write_text(yaml.safe_dump(settings, sort_keys=False))
+
+
+def _share_packages(venv: Path) -> None:
+    """Put into a virtual environment that is made later the packages and programs of this one."""
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    packages = venv / "lib" / version / "site-packages"
+    packages.mkdir(parents=True)
+    ours = [path for path in sys.path if path.endswith("site-packages")]
+    (packages / "ours.pth").write_text("\n".join(ours) + "\n")
+    (venv / "bin").mkdir()
+    for name in ("snakemake", "pytest"):
+        program = venv / "bin" / name
+        program.write_text(f"#!{venv}/bin/python\n{_program(name)}")
+        program.chmod(0o755)
+
+
+def _program(name: str) -> str:
+    text = (Path(sys.executable).parent / name).read_text()
+    return text.partition("\n")[2]
+
+
+def play(block: Block, clone: Path) -> Done:
+    """Run a block as it is printed, in the folder of the clone."""
+    if block.kind == "yaml":
+        (clone / file_of(block)).write_text(block.text, encoding="utf-8")
+        return Done(0, "")
+    if block.kind == "pycon":
+        session = clone / ".session.txt"
+        session.write_text(block.text, encoding="utf-8")
+        command = [".venv/bin/python", "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", session.name]
+    else:
+        command = ["bash", "-euo", "pipefail", "-c", block.text]
+    environment = {
+        **os.environ,
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        "PYTHONPATH": str(clone / "scripts") if block.kind == "pycon" else "",
+    }
+    run = subprocess.run(
+        command, cwd=clone, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL, text=True,
+    )  # fmt: skip
+    return Done(run.returncode, run.stdout)

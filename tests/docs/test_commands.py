@@ -1,0 +1,165 @@
+"""Each command of README and docs/ is run as it is printed, and prints what the page shows.
+
+All pages are played once, in one clone, in the order of the README's links. `not_run.yaml` lists
+the blocks that are not run as they are printed, each with its reason.
+"""
+
+import ast
+import json
+import re
+from importlib.util import find_spec
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+import yaml
+from helpers import ROOT, snakemake
+from printed import KINDS, Block, Done, blocks, file_of, pages, play, prepare, shown
+
+PAGES = pages(ROOT)
+PRINTED = {page: blocks(ROOT, page) for page in PAGES}
+ALL = [block for found in PRINTED.values() for block in found]
+NOT_RUN = yaml.safe_load((Path(__file__).parent / "not_run.yaml").read_text(encoding="utf-8"))
+LEFT_OUT = {(entry["page"], entry["first"]) for entry in NOT_RUN}
+
+
+def is_left_out(block: Block) -> bool:
+    return (block.page, block.text.splitlines()[0]) in LEFT_OUT
+
+
+INLINE = re.findall(
+    r"`(?:\.venv/bin/)?snakemake ([a-z]\w*(?: \w+)*)`",
+    "".join((ROOT / page).read_text(encoding="utf-8") for page in PAGES),
+)
+"""What a line of text or a table says to ask Snakemake for."""
+ASKED = Block("all pages", 0, "", "", f".venv/bin/snakemake -n {' '.join(INLINE)}")
+
+RUN = [block for block in ALL if block.kind in ("", "pycon") and not is_left_out(block)]
+
+
+@pytest.fixture(scope="module")
+def played(made_once, full_run) -> dict[str, Done]:
+    """Return what became of each block, by its name."""
+
+    def make(folder):
+        clone = folder / "project"
+        prepare(ROOT, full_run, clone)
+        accepted = snakemake(clone, clone, "accept_figures")
+        assert accepted.returncode == 0, accepted.stderr
+        tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
+        run = {block.name: play(block, clone) for block in [*tried, ASKED]}
+        (folder / "played.json").write_text(json.dumps(run))
+
+    found = json.loads((made_once("printed", make) / "played.json").read_text())
+    return {name: Done(*done) for name, done in found.items()}
+
+
+@pytest.mark.parametrize("block", RUN, ids=lambda block: block.name)
+def test_what_is_printed_runs(played, block):
+    code, said = played[block.name]
+    assert (code != 0) == (block.mark == "fails"), f"{block.text}\n{said}"
+    assert "Traceback (most recent call last)" not in said
+
+
+def test_each_target_that_a_sentence_or_a_table_names_can_be_asked_for(played):
+    assert len(INLINE) > 10 and played[ASKED.name].code == 0, played[ASKED.name].said
+
+
+OUTPUTS = [
+    (before, block)
+    for found in PRINTED.values()
+    for before, block in pairwise(found)
+    if block.kind == "text"
+]
+
+
+@pytest.mark.parametrize("pair", OUTPUTS, ids=lambda pair: pair[1].name)
+def test_what_a_page_shows_is_what_its_command_prints(played, pair):
+    command, output = pair
+    said = played[command.name].said
+    assert shown(output.text, said), f"{output.text}\nis not in\n{said}"
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_block_is_of_a_kind_that_is_tried(page):
+    found = PRINTED[page]
+    assert {block.kind for block in found} <= set(KINDS)
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert len(re.findall("^```", text, re.MULTILINE)) == 2 * len(found)
+    follows = [output for _, output in OUTPUTS if output.page == page]
+    assert [block for block in found if block.kind == "text"] == follows
+
+
+def test_what_a_page_shows_follows_a_command_that_is_run():
+    assert [output.name for command, output in OUTPUTS if command not in RUN] == []
+
+
+@pytest.mark.parametrize(
+    "block", [b for b in ALL if b.kind == "yaml"], ids=lambda block: block.name
+)
+def test_a_file_that_is_to_be_saved_is_used_on_its_page(block):
+    commands = [other.text for other in PRINTED[block.page] if other.kind == ""]
+    assert any(file_of(block) in command for command in commands)
+
+
+def test_what_is_not_run_exists_and_has_a_reason():
+    printed = {(block.page, block.text.splitlines()[0]) for block in ALL if block.kind == ""}
+    assert sorted(LEFT_OUT - printed) == [] and len(LEFT_OUT) == len(NOT_RUN)
+    for entry in NOT_RUN:
+        assert entry["reason"].endswith(".") and (ROOT / entry["instead"]).exists(), entry
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "fits"),
+    [
+        ("fig2  1", "job count\nfig2      1\n", True),
+        ("... identical", "234 identical; see page", True),
+        ("one\nthree", "one\ntwo\nthree", True),
+        ("three\none", "one\ntwo\nthree", False),
+        ("fig2 2", "fig2 1", False),
+    ],
+)
+def test_a_text_is_found_in_what_was_said(text, said, fits):
+    assert shown(text, said) is fits
+
+
+def quoted_messages(page: str) -> list[str]:
+    """Return what stands in the first column of the tables of messages, without the code marks."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    tables = re.findall(r"^\| message \|.*\n\| --- .*\n((?:\|.*\n)+)", text, re.MULTILINE)
+    return [
+        row for table in tables for row in re.findall(r"^\| `(.+?)` .*\|$", table, re.MULTILINE)
+    ]
+
+
+@pytest.fixture(scope="module")
+def messages() -> str:
+    """Return all strings of the project's code, and the code of Snakemake and its Slurm plugin."""
+    code = [path for room in ("scripts", "workflow") for path in (ROOT / room).rglob("*.py")]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in code]
+    ours = [
+        node.value
+        for tree in trees
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    ]
+    rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
+    snakemake_folder = Path(find_spec("snakemake").origin).parent
+    theirs = [path.read_text(encoding="utf-8") for path in snakemake_folder.rglob("*.py")]
+    return "\n".join([*ours, *rules, *theirs, *SYSTEM])
+
+
+SYSTEM = [
+    # snakemake-executor-plugin-slurm, which is not installed where these tests run
+    *("No SLURM account given, trying to guess.", "has been submitted with SLURM jobid"),
+    "No space left on device",  # the C library's words for ENOSPC
+    "No module named venv",  # Python, where a system keeps this module apart
+    "No module named 'pendula'",
+    "invalid choice: 'slurm'",  # argparse: Snakemake without its plugin
+]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_message_that_a_page_explains_is_one_that_is_said(page, messages):
+    parts = [part.strip() for said in quoted_messages(page) for part in said.split("...")]
+    assert [part for part in parts if part not in messages] == []
