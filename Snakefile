@@ -92,3 +92,8 @@ include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/archive.smk"
+
+
+onsuccess:
+    if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
+        tell_faults()

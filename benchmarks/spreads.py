@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from pendula.datasets.netcdf import Variable, as_xarray, save
 from pendula.figure_diff import hashes, tolerances
-from pendula.figure_diff.compare_data import MOST_OVER, Curve, curves, lines, trusted
+from pendula.figure_diff.compare_curves import MOST_OVER, Curve, curves, lines, trusted
 from pendula.figure_diff.structure import COUNTS, DISTANCES, STATISTICS, describe, distances
 from pendula.figure_diff.tolerances import REGULAR, REGULAR_LIMIT, SPREADS, Rule, Spread, Spreads
 from scipy.optimize import brentq

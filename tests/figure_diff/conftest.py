@@ -8,7 +8,7 @@ from typing import NamedTuple
 import made_up_results as made_up
 import pytest
 from pendula.datasets.netcdf import read
-from pendula.figure_diff import Finding, acceptance, baseline, tolerances
+from pendula.figure_diff import Finding, Verdict, acceptance, baseline, tolerances
 
 from benchmarks import spreads
 
@@ -21,9 +21,13 @@ class Run(NamedTuple):
     made: Path
     accepted: Path
 
-    def compare(self, names) -> list[Finding]:
+    def judge(self, names=made_up.NAMES, any_bits=False) -> Verdict:
         """Compare these files of the run with the baseline."""
-        return baseline.compare(names, self.made, self.accepted, made_up.CONFIGURATION)
+        return baseline.compare(names, *self, made_up.CONFIGURATION, any_bits)
+
+    def compare(self, names) -> list[Finding]:
+        """Compare these files with the baseline, and let the allowances decide on other bits."""
+        return self.judge(names, any_bits=True).findings
 
     def accept(self, names=made_up.NAMES, chosen=None) -> list[str]:
         """Take the run, or the chosen files of it, as the baseline; return what that changed."""
@@ -67,10 +71,11 @@ def ensemble(tmp_path_factory) -> list[spreads.Measured]:
 def accepted_run(tmp_path_factory, ensemble) -> Run:
     folder = tmp_path_factory.mktemp("figure_diff")
     run = Run(made_up.make_run(folder / "results"), folder / "baseline")
-    run.accept()
+    run.accepted.mkdir()
     shutil.copy(TABLE, run.accepted)
     excess = spreads.accusations(ensemble)
     spreads.write(run.accepted / tolerances.SPREADS, ensemble, excess)
+    run.accept()
     return run
 
 

@@ -46,7 +46,8 @@ def _dataset(norms: list) -> xr.Dataset:
         "l2": (("component", "tau"), np.array(norms), about),
         "bound": ("component", [np.inf, 9.5], bound),
     }
-    attributes = {"omega": 8.0, "solver": "ode45", "steps": 1500, "right_hand_sides": 9000}
+    attributes = {"omega": 8.0, "end_time": 50.0, "solver": "ode45"}
+    attributes |= {"steps": 1500, "right_hand_sides": 9000}
     return xr.Dataset(variables, {"component": ["A", "B"], "tau": TAU}, attributes)
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from pendula.figure_diff import DIFFERENT, NEARLY, Finding, compare_data, hashes
+from pendula.figure_diff import DIFFERENT, NEARLY, Finding, compare_curves, hashes
 from pendula.figure_diff.tolerances import TOLERANCES, read_tolerances
 
 RUNS = Path(__file__).parent / "two_runs"
@@ -37,7 +37,7 @@ def tolerances():
 def compare(name: str, plant: Callable, made_too: Callable | None = None) -> Finding:
     """Compare run 2, with a fault, with run 1."""
     made = plant(run(2, name).copy(deep=True))
-    return compare_data.compare(name, run(1, name), made, tolerances(), made_too)
+    return compare_curves.compare(name, run(1, name), made, tolerances(), made_too)
 
 
 class Fault(NamedTuple):

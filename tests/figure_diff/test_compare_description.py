@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from pendula.figure_diff import DIFFERENT, NEARLY
+from pendula.figure_diff import DIFFERENT, NEARLY, Motion
 from pendula.figure_diff.compare_description import FOLLOWS, INVISIBLE, judge
 
 
@@ -18,17 +18,20 @@ def figure(data="other", scale="linear", limits=(0.0, 8.0), points=100, at=(4.0,
     return {"data": data, "size_in_inches": [7.0, 4.0], "panels": [panel]}
 
 
-def status(was: dict, now: dict, moved: bool) -> str:
-    return judge("figures/it.json", was, now, moved).status
+def status(was: dict, now: dict, motion: Motion) -> str:
+    return judge("figures/it.json", was, now, motion).status
 
 
-@pytest.mark.parametrize(("moved", "allowed"), [(True, FOLLOWS), (False, INVISIBLE)])
+@pytest.mark.parametrize(
+    ("motion", "allowed"),
+    [(Motion.SEEN, FOLLOWS), (Motion.UNSEEN, INVISIBLE), (Motion.WRONG, INVISIBLE)],
+)
 @pytest.mark.parametrize("sign", [1, -1])
-def test_limits_follow_by_a_part_of_the_axis(moved, allowed, sign):
+def test_limits_follow_by_a_part_of_the_axis(motion, allowed, sign):
     was = figure(data="accepted")
     for part, expected in ((0.99, NEARLY), (1.01, DIFFERENT)):
         top = 8 * (1 + sign * part * allowed)
-        assert status(was, figure(limits=(0.0, top)), moved) == expected
+        assert status(was, figure(limits=(0.0, top)), motion) == expected
 
 
 @pytest.mark.parametrize("end", [0, 1])
@@ -38,12 +41,12 @@ def test_limits_of_a_logarithmic_axis_follow_by_its_decades(end):
         limits = [1e-4, 1.0]
         limits[end] *= 10 ** (4 * part * FOLLOWS)
         now = figure(scale="log", limits=limits, at=(4.0, 0.1))
-        assert status(was, now, moved=True) == expected
+        assert status(was, now, Motion.SEEN) == expected
 
 
 def test_a_logarithmic_axis_may_not_reach_zero():
     was = figure(data="accepted", scale="log", limits=(1e-4, 1.0))
-    assert status(was, figure(scale="log", limits=(0.0, 1.0)), moved=True) == DIFFERENT
+    assert status(was, figure(scale="log", limits=(0.0, 1.0)), Motion.SEEN) == DIFFERENT
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -52,50 +55,50 @@ def test_a_text_follows_by_a_part_of_the_axis(axis):
     for part, expected in ((0.99, NEARLY), (1.01, DIFFERENT)):
         at = [4.0, 4.0]
         at[axis] += 8 * part * FOLLOWS
-        assert status(was, figure(at=at), moved=True) == expected
+        assert status(was, figure(at=at), Motion.SEEN) == expected
 
 
 def test_a_text_at_a_place_of_the_panel_does_not_follow():
     was, now = figure(data="accepted"), figure(at=(4.0, 4.1))
     for each in (was, now):
         each["panels"][0]["texts"][0]["off"] = "axes fraction"
-    assert status(was, now, moved=True) == DIFFERENT
+    assert status(was, now, Motion.SEEN) == DIFFERENT
 
 
 def test_many_points_may_half_vanish_and_few_may_vanish():
     was = figure(data="accepted")
-    assert status(was, figure(points=50), moved=True) == NEARLY
-    assert status(was, figure(points=49), moved=True) == DIFFERENT
-    assert status(was, figure(points=201), moved=True) == DIFFERENT
+    assert status(was, figure(points=50), Motion.SEEN) == NEARLY
+    assert status(was, figure(points=49), Motion.SEEN) == DIFFERENT
+    assert status(was, figure(points=201), Motion.SEEN) == DIFFERENT
     few = figure(data="accepted", points=9)
-    assert status(few, figure(points=0), moved=True) == NEARLY
-    assert status(figure(data="accepted", points=10), figure(points=0), moved=True) == DIFFERENT
+    assert status(few, figure(points=0), Motion.SEEN) == NEARLY
+    assert status(figure(data="accepted", points=10), figure(points=0), Motion.SEEN) == DIFFERENT
 
 
-@pytest.mark.parametrize("moved", [True, False])
-def test_no_word_and_no_colour_follows(moved):
+@pytest.mark.parametrize("motion", [Motion.SEEN, Motion.UNSEEN])
+def test_no_word_and_no_colour_follows(motion):
     was = figure(data="accepted", colour="#e8402f")
-    assert status(was, figure(colour="#e8402f"), moved) == NEARLY
-    assert status(was, figure(colour="#e8402e"), moved) == DIFFERENT
-    assert status(was, figure(colour="#e8402f", label="$B$"), moved) == DIFFERENT
-    assert status(was, figure(), moved) == DIFFERENT
+    assert status(was, figure(colour="#e8402f"), motion) == NEARLY
+    assert status(was, figure(colour="#e8402e"), motion) == DIFFERENT
+    assert status(was, figure(colour="#e8402f", label="$B$"), motion) == DIFFERENT
+    assert status(was, figure(), motion) == DIFFERENT
 
 
 def test_ranges_of_curves_follow_chaos_however_far_and_regular_data_not():
     was = figure(data="accepted")
-    assert status(was, figure(y=[1.0, 7.9]), moved=True) == NEARLY
-    assert status(was, figure(y=[1.0, 2.1]), moved=False) == DIFFERENT
-    assert status(was, figure(y=[1.0, math.nextafter(2.0, 3.0)]), moved=False) == NEARLY
+    assert status(was, figure(y=[1.0, 7.9]), Motion.SEEN) == NEARLY
+    assert status(was, figure(y=[1.0, 2.1]), Motion.UNSEEN) == DIFFERENT
+    assert status(was, figure(y=[1.0, math.nextafter(2.0, 3.0)]), Motion.UNSEEN) == NEARLY
 
 
 def test_accepted_data_excuse_nothing():
     was = figure(data="accepted")
     now = figure(data="accepted", y=[1.0, math.nextafter(2.0, 3.0)])
-    assert status(was, now, moved=True) == DIFFERENT
+    assert status(was, now, Motion.NONE) == DIFFERENT
 
 
 def test_the_gravest_difference_is_told_first():
     was = figure(data="accepted")
     now = figure(limits=(0.0, 20.0), label="$B$")
-    found = judge("figures/it.json", was, now, moved=True)
+    found = judge("figures/it.json", was, now, Motion.SEEN)
     assert found.says == ('panel 1: curve 1 \'$A$\': label is "$B$" in place of "$A$" (and 1 more)')

@@ -7,7 +7,7 @@ import pytest
 from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.drawing import style
 from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, compare_images
-from pendula.figure_diff.compare_images import EXACT, LOOK, Pixels
+from pendula.figure_diff.compare_images import Method, Picture
 
 FAULTS = {
     "swapped colours": {"colours": ("B", "A")},
@@ -32,19 +32,19 @@ def test_faults_are_found_where_the_curves_have_moved(any_environment, fault):
     assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
 
 
-def _pixels(**changes) -> Pixels:
+def _pixels(**changes) -> Picture:
     figure = made_up.draw(regular(), **changes)
     figure.canvas.draw()
-    return Pixels(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [])
+    return Picture(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [], {})
 
 
-def _otherwise(monkeypatch, key, value) -> Pixels:
+def _otherwise(monkeypatch, key, value) -> Picture:
     monkeypatch.setitem(style._RC, key, value)
     return _pixels()
 
 
-def _status(was: Pixels, now: Pixels, method: str) -> str:
-    return compare_images.judge(PICTURE, was, now, method, moved=False).status
+def _status(was: Picture, now: Picture, method: Method) -> str:
+    return compare_images.judge(PICTURE, was, now, method).status
 
 
 @pytest.mark.parametrize(
@@ -54,29 +54,29 @@ def _status(was: Pixels, now: Pixels, method: str) -> str:
 def test_letters_drawn_otherwise_look_the_same(monkeypatch, key, value):
     was, now = _pixels(), _otherwise(monkeypatch, key, value)
     assert (was.colours != now.colours).any()
-    assert _status(was, now, LOOK) == NEARLY
-    assert _status(was, now, EXACT) == DIFFERENT
+    assert _status(was, now, Method.LOOK) == NEARLY
+    assert _status(was, now, Method.PIXELS) == DIFFERENT
 
 
 @pytest.mark.parametrize("step", [(0, 1), (1, 0), (2, -2)])
 def test_a_shift_by_a_pixel_looks_the_same(step):
     was = _pixels()
-    shifted = Pixels(np.roll(was.colours, step, (0, 1)), [])
-    assert _status(was, shifted, LOOK) == NEARLY
+    shifted = Picture(np.roll(was.colours, step, (0, 1)), [], {})
+    assert _status(was, shifted, Method.LOOK) == NEARLY
 
 
 def test_other_letters_do_not_look_the_same(monkeypatch):
     was, now = _pixels(), _pixels(label="energy")
-    assert _status(was, now, LOOK) == DIFFERENT
+    assert _status(was, now, Method.LOOK) == DIFFERENT
 
 
 def test_a_single_shade_of_a_pixel_is_found_by_pixels():
     was = _pixels()
     colours = was.colours.copy()
     colours[100, 200, 1] -= 1
-    found = compare_images.judge(PICTURE, was, Pixels(colours, []), EXACT, moved=False)
+    found = compare_images.judge(PICTURE, was, Picture(colours, [], {}), Method.PIXELS)
     assert found.status == DIFFERENT and found.says == "1 pixels differ, in x 200-200, y 100-100"
-    assert _status(was, Pixels(colours, []), LOOK) == NEARLY
+    assert _status(was, Picture(colours, [], {}), Method.LOOK) == NEARLY
 
 
 @pytest.mark.parametrize("kept", [100, 5000], ids=["header", "half of the pixels"])
@@ -89,7 +89,7 @@ def test_a_damaged_picture(any_environment, kept):
 
 def test_another_size():
     was = _pixels()
-    found = compare_images.judge(PICTURE, was, Pixels(was.colours[:-10], []), LOOK, moved=False)
+    found = compare_images.judge(PICTURE, was, Picture(was.colours[:-10], [], {}), Method.LOOK)
     assert found.status == DIFFERENT and "1200 x 530 pixels in place of 1200 x 540" in found.says
 
 

@@ -4,14 +4,14 @@ import json
 
 import pytest
 from made_up_results import CHAOTIC, LEDGER, REGULAR, TABLE, ledger, table
-from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Motion
 from pendula.figure_diff.compare_words import compare
 
 CONTROLS = "controls.json"
-SAME = {name: Finding(name, IDENTICAL) for name in (REGULAR, CHAOTIC)}
-NUDGED = SAME | {REGULAR: Finding(REGULAR, NEARLY)}
-MOVED = SAME | {REGULAR: Finding(REGULAR, NEARLY, moved=True)}
-FAULTY = SAME | {REGULAR: Finding(REGULAR, DIFFERENT)}
+SAME = dict.fromkeys((REGULAR, CHAOTIC), Motion.NONE)
+NUDGED = SAME | {REGULAR: Motion.UNSEEN}
+MOVED = SAME | {REGULAR: Motion.SEEN}
+FAULTY = SAME | {REGULAR: Motion.WRONG}
 
 
 def cell(number: str) -> str:
@@ -48,9 +48,31 @@ def test_a_number_may_follow_a_regular_dataset_as_little_as_that_moved(was, now,
     assert status(was, now, SAME) == DIFFERENT
 
 
-def test_a_number_may_follow_a_chaotic_dataset_as_its_statistics_were_compared():
-    assert status("2.9", "3.7", MOVED) == NEARLY
-    assert status("2.9 early", "3.7 late", MOVED) == DIFFERENT
+@pytest.mark.parametrize(
+    ("was", "now", "followed"),
+    [
+        ("2.9", "3.7", True),
+        ("2.9", "5.9", False),
+        ("2.9", "1.4", False),
+        ("2.9", "-2.9", False),
+        ("2.9 early", "3.7 late", False),
+        ("0.0031", "0.03", True),  # an error
+        ("0.0031", "0.032", False),
+        ("0.09", "0.2", False),  # what is a number in either run is no error
+        ("0", "2", False),
+        ("1.2e-15", "9.1e-15", True),
+    ],
+)
+def test_a_number_may_follow_a_chaotic_dataset_by_a_factor(was, now, followed):
+    assert status(was, now, MOVED) == (NEARLY if followed else DIFFERENT)
+
+
+@pytest.mark.parametrize("key", ["criterion", "says", "place"])
+def test_a_threshold_and_a_sentence_follow_nothing(key):
+    was, now = ledger(), ledger()
+    was[0][key], now[0][key] = "at most 2.1", "at most 2.2"
+    found = compare(LEDGER, json.dumps(was), json.dumps(now), MOVED)
+    assert found.status == DIFFERENT and f"regular_bounded: {key}" in found.says
 
 
 def test_where_a_dataset_is_faulty_the_words_that_it_changes_are_told():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pendula.datasets.netcdf import read
 from pendula.figure_diff.baseline import is_kept, recorded
-from pendula.figure_diff.compare_data import curves, deviation
+from pendula.figure_diff.compare_curves import curves, deviation
 from pendula.figure_diff.tolerances import read_tolerances, rule_for
 
 BASELINE = Path(__file__).resolve().parents[1] / "baseline"

@@ -15,7 +15,7 @@ from made_up_results import NAMES, TAU, chaotic, regular
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from pendula.drawing import style
 from pendula.drawing.description import as_text, describe
-from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, MISSING, NEARLY
+from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, MISSING, NEARLY, Motion
 from pendula.figure_diff.compare_description import judge, read_description, shows_rounding
 
 STEM = "fig4_spacetime"
@@ -286,13 +286,13 @@ def described():
 
 @pytest.mark.parametrize("fault", [*FAULTS, *OF_SAME_DATA], ids=lambda fault: fault.name)
 def test_a_fault_is_told_by_panel_and_text(described, fault):
-    found = judge(JSON, described, description(chaotic(), fault.plant), moved=False)
+    found = judge(JSON, described, description(chaotic(), fault.plant), Motion.NONE)
     assert found.status == DIFFERENT and fault.says in found.line
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
 def test_a_fault_is_told_where_the_data_have_moved(described, fault):
-    found = judge(JSON, described, description(chaotic(seed=7), fault.plant), moved=True)
+    found = judge(JSON, described, description(chaotic(seed=7), fault.plant), Motion.SEEN)
     assert found.status == DIFFERENT and fault.says in found.line
 
 
@@ -483,7 +483,7 @@ def test_regular_data_of_other_bits_move_no_limit():
     """The allowance for chaotic data is not for all."""
     was, data = description(regular()), regular()
     moved = data.assign(l2=data["l2"] * (1 + 1e-8))
-    assert judge(JSON, was, description(moved), moved=False).status == NEARLY
+    assert judge(JSON, was, description(moved), Motion.UNSEEN).status == NEARLY
     cut = description(moved, left(lambda axes: axes.set_ylim(0, 7.99)))
-    assert judge(JSON, was, cut, moved=False).status == DIFFERENT
-    assert judge(JSON, was, cut, moved=True).status == NEARLY
+    assert judge(JSON, was, cut, Motion.UNSEEN).status == DIFFERENT
+    assert judge(JSON, was, cut, Motion.SEEN).status == NEARLY

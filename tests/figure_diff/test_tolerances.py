@@ -8,7 +8,7 @@ import scipy.stats
 import xarray as xr
 from pendula.datasets.netcdf import read
 from pendula.figure_diff.baseline import is_kept, recorded
-from pendula.figure_diff.compare_data import curves
+from pendula.figure_diff.compare_curves import curves
 from pendula.figure_diff.structure import STATISTICS
 from pendula.figure_diff.tolerances import (
     TOLERANCES,

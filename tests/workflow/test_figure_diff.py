@@ -30,16 +30,19 @@ def test_accepting_comparing_and_failing(finished, clone):
         about = PngInfo()
         for key, text in image.text.items():
             about.add_text(key, text)
-    darker.save(picture, pnginfo=about)
+    darker.convert("RGBA").save(picture, pnginfo=about, dpi=image.info["dpi"])
     (clone / "tests/baseline/checks/growth.nc").unlink()
     change_claims(finished, '"verdict": "confirmed"', '"verdict": "not reproduced"')
     result = snakemake(clone, finished, "figure_diff")
-    faults = [line for line in said(result).splitlines() if line.startswith(("differ", "extra"))]
-    assert result.returncode != 0 and len(faults) == 3
+    *_, first, second, third, judged, tally = said(result).rstrip().splitlines()
+    faults = [first, second, third]
+    assert result.returncode != 0 and "the accepted one" in judged
+    assert tally.startswith("2 different, 1 damaged, ") and "index.html" in tally
+    assert "Error" not in said(result) and "Traceback" not in said(result)
     assert faults[0].startswith("different: claims.json: ")
     assert 'verdict is "not reproduced" in place of "confirmed"' in faults[0]
     assert faults[1].startswith("different: figures/fig5.png: ") and "pixels differ" in faults[1]
-    assert faults[2] == "extra: checks/growth.nc: is not in the baseline"
+    assert faults[2].startswith("damaged: checks/growth.nc: in the baseline is missing")
     page = (finished / "results/figure_diff/index.html").read_text()
     assert "Figure diff: 3 faults" in page
 
@@ -87,6 +90,11 @@ def test_a_name_of_nothing_stops_accepting_with_the_nearest(finished, clone):
     result = snakemake(clone, finished, "accept_figures", "--config", "accept=fig33")
     assert result.returncode != 0 and "fig33 names no file of a full run" in said(result)
     assert "did you mean fig3?" in said(result)
+
+
+def test_a_value_of_bits_that_means_nothing_is_told(finished, clone):
+    result = snakemake(clone, finished, "figure_diff", "--config", "bits=all")
+    assert result.returncode != 0 and "the only value is bits=any" in said(result)
 
 
 def test_it_compares_the_figures_of_the_list_and_is_no_part_of_a_full_run(finished, clone):

@@ -2,6 +2,15 @@
 BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{workflow.basedir}/tests/baseline")
 
 
+# --config bits=any judges files with other bits by what right runs may differ.
+ANY_BITS = OPTIONS["bits"] == "any"
+if OPTIONS["bits"] not in (None, "any"):
+    raise WorkflowError(
+        f"--config bits={OPTIONS['bits']}: the only value is bits=any, which judges files with other "
+        "bits by what right runs may differ; without it they are faults"
+    )
+
+
 def everything():
     """Return each file that a full run makes or needs and whose content is settled by its inputs.
 
@@ -27,6 +36,22 @@ def accepted_files():
     return [path for name in names if os.path.exists(path := f"{BASELINE}/{name}")]
 
 
+def verdict_told_at_the_end(wildcards):
+    if workflow.execution_settings.no_hooks:
+        raise WorkflowError("figure_diff fails at the end of a run: call it without --no-hooks")
+    return "results/figure_diff/verdict.json"
+
+
+def tell_faults():
+    """Say in one line each what is not as in the baseline, and fail if any of it is a fault."""
+    from pendula.figure_diff import load  # here, since few runs compare
+
+    verdict = load("results/figure_diff/verdict.json")
+    print(*verdict.lines, sep="\n", end="; see results/figure_diff/index.html\n", file=sys.stderr)
+    if verdict.failed:
+        sys.exit(1)
+
+
 def plain(settings):
     return json.loads(settings.model_dump_json())
 
@@ -47,10 +72,12 @@ def chosen_names():
     folder, words = Path(BASELINE), OPTIONS["accept"] or []
     words = words.split() if isinstance(words, str) else [str(word) for word in words]
     names = below_results(everything())
-    known = sorted({*names, *baseline.recorded(folder)["files"]})
+    known = sorted({*names, *baseline.recorded(folder)["files"], *baseline.ALLOWANCES})
     try:
-        acceptance.check(plain(SETTINGS), plain(committed_settings()), folder, bool(words))
-        return acceptance.choose(words, known) if words else names
+        chosen = acceptance.choose(words, known) if words else known
+        some = len(chosen) < len(known)
+        acceptance.check(plain(SETTINGS), plain(committed_settings()), folder, some)
+        return chosen
     except acceptance.AcceptanceError as error:
         raise WorkflowError(str(error)) from None
 

@@ -32,8 +32,9 @@ for study in STUDIES:
     update_config(choices, config)
     config.update(choices)
 
-# What a single call is told by --config: the baseline to compare with, and what of a run to accept.
-OPTIONS = {name: config.pop(name, None) for name in ("baseline", "accept")}
+# What a single call is told by --config: the baseline to compare with, whether any bits will do, and
+# what of a run to accept.
+OPTIONS = {name: config.pop(name, None) for name in ("baseline", "bits", "accept")}
 
 try:
     SETTINGS = load(config)

@@ -1,22 +1,23 @@
 # What a run made against the accepted baseline in tests/baseline.
-# The comparison is a job that always succeeds, since Snakemake deletes what a failed job wrote;
-# the rule `figure_diff` then tells the faults and fails.
+# The comparison is a job that always succeeds, since Snakemake deletes what a failed job wrote. No
+# job fails in its place either: Snakemake would print an error of its own after the faults, of a
+# command that nobody called. So the end of the run tells the faults, and fails.
 
 
 rule figure_diff:
     "Datasets and figures against the accepted ones; fails with one line for each that differs"
     input:
-        code=code("figure_diff/tell_faults.py"),
-        verdict="results/figure_diff/verdict.json",
+        verdict=verdict_told_at_the_end,
         html="results/figure_diff/index.html",
     log:
         "results/logs/figure_diff/faults.log",
+    localrule: True
     conda:
         "../envs/pinned.yaml"
     message:
         "Telling what differs from the baseline"
-    script:
-        "../../scripts/figure_diff/tell_faults.py"
+    shell:
+        "echo 'The end of the run tells what was found, and so does {input.html}.' > {log}"
 
 
 rule compare_results:
@@ -34,6 +35,7 @@ rule compare_results:
     params:
         baseline=lambda wildcards: BASELINE,
         configuration=plain(SETTINGS),
+        any_bits=ANY_BITS,
     message:
         "Comparing datasets, figures and words with the baseline"
     script:

@@ -1,9 +1,12 @@
 """Compares what a run made with the accepted baseline: data, images, and one page about both."""
 
 import json
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from enum import StrEnum
 from pathlib import Path
+from typing import NamedTuple
 
 from pendula.datasets.netcdf import readable
 
@@ -14,18 +17,32 @@ STATUSES = (*FAULTS, NEARLY, IDENTICAL)
 """The statuses in the order of the page: a person must look at the first ones."""
 
 
+IF_MEANT = (
+    "agree within the allowances: if you meant the change, look at them and accept them "
+    "(`snakemake accept_figures`)"
+)
+
+
+class Motion(StrEnum):
+    """How far the numbers of a dataset moved: it decides how all that shows them is judged."""
+
+    NONE = "they have the accepted bits"
+    UNSEEN = "they have other bits, and no eye sees the difference"
+    SEEN = "they moved visibly, within what chaos allows"
+    WRONG = "they moved by more than is allowed, or cannot be read"
+
+
 @dataclass(frozen=True)
 class Finding:
-    """The finding for one file, which `name` gives by its path below results/.
-
-    `moved` is true where the curves are within tolerance but no longer in the same place, so that
-    an image of them may not be compared pixel by pixel.
-    """
+    """The finding for one file, which `name` gives by its path below results/."""
 
     name: str
     status: str
     says: str = ""
-    moved: bool = False
+    visible: bool = False
+    """Of a dataset: whether curves within tolerance moved so far that a picture shows it."""
+    agrees: bool = False
+    """Of a fault: whether other bits are all that is wrong, and the allowances would excuse it."""
 
     @property
     def is_fault(self) -> bool:
@@ -33,18 +50,55 @@ class Finding:
         return self.status in FAULTS
 
     @property
+    def motion(self) -> Motion:
+        """Return how far the numbers of this dataset moved."""
+        if self.is_fault:
+            return Motion.WRONG
+        if self.status == IDENTICAL:
+            return Motion.NONE
+        return Motion.SEEN if self.visible else Motion.UNSEEN
+
+    @property
     def line(self) -> str:
         """Return the finding in one line."""
         return " ".join(f"{self.status}: {self.name}: {self.says}".rstrip(": ").split())
 
 
-def dump(findings: Iterable[Finding], path: str | Path) -> None:
-    """Write the findings to `path` as JSON."""
-    text = json.dumps([asdict(finding) for finding in findings], indent=1)
+class Verdict(NamedTuple):
+    """What was found of all files, and in words by which measure they were judged."""
+
+    judged: str
+    findings: Sequence[Finding]
+
+    @property
+    def failed(self) -> bool:
+        """Return whether any finding is a fault."""
+        return any(found.is_fault for found in self.findings)
+
+    @property
+    def lines(self) -> list[str]:
+        """Return a line for each file that is not identical, then the measure and the counts.
+
+        Files that are nearly the same are told too, with the reason, although they fail nothing.
+        """
+        counts = Counter(found.status for found in self.findings)
+        tally = ", ".join(f"{counts[status]} {status}" for status in STATUSES if counts[status])
+        told = [found.line for found in self.findings if found.status != IDENTICAL]
+        agree = sum(found.agrees for found in self.findings)
+        if agree:
+            tally += f". {agree} of the different files {IF_MEANT}"
+        return [*told, self.judged, tally]
+
+
+def dump(verdict: Verdict, path: str | Path) -> None:
+    """Write the verdict to `path` as JSON."""
+    findings = [asdict(finding) for finding in verdict.findings]
+    text = json.dumps({"judged": verdict.judged, "findings": findings}, indent=1)
     Path(path).write_text(text + "\n", encoding="utf-8")
 
 
-def load(path: str | Path) -> list[Finding]:
-    """Return the findings that `dump` wrote to `path`."""
+def load(path: str | Path) -> Verdict:
+    """Return the verdict that `dump` wrote to `path`."""
     with readable(path):
-        return [Finding(**entry) for entry in json.loads(Path(path).read_text(encoding="utf-8"))]
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        return Verdict(content["judged"], [Finding(**entry) for entry in content["findings"]])

@@ -13,16 +13,17 @@ from pendula.datasets.netcdf import DatasetError
 
 from . import compare_pdf, compare_words, hashes
 from .baseline import (
+    ALLOWANCES,
     HASHES,
-    PICTURES,
     RECORD,
     accepted_hashes,
     environment,
-    hash_of_hashes,
+    hashes_of_kept,
     is_kept,
     recorded,
     unlike_settings,
 )
+from .doubts import doubts
 
 NEW, CHANGED, REMOVED = "new", "changed", "removed"
 
@@ -36,6 +37,8 @@ class Acceptance(NamedTuple):
 
     changes: dict[str, str]
     """NEW, CHANGED or REMOVED by the names of files."""
+    taken: set[str]
+    """The files that were looked at; all others stay as they were accepted."""
     record: dict[str, Any]
     hashes: dict[str, Any]
     lines: list[str]
@@ -111,29 +114,62 @@ def plan(
     """Return what accepting the run `made` would do: all its files `names`, or those in `chosen`.
 
     Files of the baseline that are not among `names` are removed if they are chosen. Raises
-    AcceptanceError if a file is empty or damaged, or if pictures of two environments would mix.
+    AcceptanceError if a file is empty, damaged or doubtful, or if two environments would mix.
     """
     names, record, known = set(names), recorded(folder), accepted_hashes(folder)
-    taken = names | set(record["files"]) if chosen is None else set(chosen)
+    every = names | {*record["files"], *ALLOWANCES}
+    looked_at = every if chosen is None else set(chosen)
+    taken = looked_at - ALLOWANCES.keys()
     here = environment()
-    if chosen is not None and any(name.endswith(PICTURES) for name in taken):
-        if record["environment"] not in ({}, here):
-            raise AcceptanceError(
-                "nothing is accepted: the other pictures of the baseline were drawn by other "
-                "versions; accept all files, or use the pinned environment"
-            )
-        record["environment"] = here
-    if chosen is None:
-        record["environment"] = here
+    if looked_at != every and taken and record["environment"] not in ({}, here):
+        raise AcceptanceError(
+            "nothing is accepted: the other files of the baseline were made in another environment "
+            f"({'; '.join(unlike_settings(record['environment'], here))}); accept all files, or "
+            "use the pinned environment"
+        )
     fresh = {name: _hashes_of(made / name) for name in sorted(taken & names)}
     changes = {name: _change(name, fresh[name], known, made, folder) for name in fresh}
     changes |= dict.fromkeys(sorted(taken - names), REMOVED)
+    changes |= _changes_of_allowances(looked_at, record, folder)
+    changes = {name: kind for name, kind in changes.items() if kind}
+    _refuse_doubtful(changes, made, folder, configuration, named=chosen is not None)
     files = sorted({*record["files"], *fresh} - (taken - names))
     kept = {name: known[name] for name in files if name in known}
     record |= {"configuration": dict(configuration), "files": files}
-    changes = {name: kind for name, kind in changes.items() if kind}
+    if taken:
+        record["environment"] = here
     lines = _say(changes, len(files), made, folder)
-    return Acceptance(changes, record, dict(sorted({**kept, **fresh}.items())), lines)
+    return Acceptance(changes, looked_at, record, dict(sorted({**kept, **fresh}.items())), lines)
+
+
+def _changes_of_allowances(
+    looked_at: set[str], record: Mapping[str, Any], folder: Path
+) -> dict[str, str]:
+    """Return which files of allowances are not as they were accepted."""
+    was, now = record["kept"], hashes_of_kept(folder, [])
+    found = {}
+    for name in ALLOWANCES.keys() & looked_at:
+        if was.get(name) != now.get(name):
+            found[name] = REMOVED if name not in now else CHANGED if name in was else NEW
+    return found
+
+
+def _refuse_doubtful(
+    changes: Mapping[str, str],
+    made: Path,
+    folder: Path,
+    configuration: Mapping[str, Any],
+    named: bool,
+) -> None:
+    """Raise AcceptanceError if a new dataset contradicts its name, or lost numbers."""
+    said = []
+    for name, kind in changes.items():
+        if name.endswith(".nc") and kind != REMOVED and name not in ALLOWANCES:
+            known = None if named or kind == NEW or not is_kept(name) else folder / name
+            said += [f"{name}: {each}" for each in doubts(name, made / name, known, configuration)]
+    if said:
+        more = f" (and {len(said) - 3} more)" if len(said) > 3 else ""
+        raise AcceptanceError(f"nothing is accepted: {'; '.join(said[:3])}{more}")
 
 
 def _hashes_of(path: Path) -> Any:
@@ -189,12 +225,17 @@ def _say(changes: Mapping[str, str], files: int, made: Path, folder: Path) -> li
 def take(acceptance: Acceptance, made: Path, folder: Path) -> None:
     """Change the baseline as planned; a file that is as it was is not written."""
     for name, kind in acceptance.changes.items():
+        if name in ALLOWANCES:
+            continue
         if kind == REMOVED:
             (folder / name).unlink(missing_ok=True)
         elif is_kept(name):
             _take(made / name, folder / name)
-    _write(folder / HASHES, acceptance.hashes)
-    _write(folder / RECORD, acceptance.record | {"hashes": hash_of_hashes(folder)})
+    _write(folder / HASHES, hashes.in_lines(acceptance.hashes))
+    was, now = acceptance.record["kept"], hashes_of_kept(folder, acceptance.record["files"])
+    stay = {name: was[name] for name in was if name not in acceptance.taken and name in now}
+    kept = {**now, **stay, HASHES: now[HASHES]}
+    _write(folder / RECORD, json.dumps(acceptance.record | {"kept": kept}, indent=1))
 
 
 def _take(new: Path, kept: Path) -> None:
@@ -206,6 +247,6 @@ def _take(new: Path, kept: Path) -> None:
             partial.write_bytes(new.read_bytes())
 
 
-def _write(path: Path, content: Any) -> None:
+def _write(path: Path, text: str) -> None:
     with complete_or_absent(path) as partial:
-        partial.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+        partial.write_text(text + "\n", encoding="utf-8")

@@ -2,7 +2,7 @@
 
 If the drawn data have the accepted bits, nothing may differ, on any machine and with any version of
 matplotlib. If they have moved, words, colours, scales, and the number of panels and curves must
-still be the same. Limits and positions that follow the data may move by FOLLOWS.
+still be the same. Limits and positions that follow the data may move as far as MAY_MOVE says.
 """
 
 import json
@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from pendula.datasets.digest import digest, fingerprint
 from pendula.datasets.netcdf import DatasetError, read
 
-from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding, Motion
 
 FOLLOWS = 0.3
 """How far limits and positions may move with chaotic data: so much of the axis, on a logarithmic
@@ -24,6 +24,13 @@ reproductions from data that differ by 1e-15 moved one by 0.19 (the rare smalles
 
 INVISIBLE = 1e-4
 """How far limits, positions and ranges may move with data of other bits that are regular."""
+
+MAY_MOVE = {
+    Motion.NONE: 0.0,
+    Motion.UNSEEN: INVISIBLE,
+    Motion.SEEN: FOLLOWS,
+    Motion.WRONG: INVISIBLE,  # wrong data excuse nothing that regular data do not
+}
 
 MANY = 10
 """Of a curve with so many points at most half may come or go with chaotic data: gaps of a
@@ -94,10 +101,10 @@ def shows_rounding(path: Path) -> bool:
     return any(axis["scale"] == "log" and min(axis["limits"]) < ROUNDING for axis in axes)
 
 
-def compare(name: str, accepted: Path, made: Path, data: Path, moved: bool) -> Finding:
+def compare(name: str, accepted: Path, made: Path, data: Path, motion: Motion) -> Finding:
     """Return the finding for the description `made` of the figure that shows the dataset `data`.
 
-    `moved` says that curves of the dataset are known to have moved visibly.
+    `motion` is that of the dataset.
     """
     try:
         was, now = (read_description(path) for path in (accepted, made))
@@ -110,25 +117,24 @@ def compare(name: str, accepted: Path, made: Path, data: Path, moved: bool) -> F
         return Finding(name, DIFFERENT, f"describes other data than {data.name} holds")
     if was.fingerprint == now.fingerprint:
         return Finding(name, IDENTICAL)
-    return judge(name, was.content, now.content, moved)
+    return judge(name, was.content, now.content, motion)
 
 
-def judge(name: str, was: dict, now: dict, moved: bool) -> Finding:
+def judge(name: str, was: dict, now: dict, motion: Motion) -> Finding:
     """Return the finding for two descriptions that are not the same text."""
-    other_bits = was["data"] != now["data"]
-    allowed = (FOLLOWS if moved else INVISIBLE) if other_bits else 0.0
+    allowed = MAY_MOVE[motion]
     found = list(differences(was, now))
     beyond = [each for each in found if each.least > allowed]
     faults = [each.says for each in sorted(beyond, key=lambda each: -each.least)]
     if faults:
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         return Finding(name, DIFFERENT, faults[0] + more)
-    if not other_bits:
+    if was["data"] == now["data"]:
         return Finding(name, DIFFERENT, "is written otherwise, although it says the same")
     says = "shows data of other bits; all words, colours and scales are the same"
     if found:
         says += f", and {len(found)} limits, positions or ranges follow the data"
-    return Finding(name, NEARLY, says, moved)
+    return Finding(name, NEARLY, says)
 
 
 def differences(was: dict, now: dict) -> Iterator[Difference]:

@@ -1,30 +1,54 @@
-"""Compares an image with that of the baseline by one of three methods.
+"""Compares a PNG with that of the baseline, by the strictest Method that the circumstances allow.
 
-- By pixels, where the environment that drew the image is that of the baseline, and the data have
-  the accepted bits: then every pixel must be the accepted one. Processors do not change any.
-- By look in other environments, where text may be drawn a little differently. Both images are
-  averaged over 4 by 4 pixels (75 dots per inch, which is what an eye sees of a page) and blurred,
-  which removes hinting. Then the ink and the colours around each point that the two do not share
-  are divided by all ink and colours there (the Bray-Curtis distance: 0 same, 1 nothing in common),
-  and the smallest value over all shifts by up to 8 pixels counts. A lost label or a swapped colour
-  differs at any shift, and by all of its own ink, however small it is in the whole image.
-- By ink, where the curves are known to have moved. An image is divided along the edges of its
-  panels, which its file names. A chaotic curve that takes another path leaves as much ink in its
-  panel, and an axis with a few other ticks as much beside it. A lost label, curve or panel leaves
-  less.
+The form of a file (its kind of pixels, frames and dots per inch) is exact by every method. The
+description beside a picture tells its texts and colours (`compare_description`), so this module
+looks for what only pixels show.
 """
 
 import itertools
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import Enum
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from PIL import Image
 
-from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding, Motion
 from .compare_description import DamagedDescriptionError, read_description
 
-EXACT, LOOK = "exact", "look"
+
+class Method(Enum):
+    """How two pictures are compared."""
+
+    PIXELS = "every pixel is the accepted one"
+    """Where the same versions draw the same data: processors do not change any pixel."""
+
+    LOOK = "every part looks alike"
+    """Where other versions draw text a little differently, or data moved by less than one sees.
+
+    Both images are averaged over 4 by 4 pixels (75 dots per inch, which is what an eye sees of a
+    page) and blurred, which removes hinting. Then the ink and the colours around each point that
+    the two do not share are divided by all ink and colours there (the Bray-Curtis distance: 0 same,
+    1 nothing in common), and the smallest value over all shifts by up to 8 pixels counts. A lost
+    label or a swapped colour differs at any shift, and by all of its own ink, however small it is
+    in the whole image."""
+
+    INK = "every panel holds as much ink"
+    """Where curves moved visibly, within what chaos allows.
+
+    An image is divided along the edges of its panels, which its file names. A chaotic curve that
+    takes another path leaves as much ink in its panel, and an axis with a few other ticks as much
+    beside it. A lost label, curve or panel leaves less."""
+
+
+def method(motion: Motion, same_environment: bool) -> Method:
+    """Return how to compare a picture of data that moved so far, with that of the baseline."""
+    if motion is Motion.SEEN:
+        return Method.INK
+    return Method.PIXELS if same_environment and motion is Motion.NONE else Method.LOOK
+
 
 MOST_UNLIKE = 0.35
 """The local distance that is allowed in another environment: other letters and shifts by a pixel
@@ -48,6 +72,9 @@ NEAR = 15
 LEAST_INK = 250.0 / INK_REDUCED**2
 """Ink of a cell that counts as nothing: of 250 black pixels, one small letter or a tick or two."""
 
+PANELS, MARK = FOLLOWING = ("Panels", "Description")
+"""What a PNG says of itself that follows the data: its panels, and the mark of its description."""
+
 Box = tuple[int, int, int, int]
 """Left, top, right, bottom of a panel, in pixels."""
 
@@ -60,69 +87,82 @@ class DamagedImageError(ValueError):
     """An image that cannot be read; the message says why, and the finding names the file."""
 
 
-class Pixels(NamedTuple):
-    """Colours (height, width, 3) from 0 to 255, and the panels that the file names."""
+class Picture(NamedTuple):
+    """What is compared of a PNG."""
 
     colours: np.ndarray
+    """(height, width, 3), from 0 to 255, as one sees them on white paper."""
     panels: list[Box]
+    """The panels that the file names."""
+    form: dict[str, Any]
+    """What a file says of its pixels as a whole, in the words of a finding."""
 
 
-def read(path: Path) -> Pixels:
+def read(path: Path) -> Picture:
     """Read a PNG completely, so that damage shows here."""
-    try:
-        with Image.open(path) as image:
-            colours = np.asarray(image.convert("RGB"))
-            panels = image.info.get("Panels", "")
-    except UNREADABLE as error:
-        raise DamagedImageError(_say(path, error)) from None
+    with _opened(path) as image:
+        about = {key: said for key, said in image.info.items() if key not in FOLLOWING}
+        form = {"kind of pixels": image.mode, "frames": getattr(image, "n_frames", 1), **about}
+        layers = np.asarray(image.convert("RGBA"))
+        panels = image.info.get(PANELS, "")
     boxes = [tuple(int(number) for number in box.split()) for box in panels.split(";") if box]
-    return Pixels(colours, boxes)
+    form["least opacity"] = int(layers[..., 3].min(initial=255))
+    return Picture(_on_white(layers), boxes, form)
 
 
 def _mark(path: Path) -> str:
     """Return the fingerprint of the description with which a PNG was written."""
+    with _opened(path) as image:
+        return image.info.get(MARK, "")
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[Image.Image]:
     try:
         with Image.open(path) as image:
-            return image.info.get("Description", "")
+            yield image
     except UNREADABLE as error:
-        raise DamagedImageError(_say(path, error)) from None
+        said = str(error).replace(str(path), path.name)  # the page is no place for folders
+        raise DamagedImageError(f"cannot be read ({said})") from None
 
 
-def _say(path: Path, error: Exception) -> str:
-    said = str(error).replace(str(path), path.name)  # the page is no place for folders
-    return f"cannot be read ({said})"
+def _on_white(layers: np.ndarray) -> np.ndarray:
+    """Return what one sees of colours and their opacity (height, width, 4)."""
+    opacity = layers[..., 3:]
+    if (opacity == 255).all():
+        return layers[..., :3]
+    share = opacity / 255
+    return np.round(layers[..., :3] * share + 255 * (1 - share)).astype(np.uint8)
 
 
-def compare(
-    name: str, reference: Path, new: Path, method: str, moved: bool, description: Path
-) -> Finding:
-    """Return the finding for an image; `moved` says that the curves in it are known to have moved.
-
-    `method` is EXACT where the environment and the bits of the data are those of the baseline, and
-    LOOK elsewhere. `description` is that of the new image, which must carry its fingerprint.
-    """
+def compare(name: str, reference: Path, new: Path, description: Path, by: Method) -> Finding:
+    """Return the finding for an image; `description` is that of the new one, whose mark it has."""
     try:
         if _mark(new) != read_description(description).fingerprint:
             says = "was not written with its description: it is stale, or of another figure"
             return Finding(name, DIFFERENT, says)
         if reference.read_bytes() == new.read_bytes():
             return Finding(name, IDENTICAL)
-        return judge(name, read(reference), read(new), method, moved)
+        return judge(name, read(reference), read(new), by)
     except (DamagedImageError, DamagedDescriptionError) as error:
         return Finding(name, DAMAGED, f"the picture {error}")
 
 
-def judge(name: str, was: Pixels, now: Pixels, method: str, moved: bool) -> Finding:
-    """Return the finding by the strictest method that the circumstances allow."""
+def judge(name: str, was: Picture, now: Picture, by: Method) -> Finding:
+    """Return the finding for two pictures by one method."""
     if was.colours.shape != now.colours.shape:
         sizes = [f"{p.colours.shape[1]} x {p.colours.shape[0]} pixels" for p in (now, was)]
         return Finding(name, DIFFERENT, " in place of ".join(sizes))
+    for key in {**was.form, **now.form}:
+        pair = [each.form.get(key, "absent") for each in (now, was)]
+        if pair[0] != pair[1]:
+            return Finding(name, DIFFERENT, f"{key} is {pair[0]} in place of {pair[1]}")
     if np.array_equal(was.colours, now.colours):
         return Finding(name, IDENTICAL)
-    if moved:
+    if by is Method.INK:
         return Finding(name, *_by_ink(was, now))
-    by_method = {EXACT: _by_pixels, LOOK: _by_look}[method]
-    return Finding(name, *by_method(was.colours, now.colours))
+    compared = _by_pixels if by is Method.PIXELS else _by_look
+    return Finding(name, *compared(was.colours, now.colours))
 
 
 def _by_pixels(was: np.ndarray, now: np.ndarray) -> tuple[str, str]:
@@ -181,7 +221,7 @@ def _inks(colours: np.ndarray, factor: int) -> np.ndarray:
     return np.stack([1 - (red + green + blue) / 3, red - green, green - blue])
 
 
-def _by_ink(was: Pixels, now: Pixels) -> tuple[str, str]:
+def _by_ink(was: Picture, now: Picture) -> tuple[str, str]:
     change, says = _change_of_ink(was, now)
     # The legend and the titles above the panels do not depend on the curves; the topmost tick does.
     head = min((box[1] for box in was.panels), default=0) - HALF_LETTER
@@ -191,7 +231,7 @@ def _by_ink(was: Pixels, now: Pixels) -> tuple[str, str]:
     return status, f"{says} ({MOST_INK:.0%} is allowed)"
 
 
-def _change_of_ink(reference: Pixels, new: Pixels) -> tuple[float, str]:
+def _change_of_ink(reference: Picture, new: Picture) -> tuple[float, str]:
     """Return the largest relative change of ink in a cell, and in words where it is."""
     if len(reference.panels) != len(new.panels):
         return np.inf, f"has {len(new.panels)} panels in place of {len(reference.panels)}"
@@ -204,7 +244,7 @@ def _change_of_ink(reference: Pixels, new: Pixels) -> tuple[float, str]:
     return float(relative.max()), f"{relative.max():.0%} of the ink changed {place}"
 
 
-def _ink_in_cells(image: Pixels) -> np.ndarray:
+def _ink_in_cells(image: Picture) -> np.ndarray:
     """Return the ink in each cell: the darkness, and each contrast of either sign."""
     height, width = image.colours.shape[:2]
     rows = _edges([edge for box in image.panels for edge in (box[1], box[3])], height)

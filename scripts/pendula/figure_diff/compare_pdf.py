@@ -52,7 +52,7 @@ class PDF(NamedTuple):
     mark: str
     """The fingerprint of the description that it was written with."""
     content: str
-    """The hash of its unpacked objects."""
+    """The hash of its unpacked objects, and of the trailer, which says where a viewer begins."""
 
 
 def read(path: Path) -> PDF:
@@ -65,12 +65,13 @@ def read(path: Path) -> PDF:
     if not pages or not (size := SIZE.search(pages[0])):
         raise DamagedPDFError("has no page")
     width, height = (float(points) / POINTS for points in size.groups())
-    drawn, info = CONTENTS.search(pages[0]), INFO.search(data, data.rindex(b"trailer"))
+    trailer = data[data.rindex(b"trailer") : data.rindex(b"startxref")]
+    drawn, info = CONTENTS.search(pages[0]), INFO.search(trailer)
     strokes = len(STROKES.findall(objects.get(int(drawn[1]), b""))) if drawn else 0
     marked = MARK.search(objects.get(int(info[1]), b"")) if info else None
     # numbers that stand alone are packed lengths
     told = [objects[number] for number in sorted(objects) if not objects[number].isdigit()]
-    content = hashes.of_bytes(b"\n".join(told))
+    content = hashes.of_bytes(b"\n".join([*told, trailer]))
     return PDF(len(pages), (width, height), strokes, marked[1].decode() if marked else "", content)
 
 
@@ -81,7 +82,8 @@ def _objects(data: bytes) -> dict[int, bytes]:
         raise DamagedPDFError("is no whole PDF: its beginning or its end is missing")
     begins = [int(entry[1]) for entry in ENTRY.finditer(data, int(end[1]))]
     heads = [OBJECT.match(data, begin) for begin in begins]
-    if not heads or not all(heads):
+    # a viewer takes the entries of the table for objects 1, 2, ..., whatever stands there
+    if not heads or [head and int(head[1]) for head in heads] != list(range(1, len(heads) + 1)):
         raise DamagedPDFError("is damaged: objects are not where its table says")
     places = {int(head[1]): head.end() for head in heads}
     return {number: _unpack(data, number, places) for number in places}
@@ -126,7 +128,7 @@ def compare(
         return Finding(name, IDENTICAL)
     if was.fingerprint != now.fingerprint:
         says = "belongs to its data, which have moved, and is compared by its description"
-        return Finding(name, NEARLY, says, moved=True)
+        return Finding(name, NEARLY, says)
     if exact:
         says = "is drawn otherwise than the accepted one, although its data and texts are the same"
         return Finding(name, DIFFERENT, says)

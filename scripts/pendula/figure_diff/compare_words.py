@@ -2,16 +2,16 @@
 
 All their numbers come from datasets, so the datasets decide how far a number may differ. If every
 dataset holds its bits, not a letter may change. If some differ by less than one can see, a number
-may change by 1e-4 of itself. If some moved visibly (in chaos, within what statistics allow), their
-statistics have been compared already, and numbers may follow them; but no verdict and no other word
-may change.
+may change by STEADY of itself. If some moved visibly (in chaos, within what statistics allow), a
+number may change by a factor of WITH_CHAOS. No verdict, no other word, and nothing but what a claim
+measured and what it concludes may change.
 """
 
 import json
 import re
 from collections.abc import Iterable, Mapping
 
-from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding
+from . import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Finding, Motion
 
 LEDGERS = ("claims.json", "controls.json")
 """Files of rows; any other is compared line by line."""
@@ -22,12 +22,20 @@ STEADY = 1e-4
 """How far a number may follow a dataset that did not move visibly: a hundred times what a regular
 curve may, since a difference or a rate of such curves moves more than they do."""
 
+WITH_CHAOS, ERRORS_WITH_CHAOS, ERROR = 2.0, 10.0, 0.1
+"""A number may follow chaos by the first factor, which the statistics of single curves reach too. A
+number below ERROR may follow by the second: drifts, uncertainties and differences of two solvers
+are samples of wide laws."""
+
 ROUNDING = 1e-8
 """Errors below this are made of roundings, and keep their size only: a factor of ten."""
 
+FOLLOW = re.compile(r".*: (controls \d+ )?(measured|because)\b")
+"""Which parts of a row of a ledger come from the data. Thresholds and sentences do not."""
 
-def compare(name: str, accepted: str, made: str, datasets: Mapping[str, Finding]) -> Finding:
-    """Return the finding for a text; `datasets` are what was found of all datasets, by name."""
+
+def compare(name: str, accepted: str, made: str, datasets: Mapping[str, Motion]) -> Finding:
+    """Return the finding for a text; `datasets` says of all datasets by name how far they moved."""
     try:
         was, now = (pieces(name, text) for text in (accepted, made))
     except (ValueError, KeyError, TypeError, AttributeError):
@@ -35,7 +43,9 @@ def compare(name: str, accepted: str, made: str, datasets: Mapping[str, Finding]
     verdicts, faults, followed = [], _unmatched(was, now), []
     for key in was:
         if key in now and was[key] != now[key]:
-            allowed = _may_follow(was[key], now[key], _sources(name, key, made, datasets))
+            follows = name not in LEDGERS or FOLLOW.match(key)
+            motions = _motions(name, key, made, datasets) if follows else set()
+            allowed = _may_follow(was[key], now[key], motions)
             is_verdict = key.endswith(": verdict")
             told = verdicts if is_verdict else followed if allowed else faults
             told.append(f"{key} is {_beside(now[key], was[key])}")
@@ -90,22 +100,22 @@ def _unmatched(was: Mapping[str, str], now: Mapping[str, str]) -> list[str]:
     return gone + [f"{key} is new: {_quoted(now[key])}" for key in now if key not in was]
 
 
-def _sources(name: str, key: str, made: str, datasets: Mapping[str, Finding]) -> list[Finding]:
-    """Return the datasets that a number may follow: of a claim, those that decide it."""
+def _motions(name: str, key: str, made: str, datasets: Mapping[str, Motion]) -> set[Motion]:
+    """Return how far the datasets moved that a number may follow: of a claim, those that decide."""
     if name != "claims.json" or ": controls" in key:
-        return list(datasets.values())
+        return {*datasets.values()}
     claim = key.partition(":")[0]
     deciding = next(row["decided_by"] for row in json.loads(made) if row["name"] == claim)
-    return [datasets[f"{each}.nc"] for each in deciding if f"{each}.nc" in datasets]
+    return {datasets[f"{each}.nc"] for each in deciding if f"{each}.nc" in datasets}
 
 
-def _may_follow(was: str, now: str, sources: Iterable[Finding]) -> bool:
+def _may_follow(was: str, now: str, motions: set[Motion]) -> bool:
     """Return whether two texts differ in numbers alone, and by no more than their datasets do."""
-    moved = [each for each in sources if each.status != IDENTICAL]
-    if not moved or NUMBER.sub("#", was) != NUMBER.sub("#", now):
+    if motions <= {Motion.NONE} or NUMBER.sub("#", was) != NUMBER.sub("#", now):
         return False
-    pairs = zip(NUMBER.findall(was), NUMBER.findall(now), strict=True)
-    return any(each.moved for each in moved) or all(_close(*pair) for pair in pairs)
+    pairs = list(zip(NUMBER.findall(was), NUMBER.findall(now), strict=True))
+    steady = all(_close(*pair) for pair in pairs)
+    return steady or (Motion.SEEN in motions and all(_keeps_its_size(*pair) for pair in pairs))
 
 
 def _close(was: str, now: str) -> bool:
@@ -115,6 +125,13 @@ def _close(was: str, now: str) -> bool:
     if larger < ROUNDING:
         return larger <= 10 * min(abs(before), abs(after)) or larger < 1e-12
     return apart <= max(STEADY * larger, 1.01 * max(map(_last_place, (was, now))))
+
+
+def _keeps_its_size(was: str, now: str) -> bool:
+    """Return whether a number changed by no more than chaos may change it."""
+    least, most = sorted((float(was), float(now)), key=abs)
+    factor = WITH_CHAOS if abs(most) >= ERROR else ERRORS_WITH_CHAOS
+    return _close(was, now) or (least * most > 0 and abs(most) <= factor * abs(least))
 
 
 def _last_place(number: str) -> float:

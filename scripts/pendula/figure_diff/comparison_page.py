@@ -12,20 +12,21 @@ from PIL import Image
 from pendula.report import page
 from pendula.report.page import address_of
 
-from . import IDENTICAL, STATUSES, Finding
+from . import IDENTICAL, STATUSES, Finding, Verdict
 from .compare_images import DamagedImageError, read
 from .tolerances import NEEDS_A_REASON, Allowance, allowances, read_tolerances
 
 
-def render(findings: Sequence[Finding], made: Path, folder: Path, note: str) -> str:
+def render(verdict: Verdict, made: Path, folder: Path) -> str:
     """Return the page; images are read from below `made` and from the baseline's folder."""
+    findings = verdict.findings
     return page.render(
         "comparison_page.html.j2",
         Path(__file__).parent,
         counts=Counter(finding.status for finding in findings),
         faults=sum(finding.is_fault for finding in findings),
         statuses=STATUSES,
-        note=note,
+        note=verdict.judged,
         allowances=_allowed(folder),
         share=f"{NEEDS_A_REASON:.0%}",
         sections=[_section(status, findings, made, folder) for status in STATUSES],

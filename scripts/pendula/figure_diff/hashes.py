@@ -6,6 +6,7 @@ order of a machine, nor on the sign and the digits that its processor gives to a
 """
 
 import json
+import re
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
@@ -34,8 +35,8 @@ MOST_WORK = 0.1
 numbers do: another rounding moved the largest by 0.09 of themselves."""
 
 Hashes = dict[str, Any]
-"""Of a dataset: `attributes`, and `variables` by name; of a variable its type, dimensions, values
-and attributes in one text, the last two as hashes."""
+"""Of a dataset: the hash of its `attributes`, and its `variables` by name; of a variable its `type`
+and `shape` in words, and the hashes of its `values` and `attributes`."""
 
 
 class Variable(NamedTuple):
@@ -47,7 +48,10 @@ class Variable(NamedTuple):
 
 
 class Content(NamedTuple):
-    """A dataset as a file holds it: the attributes, and the variables by name."""
+    """A dataset as a file holds it: the attributes, and the variables by name.
+
+    What lies in a group of netCDF has the name of the group before its own, as in `group/name`.
+    """
 
     attributes: dict[str, Any]
     variables: dict[str, Variable]
@@ -58,8 +62,16 @@ def read(path: Path) -> Content:
     with readable(path), netCDF4.Dataset(path) as file:
         file.set_auto_maskandscale(False)
         file.set_auto_chartostring(False)
-        variables = {name: _variable(found) for name, found in file.variables.items()}
-        return Content(_attributes(file), variables)
+        return _content(file)
+
+
+def _content(holder: netCDF4.Dataset) -> Content:
+    attributes = _attributes(holder)
+    variables = {name: _variable(found) for name, found in holder.variables.items()}
+    for group, inner in ((name, _content(held)) for name, held in holder.groups.items()):
+        attributes |= {f"{group}/{name}": each for name, each in inner.attributes.items()}
+        variables |= {f"{group}/{name}": each for name, each in inner.variables.items()}
+    return Content(attributes, variables)
 
 
 def _variable(found: netCDF4.Variable) -> Variable:
@@ -81,13 +93,15 @@ def of(content: Content) -> Hashes:
     return {"attributes": _of_attributes(content.attributes), "variables": variables}
 
 
-def _of_variable(variable: Variable) -> str:
+def _of_variable(variable: Variable) -> dict[str, str]:
     values = variable.values
     pairs = zip(variable.dimensions, values.shape, strict=True)
-    shape = ", ".join(f"{dimension} {size}" for dimension, size in pairs)
-    kind = "words" if values.dtype.kind == "O" else values.dtype.name
-    hashes = of_bytes(plain_bytes(values)), _of_attributes(variable.attributes)
-    return " ".join([f"{kind} ({shape})", *hashes])
+    return {
+        "type": "words" if values.dtype.kind == "O" else values.dtype.name,
+        "shape": ", ".join(f"{dimension} {size}" for dimension, size in pairs),
+        "values": of_bytes(plain_bytes(values)),
+        "attributes": _of_attributes(variable.attributes),
+    }
 
 
 def _of_attributes(attributes: Mapping[str, Any]) -> str:
@@ -100,13 +114,22 @@ def in_words(attributes: Mapping[str, Any]) -> dict[str, str]:
     return {name: json.dumps(np.asarray(each).tolist()) for name, each in kept.items()}
 
 
+def in_lines(accepted: Mapping[str, Any]) -> str:
+    """Return the hashes by file as JSON, each variable in a line, so that a change is one line."""
+
+    def one_line(variable: re.Match) -> str:
+        return "{" + re.sub(r"\n\s*", " ", variable[1]) + "}"
+
+    return re.sub(r'\{\s+("type"[^}]*?)\s+\}', one_line, json.dumps(accepted, indent=1))
+
+
 def unlike_in_kind(was: Hashes, now: Hashes) -> list[str]:
     """Return in words which variables are gone, new, or of another type or shape."""
     before, after = was["variables"], now["variables"]
     said = [f"{name} is gone" for name in before if name not in after]
     said += [f"{name} is new" for name in after if name not in before]
     for name in before.keys() & after.keys():
-        kinds = [each[name].rsplit(" ", 2)[0] for each in (before, after)]
+        kinds = ["{type} ({shape})".format(**each[name]) for each in (before, after)]
         if kinds[0] != kinds[1]:
             said.append(f"{name} is {kinds[1]} in place of {kinds[0]}")
     return sorted(said)
@@ -114,17 +137,18 @@ def unlike_in_kind(was: Hashes, now: Hashes) -> list[str]:
 
 def unlike_in_values(was: Hashes, now: Hashes) -> list[str]:
     """Return the variables that both have and whose values are others."""
-    before, after = was["variables"], now["variables"]
-    both = [name for name in before if name in after]
-    return [name for name in both if before[name].split()[-2] != after[name].split()[-2]]
+    return [name for name, pair in _both(was, now) if pair[0]["values"] != pair[1]["values"]]
 
 
 def same_attributes(was: Hashes, now: Hashes) -> bool:
     """Return whether the dataset and the variables that both have hold the same attributes."""
+    pairs = [(was, now), *(pair for _, pair in _both(was, now))]
+    return all(before["attributes"] == after["attributes"] for before, after in pairs)
+
+
+def _both(was: Hashes, now: Hashes) -> list[tuple[str, tuple[dict, dict]]]:
     before, after = was["variables"], now["variables"]
-    both = before.keys() & after.keys()
-    same = all(before[name].split()[-1] == after[name].split()[-1] for name in both)
-    return same and was["attributes"] == now["attributes"]
+    return [(name, (before[name], after[name])) for name in before if name in after]
 
 
 def unlike_in_attributes(was: Content, now: Content, moved: bool) -> list[str]:

@@ -46,7 +46,7 @@ class _Table(BaseModel):
 
 
 class Rule(_Table):
-    """How to compare the curves whose label (see `compare_data.curves`) matches a pattern."""
+    """How to compare the curves whose label (see `compare_curves.curves`) matches a pattern."""
 
     name: str = Field(min_length=1)
     """What these curves are, for people; spreads.nc refers to it."""

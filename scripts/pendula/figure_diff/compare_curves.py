@@ -50,8 +50,8 @@ class Deviation(NamedTuple):
 
     excess: float
     says: str
-    moved: bool = False
-    """Whether the curve may have moved visibly in an image, although it is within tolerance."""
+    visible: bool = False
+    """Whether the curve may have moved so far that a picture shows it."""
 
 
 SAME = Deviation(0.0, "")
@@ -88,8 +88,8 @@ def compare(
     faults = sum(each.excess > 1 for each in found.values())
     others = f" (and {faults - 1} more curves)" if faults > 1 else ""
     says = f"{worst.partition(':')[2]} {found[worst].says}{others}"
-    moved = any(each.moved for each in found.values())
-    return Finding(name, DIFFERENT if faults else NEARLY, says, moved)
+    visible = any(each.visible for each in found.values())
+    return Finding(name, DIFFERENT if faults else NEARLY, says, visible)
 
 
 def curves(data: xr.Dataset, stem: str) -> Iterator[Curve]:
@@ -160,7 +160,8 @@ def _gaps(was: np.ndarray, now: np.ndarray) -> Deviation | None:
     finite = np.isfinite(was) & np.isfinite(now)
     if np.array_equal(np.where(finite, 0, was), np.where(finite, 0, now), equal_nan=True):
         return None
-    return Deviation(np.inf, "has gaps (NaN or infinity) elsewhere or of another sign", moved=True)
+    says = "has gaps (NaN or infinity) elsewhere or of another sign"
+    return Deviation(np.inf, says, visible=True)
 
 
 def _pointwise(reference: Curve, new: Curve, until: int | None = None) -> Deviation:
@@ -174,7 +175,7 @@ def _pointwise(reference: Curve, new: Curve, until: int | None = None) -> Deviat
     off = float(difference[place]) / (reference.largest or 1.0)
     tau = "" if reference.tau is None else f" at tau = {reference.tau[place[-1]]:.4g}"
     says = f"is off by {off:.2g} of its scale{tau}, {REGULAR_LIMIT:.2g} is allowed"
-    return Deviation(off / REGULAR_LIMIT, says, moved=off > VISIBLE)
+    return Deviation(off / REGULAR_LIMIT, says, visible=off > VISIBLE)
 
 
 def _distance(was: np.ndarray, now: np.ndarray) -> np.ndarray:
@@ -196,7 +197,7 @@ def _chaotic(reference: Curve, new: Curve, rule: Rule, spread: Spread) -> Deviat
         _by_statistics(describe(was, start), describe(now, start), spread),
         _by_distance(distances(was, now, start), spread),
     ]
-    return max(found, key=lambda each: each.excess)._replace(moved=True)
+    return max(found, key=lambda each: each.excess)._replace(visible=True)
 
 
 def _by_statistics(was: np.ndarray, now: np.ndarray, spread: Spread) -> Deviation:
@@ -213,7 +214,7 @@ def _by_statistics(was: np.ndarray, now: np.ndarray, spread: Spread) -> Deviatio
         f"has the {name} {now[worst]:.4g} in place of {was[worst]:.4g} ({STATISTICS[name]}), "
         f"a change by {spread.allowed[worst]:.2g} is allowed"
     )
-    return Deviation(float(excess[worst]), says, moved=True)
+    return Deviation(float(excess[worst]), says, visible=True)
 
 
 def _by_distance(apart: np.ndarray, spread: Spread) -> Deviation:
@@ -226,7 +227,7 @@ def _by_distance(apart: np.ndarray, spread: Spread) -> Deviation:
         f"({list(DISTANCES.values())[worst].removeprefix('log of the ')}), "
         f"{np.exp(min(spread.farthest[worst], MOST_OVER)):.2g} is allowed"
     )
-    return Deviation(float(excess[worst]), says, moved=True)
+    return Deviation(float(excess[worst]), says, visible=True)
 
 
 def together(found: dict[str, Curve], rules: list[Rule], spreads: Spreads) -> dict[str, np.ndarray]:
@@ -271,7 +272,7 @@ def _copies(
         other = others[stem].get(spread.copy_of)
         if other is not None and not np.array_equal(curve.values, other.values, equal_nan=True):
             says = f"is not the same as {spread.copy_of}, but in a right run it is a copy of it"
-            found[label] = Deviation(np.inf, says, moved=True)
+            found[label] = Deviation(np.inf, says, visible=True)
     return found
 
 
