@@ -9,6 +9,7 @@ import pytest
 import yaml
 from pendula import sources
 from pendula.studies import STUDIES
+from snakemake.exceptions import WorkflowError
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -157,6 +158,25 @@ def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     before = record.stat().st_mtime_ns
     assert code_records.code("paper/draw_chain.py") == record.as_posix()
     assert record.stat().st_mtime_ns == before
+
+
+def test_a_call_that_only_looks_writes_its_records_elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(code_records, "only_looks", True)
+    elsewhere = Path(code_records.code("paper/draw_chain.py"))
+    assert elsewhere.is_file() and not list(tmp_path.iterdir())
+    monkeypatch.setattr(code_records, "only_looks", False)
+    record = Path(code_records.code("paper/draw_chain.py"))
+    assert record.read_text() == elsewhere.read_text()
+    monkeypatch.setattr(code_records, "only_looks", True)
+    assert code_records.code("paper/draw_chain.py") == record.as_posix()
+
+
+def test_a_record_that_cannot_be_written_says_so_in_a_sentence(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").write_text("mine")
+    with pytest.raises(WorkflowError, match="results is a file and no folder; move it"):
+        code_records.code("paper/draw_chain.py")
 
 
 @pytest.mark.parametrize("script", SCRIPTS)

@@ -6,19 +6,30 @@ of the pinned packages, with their hashes, in results/code/. A record is written
 content changes: editing a module reruns what imports it, while touching files, or cloning the
 project anew beside finished results, reruns nothing. Committed data are copied in the same way,
 since their paths would change with the clone.
+
+A call that only looks, such as a dry run, leaves the folder as it is. What it finds missing or out
+of date it writes to a temporary folder, so that Snakemake sees the same as in a run.
 """
 
-import os
+import atexit
+import shutil
+import tempfile
+from functools import cache
 from pathlib import Path
 
 from pendula.archive.contents import code_files
+from pendula.datasets import DatasetError, complete_or_absent
 from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
 from pendula.studies import STUDIES
+from snakemake.exceptions import WorkflowError
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES, KEPT = (Path("results") / name for name in ("code", "truth", "kept"))
 _handed_out: set[str] = set()
 _parts: dict[Path, tuple[str, ...]] = {}
+
+only_looks = False
+"""Whether this call of Snakemake makes nothing; the rules set it."""
 
 
 def code(script: str, *parts: str) -> str:
@@ -90,15 +101,27 @@ def _lines(files: list[Path]) -> bytes:
 
 
 def _hand_out(path: Path, content: bytes) -> str:
-    _handed_out.add(path.as_posix())
-    return _keep(path, content)
+    written = _keep(path, content)
+    _handed_out.add(written)
+    return written
 
 
 def _keep(path: Path, content: bytes) -> str:
     """Write the file if its content is another; no reader ever sees half of it."""
-    if not path.exists() or path.read_bytes() != content:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        partial = path.with_name(f".{os.getpid()}.{path.name}")
-        partial.write_bytes(content)
-        partial.replace(path)
+    if path.is_file() and path.read_bytes() == content:
+        return path.as_posix()
+    path = _elsewhere() / path if only_looks else path
+    try:
+        with complete_or_absent(path) as partial:
+            partial.write_bytes(content)
+    except DatasetError as error:
+        raise WorkflowError(str(error)) from None
     return path.as_posix()
+
+
+@cache
+def _elsewhere() -> Path:
+    """Return a temporary folder, which goes when Python ends."""
+    folder = Path(tempfile.mkdtemp(prefix="pendula-dry-run-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder

@@ -8,9 +8,14 @@ from pendula.simulation import solvers
 from pendula.simulation.simulate import simulate
 from pendula.sources import digest_of_modules
 
+CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
+"""A value for every control. Compiled code depends on none, so that a tolerance that the user
+changes asks for no compilation, and reruns nothing that does not use it."""
 
-def compile_solver(kernels: str, solver: dict) -> None:
+
+def compile_solver(kernels: str, solver: str) -> None:
     """Run the solver over a short time, then record what it was compiled from."""
+    controls = {name: CONTROLS[name] for name in solvers.SOLVERS[solver].controls}
     problem = Problem(
         constants=Constants(epsilon=1.0, gamma=1.0, omega=0.0),
         half_width=1,
@@ -18,7 +23,7 @@ def compile_solver(kernels: str, solver: dict) -> None:
         initial=on_sites({0: (1.0, 0.1)}),
         end_time=0.1,
         output_step=0.05,
-        solver=solver,
+        solver={"name": solver, **controls},
     )
     simulate(problem)
     digest = digest_of_modules(Path(solvers.__file__).resolve())

@@ -1,4 +1,5 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
+import atexit
 import os
 import sys
 from pathlib import Path
@@ -9,12 +10,28 @@ from snakemake.utils import update_config
 
 sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts", "")]
 
+import code_records
+import file_times
 from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
 from pendula.configuration.messages import STUDIES, ConfigurationError, load
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
+
+if not os.access(".", os.W_OK):
+    raise WorkflowError(
+        f"{os.getcwd()} is read-only, and Snakemake keeps notes there even of a dry run: name a "
+        "folder that you may write to, by --directory"
+    )
+# Calls that only look leave the folder as it is. Snakemake tells here of dry runs alone.
+LOOKS = {"-l", "--list", "--list-rules", "--lint", "--dag", "--rulegraph", "--filegraph"}
+LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
+code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
+RESULTS = Path("results").absolute()
+file_times.restore(RESULTS)
+if not code_records.only_looks and workflow.exec_mode.name == "DEFAULT":
+    atexit.register(file_times.keep, RESULTS)
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(

@@ -15,7 +15,7 @@ rule compile_solver:
     conda:
         "../envs/pinned.yaml"
     params:
-        solver=lambda wildcards: getattr(SETTINGS.solvers, wildcards.solver).model_dump(),
+        solver="{solver}",
     message:
         "Compiling {wildcards.solver}"
     script:
