@@ -101,8 +101,11 @@ def test_a_sweep_needs_no_fitting_half_width_of_its_case(case):
 def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
     with pytest.raises(pendula.DatasetError, match="is missing"):
         pendula.read(tmp_path / "none.nc")
-    with pytest.raises(pendula.IntegrationError, match="overflow"):
-        pendula.simulate(pendula.Case(omega=0, initial={0: ("1e200", 0)}, end_time=1))
+    with pytest.raises(pendula.ConfigurationError, match=r"initial: the squares .* overflow"):
+        pendula.Case(omega=0, initial={0: ("1e200", 0)}, end_time=1)
+    chaotic = pendula.Case(omega=0, solver={"name": "auto", "error": 1e-12})
+    with pytest.raises(pendula.IntegrationError, match=r"agree to 1e-12 only before tau = \d"):
+        pendula.simulate(chaotic)
 
 
 def test_a_notebook_is_given_a_picture(run):

@@ -14,7 +14,7 @@ _HOMES = {
         *("draw_norms", "draw_spacetime", "draw_sweep"),
     ),
     "datasets.netcdf": ("read", "DatasetError"),
-    "configuration.messages": ("ConfigurationError",),
+    "configuration.files": ("ConfigurationError",),
     "simulation.simulate": ("IntegrationError",),
 }
 """The public names by their module. A module is loaded when a name of it is first asked for, so

@@ -16,7 +16,8 @@ from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
 from pendula.own_cases.checks import check_run
 
-from .configuration import schema
+from .configuration import cases
+from .configuration.solvers import with_controls
 from .problem import Problem
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
@@ -24,7 +25,7 @@ from .simulation import sweep as sweeps
 __all__ = ["Case", "check", "draw_norms", "draw_spacetime", "draw_sweep", "simulate", "sweep"]
 
 
-class Case(schema.Case):
+class Case(cases.Case):
     """One initial-value problem of the equations (4) of the paper, checked when it is made.
 
     Keys and defaults are those of a case in YAML:
@@ -46,14 +47,14 @@ class Case(schema.Case):
     30
     >>> Case(omgea=-4)
     Traceback (most recent call last):
-    pendula.configuration.messages.ConfigurationError: the case has 2 faults:
+    pendula.configuration.files.ConfigurationError: the case has 2 faults:
       omega: is missing
       omgea: is not a known key; did you mean 'omega'?
     """
 
     def __init__(self, /, **keys):
         try:
-            super().__init__(**schema.with_controls({"solver": "taylor", **keys}, {}))
+            super().__init__(**with_controls({"solver": "taylor", **keys}, {}))
         except ValidationError as error:
             raise in_words(error, "the case", ("cases", "case")) from None
 

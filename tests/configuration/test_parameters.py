@@ -58,7 +58,7 @@ def test_the_projects_own_configuration_is_valid(name):
         ({"boundary": "periodoc"}, "it must be one of 'dirichlet', 'free' or 'periodic'"),
         ({"initial": {31: [1, 0]}}, "site 31 lies outside the chain, whose sites run from -30"),
         ({"initial": {0: ["1+x", 0]}}, "cases.mine.initial.0.0: is '1+x', not a complex number"),
-        ({"initial": {0: ["inf", 0]}}, "cases.mine.initial.0.0: is inf"),
+        ({"initial": {0: ["inf", 0]}}, "cases.mine.initial.0.0: is 'inf', which is not"),
         ({"initial": {0: [1]}}, "cases.mine.initial.0.1: is missing"),
         ({"initial": {}}, "cases.mine.initial: is empty; give at least 1"),
         ({"end_time": 0}, "cases.mine.end_time: is 0; it must be greater than 0"),
@@ -81,7 +81,7 @@ def test_a_fault_is_told_by_path_and_in_words(case, words):
     [
         ({"case": "mime", "half_widths": [3]}, "sweeps.s.case: there is no case 'mime'; did you"),
         ({"case": "mine", "half_widths": []}, "sweeps.s.half_widths: is empty"),
-        ({"case": "mine", "half_widths": [3, 3]}, "the same half-width stands twice"),
+        ({"case": "mine", "half_widths": [3, 3]}, "half_widths: the same value stands twice: 3"),
         ({"case": "mine", "half_widths": [3], "windows": [[5, 2]]}, "does not run forward"),
         ({"case": "mine", "half_widths": [3], "windows": [[0, 1.01]]}, "whole number of output"),
         ({"case": "far", "half_widths": [3]}, "site 4 of case 'far' lies outside the chain"),

@@ -1,13 +1,16 @@
 """How many snapshots a run keeps where its case leaves that open."""
 
 import pytest
+from pendula.configuration.cases import MOST_NUMBERS, choose_every
 from pendula.configuration.messages import ConfigurationError, load
-from pendula.configuration.schema import MOST_NUMBERS, choose_every
 
 
-@pytest.mark.parametrize("outputs", [200, 399, 400, 2000, 1601, 100_000])
-def test_a_picture_has_two_to_four_hundred_columns(outputs):
-    assert 200 <= outputs // choose_every(outputs, 61) < 400
+@pytest.mark.parametrize(
+    ("outputs", "columns"),
+    [(200, 200), (399, 399), (400, 200), (2000, 200), (1601, 1601), (100_000, 200), (402, 201)],
+)
+def test_a_picture_has_two_hundred_columns_or_more_and_the_last_state_among_them(outputs, columns):
+    assert outputs / choose_every(outputs, 61) == columns
 
 
 def test_short_runs_keep_every_output_and_long_chains_fewer():

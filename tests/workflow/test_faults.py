@@ -51,12 +51,14 @@ def test_a_case_of_ones_own_needs_a_few_lines(tmp_path):
 
 
 def test_a_failing_job_says_why_on_the_screen_and_keeps_the_traceback_in_its_log(tmp_path):
-    settings = {"cases": {"wild": {"omega": 0, "initial": {0: ["1e200", 0]}, "end_time": 1}}}
+    chaotic = {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}
+    settings = {"cases": {"wild": chaotic}}
     result = snakemake_with(settings, ROOT, tmp_path, "results/trajectories/wild.nc")
     log = (tmp_path / "results/logs/trajectories/wild.log").read_text()
     assert result.returncode != 0
-    assert log.startswith("taylor stopped at tau = 0: ") and "Traceback" in log
-    assert "\ntaylor stopped at tau = 0: " in result.stderr and "Traceback" not in result.stderr
+    assert log.startswith("auto: runs in double precision agree to ") and "Traceback" in log
+    assert "\nauto: runs in double precision agree to " in result.stderr
+    assert "Traceback" not in result.stderr
     assert "the log has the traceback: results/logs/trajectories/wild.log" in result.stderr
     assert not (tmp_path / "results/trajectories/wild.nc").exists()
 

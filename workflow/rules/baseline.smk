@@ -58,11 +58,7 @@ def plain(settings):
 
 def committed_settings():
     """Return what config/*.yaml say, without what the command line added."""
-    committed = {}
-    for name in ("config", *STUDIES):
-        with open(f"{workflow.basedir}/config/{name}.yaml", encoding="utf-8") as file:
-            committed.update(yaml.load(file, yaml.CSafeLoader))
-    return load(committed)
+    return load(gather(CONFIG_FILES, {}))
 
 
 def chosen_names():
@@ -79,7 +75,7 @@ def chosen_names():
         acceptance.check(plain(SETTINGS), plain(committed_settings()), folder, some)
         return chosen
     except acceptance.AcceptanceError as error:
-        raise WorkflowError(str(error)) from None
+        stop(error)
 
 
 def acceptance_params(dry):

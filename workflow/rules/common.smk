@@ -4,10 +4,11 @@ import os
 import sys
 from pathlib import Path
 
-import yaml
-from snakemake.exceptions import WorkflowError
-from snakemake.utils import update_config
+from snakemake.logging import logger
 
+if sys.version_info < (3, 11):
+    logger.error(f"this project needs Python 3.11 or newer, and this is {sys.version.split()[0]}")
+    raise SystemExit(1)
 sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts", "")]
 
 import code_records
@@ -15,9 +16,11 @@ import file_times
 from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
-from pendula.configuration.messages import STUDIES, ConfigurationError, load
+from pendula.configuration.files import ConfigurationError, gather
+from pendula.configuration.messages import STUDIES, load, require
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
+from stop import stop
 
 if not os.access(".", os.W_OK):
     raise WorkflowError(
@@ -41,6 +44,7 @@ os.environ.update(
     MKL_NUM_THREADS="1",
 )
 
+<<<<<<< HEAD
 # The choices of the studies, below what the command line says. `configfile:` would do the same, but
 # its parser takes ten times as long, which every call would feel.
 for study in STUDIES:
@@ -58,11 +62,31 @@ try:
 except ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
+=======
+>>>>>>> 75c9e74 (Tell every fault of a configuration before any job, by its key, and what a run will take)
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+
+# The project's files, what the command line gives by --configfile, and --config over all. They are
+# read anew, since Snakemake takes the last of two equal keys in silence, and merges initial data.
+CONFIG_FILES = [f"{workflow.basedir}/config/{name}.yaml" for name in ("config", *STUDIES)]
+try:
+    config.update(
+        gather([*CONFIG_FILES, *workflow.overwrite_configfiles], workflow.config_settings.config)
+    )
+    # What a single call is told by --config: the baseline to compare with, and what to accept.
+    OPTIONS = {name: config.pop(name, None) for name in ("baseline", "accept")}
+    SETTINGS = load(config)
+    require(SETTINGS, PAPER_CASES, PAPER_SWEEPS, ALL_SOLVERS)
+except ConfigurationError as error:
+    stop(error)
+if workflow.is_main_process:
+    for sentence in SETTINGS.long_runs():
+        logger.info(sentence)
+
 ENSEMBLE_CASES = SETTINGS.chaos.ensembles.cases
 ENSEMBLE_SWEEPS = SETTINGS.chaos.ensembles.sweeps
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
@@ -74,10 +98,6 @@ CHAOS_CHECKS = [
     *("members", "lifetimes"),
 ]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
-
-absent = [*(set(PAPER_CASES) - set(SETTINGS.cases)), *(set(PAPER_SWEEPS) - set(SETTINGS.sweeps))]
-if absent:
-    raise WorkflowError(f"the figures need these cases and sweeps: {', '.join(sorted(absent))}")
 
 
 def one_of(names):

@@ -19,7 +19,7 @@ def own_files():
 
 def some_own_files(wildcards):
     if not own_files():
-        raise WorkflowError(
+        stop(
             "the configuration has no case and no sweep of your own: give some by "
             "--configfile, as docs/own_cases.md shows"
         )

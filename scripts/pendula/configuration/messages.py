@@ -7,7 +7,11 @@ from pydantic import BaseModel, ValidationError, create_model
 
 from pendula.studies import modules
 
-from .schema import Auto, Configuration, CrankNicolson, DelfourFortinPayre, Dop853, Ode45, Taylor
+from .cases import Case
+from .files import ConfigurationError, all_of
+from .schema import Configuration
+from .solvers import Auto, CrankNicolson, DelfourFortinPayre, Dop853, Ode45, Taylor
+from .values import LONGEST_SHOWN, shown
 
 SOLVERS = {
     model.model_fields["name"].default: model
@@ -26,19 +30,25 @@ WORDS = {
     "greater_than_equal": "is {input}; it must be at least {ge}",
     "less_than": "is {input}; it must be less than {lt}",
     "less_than_equal": "is {input}; it must be at most {le}",
-    "too_short": "is empty; give at least {min_length}",
-    "float_parsing": "is {input!r}, not a number",
-    "float_type": "is {input!r}, not a number",
-    "int_parsing": "is {input!r}, not a whole number",
-    "int_type": "is {input!r}, not a whole number",
-    "int_from_float": "is {input!r}, not a whole number",
-    "dict_type": "is {input!r}, not a mapping of keys to values",
-    "model_type": "is {input!r}, not a mapping of keys to values",
-    "model_attributes_type": "is {input!r}, not a name or a mapping of keys to values",
-    "list_type": "is {input!r}, not a list",
-    "tuple_type": "is {input!r}, not a pair of values",
-    "string_type": "is {input!r}, not a name",
-    "literal_error": "is {input!r}; it must be one of {expected}",
+    "too_short": "has fewer than {min_length} entries",
+    "too_long": "has {actual_length} entries; give at most {max_length}",
+    "invalid_key": "is not a known key",
+    "bool_parsing": "is {input}, not true or false",
+    "bool_type": "is {input}, not true or false",
+    "int_parsing_size": "is {input}, more than can be counted to",
+    "string_too_long": "is a name of more than {max_length} characters",
+    "float_parsing": "is {input}, not a number",
+    "float_type": "is {input}, not a number",
+    "int_parsing": "is {input}, not a whole number",
+    "int_type": "is {input}, not a whole number",
+    "int_from_float": "is {input}, not a whole number",
+    "dict_type": "is {input}, not a mapping of keys to values",
+    "model_type": "is {input}, not a mapping of keys to values",
+    "model_attributes_type": "is {input}, not a name or a mapping of keys to values",
+    "list_type": "is {input}, not a list",
+    "tuple_type": "is {input}, not a pair of values",
+    "string_type": "is {input}, not a name",
+    "literal_error": "is {input}; it must be one of {expected}",
     "string_pattern_mismatch": "is not a name: use letters, digits, _ and -, a letter first",
 }
 
@@ -50,10 +60,6 @@ Whole = create_model(
 """The whole configuration: with a section for each study, None where none is given."""
 
 
-class ConfigurationError(ValueError):
-    """The configuration has faults; the message lists them all."""
-
-
 def load(raw: dict) -> Configuration:
     """Return the validated configuration, or raise ConfigurationError with every fault."""
     try:
@@ -62,47 +68,73 @@ def load(raw: dict) -> Configuration:
         raise in_words(error, "the configuration") from None
 
 
+def require(
+    settings: Configuration, cases: list[str], sweeps: list[str], solvers: list[str]
+) -> None:
+    """Raise ConfigurationError unless all that the figures need is there and fits.
+
+    Each of `cases` is integrated by each of `solvers`, whose steps must fit its outputs.
+    """
+    absent = [f"cases.{name}" for name in cases if name not in settings.cases]
+    absent += [f"sweeps.{name}" for name in sweeps if name not in settings.sweeps]
+    lines = [f"{path}: is missing, and the figures need it" for path in absent]
+    steps: dict[str, str] = {}
+    for name in [name for name in cases if name in settings.cases]:
+        for solver in solvers:
+            controls = getattr(settings.solvers, solver)
+            for _, text in settings.cases[name].faults_of_step(controls):
+                steps.setdefault(f"solvers.{solver}.step: {text}", name)
+    lines += [f"{text} (in cases.{name})" for text, name in steps.items()]
+    if lines:
+        raise all_of(lines, "the configuration")
+
+
 def in_words(error: ValidationError, what: str, place: tuple = ()) -> ConfigurationError:
     """Return the error that lists every fault of `what`, which stands at `place`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
     lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
-    return ConfigurationError(
-        f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:\n"
-        + "\n".join(f"  {line}" for line in lines)
-    )
+    return all_of(lines, what)
 
 
 def _describe(fault: dict) -> str:
-    kind, where = fault["type"], _dotted(fault["loc"])
-    if kind == "sweeps":
-        return fault["msg"]
+    kind, where, given = fault["type"], _dotted(fault["loc"]), fault["input"]
+    if kind == "faults":
+        inside = f"{where}." if where else ""
+        return "\n".join(f"{inside}{key}: {text}" for key, text in fault["ctx"]["found"])
     if kind == "extra_forbidden":
         return f"{where}: is not a known key; {_nearest(fault['loc'])}"
     if kind == "union_tag_invalid":
-        name = fault["input"].get("name")
-        near = _closest(str(name), SOLVERS)
-        return f"{where}: there is no solver {name!r}; {near}"
+        name = given.get("name")
+        return f"{where}: there is no solver {name!r}; {_closest(str(name), SOLVERS)}"
     if kind == "union_tag_not_found":
         return f"{where}.name: is missing; it must be one of {', '.join(SOLVERS)}"
-    values = {"input": fault["input"], **fault.get("ctx", {})}
-    text = WORDS[kind].format(**values) if kind in WORDS else fault["msg"]
-    separator = "." if kind in ("grid", "site", "window", "repeated", "drawn") else ": "
-    return f"{where}{separator}{text}"
+    values = {**fault.get("ctx", {}), "input": shown(given)}
+    if kind == "too_short" and not given:
+        return f"{where}: is empty; give at least {values['min_length']}"
+    return f"{where}: {WORDS[kind].format(**values) if kind in WORDS else fault['msg']}"
 
 
 def _dotted(place: tuple) -> str:
     """Return the path as the file has it: without the solver's tag, which pydantic inserts."""
     parts = [
-        str(part)
+        _printed(str(part))
         for before, part in zip(("", *place), place, strict=False)
         if not (before == "solver" and part in SOLVERS) and part != "[key]"
     ]
     return ".".join(parts)
 
 
+def _printed(part: str) -> str:
+    """Return a key as a path shows it: in quotes where it could not be seen otherwise."""
+    part = part if len(part) <= LONGEST_SHOWN else f"{part[:LONGEST_SHOWN]}..."
+    return part if part.isprintable() and part.strip() == part != "" else repr(part)
+
+
 def _nearest(place: tuple) -> str:
     key = str(place[-1])
+    if len(place) == 1 and key in Case.model_fields:
+        return f"it belongs to a case: cases: {{mine: {{{key}: ...}}}}"
     return HINTS.get(key) or _closest(key, _model_at(place).model_fields)
 
 

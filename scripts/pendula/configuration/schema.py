@@ -1,187 +1,21 @@
-"""The configuration: every key, its default (the paper's value) and what it may be.
+"""The configuration: cases, sweeps over half-widths, solvers' controls, and the limits of a run.
 
-First come the kinds of values, then the solvers' controls, cases, sweeps, and the whole. Problems
-are returned as plain values, which `pendula.problem.Problem.of` reads, since Snakemake compares the
-parameters of its jobs from run to run.
+Problems are returned as plain values, which `pendula.problem.Problem.of` reads, since Snakemake
+compares the parameters of its jobs from run to run.
 """
 
 import difflib
-from typing import Annotated, Any, Literal
+from collections.abc import Iterator
+from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field, model_validator
 
-Complex = Annotated[complex, BeforeValidator(lambda value: _as_complex(value))]
-Number = Annotated[
-    float, BeforeValidator(lambda value: _no_bool(value)), Field(allow_inf_nan=False)
-]
-Positive = Annotated[Number, Field(gt=0)]
-Whole = Annotated[int, BeforeValidator(lambda value: _no_bool(value))]
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")]
+from pendula.problem import name_window
 
-
-def _no_bool(value: Any) -> Any:
-    if isinstance(value, bool):
-        raise PydanticCustomError("number", "is {value}, not a number", {"value": str(value)})
-    return value
-
-
-def _as_complex(value: Any) -> complex:
-    """Read 2, 2.0 or "-0.3+0.4j" as Python writes complex numbers; refuse what is not finite."""
-    try:
-        number = complex(value.replace(" ", "") if isinstance(value, str) else _no_bool(value))
-    except (TypeError, ValueError):
-        raise PydanticCustomError(
-            "complex",
-            'is {value}, not a complex number such as "-0.3+0.4j"',
-            {"value": repr(value)},
-        ) from None
-    if not abs(number) < float("inf"):
-        raise PydanticCustomError("finite", "is {value}, which is not finite", {"value": value})
-    return number
-
-
-class Model(BaseModel):
-    """A mapping of the configuration: unknown keys are faults."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
-
-
-class Ode45(Model):
-    """MATLAB's ode45, at the paper's tolerances."""
-
-    name: Literal["ode45"] = "ode45"
-    rtol: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-7
-    atol: Positive = 1e-9
-
-
-class Dop853(Model):
-    """The explicit Runge-Kutta method of order eight, for accuracy."""
-
-    name: Literal["dop853"] = "dop853"
-    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-13
-    atol: Positive = 1e-13
-
-
-class Taylor(Model):
-    """The Taylor method, the default: at small errors the fastest on the paper's chains."""
-
-    name: Literal["taylor"] = "taylor"
-    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-14
-    atol: Positive = 1e-14
-
-
-class Auto(Model):
-    """The default solver, held to an error of the norms relative to their largest values."""
-
-    name: Literal["auto"] = "auto"
-    error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
-
-
-class Iterated(Model):
-    """Controls of an implicit scheme that is solved by fixed-point iteration."""
-
-    step: Positive = 0.0025
-    tolerance: Annotated[Positive, Field(ge=1e-14, lt=1)] = 1e-13
-    iterations: Annotated[Whole, Field(ge=2, le=1000)] = 50
-
-
-class CrankNicolson(Iterated):
-    """The trapezoidal rule, the paper's second solver."""
-
-    name: Literal["crank_nicolson"] = "crank_nicolson"
-
-
-class DelfourFortinPayre(Iterated):
-    """The variant of Crank-Nicolson that conserves the energy."""
-
-    name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
-
-
-class Solvers(Model):
-    """The controls of each solver where a case names it without giving its own."""
-
-    ode45: Ode45 = Ode45()
-    crank_nicolson: CrankNicolson = CrankNicolson()
-    delfour_fortin_payre: DelfourFortinPayre = DelfourFortinPayre()
-    dop853: Dop853 = Dop853()
-    taylor: Taylor = Taylor()
-    auto: Auto = Auto()
-
-
-Solver = Annotated[
-    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto,
-    Field(discriminator="name"),
-]
-
-Window = tuple[Number, Number]
-
-FEWEST = 200
-"""A smooth picture needs so many snapshots; fewer than twice as many are kept."""
-MOST_NUMBERS = 20_000_000
-"""At most so many moduli are kept in memory: very long chains have fewer snapshots."""
-
-
-def choose_every(outputs: int, sites: int) -> int:
-    """Return how many output steps lie between snapshots, for a run of `outputs` steps."""
-    wanted = max(1, min(FEWEST, MOST_NUMBERS // (2 * sites)))
-    return max(1, outputs // wanted)
-
-
-def _on_grid(time: float, step: float) -> bool:
-    count = round(time / step)
-    return abs(time - count * step) <= 1e-9 * time
-
-
-class Case(Model):
-    """One initial-value problem of equations (4), and the solver that integrates it."""
-
-    omega: Number
-    epsilon: Number = 1.0
-    gamma: Number = 1.0
-    half_width: Annotated[Whole, Field(ge=0)] = 30
-    boundary: Literal["dirichlet", "free", "periodic"] = "dirichlet"
-    initial: Annotated[dict[Whole, tuple[Complex, Complex]], Field(min_length=1)] = {0: (1, 0.1)}
-    end_time: Positive = 50.0
-    output_step: Positive = 0.025
-    snapshot_step: Positive | None = None
-    solver: Solver = Taylor()
-
-    @model_validator(mode="after")
-    def _consistent(self) -> "Case":
-        for key in ("end_time", "snapshot_step"):
-            time = getattr(self, key)
-            if time is not None and not _on_grid(time, self.output_step):
-                raise PydanticCustomError(
-                    "grid",
-                    "{key}: {time} is not a whole number of output steps of {step}",
-                    {"key": key, "time": time, "step": self.output_step},
-                )
-        if self.snapshot_step is not None and self.snapshot_step > self.end_time:
-            raise PydanticCustomError("grid", "snapshot_step: is longer than the run")
-        outside = [site for site in self.initial if abs(site) > self.half_width]
-        if outside:
-            raise PydanticCustomError(
-                "site",
-                "initial: site {site} lies outside the chain, whose sites run from -{m} to {m}",
-                {"site": outside[0], "m": self.half_width},
-            )
-        return self
-
-    def problem(self, **changes) -> dict:
-        """Return the case as plain values of a Problem, some of them changed."""
-        values = {**self.model_dump(), **changes}
-        snapshots = values.pop("snapshot_step")
-        every = round(snapshots / values["output_step"]) if snapshots else 0
-        return {**values, "snapshot_every": every}
-
-    def shown_problem(self, **changes) -> dict:
-        """Return the problem, with snapshots enough for a picture if the case names no number."""
-        problem = self.problem(**changes)
-        every = problem["snapshot_every"] or choose_every(
-            round(problem["end_time"] / problem["output_step"]), 2 * problem["half_width"] + 1
-        )
-        return {**problem, "snapshot_every": every}
+from . import cost
+from .cases import Case, is_multiple
+from .solvers import Solver, Solvers, with_controls
+from .values import Distinct, Model, Name, Positive, Whole, Window, faults, shown
 
 
 class Drawn(Model):
@@ -195,24 +29,32 @@ class Sweep(Model):
     """A case repeated over half-widths, with its norms reduced over windows of time."""
 
     case: str
-    half_widths: Annotated[list[Annotated[Whole, Field(ge=0)]], Field(min_length=1)]
-    windows: Annotated[list[Window], Field(min_length=1)] = [(10, 40), (10, 50), (10, 70)]
+    half_widths: Annotated[
+        list[Annotated[Whole, Field(ge=0)]], Field(min_length=1, max_length=1000), Distinct
+    ]
+    windows: Annotated[list[Window], Field(min_length=1, max_length=1000), Distinct] = [
+        (10, 40),
+        (10, 50),
+        (10, 70),
+    ]
     draw: Drawn | None = None
     solver: Solver | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> "Sweep":
-        for start, end in self.windows:
-            if not 0 <= start < end:
-                raise PydanticCustomError(
-                    "window",
-                    "windows: [{start}, {end}] does not run forward from a time >= 0",
-                    {"start": start, "end": end},
-                )
-        if len(set(self.half_widths)) < len(self.half_widths):
-            raise PydanticCustomError("repeated", "half_widths: the same half-width stands twice")
+        found = [
+            ("windows", f"[{start:g}, {end:g}] does not run forward from a time >= 0")
+            for start, end in self.windows
+            if not 0 <= start < end
+        ]
+        names = [name_window(window) for window in self.windows]
+        twice = [name for i, name in enumerate(names) if name in names[:i]]
+        if twice:
+            found.append(("windows", f"two are so near that both are named {twice[0]}"))
         if self.draw and not {self.draw.max, self.draw.mean} <= set(self.windows):
-            raise PydanticCustomError("drawn", "draw: takes windows that stand under windows only")
+            found.append(("draw", "takes windows that stand under windows only"))
+        if found:
+            raise faults(found)
         return self
 
     @property
@@ -221,14 +63,11 @@ class Sweep(Model):
         return self.draw or Drawn(max=self.windows[0], mean=self.windows[0])
 
 
-def with_controls(item: Any, shared: Any) -> Any:
-    """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
-    given = item.get("solver") if isinstance(item, dict) else None
-    given = {"name": given} if isinstance(given, str) else given
-    if not isinstance(given, dict) or not isinstance(shared, dict):
-        return item
-    controls = shared.get(given.get("name"))
-    return {**item, "solver": {**controls, **given} if isinstance(controls, dict) else given}
+class Limits(Model):
+    """What a run may take; a longer or larger one is refused before it starts."""
+
+    hours: Positive = 1.0
+    gigabytes: Positive = 8.0
 
 
 class Configuration(Model):
@@ -237,6 +76,7 @@ class Configuration(Model):
     cases: Annotated[dict[Name, Case], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
     solvers: Solvers = Solvers()
+    limits: Limits = Limits()
 
     @model_validator(mode="before")
     @classmethod
@@ -256,32 +96,84 @@ class Configuration(Model):
         return {**raw, **sections}
 
     @model_validator(mode="after")
-    def _sweeps_fit_their_cases(self) -> "Configuration":
-        faults = [fault for name in self.sweeps for fault in self._faults_of_sweep(name)]
-        if faults:
-            raise PydanticCustomError("sweeps", "{faults}", {"faults": "\n".join(faults)})
+    def _runs_are_possible(self) -> "Configuration":
+        found = [
+            (f"sweeps.{name}.{key}", text)
+            for name in self.sweeps
+            for key, text in self._faults_of_sweep(name)
+        ]
+        found += self._same_files()
+        found += [
+            (f"cases.{name}.{key}", text)
+            for name in self.cases
+            for key, text in self._excess_of_case(name)
+        ]
+        if found:
+            raise faults(found)
         return self
 
-    def _faults_of_sweep(self, name: str) -> list[str]:
-        sweep, here = self.sweeps[name], f"sweeps.{name}"
+    def _same_files(self) -> Iterator[tuple[str, str]]:
+        """Yield names whose files would be the same where a file system takes a for A."""
+        for section in ("cases", "sweeps"):
+            seen: dict[str, str] = {}
+            for name in getattr(self, section):
+                other = seen.setdefault(name.lower(), name)
+                if other != name:
+                    text = f"and {other!r} differ in capitals alone, and so would their files"
+                    yield f"{section}.{name}", text
+
+    def _excess_of_case(self, name: str) -> list[tuple[str, str]]:
+        limits = self.limits.model_dump()
+        found = cost.find_excess(self.problem(name), limits)
+        found = found or cost.find_excess(self.shown_problem(name), limits)
+        return [found] if found else []
+
+    def _faults_of_sweep(self, name: str) -> list[tuple[str, str]]:
+        sweep = self.sweeps[name]
         if sweep.case not in self.cases:
             near = difflib.get_close_matches(sweep.case, self.cases, 1)
             hint = f"; did you mean {near[0]!r}?" if near else ""
-            return [f"{here}.case: there is no case {sweep.case!r}{hint}"]
-        case, faults = self.cases[sweep.case], []
-        reach = max(map(abs, case.initial))
-        if reach > min(sweep.half_widths):
-            faults.append(
-                f"{here}.half_widths: site {reach} of case {sweep.case!r} lies outside the chain "
-                f"of half-width {min(sweep.half_widths)}"
-            )
-        off_grid = [t for w in sweep.windows for t in w if not _on_grid(t, case.output_step)]
+            return [("case", f"there is no case {shown(sweep.case)}{hint}")]
+        case, found = self.cases[sweep.case], []
+        reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
+        if reach > shortest:
+            text = f"lies outside the chain of half-width {shortest}"
+            found.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
+        times = [time for window in sweep.windows for time in window if time > 0]
+        off_grid = [time for time in times if not is_multiple(time, case.output_step)]
         if off_grid:
-            faults.append(
-                f"{here}.windows: {off_grid[0]} is not a whole number of output steps "
-                f"of {case.output_step}"
-            )
-        return faults
+            text = f"is not a whole number of output steps of {case.output_step:g}"
+            found.append(("windows", f"{off_grid[0]:g} {text}"))
+        if sweep.solver is not None:
+            found += case.faults_of_step(sweep.solver)
+        for key, text in case.obstacles(sweep.solver, max(times)):
+            own = key.startswith("solver") and sweep.solver is not None
+            here = key if own else "windows" if key == "end_time" else "case"
+            found.append((here, text if own else f"in case {sweep.case!r}, {key}: {text}"))
+        return found or self._excess_of_sweep(name)
+
+    def _excess_of_sweep(self, name: str) -> list[tuple[str, str]]:
+        """Return the key that makes a sweep too long, of half-widths and windows or its case's."""
+        limits, total = self.limits.model_dump(), self.cost_of_sweep(name)
+        if total.excess(limits) <= 1.0:
+            return []
+        problem, many = self.swept_problem(name), self.sweeps[name].half_widths
+        ordinary = cost.sum_of({**problem, "half_width": 30} for _ in many)
+        short = cost.sum_of({**problem, "half_width": m, "end_time": 50.0} for m in many)
+        key = "windows" if short.excess(limits) < ordinary.excess(limits) else "half_widths"
+        return [(key, cost.refusal(total, limits))]
+
+    def cost_of_sweep(self, name: str) -> cost.Cost:
+        """Return what all runs of a sweep take, one after another."""
+        problem = self.swept_problem(name)
+        return cost.sum_of({**problem, "half_width": m} for m in self.sweeps[name].half_widths)
+
+    def long_runs(self) -> list[str]:
+        """Return what each run takes that lasts for minutes, to be said before it starts."""
+        found = {f"cases.{name}": cost.estimate(self.shown_problem(name)) for name in self.cases}
+        found |= {f"sweeps.{name}": self.cost_of_sweep(name) for name in self.sweeps}
+        long = {path: one for path, one in found.items() if one.seconds > cost.WORTH_SAYING}
+        return [f"{path}: the run takes {one}" for path, one in long.items()]
 
     def problem(self, case: str, solver: str | None = None, **changes) -> dict:
         """Return a case as plain values of a Problem.

@@ -30,8 +30,6 @@ FAULTS = {
 }
 """What a status other than DONE means, in words."""
 
-MOST_STEPS = 1e9
-"""More steps are refused: the run would take hours or never end."""
 SMALLEST_PART = 1e-10
 """A step shorter than this part of the run is refused."""
 

@@ -4,12 +4,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pendula.configuration.feasibility import find_obstacle
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.measures.difference import norm_difference
 from pendula.models.amplitudes import Chain
 from pendula.problem import Constants, Problem
 
-from .feasibility import find_obstacle
 from .interrupts import interruptible
 from .lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
 from .observables import Record, blank_record

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from pendula.configuration.schema import Model, Name, Positive, Whole, Window
+from pendula.configuration.values import Model, Name, Positive, Whole, Window
 
 Count = Annotated[Whole, Field(ge=1)]
 Seed = Annotated[Whole, Field(ge=0)]

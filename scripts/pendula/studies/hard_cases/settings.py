@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from pendula.configuration.schema import Model, Name, Whole
+from pendula.configuration.values import Model, Name, Whole
 
 MEASURES = (
     *("miss_of_linear_flow", "miss_near_threshold", "miss_of_rotation", "drift_of_norms"),

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pendula.configuration.schema import Model, Name, Positive, Whole
+from pendula.configuration.values import Model, Name, Positive, Whole
 
 Bits = Annotated[Whole, Field(ge=64, le=4096)]
 

@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, create_model
 
-from pendula.configuration.schema import Complex, Model, Number, Positive, Solver, Whole, Window
+from pendula.configuration.solvers import Solver
+from pendula.configuration.values import Complex, Model, Number, Positive, Whole, Window
 
 Count = Annotated[Whole, Field(ge=1)]
 Counts = Annotated[list[Count], Field(min_length=1)]

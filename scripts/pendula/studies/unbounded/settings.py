@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from pendula.configuration.schema import Model, Name, Number, Positive, Whole
+from pendula.configuration.values import Model, Name, Number, Positive, Whole
 
 Count = Annotated[Whole, Field(ge=1)]
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
-from pendula.simulation.feasibility import find_obstacle
+from pendula.configuration.feasibility import SERIES_ORDER, find_obstacle
+from pendula.integrators.taylor import ORDER
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import IntegrationError, simulate
 from problems import PAPER, make_problem
@@ -111,3 +112,7 @@ def test_the_angle_that_a_run_may_turn_is_counted_with_the_weight_of_each_term(n
         span = part * 1e9 / rate
         problem = make_problem(data, numbers, end_time=span, output_step=span)
         assert ("radians" in (find_obstacle(problem) or "")) == refused
+
+
+def test_the_order_of_the_power_series_is_that_of_the_solver():
+    assert SERIES_ORDER == ORDER

@@ -1,0 +1,226 @@
+"""What a run will take, estimated before it starts, so that one without end is refused by its key.
+
+A run is so many steps, each of so many sites. The steps follow from the largest rate at which the
+data turn and from the tolerance, at a power of one over the order of the method. The constants are
+those of the measured speeds in tests/baseline/speed; a test holds the estimates to a factor of
+three of all of them. Growth by instability and the drive is bounded by where it saturates.
+"""
+
+from collections.abc import Iterable, Mapping
+from math import inf
+from typing import NamedTuple
+
+from .feasibility import Obstacle
+
+HOUR, GIGABYTE = 3600.0, 1e9
+WORTH_SAYING = 180.0
+"""Seconds: of a longer run its length is said before it starts."""
+
+
+class Explicit(NamedTuple):
+    """Steps = per_angle * angle * tolerance ** (-1 / order), and the seconds that each takes."""
+
+    per_angle: float
+    order: float
+    seconds: float  # a step, whatever the chain
+    site_seconds: float  # a step and a pair of pendula that is integrated
+    site_bytes: float  # of the state and of the method's arrays, a pair
+
+
+EXPLICIT = {
+    "ode45": Explicit(0.18, 5, 2e-7, 4.5e-8, 700),
+    "dop853": Explicit(0.11, 8, 1.5e-6, 9e-8, 800),
+    "taylor": Explicit(0.16, 15, 8e-7, 2.1e-7, 1400),
+}
+ITERATED = {"seconds": 1e-7, "site_seconds": 5e-9}
+"""Of a step of a scheme that is solved by iteration, beside its evaluations."""
+EVALUATED = {"seconds": 1e-7, "site_seconds": 9e-9}
+"""Of an evaluation of such a scheme."""
+ITERATED_BYTES = 1000.0
+OUTPUT = {"seconds": 2e-7, "site_seconds": 3e-8}
+"""Of an output: the state between two steps, its norms and its energy."""
+OUTPUT_BYTES, MODULUS_BYTES, SITE_BYTES = 200.0, 40.0, 200.0
+"""Of an output, of a modulus that is kept, and of a site of the whole chain in complex numbers."""
+COARSEST, FINEST, REFINEMENT = 1e-4, 1e-15, 1e-2
+"""The tolerances that `auto` tries, at most."""
+
+
+class Cost(NamedTuple):
+    """Seconds of one processor, and bytes of memory."""
+
+    seconds: float
+    memory: float
+
+    def __str__(self) -> str:
+        time = duration(self.seconds)
+        return f"{'' if ' than ' in time else 'about '}{time} and {amount(self.memory)} of memory"
+
+    def excess(self, limits: Mapping[str, float]) -> float:
+        """Return how many times it is what `limits` allow."""
+        return max(
+            self.seconds / (limits["hours"] * HOUR), self.memory / (limits["gigabytes"] * GIGABYTE)
+        )
+
+
+def estimate(problem: Mapping) -> Cost:
+    """Return the cost of a problem, given as the plain values of a Problem.
+
+    Nothing of the size of the chain is made; what overflows costs infinitely much.
+    """
+    try:
+        return _estimate(problem)
+    except OverflowError:
+        return Cost(inf, inf)
+
+
+def _estimate(problem: Mapping) -> Cost:
+    sites, pairs = 2 * problem["half_width"] + 1, integrated_pairs(problem)
+    outputs = problem["end_time"] / problem["output_step"] + 1
+    every = problem["snapshot_every"]
+    moduli = 2 * sites * (outputs / every) if every else 0.0
+    solver = problem["solver"]
+    if solver["name"] == "auto":
+        seconds = sum(
+            _solver_seconds({"name": "taylor", "rtol": tolerance}, problem, pairs, outputs)
+            for tolerance in auto_tolerances(solver["error"])
+        )
+    else:
+        seconds = _solver_seconds(solver, problem, pairs, outputs)
+    method = EXPLICIT.get(solver["name"] if solver["name"] != "auto" else "taylor")
+    per_pair = method.site_bytes if method else ITERATED_BYTES
+    memory = per_pair * pairs + SITE_BYTES * sites
+    return Cost(seconds, memory + OUTPUT_BYTES * outputs + MODULUS_BYTES * moduli)
+
+
+def _solver_seconds(solver: Mapping, problem: Mapping, pairs: float, outputs: float) -> float:
+    steps, evaluations = steps_of(solver, problem)
+    seconds = outputs * (OUTPUT["seconds"] + OUTPUT["site_seconds"] * pairs)
+    if solver["name"] in EXPLICIT:
+        method = EXPLICIT[solver["name"]]
+        return seconds + steps * (method.seconds + method.site_seconds * pairs)
+    seconds += steps * (ITERATED["seconds"] + ITERATED["site_seconds"] * pairs)
+    return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
+
+
+def sum_of(problems: Iterable[Mapping]) -> Cost:
+    """Return the cost of problems that are run one after another."""
+    costs = [estimate(problem) for problem in problems]
+    return Cost(sum(one.seconds for one in costs), max(one.memory for one in costs))
+
+
+def steps_of(solver: Mapping, problem: Mapping) -> tuple[float, float]:
+    """Return the steps of a run and, for a scheme that is solved by iteration, the evaluations."""
+    span, rate = problem["end_time"], fastest_rate(problem)
+    if solver["name"] in EXPLICIT:
+        method = EXPLICIT[solver["name"]]
+        tolerance = max(solver["rtol"], 1e-17) ** (-1.0 / method.order)
+        return max(1.0, method.per_angle * rate * span * tolerance), 0.0
+    step = min(solver["step"], problem["output_step"])
+    while rate * step > 2.0:  # it is halved until the iteration contracts
+        step *= 0.5
+    return span / step, span / step * _iterations(rate * step, solver)
+
+
+def _iterations(angle: float, solver: Mapping) -> float:
+    """Return how often a step is iterated from a guess of the sixth order."""
+    error = max(1e-30, (0.5 * angle) ** 6)
+    count = 1.0
+    while error > solver["tolerance"] and count < solver["iterations"]:
+        error *= max(1e-3, min(0.9, 0.5 * angle))
+        count += 1.0
+    return count
+
+
+def fastest_rate(problem: Mapping) -> float:
+    """Return the rate at which the data turn: of linear waves, and of the largest amplitude.
+
+    Small data of an unstable chain grow until the cubic terms turn them as fast as the linear ones.
+    The chain at rest is unstable where the frequency of a wave is less than twice the drive.
+    """
+    omega, gamma, epsilon = problem["omega"], abs(problem["gamma"]), problem["epsilon"]
+    ends = omega, omega - 4.0 * epsilon
+    waves = max(map(abs, ends))
+    slowest = 0.0 if min(ends) <= 0 <= max(ends) else min(map(abs, ends))
+    peak = max(max(abs(a), abs(b)) for a, b in problem["initial"].values())
+    cubic = 0.5 * peak * peak
+    if gamma > 0.0 and peak > 0.0 and slowest < 2.0 * gamma:
+        cubic = max(cubic, waves + 2.0 * gamma)
+    return waves + gamma + 3.0 * cubic
+
+
+def integrated_pairs(problem: Mapping) -> float:
+    """Return the pairs of pendula that are integrated: half of a chain if the data are even.
+
+    Where A = B only one component is, which counts half.
+    """
+    initial, half_width = problem["initial"], problem["half_width"]
+    even = all(initial.get(-site, (0, 0)) == pair for site, pair in initial.items())
+    together = all(a == b for a, b in initial.values())
+    return (half_width + 1 if even else 2 * half_width + 1) * (0.5 if together else 1.0)
+
+
+def auto_tolerances(error: float) -> list[float]:
+    """Return the tolerances that `auto` may try until two runs agree to `error`."""
+    tried = [min(error, COARSEST)]
+    while tried[-1] > FINEST:
+        tried.append(max(REFINEMENT * tried[-1], FINEST))
+    return tried
+
+
+def find_excess(problem: Mapping, limits: Mapping[str, float]) -> Obstacle | None:
+    """Return the key that makes a run longer or larger than is allowed, and what it would take.
+
+    It is the key whose change to the paper's value would save most.
+    """
+    cost = estimate(problem)
+    if cost.excess(limits) <= 1.0:
+        return None
+    rest = {key: estimate({**problem, **plain}) for key, plain in PLAIN.items()}
+    return min(rest, key=lambda key: rest[key].excess(limits)), refusal(cost, limits)
+
+
+def refusal(cost: Cost, limits: Mapping[str, float]) -> str:
+    """Return the words for a run that costs more than is allowed."""
+    over_time = cost.seconds > limits["hours"] * HOUR
+    name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
+    allowed = f"limits.{name} allows {limits[name]:g} {unit}"
+    return f"the run would take {cost}, and {allowed}; make it smaller, or raise the limit"
+
+
+PLAIN = {
+    "half_width": {"half_width": 30},
+    "output_step": {"output_step": 0.025},
+    "end_time": {"end_time": 50.0},
+    "snapshot_step": {"snapshot_every": 0},
+    "omega": {"omega": 1.0},
+    "epsilon": {"epsilon": 1.0},
+    "gamma": {"gamma": 1.0},
+    "initial": {"initial": {0: (1.0, 0.1)}},
+    "solver": {"solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}},
+}
+"""Ordinary values of the keys that decide a cost."""
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, of one or two digits."""
+    units = (("second", 1.0), ("minute", 60.0), ("hour", HOUR), ("day", 24 * HOUR))
+    units += (("year", 365.25 * 24 * HOUR),)
+    if seconds >= 1e6 * units[-1][1]:
+        return "more than a million years"
+    if seconds < 1.0:
+        return "less than a second"
+    name, size = [unit for unit in units if seconds >= unit[1]][-1]
+    count = max(1, round(seconds / size))
+    return f"{count} {name}{'s' * (count > 1)}"
+
+
+def amount(size: float) -> str:
+    """Return an amount of memory in words."""
+    if size >= 1e18:
+        return "more than a million terabytes"
+    for unit, scale in (("TB", 1e12), ("GB", 1e9)):
+        if size >= scale:
+            return (
+                f"{size / scale:.2g} {unit}" if size < 100 * scale else f"{size / scale:.0f} {unit}"
+            )
+    return f"{max(1, round(size / 1e6))} MB"

@@ -1,0 +1,140 @@
+"""Refuses a run before it starts if it could not end, or if its digits would be noise.
+
+The configuration asks before any job starts, and the simulation asks again, since problems reach it
+from elsewhere too. The solvers themselves report what shows only during a run: a state that
+overflows, or a step that shrinks to nothing.
+"""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+import numpy as np
+
+from pendula.numerics.elementary import log
+from pendula.problem import Constants, Problem
+
+MOST_STEPS = 1e9
+"""More steps are refused: the run would take hours or never end."""
+SERIES_ORDER = 16
+"""The order of the power series of pendula.integrators.taylor."""
+LONGEST_SERIES = 20.0
+"""Terms of a longer exponential series cancel to noise; beyond 700 they overflow without end."""
+ROUNDING = 1e-16
+"""No solver resolves a smaller part of the data."""
+SMALLEST_ERROR = 1e-150
+"""The square of a smaller error vanishes, and with it the step control of dop853 and ode45."""
+SMALLEST_DATA = 1e-153
+"""The squares of smaller amplitudes, and with them norms and energy, lose digits or vanish."""
+
+Obstacle = tuple[str, str]
+"""The key of a case that stands in the way of its run, and why, in words."""
+
+
+def find_obstacle(problem: Problem) -> str | None:
+    """Return why a problem cannot be integrated, or None if it can."""
+    parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
+    peak = float(parts.max(initial=0.0))  # NaN where there is one
+    found = find_fault(problem.constants, peak, float(problem.end_time), problem.solver)
+    return found and found[1]
+
+
+def find_fault(constants: Constants, peak: float, span: float, solver: Mapping) -> Obstacle | None:
+    """Return the key that keeps data of the size `peak` from being followed for a time `span`."""
+    return (
+        _find_in_data(constants, peak, span)
+        or _find_in_steps(constants, solver, span)
+        or _find_in_tolerances(solver, peak)
+        or _find_in_series(constants, peak, span, solver)
+    )
+
+
+def _rates(constants: Constants, peak: float) -> dict[str, float]:
+    """Return bounds of the relative rates at which data of the size `peak` turn or grow, by key."""
+    epsilon, gamma, omega = np.abs([constants.epsilon, constants.gamma, constants.omega])
+    with np.errstate(over="ignore"):
+        cubic = float(0.5 * np.square(peak))
+    return {
+        "epsilon": float(4 * epsilon),
+        "omega": float(omega),
+        "gamma": float(2 * gamma),
+        "initial": cubic,
+    }
+
+
+def rate(constants: Constants, peak: float) -> float:
+    """Return a bound of the relative rate at which data of the size `peak` turn or grow."""
+    return sum(_rates(constants, peak).values())
+
+
+def _find_in_data(constants: Constants, peak: float, span: float) -> Obstacle | None:
+    values = {**asdict(constants), "initial": peak, "end_time": span}
+    endless = [key for key, value in values.items() if not np.isfinite(value)]
+    if endless:
+        return endless[0], "the data or the constants are not finite"
+    if 0.0 < peak < SMALLEST_DATA:
+        return "initial", f"the data are so small ({peak:.0e}) that their squares vanish"
+    rates = _rates(constants, peak)
+    fastest = max(rates, key=rates.get)
+    angle = sum(rates.values()) * span
+    if angle == np.inf:
+        return fastest, "the squares of the data or the constants overflow"
+    if angle > MOST_STEPS:
+        return (
+            fastest if rates[fastest] > span else "end_time",
+            f"the run turns the data by {angle:.0e} radians, more than {MOST_STEPS:.0e}",
+        )
+    return None
+
+
+def _find_in_steps(constants: Constants, solver: Mapping, span: float) -> Obstacle | None:
+    if "step" not in solver:
+        return None
+    key, step = "solver.step", solver["step"]
+    if not step > 0.0:
+        return key, f"the step must be positive, not {step}"
+    if not span <= MOST_STEPS * step:
+        text = f"the run takes {span / step:.0e} steps, more than {MOST_STEPS:.0e}"
+        return key, f"{text}: the step is too short"
+    reach = rate(constants, 0.0) * min(step, span)
+    if solver["name"] == "splitting" and reach > LONGEST_SERIES:
+        text = f"they turn the data by {reach:.0f} in it"
+        return key, f"the step is too long for the linear terms: {text}"
+    return None
+
+
+def _find_in_tolerances(solver: Mapping, peak: float) -> Obstacle | None:
+    if "rtol" not in solver:
+        return None
+    rtol, atol = float(solver["rtol"]), float(solver["atol"])
+    if not (rtol >= 0.0 and atol >= 0.0):
+        text = f"the tolerances {rtol:g} and {atol:g} are not both numbers of at least zero"
+        return "solver.rtol", text
+    if not rtol * peak + atol >= ROUNDING * peak:
+        text = f"the tolerances {rtol:g} and {atol:g} lie below the rounding of the data"
+        return "solver.rtol", text
+    if 0.0 < peak < atol:
+        text = f"the data ({peak:.0e}) are smaller than the absolute tolerance {atol:g}"
+        return "solver.atol", text
+    if solver["name"] == "ode45" and rtol == 0.0:
+        return "solver.rtol", "the relative tolerance of ode45 must be positive"
+    if solver["name"] in ("dop853", "ode45") and atol < SMALLEST_ERROR:
+        text = f"the square of the absolute tolerance {atol:g} vanishes: give {SMALLEST_ERROR:g}"
+        return "solver.atol", text
+    return None
+
+
+def _find_in_series(
+    constants: Constants, peak: float, span: float, solver: Mapping
+) -> Obstacle | None:
+    """Refuse chains so slow or fast that the last coefficients of a power series leave the doubles.
+
+    Where nothing moves they may vanish.
+    """
+    total = rate(constants, peak)
+    if solver["name"] != "taylor" or peak == 0.0 or total * span < 1e-6:
+        return None
+    power = (log(peak) + SERIES_ORDER * log(total)) / log(10.0)
+    if abs(power) > 270.0:
+        text = f"the power series needs numbers of 1e{power:.0f}: choose another unit of time"
+        return "end_time", text
+    return None

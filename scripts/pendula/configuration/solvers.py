@@ -1,0 +1,86 @@
+"""The solvers' controls: what may stand below `solver` and `solvers`, and the defaults."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from .values import Model, Positive, Whole
+
+
+class Ode45(Model):
+    """MATLAB's ode45, at the paper's tolerances."""
+
+    name: Literal["ode45"] = "ode45"
+    rtol: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-7
+    atol: Positive = 1e-9
+
+
+class Dop853(Model):
+    """The explicit Runge-Kutta method of order eight, for accuracy."""
+
+    name: Literal["dop853"] = "dop853"
+    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-13
+    atol: Positive = 1e-13
+
+
+class Taylor(Model):
+    """The Taylor method, the default: at small errors the fastest on the paper's chains."""
+
+    name: Literal["taylor"] = "taylor"
+    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-14
+    atol: Positive = 1e-14
+
+
+class Auto(Model):
+    """The default solver, held to an error of the norms relative to their largest values."""
+
+    name: Literal["auto"] = "auto"
+    error: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-9
+
+
+class Iterated(Model):
+    """Controls of an implicit scheme that is solved by fixed-point iteration."""
+
+    step: Positive = 0.0025
+    tolerance: Annotated[Positive, Field(ge=1e-14, lt=1)] = 1e-13
+    iterations: Annotated[Whole, Field(ge=2, le=1000)] = 50
+
+
+class CrankNicolson(Iterated):
+    """The trapezoidal rule, the paper's second solver."""
+
+    name: Literal["crank_nicolson"] = "crank_nicolson"
+
+
+class DelfourFortinPayre(Iterated):
+    """The variant of Crank-Nicolson that conserves the energy."""
+
+    name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
+
+
+class Solvers(Model):
+    """The controls of each solver where a case names it without giving its own."""
+
+    ode45: Ode45 = Ode45()
+    crank_nicolson: CrankNicolson = CrankNicolson()
+    delfour_fortin_payre: DelfourFortinPayre = DelfourFortinPayre()
+    dop853: Dop853 = Dop853()
+    taylor: Taylor = Taylor()
+    auto: Auto = Auto()
+
+
+Solver = Annotated[
+    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto,
+    Field(discriminator="name"),
+]
+
+
+def with_controls(item: Any, shared: Any) -> Any:
+    """Return a case or sweep whose solver is a mapping, completed from the shared controls."""
+    given = item.get("solver") if isinstance(item, dict) else None
+    given = {"name": given} if isinstance(given, str) else given
+    if not isinstance(given, dict) or not isinstance(shared, dict):
+        return item
+    name = given.get("name")
+    controls = shared.get(name) if isinstance(name, str) else None
+    return {**item, "solver": {**controls, **given} if isinstance(controls, dict) else given}

@@ -1,0 +1,117 @@
+"""The kinds of values that stand in a configuration: numbers, names, lists without repetition.
+
+What pydantic would read in silence, such as `true` for 1 or "1 0" for 10, is refused in words.
+"""
+
+import math
+import re
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
+
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|[-+]?\.?(inf|nan)", re.ASCII | re.I)
+"""A number as a word: YAML 1.1 takes 1e-7 for a word, since it has no point."""
+MOST_DIGITS = 15
+"""A whole number of more digits cannot be counted to, and would not fit into the datasets."""
+LONGEST_NAME = 60
+"""Names make file names, whose length file systems bound."""
+LONGEST_SHOWN = 60
+
+
+def shown(value: Any) -> str:
+    """Return a value as a message shows it: short, whatever its length, and words in quotes."""
+    if value is None:
+        return "empty"
+    if isinstance(value, int) and not isinstance(value, bool) and digits(value) > MOST_DIGITS + 3:
+        return f"a whole number of {digits(value)} digits"
+    text = repr(value) if isinstance(value, str | list | tuple | dict) else str(value)
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
+def digits(value: int) -> int:
+    """Return the number of decimal digits of a whole number, without writing it out."""
+    if abs(value).bit_length() < 10_000:
+        return len(str(abs(value)))
+    return int(abs(value).bit_length() * 0.30103) + 1  # Python writes no longer ones
+
+
+def fault(text: str) -> PydanticCustomError:
+    """Return the error that says this of the value where it stands."""
+    return PydanticCustomError("fault", "{text}", {"text": text})
+
+
+def faults(found: list[tuple[str, str]]) -> PydanticCustomError:
+    """Return the error that says of each key, whose path starts where this is raised, its text."""
+    return PydanticCustomError("faults", "{found}", {"found": found})
+
+
+def _plain(value: Any, what: str = "a number") -> Any:
+    """Refuse what would be read as a number without being one."""
+    if isinstance(value, bool):
+        raise fault(f"is {value}, not {what}")
+    if isinstance(value, int) and digits(value) > MOST_DIGITS + 3:
+        raise fault(f"is {shown(value)}, too many to be computed with")
+    if isinstance(value, str):
+        if not NUMBER.fullmatch(value.strip(" ")) or len(value) > LONGEST_SHOWN:
+            raise fault(f"is {shown(value)}, not {what}")
+        return value.strip(" ")
+    return value
+
+
+def _countable(value: int) -> int:
+    if digits(value) > MOST_DIGITS:
+        raise fault(f"is {shown(value)}, more than can be counted to")
+    return value
+
+
+def _as_complex(value: Any) -> complex:
+    """Read 2, 2.0 or "-0.3+0.4j" as Python writes complex numbers; refuse what is not finite."""
+    try:
+        if isinstance(value, str):
+            value = re.sub(r" *([-+]) *", r"\1", value.strip(" "))
+        if isinstance(value, bool) or (isinstance(value, str) and "_" in value):
+            raise TypeError
+        number = complex(value)
+    except OverflowError:
+        raise fault(f"is {shown(value)}, too many to be computed with") from None
+    except (TypeError, ValueError):
+        hint = "; the imaginary unit is written j" if re.search(r"\di'?$", shown(value)) else ""
+        text = f'is {shown(value)}, not a complex number such as "-0.3+0.4j"{hint}'
+        raise fault(text) from None
+    if not (math.isfinite(number.real) and math.isfinite(number.imag)):
+        raise fault(f"is {shown(value)}, which is not finite")
+    return number + 0.0  # no negative zeros
+
+
+def _distinct(values: list) -> list:
+    twice = [value for i, value in enumerate(values) if value in values[:i]]
+    if twice:
+        text = list(twice[0]) if isinstance(twice[0], tuple) else twice[0]
+        raise fault(f"the same value stands twice: {text}")
+    return values
+
+
+Complex = Annotated[complex, BeforeValidator(_as_complex)]
+Number = Annotated[
+    float,
+    BeforeValidator(lambda value: _plain(value)),
+    AfterValidator(lambda value: value + 0.0),  # no negative zeros
+    Field(allow_inf_nan=False),
+]
+Positive = Annotated[Number, Field(gt=0)]
+Whole = Annotated[
+    int,
+    BeforeValidator(lambda value: _plain(value, "a whole number")),
+    AfterValidator(_countable),
+]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_NAME)]
+Distinct = AfterValidator(_distinct)
+"""Beside the type of a list: no value stands in it twice."""
+Window = tuple[Number, Number]
+
+
+class Model(BaseModel):
+    """A mapping of the configuration: unknown keys are faults."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)

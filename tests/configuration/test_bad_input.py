@@ -1,0 +1,129 @@
+"""What people type by mistake or on purpose, each with the sentence that they are told."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+from pendula.configuration.files import ConfigurationError, gather, merge, read
+from pendula.configuration.messages import STUDIES, load, require
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIG = gather([ROOT / "config/config.yaml"], {})
+WHOLE = gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)], {})
+PAPER_CASES = [name for name in CONFIG["cases"] if name.startswith("fig")]
+STEPPED = ["crank_nicolson", "delfour_fortin_payre"]
+
+TABLE = yaml.safe_load((Path(__file__).parent / "bad_input.yaml").read_text())
+
+
+def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
+    """Return what a user is told who gives this text by --configfile."""
+    path = folder / "mine.yaml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(ConfigurationError) as told:
+        require(load(merge(below, read(path))), PAPER_CASES, [], STEPPED)
+    said = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told.value))
+    return said.split("\n  ")[1:]
+
+
+@pytest.mark.parametrize(("text", "words"), TABLE["files"])
+def test_a_file_that_is_no_configuration_or_that_yaml_reads_otherwise(text, words, tmp_path):
+    assert faults(text, tmp_path)[0] == words
+
+
+@pytest.mark.parametrize(("text", "words"), TABLE["rest"])
+def test_what_stands_where_it_does_not_belong(text, words, tmp_path):
+    assert faults(text, tmp_path)[0] == words
+
+
+@pytest.mark.parametrize(("text", "words"), TABLE["case"])
+def test_a_case_that_cannot_be_run(text, words, tmp_path):
+    whole = f"cases: {{mine: {{omega: 1, {text}}}}}"
+    assert faults(whole, tmp_path)[0] == f"cases.mine.{words}"
+
+
+@pytest.mark.parametrize(("text", "words"), TABLE["sweep"])
+def test_a_sweep_that_cannot_be_run(text, words, tmp_path):
+    whole = f"cases: {{mine: {{omega: 1}}}}\nsweeps: {{s: {{case: mine, {text}}}}}"
+    assert faults(whole, tmp_path)[0] == f"sweeps.s.{words}"
+
+
+@pytest.mark.parametrize(("text", "words"), TABLE["study"])
+def test_choices_of_a_study_that_cannot_be_run(text, words, tmp_path):
+    assert faults(text, tmp_path, WHOLE)[0] == words
+
+
+DIGITS = "1" * 400
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[" * 40 + "]" * 40, "line 1: is nested more than 30 deep"),
+        ("{" * 4000, "line 1: is nested more than 30 deep"),
+        (f"cases: {{mine: {{omega: {DIGITS}}}}}", "omega: is a whole number of 400 digits, too"),
+        (f"cases: {{mine: {{omega: {'1' * 5000}}}}}", f"{'1' * 60} is not a number that can be"),
+        (f"cases: {{mine: {{omega: 1, half_width: {DIGITS}}}}}", "whole number of 400 digits"),
+        (f"cases: {{mine: {{omega: 1, initial: {{0: [{DIGITS}, 0]}}}}}}", "number of 400 digits"),
+        (f"cases: {{mine: {{omega: 1, initial: {{{DIGITS}: [1, 0]}}}}}}", "number of 400 digits"),
+        (f"cases: {{mine: {{omega: {'9' * 60}x}}}}", f"is '{'9' * 59}..., not a number"),
+        (
+            "a: &a [x, x, x, x, x, x, x, x, x, x]\n"
+            + "".join(
+                f"{key}: &{key} [{', '.join([f'*{before}'] * 10)}]\n"
+                for before, key in zip("abcde", "bcdef", strict=True)
+            ),
+            "more than 100000 values, counting each time that one is repeated",
+        ),
+    ],
+    ids=range(9),
+)
+def test_what_is_too_long_to_print_is_told_in_a_short_line(text, words, tmp_path):
+    (line,) = faults(text, tmp_path)
+    assert words in line and len(line) < 200
+
+
+@pytest.mark.parametrize("code", ["utf-16", "latin-1"])
+def test_a_file_in_another_code_is_told(code, tmp_path):
+    (tmp_path / "mine.yaml").write_bytes("cases: {möwe: {omega: 1}}".encode(code))
+    with pytest.raises(ConfigurationError, match=r"mine.yaml is not a text in UTF-8: save it"):
+        read(tmp_path / "mine.yaml")
+
+
+def test_a_file_that_is_not_there_or_a_folder_is_told(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"there is no file .*none.yaml"):
+        read(tmp_path / "none.yaml")
+    with pytest.raises(ConfigurationError, match=r"cannot be read: Is a directory"):
+        read(tmp_path)
+
+
+def test_what_is_odd_but_right_is_read(tmp_path):
+    path = tmp_path / "mine.json"
+    path.write_bytes(
+        b'\xef\xbb\xbf{"cases":\t{"mine": {"omega": "1e-1", "initial": {"0": ["1 - 2j", 0]}}}}'
+    )
+    case = load(merge(CONFIG, read(path))).cases["mine"]
+    assert case.omega == 0.1 and case.initial == {0: (1 - 2j, 0)}
+    path.write_text("cases: {mine: {omega: -0.0, half_width: 20.0, gamma: '.5'}}")
+    case = load(merge(CONFIG, read(path))).cases["mine"]
+    assert str(case.omega) == "0.0" and case.half_width == 20 and case.gamma == 0.5
+
+
+def test_initial_data_replace_those_of_the_paper_and_other_keys_are_added():
+    above = {"cases": {"fig2_small": {"initial": {3: [1, 0]}, "end_time": 4}}}
+    case = load(merge(CONFIG, above)).cases["fig2_small"]
+    assert case.initial == {3: (1, 0)} and case.end_time == 4 and case.omega == 8
+
+
+def test_another_solver_replaces_the_controls_and_the_same_one_keeps_them():
+    given = {"solver": {"name": "dop853", "rtol": 1e-9, "atol": 1e-3}}
+    assert merge(given, {"solver": {"atol": 1e-5}})["solver"] == {**given["solver"], "atol": 1e-5}
+    other = {"name": "crank_nicolson", "step": 0.001}
+    assert merge(given, {"solver": other})["solver"] == other
+
+
+def test_a_figure_asks_for_every_case_of_the_paper():
+    cases = {name: case for name, case in CONFIG["cases"].items() if name != "fig2_small"}
+    with pytest.raises(ConfigurationError, match=r"cases.fig2_small: is missing, and the figures"):
+        require(load({"cases": cases}), PAPER_CASES, [], STEPPED)

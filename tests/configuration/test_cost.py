@@ -1,0 +1,140 @@
+"""What a run is said to take, held against measured speeds; and what is too much."""
+
+import json
+
+import numpy as np
+import pytest
+from helpers import ROOT
+from pendula.configuration.cost import (
+    EXPLICIT,
+    Cost,
+    amount,
+    duration,
+    estimate,
+    find_excess,
+    integrated_pairs,
+    steps_of,
+)
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.messages import load
+from pendula.datasets.netcdf import read
+
+SPEED = ROOT / "tests/baseline/speed"
+FACTOR = 3.0
+"""An estimate is wrong by less: machines differ as much."""
+SHORT_STEPS = {"name": "crank_nicolson", "step": 1e-9, "tolerance": 1e-13, "iterations": 50}
+LIMITS = {"hours": 1.0, "gigabytes": 8.0}
+
+
+def problem(**changes):
+    plain = {
+        "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
+        "initial": {0: (1.0, 0.1)}, "end_time": 50.0, "output_step": 50.0, "snapshot_every": 0,
+        "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
+    }  # fmt: skip
+    return plain | changes
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return read(SPEED / "work_precision.nc")
+
+
+@pytest.mark.parametrize("solver", ["ode45", "dop853", "taylor", "delfour_fortin_payre"])
+def test_work_and_time_are_those_that_were_measured(solver, measured):
+    """`measured` holds each of the paper's cases, from the loosest accuracy to the tightest."""
+    compared = 0
+    for case in measured["case"].values:
+        row = measured.sel(case=case, contestant=solver, solver=solver)
+        data = {0: tuple(complex(z) for z in json.loads(str(row["initial"].values))["0"])}
+        span = float(row["horizon"])
+        for point in range(row.sizes["point"]):
+            accuracy, seconds = (float(row[name][point]) for name in ("accuracy", "seconds"))
+            if not np.isfinite(seconds):
+                continue
+            controls = {"rtol": accuracy, "step": accuracy, "tolerance": 1e-13, "iterations": 50}
+            given = problem(
+                omega=float(row["omega"]), initial=data, end_time=span, output_step=span,
+                solver={"name": solver, **controls},
+            )  # fmt: skip
+            steps, evaluations = steps_of(given["solver"], given)
+            work = steps if solver in EXPLICIT else evaluations
+            done = row["steps" if solver in EXPLICIT else "evaluations"][point]
+            assert 1 / FACTOR < work / float(done) < FACTOR
+            assert 1 / FACTOR < estimate(given).seconds / seconds < FACTOR
+            compared += 1
+    assert compared >= 36
+
+
+@pytest.mark.parametrize("solver", ["dop853", "taylor"])
+def test_time_and_memory_grow_with_the_chain_as_they_were_measured(solver):
+    """The measured chains are noise of order one, which the data here are like."""
+    cost = read(SPEED / "cost.nc").sel(solver=solver)
+    for sites in (61, 201, 1001, 10_001, 100_001):
+        half = sites // 2
+        end = min(50.0, max(1.0, 40_000 / sites))
+        given = problem(
+            half_width=half, initial={0: (2.5, 0.1)}, end_time=end, output_step=end,
+            solver={"name": solver, "rtol": 1e-10, "atol": 1e-10},
+        )  # fmt: skip
+        found = estimate(given)
+        assert (
+            1 / FACTOR
+            < found.seconds / (float(cost["seconds"].sel(sites=sites)) * sites * end)
+            < FACTOR
+        )
+        assert 1 / FACTOR < found.memory / (float(cost["memory"].sel(sites=sites)) * sites) < FACTOR
+
+
+def test_even_and_synchronised_data_cost_half_each():
+    assert integrated_pairs(problem()) == 31
+    assert integrated_pairs(problem(initial={1: (1, 0)})) == 61
+    assert integrated_pairs(problem(initial={1: (1, 1), -1: (1, 1)})) == 15.5
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"half_width": 10**10}, "half_width"),
+        ({"end_time": 1e12}, "end_time"),
+        ({"output_step": 1e-9}, "output_step"),
+        ({"omega": 1e8}, "omega"),
+        ({"omega": 1e6, "end_time": 900.0}, "omega"),
+        ({"epsilon": 1e7}, "epsilon"),
+        ({"gamma": -1e7}, "gamma"),
+        ({"initial": {0: (1e5, 0)}}, "initial"),
+        ({"half_width": 10**6, "output_step": 0.025, "snapshot_every": 1}, "half_width"),
+        ({"solver": SHORT_STEPS, "output_step": 0.025}, "solver"),
+    ],
+)  # fmt: skip
+def test_the_key_that_costs_most_is_named(change, key):
+    found, text = find_excess(problem(**change), LIMITS)
+    assert found == key and "the run would take" in text and "limits." in text
+
+
+def test_a_limit_may_be_raised_and_a_long_run_is_announced():
+    long = {"cases": {"mine": {"omega": 1e6, "end_time": 900}}}
+    with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 3 hours"):
+        load(long)
+    (said,) = load(long | {"limits": {"hours": 5}}).long_runs()
+    assert said.startswith("cases.mine: the run takes about 3 hours and ")
+    assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
+
+
+@pytest.mark.parametrize(
+    ("cost", "words"),
+    [
+        (Cost(0.3, 1e3), "less than a second and 1 MB of memory"),
+        (Cost(90, 2.1e9), "about 2 minutes and 2.1 GB of memory"),
+        (Cost(5e4, 1.5e13), "about 14 hours and 15 TB of memory"),
+        (Cost(4e5, 0), "about 5 days and 1 MB of memory"),
+        (Cost(1e30, 1e30), "more than a million years and more than a million terabytes of memory"),
+    ],
+)
+def test_costs_are_said_in_words(cost, words):
+    assert str(cost) == words
+
+
+def test_an_infinite_cost_has_words_too():
+    assert duration(float("inf")) == "more than a million years"
+    assert amount(float("inf")) == "more than a million terabytes"

@@ -1,0 +1,58 @@
+"""Bad input by the real snakemake: a sentence, a non-zero exit, and no line of the rules.
+
+The sentences are those of tests/configuration/bad_input.yaml. Here stands what Snakemake adds.
+"""
+
+import subprocess
+
+import pytest
+from helpers import ROOT, command_of, snakemake_with
+
+NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
+
+
+def refused(result: subprocess.CompletedProcess) -> str:
+    """Return what stands on the screen of a run that must have been refused."""
+    said = result.stdout + result.stderr
+    assert result.returncode == 1
+    assert not [word for word in NOISE if word in said], said
+    return said
+
+
+def test_faults_stand_alone_on_the_screen(tmp_path):
+    settings = {"cases": {"mine": {"omgea": 1}}}
+    said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
+    assert (
+        "the configuration has 2 faults:\n  cases.mine.omega: is missing\n  cases.mine.omg" in said
+    )
+
+
+def test_own_without_a_case_is_told(tmp_path):
+    settings = {"limits": {"hours": 2}}
+    said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
+    assert "the configuration has no case and no sweep of your own: give some by --config" in said
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("mine.yaml", "cases: {mine: {omega: 8}}".encode("utf-16"), "is not a text in UTF-8"),
+        ("mine.yaml", b"cases: {mine: {omega: 2001-13-45}}", "2001-13-45 is not a date that can"),
+        ("none.yaml", None, "there is no file"),
+        ("own", None, "targets stand before it: snakemake"),
+    ],
+)
+def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words, tmp_path):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    command = command_of(ROOT, tmp_path, tmp_path / name)
+    assert words in refused(subprocess.run(command, capture_output=True, text=True))
+
+
+def test_a_long_run_says_first_what_it_takes(tmp_path):
+    settings = {"cases": {"mine": {"omega": 1e5, "end_time": 2000}}}
+    target = "results/trajectories/mine.nc"
+    result = snakemake_with(settings, ROOT, tmp_path, "--dry-run", target)
+    assert result.returncode == 0
+    said = result.stdout + result.stderr
+    assert said.index("cases.mine: the run takes about") < said.index("Building DAG")

@@ -1,0 +1,52 @@
+"""Reads the files of --configfile before Snakemake does, and says their faults in words.
+
+Snakemake reads them before any line of the Snakefile, and ends in a traceback where one is missing,
+is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python, and is
+read earlier still: those of this project ask here. The option takes every word that follows it, so
+that a target behind it is taken for a file; that is said too.
+"""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+
+from pendula.configuration.files import ConfigurationError, read
+
+ENDINGS = ".yaml", ".yml", ".json"
+
+
+def config_files(arguments: list[str]) -> list[str]:
+    """Return the words that a command line gives to --configfile."""
+    found, taking = [], False
+    for word in arguments:
+        if word.startswith("-"):
+            name, _, value = word.partition("=")
+            taking = name.startswith("--configf") and not value
+            found += [value] if name.startswith("--configf") and value else []
+        elif taking:
+            found.append(word)
+    return found
+
+
+def fault_of(file: str) -> str | None:
+    """Return what keeps a file from being read, in words, or None."""
+    try:
+        read(file)
+    except ConfigurationError as error:
+        path = Path(file)
+        if path.suffix in ENDINGS or path.is_file():
+            return str(error)
+        return (
+            f"there is no configuration file {file}. --configfile takes every word that follows "
+            f"it, so targets stand before it: snakemake {file} --configfile mine.yaml"
+        )
+    return None
+
+
+def look(arguments: list[str]) -> None:
+    """End Snakemake with the faults of its configuration files, if they have any."""
+    faults = [fault for file in config_files(arguments) if (fault := fault_of(file))]
+    if faults:
+        print("\n".join(faults), file=sys.stderr)
+        raise SystemExit(1)
