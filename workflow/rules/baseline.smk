@@ -5,7 +5,7 @@ BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{workflow.basedir}/tests/bas
 # --config bits=any judges files with other bits by what right runs may differ.
 ANY_BITS = OPTIONS["bits"] == "any"
 if OPTIONS["bits"] not in (None, "any"):
-    raise WorkflowError(
+    stop(
         f"--config bits={OPTIONS['bits']}: the only value is bits=any, which judges files with other "
         "bits by what right runs may differ; without it they are faults"
     )
@@ -38,7 +38,7 @@ def accepted_files():
 
 def verdict_told_at_the_end(wildcards):
     if workflow.execution_settings.no_hooks:
-        raise WorkflowError("figure_diff fails at the end of a run: call it without --no-hooks")
+        stop("figure_diff fails at the end of a run: call it without --no-hooks")
     return "results/figure_diff/verdict.json"
 
 

@@ -23,7 +23,7 @@ from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from stop import stop
 
 if not os.access(".", os.W_OK):
-    raise WorkflowError(
+    stop(
         f"{os.getcwd()} is read-only, and Snakemake keeps notes there even of a dry run: name a "
         "folder that you may write to, by --directory"
     )
@@ -44,26 +44,6 @@ os.environ.update(
     MKL_NUM_THREADS="1",
 )
 
-<<<<<<< HEAD
-# The choices of the studies, below what the command line says. `configfile:` would do the same, but
-# its parser takes ten times as long, which every call would feel.
-for study in STUDIES:
-    with open(f"{workflow.basedir}/config/{study}.yaml", encoding="utf-8") as file:
-        choices = yaml.load(file, yaml.CSafeLoader)
-    update_config(choices, config)
-    config.update(choices)
-
-# What a single call is told by --config: the baseline to compare with, whether any bits will do, and
-# what of a run to accept.
-OPTIONS = {name: config.pop(name, None) for name in ("baseline", "bits", "accept")}
-
-try:
-    SETTINGS = load(config)
-except ConfigurationError as error:
-    raise WorkflowError(str(error)) from None
-
-=======
->>>>>>> 75c9e74 (Tell every fault of a configuration before any job, by its key, and what a run will take)
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
@@ -77,8 +57,9 @@ try:
     config.update(
         gather([*CONFIG_FILES, *workflow.overwrite_configfiles], workflow.config_settings.config)
     )
-    # What a single call is told by --config: the baseline to compare with, and what to accept.
-    OPTIONS = {name: config.pop(name, None) for name in ("baseline", "accept")}
+    # What a single call is told by --config: the baseline to compare with, whether any bits will
+    # do, and what of a run to accept.
+    OPTIONS = {name: config.pop(name, None) for name in ("baseline", "bits", "accept")}
     SETTINGS = load(config)
     require(SETTINGS, PAPER_CASES, PAPER_SWEEPS, ALL_SOLVERS)
 except ConfigurationError as error:
