@@ -6,6 +6,8 @@ import pytest
 import xarray as xr
 from pendula.ledger.claim import all_claims, decide, feed, passes
 from pendula.ledger.criterion import Verdict
+from pendula.measures.confidence import Limits
+from pendula.studies.chaos import claims_own
 
 CLAIM = {claim.name: claim for claim in all_claims()}
 HOLDS = {Verdict.CONFIRMED, Verdict.CAVEAT}
@@ -139,9 +141,9 @@ def one_at_rest(data):
 
 
 def with_a_faster_choice(lives):
-    """Return lives in which the finest tolerance finds three times the rate."""
+    """Return lives in which the finest tolerance finds six times the rate."""
     for name in ("choice_rate", "choice_rate_low", "choice_rate_high"):
-        lives = scaled(name, 3.0, choice=2)(lives)
+        lives = scaled(name, 6.0, choice=2)(lives)
     return lives
 
 
@@ -212,3 +214,56 @@ def test_growth_is_told_from_none_and_not_from_a_factor(sources):
     assert finding.verdict == Verdict.CAVEAT
     assert finding.measured["even_ratio"] == pytest.approx(1.2)
     assert finding.measured["even_low"] > 1.1
+
+
+def exponents(odd, error):
+    """Return exponents of three chaotic cases, the even ones all 2, with these of odd changes."""
+    pairs = np.stack([np.full(3, 2.0), odd], axis=1)
+    grid = ("case", "parity")
+    errors = np.broadcast_to(error, pairs.shape)
+    tau = np.linspace(0.0, 200.0, 801)
+    return xr.Dataset(
+        {
+            "exponent": (grid, pairs),
+            "exponent_error": (grid, errors),
+            "log_growth": ((*grid, "tau"), pairs[..., None] * tau),
+            "l2": (("case", "tau"), np.ones((3, tau.size))),
+        },
+        {"case": CASES[3:], "parity": ["even", "odd"], "tau": tau},
+    )
+
+
+@pytest.mark.parametrize(
+    ("odd", "error", "verdict"),
+    [
+        ([2.1, 1.95, 2.0], 0.05, Verdict.CONFIRMED),
+        ([2.0, 2.2, 2.0], [[0.05], [0.04], [0.05]], Verdict.CONFIRMED),  # one is off by 3.5 errors
+        ([2.1, 1.95, 2.0], 0.5, Verdict.UNDECIDED),
+        ([3.0, 1.0, 3.0], 0.05, Verdict.NOT_REPRODUCED),
+    ],
+)
+def test_odd_perturbations_are_held_to_the_even_ones_by_means_over_cases(odd, error, verdict):
+    assert CLAIM["odd_as_even"].decide(exponents(np.array(odd), np.array(error))).verdict == verdict
+
+
+def test_rates_that_are_not_known_to_a_factor_of_two_decide_nothing(sources):
+    wide = scaled("choice_rate_high", 9.0)(scaled("choice_rate_low", 1.0 / 9.0)(sources[LIVES]))
+    assert decide(CLAIM["rate_is_resolved"], sources | {LIVES: wide}).verdict == Verdict.UNDECIDED
+
+
+def test_rates_have_the_limits_of_their_mean_that_hold_together():
+    given = Limits(0.1, 0.1 / 1.3, 0.13)
+    (one, *_) = found = claims_own.ratios_to_mean([given] * 3)
+    assert [ratio.value for ratio in found] == pytest.approx([1.0] * 3)
+    wider = 2.3940 / 1.9600  # normal quantiles of 1 - 0.05 / 6 and 0.975
+    assert np.log(one.high) == pytest.approx(wider * np.log(1.3) * np.sqrt(2.0 / 3.0), rel=1e-3)
+    assert one.low == pytest.approx(1.0 / one.high)
+
+
+def test_a_level_of_long_chains_does_not_hang_on_one_half_width(sources):
+    name = "ensemble_fig5_maximum"
+    before = decide(CLAIM[name], sources)
+    one_off = scaled("linf_mean", 1.15, half_width=[60])(sources[UNEVEN])
+    after = decide(CLAIM[name], sources | {UNEVEN: one_off})
+    assert after.verdict == before.verdict == Verdict.CONFIRMED
+    assert 0.0 < after.measured["uneven_range"] - before.measured["uneven_range"] < 0.1

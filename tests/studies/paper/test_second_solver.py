@@ -119,6 +119,12 @@ def test_a_run_is_one_more_draw_from_the_even_members_after_it_has_diverged():
         claims.late_chances(run, members(7.0), "fig2_small", 40.0)
 
 
+def test_one_norm_of_many_does_not_tell_runs_apart_and_most_of_them_do():
+    assert claims.of_most([np.array([0.4, 0.9]), 0.5, 1e-6]) == pytest.approx(4.0 / 3.0 * 0.5)
+    assert claims.of_most([0.9, 1e-3, 1e-3, 1e-4]) == pytest.approx(4.0 / 3.0 * 1e-3)
+    assert claims.of_most([0.03]) == 0.03
+
+
 def swept(l2, dims=("half_width", "quantity", "statistic", "window")):
     """Return a sweep over eight half-widths, the same by every reading."""
     values = np.reshape(l2, (8, 1, 1, 1)) * np.ones((8, 1, 2, 2))

@@ -265,6 +265,29 @@ def test_every_claim_can_fall_or_says_that_no_number_can_settle_it():
     assert set(CLAIM) == set(FLIPS) | controlled | always_open | mended
 
 
+@pytest.mark.parametrize(
+    ("second", "error", "verdict"),
+    [
+        (0.2, 0.01, Verdict.CAVEAT),
+        (0.0, 0.01, Verdict.NOT_REPRODUCED),
+        (0.0, 0.5, Verdict.UNDECIDED),  # limits wider than what lies between two exponents
+        (0.2, 0.5, Verdict.UNDECIDED),
+    ],
+)
+def test_a_second_integral_is_seen_where_exponents_are_resolved(second, error, verdict):
+    sizes = np.array([0.0, second, 0.5, 0.7, 0.9, 1.2, 1.5])
+    values = np.concatenate([sizes, -sizes])
+    along = ("spectrum_case", "spectrum_half_width", "index")
+    spectra = xr.Dataset(
+        {
+            "exponents": (along, values.reshape(1, 1, -1)),
+            "exponents_error": (along, np.full((1, 1, values.size), error)),
+        },
+        {"spectrum_case": ["fig4_small"], "spectrum_half_width": [3]},
+    )
+    assert CLAIM["one_integral"].decide(spectra).verdict == verdict
+
+
 def test_region_word_changes_with_the_data(sources):
     finding = decide(CLAIM["fig5_theorem_2"], sources)
     assert finding.verdict == Verdict.CAVEAT and "bonds" in finding.because

@@ -117,13 +117,24 @@ def test_a_bulk_with_energy_is_held_to_the_state_of_that_energy():
 def test_a_bulk_is_told_from_the_state_of_no_energy_or_nothing_is_decided():
     warm = spread(0.5, omegas=(-4.0,), members=4)
     assert unbounded_warm(warm, one_state(thermal())).verdict == Verdict.NOT_REPRODUCED
-    without = with_power(lambda _: 0.0)(warm, thermal())
+    without = with_power(warm=False)(warm, thermal())
     finding = unbounded_warm(without, thermal())
     assert finding.verdict == Verdict.NOT_REPRODUCED
     assert "agrees with the state of no energy (15.80)" in finding.because
     scatter = warm["member"].copy(data=np.array([0.95, 1.05, 0.95, 1.05]))
     wide = warm.assign(bulk_power=warm["bulk_power"] * scatter)
     assert unbounded_warm(wide, thermal()).verdict == Verdict.UNDECIDED
+
+
+def test_a_bulk_that_still_moves_to_its_state_decides_nothing():
+    warm = spread(0.5, omegas=(-4.0,), members=4)
+    tau = warm["piece_tau"]
+    late = warm.assign(bulk_power=warm["bulk_power"] - 2.0 * (1.0 - tau / tau[-1]))
+    finding = unbounded_warm(late, thermal())
+    assert finding.verdict == Verdict.UNDECIDED and "the last quarter" in finding.because
+    assert finding.measured["moved_at_most"] == pytest.approx(0.5, abs=0.1)
+    settled = warm.assign(bulk_power=warm["bulk_power"] - 0.5)
+    assert unbounded_warm(settled, thermal()).verdict == Verdict.NOT_REPRODUCED
 
 
 def test_the_error_of_the_energy_widens_the_limits_of_p():

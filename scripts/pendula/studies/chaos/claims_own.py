@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.ledger.chaotic import chaotic
-from pendula.ledger.claim import cases_reversed, checks, claim, wrong_check
+from pendula.ledger.claim import CHANGE, FACTOR, cases_reversed, checks, claim, wrong_check
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -13,9 +13,11 @@ from pendula.ledger.criterion import (
     Finding,
     UndecidableError,
     judge,
+    undecided,
 )
 from pendula.ledger.cutoff import Cutoff
-from pendula.measures.confidence import Limits, ratio_of_limits, student
+from pendula.measures.confidence import CONFIDENCE, Limits, student
+from pendula.measures.growth import PARTS
 from pendula.numerics.elementary import exp, log
 
 from .claims import LATER, SEEN
@@ -50,15 +52,27 @@ def with_even_exponents_shifted(lyapunov):
     ),
 )
 def odd_as_even(lyapunov) -> Finding:
+    """Ask by how much they differ in the mean over the chaotic cases.
+
+    A single case has an error from a few parts of one run, and chance decides which part is large.
+    """
     chosen = lyapunov.sel(case=chaotic_cases(lyapunov))
     even, odd = (chosen["exponent"].sel(parity=parity) for parity in ("even", "odd"))
-    error = np.sqrt((chosen["exponent_error"] ** 2).sum("parity"))
+    mean = chosen["exponent"].mean("parity")
+    off = float((abs(odd - even) / mean).mean())
+    errors = (chosen["exponent_error"] / mean).values
+    limit = student(PARTS - 1) * np.sqrt(np.sum(errors**2)) / chosen.sizes["case"]
     measured = {
         "difference": np.abs(even - odd).max(),
-        "over_error": (abs(even - odd) / error).max(),
+        "mean_difference": off,
+        "at_least": max(0.0, off - limit),
+        "at_most": off + limit,
     }
-    says = "largest difference of the exponents over its standard error"
-    return judge(measured, Below(SAME, "over_error", says=says))
+    says = "upper limit of the mean relative difference of the exponents"
+    criterion = Below(CHANGE, "at_most", says=says)
+    if measured["at_least"] < CHANGE.value <= measured["at_most"]:
+        return undecided(measured, "the runs are too short to tell the exponents apart, or not")
+    return judge(measured, criterion, fails=f"they differ by {100 * off:.2g} % in the mean")
 
 
 @claim(
@@ -158,6 +172,26 @@ def rates_of(choices) -> list[Limits]:
     ]
 
 
+def ratios_to_mean(rates: list[Limits]) -> list[Limits]:
+    """Return each rate over the geometric mean of all, with limits that hold together.
+
+    On a logarithmic scale the limits of a rate are those of a normal number, so that errors of
+    independent rates add in squares. The limits of all ratios are as sure as those of one
+    (Bonferroni).
+    """
+    logs = log(np.array([rate.value for rate in rates]))
+    halves = log(np.array([rate.high / rate.low for rate in rates])) / 2.0
+    count = len(rates)
+    wider = student(np.inf, 1.0 - (1.0 - CONFIDENCE) / count) / student(np.inf)
+    own, others = (1.0 - 1.0 / count) * halves, np.sum(halves**2) - halves**2
+    off = wider * np.sqrt(own**2 + others / count**2)
+    mean = logs - logs.mean()
+    return [
+        Limits(*(float(exp(one)) for one in row))
+        for row in zip(mean, mean - off, mean + off, strict=True)
+    ]
+
+
 def with_coarse_rates(lifetimes):
     """Return the lives with the rates of the coarsest tolerance as those of their own."""
     own, coarse = own_choice(lifetimes), int(lifetimes["choice_tolerance"].values.argmax())
@@ -169,7 +203,8 @@ def with_coarse_rates(lifetimes):
 
 @claim(
     PLACE,
-    "How fast localised centres change over depends on no fine tolerance, nor on evenness.",
+    "Neither a finer tolerance nor evenness changes how fast localised centres change over by a"
+    " factor of two.",
     checks("lifetimes"),
     controls=(wrong_check("the rate by the coarsest tolerance", lifetimes=with_coarse_rates),),
 )
@@ -179,23 +214,23 @@ def rate_is_resolved(lifetimes) -> Finding:
     others = lifetimes.isel(choice=(finer & ~own).values)
     if not own.any() or not others.sizes["choice"]:
         raise UndecidableError("no other ensemble is as fine")
-    (rate,) = rates_of(lifetimes.isel(choice=own.values))
-    if not rate.low:
+    rates = rates_of(lifetimes.isel(choice=(own | finer).values))
+    if not all(rate.low for rate in rates):
         raise UndecidableError("too few transitions bound the rate")
-    ratios = [ratio_of_limits(other, rate) for other in rates_of(others)]
+    ratios = ratios_to_mean(rates)
+    nearest = max(max(1.0 / ratio.high, ratio.low) for ratio in ratios)
     measured = {
-        "rate": rate.value,
+        "rate": rates_of(lifetimes.isel(choice=own.values))[0].value,
         "least_ratio": min(ratio.value for ratio in ratios),
         "largest_ratio": max(ratio.value for ratio in ratios),
-        "low": max(ratio.low for ratio in ratios),
-        "high": min(ratio.high for ratio in ratios),
+        "at_least": nearest,
         "resolution": max(max(1.0 / ratio.low, ratio.high) for ratio in ratios),
     }
-    criterion = AllOf(
-        AtMost(1.0, "low", says="largest lower limit of the ratio of another rate to this one"),
-        AtLeast(1.0, "high", says="least upper limit"),
-    )
+    says = "largest factor between a rate and the mean of all, limits included"
+    criterion = Below(FACTOR, "resolution", says=says)
     caveat = f"so many runs leave room for a factor of {measured['resolution']:.2g}"
+    if nearest < FACTOR.value <= measured["resolution"]:
+        return undecided(measured, caveat)
     return judge(measured, criterion, caveat)
 
 
