@@ -76,6 +76,27 @@ def test_the_version_of_the_project_is_no_result(of):
     assert not hashes.same_attributes(first, with_other_data)
 
 
+@pytest.mark.parametrize("hidden", ["variable", "attribute"])
+def test_what_lies_in_a_group_counts(run, hidden):
+    with netCDF4.Dataset(run.made / REGULAR, "a") as file:
+        group = file.createGroup("older")
+        if hidden == "variable":
+            group.createVariable("l2", "f8", ("tau",))[...] = 1.0
+        else:
+            group.omega = 8.0
+    found = run.findings()[REGULAR]
+    named = {"variable": "older/l2 is new", "attribute": "attribute older/omega is 8.0"}[hidden]
+    assert found.status == DIFFERENT and named in found.says
+
+
+def test_hashes_are_plain_json_with_a_line_for_each_variable(run):
+    text = (run.accepted / baseline.HASHES).read_text()
+    l2 = json.loads(text)[REGULAR]["variables"]["l2"]
+    assert l2["type"] == "float64" and l2["shape"] == "component 2, tau 2001"
+    (line,) = [line for line in text.splitlines() if l2["values"] in line and '"l2"' in line][:1]
+    assert json.loads("{" + line.strip().rstrip(",") + "}") == {"l2": l2}
+
+
 def test_a_version_in_the_file_does_not_count(stored):
     content = stored(regular())
     newer = content._replace(attributes=content.attributes | {"version": "9.9", "history": "new"})

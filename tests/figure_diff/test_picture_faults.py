@@ -5,6 +5,7 @@ little. The description must name panel and text, whatever drew the picture.
 """
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,8 @@ from pendula.drawing import style
 from pendula.drawing.description import as_text, describe
 from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, MISSING, NEARLY, Motion
 from pendula.figure_diff.compare_description import judge, read_description, shows_rounding
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 STEM = "fig4_spacetime"
 """The table of tolerances knows data of this name as chaotic."""
@@ -409,6 +412,48 @@ def cut(name: str, kept: float) -> Callable:
     return plant
 
 
+def rewrite(**saved) -> Callable:
+    """Return a fault: the accepted pixels and texts, saved in another form."""
+
+    def plant(run):
+        with Image.open(run.made / PNG) as image:
+            about = PngInfo()
+            for key, text in image.text.items():
+                about.add_text(key, text)
+            layers = image.convert(saved.get("mode", "RGBA"))
+            if "opacity" in saved:
+                layers.putalpha(saved["opacity"])
+            more = {"save_all": True, "append_images": [layers.rotate(180)]}
+            extra = more if saved.get("frames") else {}
+            layers.save(
+                run.made / PNG, pnginfo=about, dpi=saved.get("dpi", image.info["dpi"]), **extra
+            )
+
+    return plant
+
+
+def table_of(run) -> tuple[bytes, list[bytes]]:
+    """Return the PDF, and the entries of its table in their order."""
+    content = (run.made / PDF).read_bytes()
+    return content, re.findall(rb"\d{10} 00000 n *\r?\n", content)
+
+
+def permute_table(run):
+    """Exchange two entries of the table, so that a viewer takes one object for another."""
+    content, entries = table_of(run)
+    pair = entries[2] + entries[3]
+    assert content.count(pair) == 1
+    (run.made / PDF).write_bytes(content.replace(pair, entries[3] + entries[2]))
+
+
+def turn_trailer(run):
+    """Let the trailer name another object as the root of the document."""
+    content, _ = table_of(run)
+    head, trailer = content[: content.rindex(b"trailer")], content[content.rindex(b"trailer") :]
+    assert b"/Root 1 0 R" in trailer
+    (run.made / PDF).write_bytes(head + trailer.replace(b"/Root 1 0 R", b"/Root 2 0 R"))
+
+
 STALE = "was not written with its description: it is stale, or of another figure"
 FILES = [
     ("stale PDF", PDF, DIFFERENT, STALE, copy(PDF, older_run)),
@@ -425,6 +470,19 @@ FILES = [
     ("bit flipped in a PDF", PDF, DAMAGED, "object", flip),
     ("blank page", PDF, DIFFERENT, "has an empty page", blank_page),
     ("page of another size", PDF, DIFFERENT, "4 x 2 inches in place of 3 x 1.3", wrong_page),
+    ("objects of a PDF exchanged", PDF, DAMAGED, "objects are not where", permute_table),
+    ("another root of a PDF", PDF, DAMAGED, "its root is no catalog", turn_trailer),
+    (
+        "transparent PNG",
+        PNG,
+        DIFFERENT,
+        "least opacity is 128 in place of 255",
+        rewrite(opacity=128),
+    ),
+    ("invisible PNG", PNG, DIFFERENT, "least opacity is 0 in place of 255", rewrite(opacity=0)),
+    ("PNG without opacity", PNG, DIFFERENT, "kind of pixels is RGB", rewrite(mode="RGB")),
+    ("second frame of a PNG", PNG, DIFFERENT, "frames is 2 in place of 1", rewrite(frames=2)),
+    ("PNG of another size in print", PNG, DIFFERENT, "dpi is (72.0", rewrite(dpi=(72, 72))),
     ("half a PNG", PNG, DAMAGED, "cannot be read", cut(PNG, 0.01)),
     ("edited description", JSON, DIFFERENT, "entry 1 '$A$': text", edit('"$A$"', '"$C$"')),
     ("spaces in a description", JSON, DIFFERENT, "written otherwise", edit("\n ", "\n  ")),

@@ -7,10 +7,12 @@ import pytest
 import scipy.stats
 import xarray as xr
 from pendula.datasets.netcdf import read
+from pendula.figure_diff import DIFFERENT, NEARLY, compare_curves
 from pendula.figure_diff.baseline import is_kept, recorded
 from pendula.figure_diff.compare_curves import curves
 from pendula.figure_diff.structure import STATISTICS
 from pendula.figure_diff.tolerances import (
+    MOST_GROWTH,
     TOLERANCES,
     Allowance,
     Spread,
@@ -38,6 +40,28 @@ def test_errors_of_rounding_size_are_compared_by_size(rules):
     (curve, _) = curves(residual, "checks/any")
     assert rule_for(rules, curve.label, curve.largest).method == "size"
     assert rule_for(rules, curve.label, 1.0).method == "pointwise"
+
+
+def test_no_rounding_error_may_grow_beyond_its_bound(rules):
+    """The ensemble holds residuals that are zero in some runs: their spreads say nothing."""
+    sizes = {rule.name for rule in rules if rule.method == "size"}
+    mine = [each for each in read_tolerances(BASELINE).spreads if each.rule in sizes]
+    largest = max(np.nanmax(each.allowed) for each in mine)
+    assert len(mine) > 100 and largest == pytest.approx(np.log(MOST_GROWTH))
+
+
+@pytest.mark.parametrize(("growth", "status"), [(900, NEARLY), (1100, DIFFERENT)])
+def test_an_error_of_rounding_that_grows_is_found(growth, status):
+    """The name is that of a residual whose measured spread allows a factor of e^16."""
+    label = ("boundary", ["dirichlet", "free"])
+    was, now = (
+        xr.Dataset(
+            {"eigenvalue_error": (("boundary", "point"), np.full((2, 7), size))}, dict([label])
+        )
+        for size in (1e-13, 1e-13 * growth)
+    )
+    found = compare_curves.compare("checks/dispersion.nc", was, now, read_tolerances(BASELINE))
+    assert found.status == status, found.line
 
 
 def test_the_first_rule_that_fits_counts_and_the_last_one_takes_all(rules):

@@ -29,6 +29,7 @@ OBJECT = re.compile(rb"(\d+) 0 obj\s")
 HEAD_ENDS = re.compile(rb"\s(stream\r?\n|endobj)")
 LENGTH = re.compile(rb"/Length (\d+)( 0 R)?")
 INFO = re.compile(rb"/Info (\d+) 0 R")
+ROOT = re.compile(rb"/Root (\d+) 0 R")
 MARK = re.compile(rb"/Keywords \(([0-9a-f]+)\)")
 PAGE = re.compile(rb"/Type /Page\b")
 SIZE = re.compile(rb"/MediaBox \[ *0 0 ([\d.]+) ([\d.]+) *\]")
@@ -66,6 +67,9 @@ def read(path: Path) -> PDF:
         raise DamagedPDFError("has no page")
     width, height = (float(points) / POINTS for points in size.groups())
     trailer = data[data.rindex(b"trailer") : data.rindex(b"startxref")]
+    root = ROOT.search(trailer)
+    if root is None or b"/Type /Catalog" not in objects.get(int(root[1]), b""):
+        raise DamagedPDFError("is damaged: its root is no catalog of pages")
     drawn, info = CONTENTS.search(pages[0]), INFO.search(trailer)
     strokes = len(STROKES.findall(objects.get(int(drawn[1]), b""))) if drawn else 0
     marked = MARK.search(objects.get(int(info[1]), b"")) if info else None

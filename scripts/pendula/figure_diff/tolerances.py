@@ -33,6 +33,10 @@ spreads have Student's law; `benchmarks/spreads.py` widens those that have a hea
 NEEDS_A_REASON = 0.1
 """An allowance above this fraction has to be defended in words (`wide` in the table)."""
 
+MOST_GROWTH = 1000.0
+"""By this factor at most may errors of rounding grow. Some residuals are zero in one run of the
+ensemble and not in another, so that their measured spreads would allow a factor of a million."""
+
 TOGETHER = "all curves together"
 """In place of the words of a label: the mean of a statistic over all curves of one variable."""
 
@@ -146,6 +150,19 @@ class Spreads:
         """Return what a dataset that `benchmarks/spreads.py` made allows."""
         return cls(_entries(data))
 
+    def bounded(self, rules: list[Rule]) -> "Spreads":
+        """Return the same where errors of rounding keep their size up to MOST_GROWTH."""
+        sizes = {rule.name for rule in rules if rule.method == "size"}
+        most = np.log(MOST_GROWTH)
+        return Spreads(
+            {
+                label: each._replace(allowed=np.minimum(each.allowed, most))
+                if each.rule in sizes
+                else each
+                for label, each in self._entries.items()
+            }
+        )
+
     def get(self, label: str) -> Spread | None:
         """Return what is allowed for the curve `label`, or None where no run moved it."""
         return self._entries.get(label)
@@ -158,17 +175,33 @@ class Spreads:
         return iter(self._entries.values())
 
 
+def allowed_change(spread: np.ndarray, freedom: np.ndarray, tests: int) -> np.ndarray:
+    """Return how much a statistic of two right runs may differ.
+
+    `spread` is its standard deviation over right runs, known with `freedom` degrees of freedom; the
+    difference of two runs has sqrt(2) of it. `tests` such numbers are compared, of either sign.
+    """
+    return np.sqrt(2) * spread * -stdtrit(freedom, FALSE_ALARMS / tests / 2)
+
+
+def allowed_distance(
+    mean: np.ndarray, spread: np.ndarray, freedom: np.ndarray, tests: int, members: int
+) -> np.ndarray:
+    """Return how far two right runs may be apart (the logarithm of a distance).
+
+    `mean` and `spread` are those of the distance over all pairs of `members` runs. The distance of
+    a new pair differs from that mean by its own chance and by that of the mean.
+    """
+    return mean + np.sqrt(1 + 1 / members) * spread * -stdtrit(freedom, FALSE_ALARMS / tests)
+
+
 def _entries(data) -> dict[str, Spread]:
-    """Return the entries by label: spreads times the quantile of Student's law."""
-    spread, freedom = data["spread"].values, data["freedom"].values
-    apart, apart_freedom = data["apart_spread"].values, data["apart_freedom"].values
-    tests = np.isfinite(spread).sum() + np.isfinite(apart).sum()
-    allowed = np.sqrt(2) * spread * -stdtrit(freedom, FALSE_ALARMS / tests / 2)
-    # A distance is one number of a new pair, compared with the mean over the pairs of the ensemble.
-    new = np.sqrt(1 + 1 / data.attrs["members"])
-    farthest = data["apart_mean"].values - new * apart * stdtrit(
-        apart_freedom, FALSE_ALARMS / tests
-    )
+    """Return the entries by label."""
+    spread, apart = data["spread"].values, data["apart_spread"].values
+    tests = int(np.isfinite(spread).sum() + np.isfinite(apart).sum())
+    allowed = allowed_change(spread, data["freedom"].values, tests)
+    mean, freedom = data["apart_mean"].values, data["apart_freedom"].values
+    farthest = allowed_distance(mean, apart, freedom, tests, data.attrs["members"])
     about = (data[name].values for name in ("rule", "scale", "horizon"))
     columns = (*about, allowed, farthest, data["copy_of"].values)
     return {
@@ -188,7 +221,8 @@ def read_tolerances(baseline: Path) -> Tolerances:
     """Return what the baseline's folder allows; without a file of spreads, nothing moves."""
     path = baseline / SPREADS
     spreads = Spreads.of_dataset(read(path)) if path.exists() else Spreads({})
-    return Tolerances(read_rules(baseline), spreads)
+    rules = read_rules(baseline)
+    return Tolerances(rules, spreads.bounded(rules))
 
 
 class Allowance(NamedTuple):
