@@ -121,3 +121,46 @@ def test_every_chance_of_an_exponential_law_is_alike_where_it_holds():
         assert np.mean(np.array(chances) < level) == pytest.approx(level, abs=0.03)
     # one life is as far from the law as can be: Stephens's 1 + 0.12 + 0.11, and 10 % at 1.224
     assert confidence.chance_of_law([3.0], 10.0) == pytest.approx(0.097, abs=1e-3)
+
+
+def test_limits_of_a_mean_life_are_those_of_chi_squared():
+    """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
+    found = confidence.mean_life([1.0, np.inf, 2.0, np.inf], 3.0)
+    low, high = 18.0 / stats.chi2.ppf(0.975, 6), 18.0 / stats.chi2.ppf(0.025, 4)
+    assert tuple(found) == pytest.approx((4.5, low, high), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("count", "found"), [(15, (7.0, 3.0, 11.0)), (10, (4.5, 1.0, 8.0)), (6, (2.5, 0.0, 5.0))]
+)
+def test_limits_of_a_median_are_the_order_statistics_of_the_sign_test(count, found):
+    """Among 15 the fourth and the twelfth, as tables of the sign test have it."""
+    assert confidence.median_limits(np.arange(count)[::-1]) == found
+    assert confidence.median_limits(np.arange(5.0)) == (2.0, -np.inf, np.inf)
+
+
+def test_a_median_between_a_life_and_no_end_is_infinite():
+    assert confidence.median_limits([1.0, 1.0, np.inf, np.inf]).value == np.inf
+
+
+def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():
+    """At either limit r the mean of above - r below is t = 2.365 of its standard errors off."""
+    means, errors = (10.0, 20.0), (1.0, 2.0)
+    found = confidence.ratio_limits(means, errors, 8)
+    for ratio in found[1:]:
+        error = np.hypot(errors[1], ratio * errors[0])
+        assert abs(means[1] - ratio * means[0]) / error == pytest.approx(2.36462, rel=1e-5)
+    assert found.value == 2.0 and found.low < 2.0 < found.high
+    assert np.isinf(confidence.ratio_limits((2.36462, 1.0), (1.0, 1.0), 8).high)
+
+
+def test_distances_of_the_limits_of_a_ratio_add_in_squares_of_logarithms():
+    found = confidence.ratio_of_limits(
+        confidence.Limits(8.0, 4.0, 32.0), confidence.Limits(2.0, 0.25, 16.0)
+    )
+    assert found == pytest.approx((4.0, 4.0 * 2.0 ** -np.sqrt(10.0), 4.0 * 2.0 ** np.sqrt(13.0)))
+
+
+def test_shares_of_another_confidence_are_exact():
+    known = stats.binomtest(3, 10).proportion_ci(0.8, "exact")
+    assert confidence.share_limits(3, 10, 0.8)[1:] == pytest.approx((known.low, known.high), 1e-5)

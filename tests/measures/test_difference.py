@@ -105,3 +105,18 @@ def test_the_table_says_when_each_solver_is_lost_or_never():
     page = re.sub(" +", " ", "\n".join(trust_part(trust(runs, {"fig2_small": run()}))))
     assert "| fig2_small | bad | 3 | 3 |" in page
     assert "| fig2_small | good | never | never |" in page
+
+
+def test_times_are_the_same_up_to_a_thousand_millionth():
+    other = run()
+    for off, kept in ((5e-10, 11), (2e-9, 1)):
+        other["tau"] = 0.5 * np.arange(11) + np.where(np.arange(11) > 0, off, 0.0)
+        assert difference(run(), other).sizes["tau"] == kept
+
+
+def test_a_divergence_time_says_at_which_part_of_full_scale():
+    found = divergence_time(difference(run(changes={("l2", 0, 4): 2.021}), run()))
+    assert found == 2.0 and found.attrs["units"] == "1"
+    assert found.attrs["long_name"].endswith("differ by 1 % of full scale")
+    below = difference(run(changes={("l2", 0, 4): 2.019}), run())
+    assert divergence_time(below) == np.inf

@@ -69,3 +69,58 @@ def test_each_output_belongs_to_one_span_the_last_one_included():
         curve = np.zeros((2, TAU.size))
         curve[:, place] = 1.0, 2.0
         assert np.flatnonzero(span_means(TAU, curve, START).values).tolist() == [span]
+
+
+def test_means_and_errors_of_spans_are_as_they_are_defined():
+    drawn = curves(LAWS["power_of_tau"], 5)
+    found, edges = span_means(TAU, drawn, START), np.geomspace(START, 400.0, 9)
+    places = np.clip(np.searchsorted(edges, TAU, "right") - 1, -1, 7)
+    means = np.array([[series[places == span].mean() for span in range(8)] for series in drawn])
+    np.testing.assert_allclose(found.values, means.mean(axis=0))
+    # one variance for all spans, and a span's share of it is one over its length
+    lengths, off = np.diff(edges), means - means.mean(axis=0)
+    variance = np.sum(off**2 * lengths) / (8 * 4)
+    np.testing.assert_allclose(found.errors, np.sqrt(variance / lengths / 5))
+    assert found.freedom == 8 * 4
+    scaled = off * np.sqrt(lengths)
+    beside = np.mean(scaled[:, 1:] * scaled[:, :-1]) / np.mean(scaled**2)
+    assert found.neighbours == pytest.approx(beside)
+    for span, times in enumerate(found.times):
+        np.testing.assert_array_equal(times, TAU[places == span])
+
+
+STRAIGHT = {
+    "limit_less_1_over_tau": (lambda y: y, lambda y: 1.0, lambda tau: -1.0 / tau),
+    "limit_less_1_over_root_tau": (lambda y: y, lambda y: 1.0, lambda tau: -(tau**-0.5)),
+    "limit_less_1_over_fourth_root_tau": (lambda y: y, lambda y: 1.0, lambda tau: -(tau**-0.25)),
+    "limit_less_1_over_tenth_root_tau": (lambda y: y, lambda y: 1.0, lambda tau: -(tau**-0.1)),
+    "log_tau": (lambda y: y, lambda y: 1.0, np.log),
+    "fourth_root_of_log_tau": (lambda y: y**4, lambda y: 4.0 * y**3, np.log),
+    "power_of_tau": (np.log, lambda y: 1.0 / y, np.log),
+}
+"""Of each law: how y is bent, the slope of that, and what it is a line in."""
+
+
+@pytest.mark.parametrize("name", STRAIGHT)
+def test_a_law_is_the_weighted_line_that_numpy_lays(name):
+    means = span_means(TAU, curves(LAWS["log_tau"]), START)
+    bend, steepness, of_time = STRAIGHT[name]
+    x = np.array([of_time(times).mean() for times in means.times])
+    z, errors = bend(means.values), means.errors * steepness(means.values)
+    (slope, height), variances = np.polyfit(x, z, 1, w=1.0 / errors, cov="unscaled")
+    bounded, growing = compare(means)
+    found = {**bounded, **growing}[name]
+    chi2 = np.sum(((z - height - slope * x) / errors) ** 2)
+    assert (found.chi2, found.criterion) == pytest.approx((chi2, chi2 + 4.0))
+    half = 2.02107 * np.sqrt(variances[0, 0])  # Student's t of 40 degrees of freedom
+    assert tuple(found.slope) == pytest.approx((slope, slope - half, slope + half), rel=1e-5)
+    assert bend(found.at(900.0)) == pytest.approx(height + slope * of_time(900.0))
+
+
+def test_a_constant_is_the_weighted_mean():
+    means = span_means(TAU, curves(LAWS["constant"]), START)
+    found = compare(means)[0]["constant"]
+    height = np.average(means.values, weights=1.0 / means.errors**2)
+    chi2 = np.sum(((means.values - height) / means.errors) ** 2)
+    assert (found.chi2, found.criterion) == pytest.approx((chi2, chi2 + 2.0))
+    assert found.at(1e5) == pytest.approx(height) and tuple(found.slope) == (0.0, 0.0, 0.0)

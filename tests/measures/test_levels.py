@@ -1,8 +1,10 @@
 """Where curves level off, what range they have, and the means of ensembles with their errors."""
 
 import numpy as np
+import pytest
 from pendula.measures.levels import (
     bands,
+    correlation,
     levelling,
     levelling_of_means,
     moments,
@@ -44,3 +46,27 @@ def test_bands_and_moments_are_those_over_the_members():
     np.testing.assert_allclose(found["mean"], [5.0, 50.0])
     np.testing.assert_allclose(found["deviation"][0], np.sqrt(11.0))
     np.testing.assert_allclose(found["error"][0], 1.0)
+
+
+def test_what_differs_by_just_the_tolerance_is_level():
+    assert levelling(WIDTHS, np.array([1.25, 1.0, 1.0, 1.0, 1.0]), tolerance=0.25) == 5.0
+    means, errors = np.array([9.0, 10.0, 0.0, 0.0, 0.0]), np.array([3.0, 3.0, 3.0, 3.0, 4.0])
+    assert levelling_of_means(WIDTHS, means, errors, 2.0) == 5.0
+    assert levelling_of_means(WIDTHS, means, errors, 1.9) == 20.0
+
+
+def test_the_last_two_means_alone_are_level_where_two_are_enough():
+    means = np.array([1.0, 2.0, 3.0, 4.0, 4.0])
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0) == np.inf
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0, least=2) == 40.0
+
+
+def test_a_range_is_positive_where_the_mean_is_negative():
+    assert relative_range(np.array([-1.0, -2.0, -3.0])) == 1.0
+
+
+def test_correlations_are_numpys_and_zero_where_nothing_changes():
+    one, other = np.random.default_rng(1).normal(size=(2, 50))
+    assert correlation(one, other) == pytest.approx(np.corrcoef(one, other)[0, 1])
+    assert correlation(one, -3.0 * one + 1.0) == pytest.approx(-1.0)
+    assert correlation(one, np.full(50, 2.0)) == correlation(np.full(50, 2.0), one) == 0.0

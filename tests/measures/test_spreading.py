@@ -68,3 +68,40 @@ def test_limits_of_two_members_are_known():
     """Slopes of 2 and 4 have the mean 3, and limits of Student's t with one degree: 12.706."""
     slope = fit_line(TAU, np.array([2.0 * TAU, 4.0 * TAU]), START).slope
     assert tuple(slope) == pytest.approx((3.0, 3.0 - 12.7062, 3.0 + 12.7062), rel=1e-5)
+
+
+def test_limits_of_a_single_curve_are_those_of_ten_stretches_of_its_residuals():
+    x = TAU[TAU >= START]
+    y = 3.0 * TAU + 7.0 + 40.0 * remembering(1)[0]
+    found = fit_line(TAU, y[None], START).slope
+    slope, offset = np.polyfit(x, y[TAU >= START], 1)
+    off = x - x.mean()
+    parts = np.array_split(off * (y[TAU >= START] - slope * x - offset), 10)
+    variance = sum(part.sum() ** 2 for part in parts) * 10 / 8
+    half = 2.306 * np.sqrt(variance) / np.sum(off**2)  # Student's t of eight degrees of freedom
+    assert tuple(found) == pytest.approx((slope, slope - half, slope + half), rel=1e-5)
+
+
+def test_a_line_starts_at_its_first_time_and_another_confidence_has_other_limits():
+    values = np.array([np.where(TAU < START, 0.0, slope * TAU) for slope in (2.0, 4.0)])
+    assert fit_line(TAU, values, START).slope.value == pytest.approx(3.0, abs=1e-12)
+    assert fit_line(TAU, values, START - 0.25).slope.value > 3.0
+    assert fit_line(TAU, values, START, 0.5).slope.half == pytest.approx(1.0)  # t = 1 at 50 %
+
+
+def test_no_exponent_above_three_is_found():
+    tau = TAU[TAU >= START]
+    assert exponent_with_offset(tau, (tau / 400.0) ** 8.0) == 3.0
+
+
+def test_the_exponent_of_a_curve_that_is_no_law_is_that_of_least_squares():
+    tau = TAU[TAU >= START]
+    squares = 100.0 * tau + 3000.0 * np.sin(tau / 40.0)
+
+    def left(q):
+        columns = np.stack([(tau / 400.0) ** (2.0 * q), np.ones_like(tau)], axis=1)
+        return np.linalg.lstsq(columns, squares)[1][0]
+
+    found = exponent_with_offset(tau, squares)
+    assert left(found) < min(left(found - 1e-4), left(found + 1e-4))
+    assert all(left(found) < left(q) for q in np.arange(-0.975, 3.0, 0.05) if q)

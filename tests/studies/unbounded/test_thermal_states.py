@@ -77,6 +77,9 @@ def test_a_pair_alone_is_a_plain_integral():
     power = np.average(np.broadcast_to(first + second, energy.shape), weights=weight)
     assert state.power == pytest.approx(power, abs=max(3.0 * state.power_error, 1e-6))
     assert np.abs(products_of(state, 8)[:, 1:]).max() < 1e-9  # the sites know nothing of each other
+    density = density_of(state, CELLS)  # far beyond what the state reaches
+    assert density.sum() * 0.15 == pytest.approx(1.0, abs=1e-8)
+    assert np.abs(density[40:]).max() < 1e-8 < density[20]
 
 
 def test_cold_states_of_a_stable_chain_are_those_of_its_waves():
