@@ -7,6 +7,7 @@ a session of Python. A comment `<!-- fails -->` above a block says that its comm
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -99,42 +100,56 @@ def _take_quick_configuration(folder: Path) -> None:
 
 
 def _share_packages(venv: Path) -> None:
-    """Put into a virtual environment that is made later the packages and programs of this one."""
+    """Put into a virtual environment that is made later the packages of this one, and Snakemake."""
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     packages = venv / "lib" / version / "site-packages"
     packages.mkdir(parents=True)
     ours = [path for path in sys.path if path.endswith("site-packages")]
     (packages / "ours.pth").write_text("\n".join(ours) + "\n")
-    (venv / "bin").mkdir()
-    for name in ("snakemake", "pytest"):
-        program = venv / "bin" / name
-        program.write_text(f"#!{venv}/bin/python\n{_program(name)}")
-        program.chmod(0o755)
+    program = venv / "bin/snakemake"
+    program.parent.mkdir()
+    program.write_text(f"#!{venv}/bin/python\nfrom snakemake.cli import main\n\nmain()\n")
+    program.chmod(0o755)
 
 
-def _program(name: str) -> str:
-    text = (Path(sys.executable).parent / name).read_text()
-    return text.partition("\n")[2]
+class Reader:
+    """Gives the commands of pages, and stays in the folder to which a page has led."""
 
+    def __init__(self, clone: Path):
+        self.clone, self.folder, self.page = clone, clone, ""
+        self.beside = clone.parent
 
-def play(block: Block, clone: Path) -> Done:
-    """Run a block as it is printed, in the folder of the clone."""
-    if block.kind == "yaml":
-        (clone / file_of(block)).write_text(block.text, encoding="utf-8")
-        return Done(0, "")
-    if block.kind == "pycon":
-        session = clone / ".session.txt"
+    def play(self, block: Block) -> Done:
+        """Run a block as it is printed. Every page starts in the folder of the clone."""
+        if block.page != self.page:
+            self.page, self.folder = block.page, self.clone
+        if block.kind == "yaml":
+            (self.folder / file_of(block)).write_text(block.text, encoding="utf-8")
+            return Done(0, "")
+        if block.kind == "pycon":
+            return self._run(self._session(block), PYTHONPATH=str(self.clone / "scripts"))
+        reached = self.beside / "folder.txt"
+        script = f"{block.text}\npwd > {shlex.quote(str(reached))}"
+        done = self._run(["bash", "-euo", "pipefail", "-c", script])
+        if not done.code:
+            self.folder = Path(reached.read_text().rstrip("\n"))
+        return done
+
+    def _session(self, block: Block) -> list[str]:
+        session = self.beside / "session.txt"
         session.write_text(block.text, encoding="utf-8")
-        command = [".venv/bin/python", "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", session.name]
-    else:
-        command = ["bash", "-euo", "pipefail", "-c", block.text]
-    environment = {
-        **os.environ,
-        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
-        "PYTHONPATH": str(clone / "scripts") if block.kind == "pycon" else "",
-    }
-    run = subprocess.run(
-        command, cwd=clone, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        stdin=subprocess.DEVNULL, text=True,
-    )  # fmt: skip
-    return Done(run.returncode, run.stdout)
+        python = str(self.clone / ".venv/bin/python")
+        return [python, "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
+
+    def _run(self, command: list[str], **variables: str) -> Done:
+        path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # where `python3` is ours
+        run = subprocess.run(
+            command,
+            cwd=self.folder,
+            env={**os.environ, "PATH": path, "PYTHONPATH": "", **variables},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        return Done(run.returncode, run.stdout)

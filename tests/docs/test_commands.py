@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 import yaml
 from helpers import ROOT, snakemake
-from printed import KINDS, Block, Done, blocks, file_of, pages, play, prepare, shown
+from printed import KINDS, Block, Done, Reader, blocks, file_of, pages, prepare, shown
 
 PAGES = pages(ROOT)
 PRINTED = {page: blocks(ROOT, page) for page in PAGES}
@@ -47,7 +47,8 @@ def played(made_once, full_run) -> dict[str, Done]:
         accepted = snakemake(clone, clone, "accept_figures")
         assert accepted.returncode == 0, accepted.stderr
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
-        run = {block.name: play(block, clone) for block in [*tried, ASKED]}
+        reader = Reader(clone)
+        run = {block.name: reader.play(block) for block in [*tried, ASKED]}
         (folder / "played.json").write_text(json.dumps(run))
 
     found = json.loads((made_once("printed", make) / "played.json").read_text())
@@ -124,12 +125,10 @@ def test_a_text_is_found_in_what_was_said(text, said, fits):
 
 
 def quoted_messages(page: str) -> list[str]:
-    """Return what stands in the first column of the tables of messages, without the code marks."""
+    """Return the messages that begin the rows of tables below "What can go wrong"."""
     text = (ROOT / page).read_text(encoding="utf-8")
-    tables = re.findall(r"^\| message \|.*\n\| --- .*\n((?:\|.*\n)+)", text, re.MULTILINE)
-    return [
-        row for table in tables for row in re.findall(r"^\| `(.+?)` .*\|$", table, re.MULTILINE)
-    ]
+    _, _, below = text.partition("## What can go wrong\n")
+    return re.findall(r"^\| `(.+?)` +\|", below, re.MULTILINE)
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +151,8 @@ def messages() -> str:
 SYSTEM = [
     # snakemake-executor-plugin-slurm, which is not installed where these tests run
     *("No SLURM account given, trying to guess.", "has been submitted with SLURM jobid"),
-    "No space left on device",  # the C library's words for ENOSPC
+    "No matching distribution found for",  # pip
+    "No such file or directory",
     "No module named venv",  # Python, where a system keeps this module apart
     "No module named 'pendula'",
     "invalid choice: 'slurm'",  # argparse: Snakemake without its plugin

@@ -245,6 +245,21 @@ def test_the_readme_is_one_page_and_leads_to_every_document():
         assert page.name == "README.md" or f"(docs/{page.name})" in text
 
 
+def task_pages() -> list[Path]:
+    """Return the pages that the README lists below "To do something"."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    listed = text[text.index("To do something:") : text.index("To know more:")]
+    return [ROOT / name for name in re.findall(r"\((docs/\w+\.md)\)", listed)]
+
+
+@pytest.mark.parametrize("page", task_pages(), ids=lambda page: page.name)
+def test_a_page_for_a_task_is_short_and_has_what_a_reader_looks_for(page):
+    text = page.read_text(encoding="utf-8")
+    headings = re.findall("^## (.*)$", text, re.MULTILINE)
+    assert {"Commands", "What you see", "What can go wrong"} <= set(headings)
+    assert headings[-1] == "What can go wrong" and len(text.splitlines()) <= 90
+
+
 def test_the_readme_names_every_figure_and_commands_that_exist():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     figures = {path.stem for path in (ROOT / "tests/baseline/figures").glob("*.png")}
