@@ -7,11 +7,11 @@ import pytest
 import yaml
 from pendula.configuration.files import ConfigurationError, gather, merge, read
 from pendula.configuration.messages import STUDIES, load, require
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = gather([ROOT / "config/config.yaml"], {})
 WHOLE = gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)], {})
-PAPER_CASES = [name for name in CONFIG["cases"] if name.startswith("fig")]
 STEPPED = ["crank_nicolson", "delfour_fortin_payre"]
 
 TABLE = yaml.safe_load((Path(__file__).parent / "bad_input.yaml").read_text())
@@ -22,7 +22,7 @@ def faults(text: str | bytes, folder: Path, below: dict = CONFIG) -> list[str]:
     path = folder / "mine.yaml"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(ConfigurationError) as told:
-        require(load(merge(below, read(path))), PAPER_CASES, [], STEPPED)
+        require(load(merge(below, read(path))), PAPER_CASES, PAPER_SWEEPS, STEPPED)
     said = re.sub(r"about \d+ \w+ and [\d.]+ \w+ of memory", "SO MUCH", str(told.value))
     return said.split("\n  ")[1:]
 
@@ -34,7 +34,7 @@ def test_a_file_that_is_no_configuration_or_that_yaml_reads_otherwise(text, word
 
 @pytest.mark.parametrize(("text", "words"), TABLE["rest"])
 def test_what_stands_where_it_does_not_belong(text, words, tmp_path):
-    assert faults(text, tmp_path)[0] == words
+    assert faults(text, tmp_path, WHOLE)[0] == words
 
 
 @pytest.mark.parametrize(("text", "words"), TABLE["case"])
@@ -125,5 +125,5 @@ def test_another_solver_replaces_the_controls_and_the_same_one_keeps_them():
 
 def test_a_figure_asks_for_every_case_of_the_paper():
     cases = {name: case for name, case in CONFIG["cases"].items() if name != "fig2_small"}
-    with pytest.raises(ConfigurationError, match=r"cases.fig2_small: is missing, and the figures"):
+    with pytest.raises(ConfigurationError, match=r"cases.fig2_small: is missing or empty"):
         require(load({"cases": cases}), PAPER_CASES, [], STEPPED)

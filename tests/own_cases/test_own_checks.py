@@ -5,7 +5,7 @@ import pytest
 from pendula import Case, check, simulate
 from pendula.models.bounds import best_bound, extent, theorem_1_bound, widened_bound
 from pendula.models.linear_chain import gamma_0, infinite_rate
-from pendula.own_cases import checks
+from pendula.own_cases import checks, section
 from pendula.problem import Problem
 from pendula.studies.theory.equations import total_energy
 from problems import constants_of
@@ -107,3 +107,14 @@ def test_a_negative_coupling_is_that_of_the_staggered_chain():
     assert extent(constants) == pytest.approx(extent(mirrored))
     assert gamma_0(2.0, -1.3) == pytest.approx(gamma_0(7.2, 1.3))
     assert infinite_rate(-2.0, 0.5, -1.0) == pytest.approx(infinite_rate(2.0, 0.5, 1.0))
+
+
+@pytest.mark.parametrize(("gamma", "driven"), [(0.0, False), (1e-12, False), (-0.5, True)])
+def test_how_steep_growth_is_beside_its_bound_is_said_of_driven_chains_alone(gamma, driven):
+    """Without a drive the bound is flat, and nothing is a multiple of it."""
+    found = checks.check_run(*made(STILL.changed(gamma=gamma)))
+    assert section._decided(found)["driven"] == driven and section._decided(found)["growth_holds"]
+
+
+def made(case):
+    return Problem.of(case.shown_problem()), simulate(case)

@@ -18,6 +18,7 @@ from code_records import code, committed, copies, kept, records, was_made, whole
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from stop import stop
@@ -47,8 +48,6 @@ os.environ.update(
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
-PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
-PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
 
 # The project's files, what the command line gives by --configfile, and --config over all. They are
 # read anew, since Snakemake takes the last of two equal keys in silence, and merges initial data.

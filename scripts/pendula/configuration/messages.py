@@ -63,9 +63,18 @@ Whole = create_model(
 def load(raw: dict) -> Configuration:
     """Return the validated configuration, or raise ConfigurationError with every fault."""
     try:
-        return Whole.model_validate(raw)
+        settings = Whole.model_validate(raw)
     except ValidationError as error:
         raise in_words(error, "the configuration") from None
+    lines = [
+        f"{study}.{key}: {text}"
+        for study in STUDIES
+        if hasattr(section := getattr(settings, study), "faults")
+        for key, text in section.faults(settings)
+    ]
+    if lines:
+        raise all_of(lines, "the configuration")
+    return settings
 
 
 def require(
@@ -75,9 +84,10 @@ def require(
 
     Each of `cases` is integrated by each of `solvers`, whose steps must fit its outputs.
     """
-    absent = [f"cases.{name}" for name in cases if name not in settings.cases]
+    absent = [study for study in STUDIES if getattr(settings, study) is None]
+    absent += [f"cases.{name}" for name in cases if name not in settings.cases]
     absent += [f"sweeps.{name}" for name in sweeps if name not in settings.sweeps]
-    lines = [f"{path}: is missing, and the figures need it" for path in absent]
+    lines = [f"{path}: is missing or empty, and the figures need it" for path in absent]
     steps: dict[str, str] = {}
     for name in [name for name in cases if name in settings.cases]:
         for solver in solvers:

@@ -17,6 +17,15 @@ from .cases import Case, is_multiple
 from .solvers import Solver, Solvers, with_controls
 from .values import Distinct, Model, Name, Positive, Whole, Window, faults, shown
 
+Faults = Iterator[tuple[str, str]]
+"""Keys, whose path starts where they are raised, and what is wrong with each."""
+
+
+PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
+PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
+AS_A_STUDY = 10.0
+"""How many times as long as a run a study may take with all of its own."""
+
 
 class Drawn(Model):
     """The windows whose maximum and whose mean a figure shows."""
@@ -112,6 +121,26 @@ class Configuration(Model):
             raise faults(found)
         return self
 
+    def absent(self, section: str, key: str, names: list[str]) -> Iterator[tuple[str, str]]:
+        """Yield each of `names`, which stand at `key`, that `section` does not have."""
+        for name in names:
+            if name not in getattr(self, section):
+                near = difflib.get_close_matches(name, getattr(self, section), 1)
+                hint = f"; did you mean {near[0]!r}?" if near else ""
+                yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
+
+    def excess(self, key: str, costs: list[cost.Cost], times: float = 1.0) -> Faults:
+        """Yield the key that makes runs, all of them `times` over, cost more than is allowed."""
+        total = cost.Cost(
+            times * sum(one.seconds for one in costs),
+            max((one.memory for one in costs), default=0.0),
+        )
+        limits = self.limits.model_dump()
+        limits["hours"] *= AS_A_STUDY
+        if total.excess(limits) > 1.0:
+            text = cost.refusal(total, limits).replace("allows", "allows a study")
+            yield key, text.replace("the run would take", "its runs together would take")
+
     def _same_files(self) -> Iterator[tuple[str, str]]:
         """Yield names whose files would be the same where a file system takes a for A."""
         for section in ("cases", "sweeps"):
@@ -131,9 +160,7 @@ class Configuration(Model):
     def _faults_of_sweep(self, name: str) -> list[tuple[str, str]]:
         sweep = self.sweeps[name]
         if sweep.case not in self.cases:
-            near = difflib.get_close_matches(sweep.case, self.cases, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            return [("case", f"there is no case {shown(sweep.case)}{hint}")]
+            return list(self.absent("cases", "case", [sweep.case]))
         case, found = self.cases[sweep.case], []
         reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
         if reach > shortest:

@@ -26,6 +26,8 @@ from pendula.report.words import (
 # ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
 # more than this.
 SLACK = 1e-6
+WEAKEST = 1e-6
+"""A drive that lets P grow by less over a whole run cannot be told from rounding."""
 ENDS = {
     "dirichlet": "A = B = 0 beyond them",
     "free": "free",
@@ -97,6 +99,7 @@ def _decided(checks) -> dict[str, Any]:
         "chaotic": bool(checks.get("chaotic", 0)),
         "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
         "region": str(checks["region"].values),
+        "driven": 4.0 * abs(checks.attrs["gamma"]) * checks.attrs["end_time"] > WEAKEST,
         "growth_holds": bool(checks["from_start"] <= limit),
         "bound_holds": bool(checks["ratio"] <= limit),
         "infinite_grows": bool(checks["infinite_rate"] > 0),

@@ -4,18 +4,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from pendula.configuration.values import Model, Name, Positive, Whole, Window
+from pendula.configuration.cost import Cost, estimate
+from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
+from pendula.configuration.values import Distinct, Model, Name, Positive, Whole, Window
 
 Count = Annotated[Whole, Field(ge=1)]
 Seed = Annotated[Whole, Field(ge=0)]
-Names = Annotated[list[Name], Field(min_length=1)]
+Names = Annotated[list[Name], Field(min_length=1), Distinct]
+Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
 
 
 class Spectrum(Model):
     """All Lyapunov exponents, on short chains; `lengths` are by half-width."""
 
     cases: Names
-    tolerance: Positive
+    tolerance: Tolerance
     lengths: Annotated[dict[Annotated[Whole, Field(ge=0)], Positive], Field(min_length=1)]
 
 
@@ -23,15 +26,15 @@ class Lyapunov(Model):
     """The largest exponents of every case; `lengths` multiplies the end time of the longest."""
 
     lengths: Positive
-    tolerance: Positive
-    diverging_tolerances: Annotated[list[Positive], Field(min_length=1)]
+    tolerance: Tolerance
+    diverging_tolerances: Annotated[list[Tolerance], Field(min_length=1), Distinct]
     spectrum: Spectrum
 
 
 class Symmetry(Model):
     """How even data lose their evenness."""
 
-    tolerance: Positive
+    tolerance: Tolerance
     size: Positive
     members: Count
     seed: Seed
@@ -42,7 +45,7 @@ class Ensembles(Model):
 
     cases: Names
     sweeps: Names
-    tolerance: Positive
+    tolerance: Tolerance
     size: Positive
     members: Count
     swept_members: Annotated[Whole, Field(ge=2)]
@@ -53,8 +56,8 @@ class Ensembles(Model):
 class Members(Model):
     """Ensembles of every case, each member reduced to numbers over windows of time."""
 
-    windows: Annotated[list[Window], Field(min_length=2, max_length=2)]
-    tolerance: Positive
+    windows: Annotated[list[Window], Field(min_length=2, max_length=2), Distinct]
+    tolerance: Tolerance
     size: Positive
     members: Annotated[Whole, Field(ge=3)]
     every: Count
@@ -65,18 +68,18 @@ class Compared(Model):
     """One amplitude again, by other tolerances and kinds of ensembles."""
 
     amplitude: Positive
-    choices: Annotated[list[tuple[Positive, Literal["even", "uneven"]]], Field(min_length=1)]
+    choices: Annotated[list[tuple[Tolerance, Literal["even", "uneven"]]], Field(min_length=1)]
 
 
 class Lifetimes(Model):
     """How long the central pendulum stays localised, against its initial amplitude."""
 
     case: Name
-    amplitudes: Annotated[list[Positive], Field(min_length=2)]
+    amplitudes: Annotated[list[Positive], Field(min_length=2), Distinct]
     ratio: Positive
     members: Count
     size: Positive
-    tolerance: Positive
+    tolerance: Tolerance
     end_time: Positive
     output_step: Positive
     settled: Positive
@@ -92,3 +95,52 @@ class Settings(Model):
     ensembles: Ensembles
     members: Members
     lifetimes: Lifetimes
+
+    def faults(self, settings: Configuration) -> Faults:
+        """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""
+        absent = [
+            *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
+            *settings.absent("cases", "ensembles.cases", self.ensembles.cases),
+            *settings.absent("sweeps", "ensembles.sweeps", self.ensembles.sweeps),
+            *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
+        ]
+        yield from absent
+        for i, (start, end) in enumerate(self.members.windows):
+            if not 0 <= start < end:
+                yield f"members.windows.{i}", f"[{start:g}, {end:g}] does not run forward"
+        if not absent:
+            yield from self._too_long(settings)
+
+    def _too_long(self, settings: Configuration) -> Faults:
+        """Yield the sizes of ensembles and the lengths of runs that nobody would wait for.
+
+        A tangent vector costs about as much as its trajectory.
+        """
+        paper = [case for case in PAPER_CASES if case in settings.cases]
+        longest = max((settings.cases[case].end_time for case in paper), default=1.0)
+        runs = [estimate(settings.problem(case, end_time=longest)) for case in paper]
+        drawn = [estimate(settings.problem(case)) for case in self.ensembles.cases]
+        swept = [settings.cost_of_sweep(sweep) for sweep in self.ensembles.sweeps]
+        yield from settings.excess("lyapunov.lengths", runs, 2.0 * self.lyapunov.lengths)
+        yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
+        yield from settings.excess("symmetry.members", runs, 2.0 * self.symmetry.members)
+        yield from settings.excess("ensembles.members", drawn, self.ensembles.members)
+        yield from settings.excess("ensembles.swept_members", swept, self.ensembles.swept_members)
+        yield from settings.excess("members.members", runs, 2.0 * self.members.members)
+        given = self.lifetimes
+        times = {"end_time": given.end_time, "output_step": given.output_step}
+        lives = [
+            estimate(settings.problem(given.case, **times, initial={0: (a, given.ratio * a)}))
+            for a in given.amplitudes
+        ]
+        key = "members" if max(lives).seconds < 60.0 else "end_time"
+        yield from settings.excess(f"lifetimes.{key}", lives, given.members)
+
+    def _spectra(self, settings: Configuration) -> list[Cost]:
+        """Return what all exponents of short chains take: as many tangent vectors as numbers."""
+        spectrum, found = self.lyapunov.spectrum, []
+        for case in spectrum.cases:
+            for half_width, lengths in spectrum.lengths.items():
+                one = estimate(settings.problem(case, half_width=half_width))
+                found.append(Cost(lengths * 4 * (2 * half_width + 1) * one.seconds, one.memory))
+        return found

@@ -4,7 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pendula.configuration.values import Model, Name, Positive, Whole
+from pendula.configuration.schema import Configuration, Faults
+from pendula.configuration.values import Distinct, Model, Name, Positive, Whole
 
 Bits = Annotated[Whole, Field(ge=64, le=4096)]
 
@@ -12,5 +13,9 @@ Bits = Annotated[Whole, Field(ge=64, le=4096)]
 class Settings(Model):
     """Section `reference` of the configuration."""
 
-    snapshots: Annotated[list[Positive], Field(min_length=1)]
+    snapshots: Annotated[list[Positive], Field(min_length=1), Distinct]
     bits: dict[Name, tuple[Bits, Bits]]
+
+    def faults(self, settings: Configuration) -> Faults:
+        """Yield the cases that the configuration has not."""
+        yield from settings.absent("cases", "bits", list(self.bits))

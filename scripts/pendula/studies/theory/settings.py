@@ -11,7 +11,8 @@ from pydantic import Field, create_model
 from pendula.configuration.solvers import Solver
 from pendula.configuration.values import Complex, Model, Number, Positive, Whole, Window
 
-Count = Annotated[Whole, Field(ge=1)]
+Count = Annotated[Whole, Field(ge=1, le=100_000)]
+"""Of sites, samples or members: more of them take hours in every check."""
 Counts = Annotated[list[Count], Field(min_length=1)]
 
 
@@ -28,7 +29,7 @@ class Grid(Model):
 
     first: Number
     last: Number
-    points: Annotated[Whole, Field(ge=2)]
+    points: Annotated[Whole, Field(ge=2, le=1000)]
     spacing: Literal["linear", "logarithmic"] = "linear"
 
 
@@ -60,7 +61,7 @@ ARGUMENTS = {
     "longest": Positive,
     "mus": Annotated[list[Positive], Field(min_length=2)],
     # times
-    "end_time": Positive,
+    "end_time": Annotated[Positive, Field(le=10_000)],
     "foldings": Positive,
     "times": Annotated[list[Positive], Field(min_length=1)],
     "long_times": Annotated[list[Positive], Field(min_length=3)],  # each twice the one before
