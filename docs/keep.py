@@ -4,8 +4,12 @@ Run as `python docs/keep.py results` after a full run, and again after `snakemak
 long study was made anew. It reduces both to the few numbers that are quoted and writes these to
 tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, and the long study of
 the chain without ends.
+
+Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
+it keeps what they say as the configuration that the claims are about.
 """
 
+import json
 import shutil
 import sys
 from collections import defaultdict
@@ -20,6 +24,8 @@ sys.path[:0] = [str(ROOT / "scripts")]
 
 import job  # noqa: E402
 from pendula import __version__  # noqa: E402
+from pendula.configuration import paper  # noqa: E402
+from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.laws import compare, span_means  # noqa: E402
@@ -267,5 +273,30 @@ def main(results: Path, folder: Path = QUOTED) -> None:
             keep(results, folder)
 
 
+SECTIONS = ("cases", "sweeps", "solvers", "chaos", "theory", "unbounded")
+"""The sections of the configuration that claims rest on."""
+
+
+def configuration() -> dict:
+    """Return what config/*.yaml say of SECTIONS, but for the long study, which no claim reads."""
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
+    raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
+    whole = json.loads(load(raw).model_dump_json())
+    kept = {name: whole[name] for name in SECTIONS}
+    del kept["unbounded"]["long"]
+    return kept
+
+
+def keep_configuration() -> None:
+    """Write it beside the module that compares other configurations with it, an entry a line."""
+    sections = [
+        ",\n".join(f'  "{name}": {json.dumps(value)}' for name, value in section.items())
+        for section in configuration().values()
+    ]
+    pairs = zip(SECTIONS, sections, strict=True)
+    text = ",\n".join(f' "{name}": {{\n{entries}\n }}' for name, entries in pairs)
+    paper.FILE.write_text(f"{{\n{text}\n}}\n", encoding="utf-8")
+
+
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    keep_configuration() if sys.argv[1] == "config" else main(Path(sys.argv[1]))

@@ -9,7 +9,7 @@ from pendula.datasets import complete_or_absent
 from pendula.datasets.checks import broken, deciding, describe
 from pendula.datasets.netcdf import read
 from pendula.ledger.claim import controls_of, cutoff_lines, evaluate, needed
-from pendula.ledger.criterion import Verdict
+from pendula.ledger.criterion import named
 from pendula.report.words import markdown, write_markdown
 from pendula.studies.theory.settings import WRONG_FOLDER
 
@@ -18,6 +18,7 @@ def decide_claims(
     datasets: list[str],
     names: list[str],
     makers: dict[str, str],
+    differs: dict[str, str],
     ledger: str,
     controls: str,
     table: str,
@@ -25,12 +26,13 @@ def decide_claims(
     """Write the ledger and its controls as JSON, and both as Markdown, in the order of the paper.
 
     `names` are those of `datasets` as the claims know them, `makers` the rule that makes each.
+    `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
     """
     absent = set(needed()) - set(names)
     if absent:
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
-    rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources)]
+    rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources, differs)]
     asked = [name for name in sources if name.startswith("checks/") and WRONG_FOLDER not in name]
     checks = {name: sources[name].to_dict() for name in asked}
     fed = controls_of(rows)
@@ -39,7 +41,8 @@ def decide_claims(
     sections = claims_section(rows), cutoffs_section(rows), controls_section(fed)
     write_markdown(table, *chain(*sections), *checks_section(checks))
     print(", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items()))
-    print(f"{sum(one['passes'] for one in fed)} of {len(fed)} controls came out as they must")
+    asked = [one["passes"] for one in fed if one["passes"] is not None]
+    print(f"{sum(asked)} of {len(asked)} controls came out as they must")
     for name, check in checks.items():
         if broken(check):
             print(describe(name.removeprefix("checks/"), check))
@@ -57,9 +60,9 @@ def rules_of(row: dict, makers: dict[str, str]) -> list[str]:
 
 
 def tally(rows: list[dict]) -> dict[str, int]:
-    """Return how many rows have each verdict, every verdict named."""
+    """Return how many rows have each verdict."""
     counts = Counter(row["verdict"] for row in rows)
-    return {str(verdict): counts[verdict] for verdict in Verdict}
+    return {str(verdict): counts[verdict] for verdict in named(counts)}
 
 
 def claims_section(rows: list[dict]) -> list[str]:
@@ -91,7 +94,8 @@ def cutoffs_section(rows: list[dict]) -> list[str]:
 def controls_section(controls: list[dict]) -> list[str]:
     """Return what every deciding function said of the wrong cases that it was fed."""
     keys = ("claim", "fed", "must", "verdict", "because")
-    lines = [(*(one[key] for key in keys), "yes" if one["passes"] else "NO") for one in controls]
+    words = {True: "yes", False: "NO", None: "not asked"}
+    lines = [(*(one[key] for key in keys), words[one["passes"]]) for one in controls]
     head = ("claim", "its function was fed", "must", "verdict", "because", "as it must")
     return ["# The controls", markdown(head, lines)]
 

@@ -1,5 +1,6 @@
 # What the rules share: the validated configuration, the code records, the environment of jobs.
 import atexit
+import json
 import os
 import sys
 from pathlib import Path
@@ -18,6 +19,7 @@ from code_records import code, committed, copies, kept, records, was_made, whole
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
+from pendula.configuration.paper import differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
@@ -67,6 +69,7 @@ if workflow.is_main_process:
     for sentence in SETTINGS.long_runs():
         logger.info(sentence)
 
+DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
 ENSEMBLE_CASES = SETTINGS.chaos.ensembles.cases
 ENSEMBLE_SWEEPS = SETTINGS.chaos.ensembles.sweeps
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]

@@ -94,6 +94,7 @@ rule claims:
     params:
         names=list(makers()),
         makers=makers(),
+        differs=DIFFERS,
     message:
         "Deciding the claims of the paper"
     script:

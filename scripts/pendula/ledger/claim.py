@@ -6,8 +6,9 @@ from functools import cache
 from typing import NamedTuple
 
 from pendula import studies
+from pendula.configuration.paper import Differences, reason
 
-from .criterion import Finding, UndecidableError, Verdict, undecided
+from .criterion import Finding, UndecidableError, Verdict, not_applicable, undecided
 from .cutoff import Cutoff, Flip, flips
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
@@ -32,12 +33,14 @@ class Control(NamedTuple):
     `confirms` turns the control round, for a claim that is not reproduced: the
     function must confirm this right case, or it could not have confirmed anything. `undecided` says
     that the function must not decide this case at all, because a bound does not exist there, say.
+    `on` names the paper's cases and sweeps that it takes from a dataset of many.
     """
 
     says: str
     fed: Mapping[str, str | Callable | tuple[str, Callable]]
     confirms: bool = False
     undecided: bool = False
+    on: tuple[str, ...] = ()
 
     @property
     def must(self) -> str:
@@ -56,7 +59,8 @@ class Control(NamedTuple):
 class Claim(NamedTuple):
     """A sentence of the paper, the function that decides it, and the controls of that function.
 
-    `needs` names the datasets that decide it: paths below results/ without their ending.
+    `needs` names the datasets that decide it: paths below results/ without their ending. `on` names
+    the cases and sweeps that it is on, where a dataset holds others as well.
     """
 
     name: str
@@ -65,10 +69,15 @@ class Claim(NamedTuple):
     needs: tuple[str, ...]
     decide: Callable
     controls: tuple[Control, ...]
+    on: tuple[str, ...] = ()
 
 
 def claim(
-    place: str, says: str, needs: tuple[str, ...], controls: tuple[Control, ...] = ()
+    place: str,
+    says: str,
+    needs: tuple[str, ...],
+    controls: tuple[Control, ...] = (),
+    on: tuple[str, ...] = (),
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
@@ -76,7 +85,7 @@ def claim(
     """
 
     def declare(function: Callable) -> Callable:
-        function.claim = Claim(function.__name__, place, says, needs, function, controls)
+        function.claim = Claim(function.__name__, place, says, needs, function, controls, on)
         return function
 
     return declare
@@ -95,7 +104,11 @@ def _wrong_in(folder: str) -> Callable[..., Control]:
     """Return a function that makes a control from names, without their folder, of datasets."""
 
     def control(
-        says: str, confirms: bool = False, undecided: bool = False, **fed: str | Callable | tuple
+        says: str,
+        confirms: bool = False,
+        undecided: bool = False,
+        on: tuple[str, ...] = (),
+        **fed: str | Callable | tuple,
     ) -> Control:
         def named(wrong):
             if isinstance(wrong, tuple):
@@ -103,7 +116,7 @@ def _wrong_in(folder: str) -> Callable[..., Control]:
             return f"{folder}/{wrong}" if isinstance(wrong, str) else wrong
 
         return Control(
-            says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms, undecided
+            says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms, undecided, on
         )
 
     return control
@@ -200,11 +213,13 @@ def _wrong(wrong: str | Callable | tuple[str, Callable], right, sources: Mapping
     return wrong(right)
 
 
-def passes(control: Control, finding: Finding) -> bool:
-    """Return whether a finding is what the control wants.
+def passes(control: Control, finding: Finding) -> bool | None:
+    """Return whether a finding is what the control wants, None where it was not asked.
 
     A refusal must come from numbers: what is missing or no number refuses everything.
     """
+    if finding.verdict == Verdict.NOT_APPLICABLE:
+        return None
     if control.confirms:
         return _confirmed(finding)
     if control.undecided:
@@ -218,20 +233,29 @@ def _confirmed(finding: Finding) -> bool:
     return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
 
-def evaluate(sources: Mapping) -> list[dict]:
+def evaluate(sources: Mapping, differs: Differences | None = None) -> list[dict]:
     """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
 
     A verdict that changes where a cut-off moves by a third says so. A claim whose function
-    confirms a wrong case cannot be decided by it.
+    confirms a wrong case cannot be decided by it. `differs` says where the configuration is not
+    the paper's: a claim or a control that rests on it is not applicable.
     """
-    return [_row(claim, sources) for claim in all_claims()]
+    return [_row(claim, sources, differs or {}) for claim in all_claims()]
 
 
-def _row(claim: Claim, sources: Mapping) -> dict:
+def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     home = claim.decide.__module__.removeprefix(f"{studies.__name__}.")
-    finding = decide(claim, sources)
-    cutoffs, moved = flips(lambda: str(decide(claim, sources).verdict))
-    controls = [(control, feed(claim, control, sources)) for control in claim.controls]
+    apart = reason(differs, claim.needs, claim.on)
+    if apart:
+        finding, cutoffs, moved = not_applicable(apart), [], []
+    else:
+        finding = decide(claim, sources)
+        cutoffs, moved = flips(lambda: str(decide(claim, sources).verdict))
+    controls = [
+        (control, not_applicable(why) if why else feed(claim, control, sources))
+        for control in claim.controls
+        for why in (apart or _reason_of(control, claim, differs),)
+    ]
     finding = _severe(finding, moved, controls)
     return {
         "name": claim.name,
@@ -250,6 +274,12 @@ def _row(claim: Claim, sources: Mapping) -> dict:
         ],
         "controls": [_control_row(control, fed) for control, fed in controls],
     }
+
+
+def _reason_of(control: Control, claim: Claim, differs: Differences) -> str:
+    """Return why what a control is fed is not the paper's case that it names."""
+    of_same = reason(differs, claim.needs, control.on) if control.on else ""
+    return of_same or reason(differs, control.names, control.on)
 
 
 def controls_of(rows: list[dict]) -> list[dict]:

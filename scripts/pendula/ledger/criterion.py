@@ -197,12 +197,21 @@ def in_words(name: str) -> str:
 
 
 class Verdict(StrEnum):
-    """What the numbers can say about a sentence of the paper."""
+    """What the numbers can say about a sentence of the paper.
+
+    A sentence is on the paper's case: where another one was run, it is not applicable.
+    """
 
     CONFIRMED = "confirmed"
     CAVEAT = "confirmed with a caveat"
     NOT_REPRODUCED = "not reproduced"
     UNDECIDED = "cannot be decided"
+    NOT_APPLICABLE = "not applicable"
+
+
+def named(counted: Mapping[str, int]) -> list[Verdict]:
+    """Return the verdicts that a count names: of the paper's cases none is not applicable."""
+    return [each for each in Verdict if counted[each] or each != Verdict.NOT_APPLICABLE]
 
 
 class UndecidableError(Exception):
@@ -237,6 +246,11 @@ def undecided(measured: Measured, because: str) -> Finding:
     """Return the finding on a claim that the numbers at hand cannot decide."""
     numbers = {name: float(value) for name, value in measured.items()}
     return Finding(numbers, None, Verdict.UNDECIDED, because)
+
+
+def not_applicable(because: str) -> Finding:
+    """Return the finding on a claim whose case was not run, since the configuration differs."""
+    return Finding({}, None, Verdict.NOT_APPLICABLE, because)
 
 
 def within_tolerance(check, *names: str) -> Finding:

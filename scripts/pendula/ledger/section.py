@@ -9,7 +9,7 @@ from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
 from .claim import controls_of, cutoff_lines
-from .criterion import Verdict
+from .criterion import Verdict, named
 
 LEDGER = "claims.json"
 
@@ -29,10 +29,12 @@ def gather(results: Results) -> dict[str, Any]:
     return {
         "rows": [_shown(row, results) for row in rows],
         "total": results.say(LEDGER, str(len(rows))),
-        "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in Verdict],
+        "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in named(counted)],
         "resting": results.say(LEDGER, str(sum(bool(row["rests_on"]) for row in rows))),
         "controls": results.say(LEDGER, str(len(fed))),
-        "failing": results.say(LEDGER, str(sum(not one["passes"] for one in fed))),
+        "failing": results.say(LEDGER, str(sum(one["passes"] is False for one in fed))),
+        "unasked": results.say(LEDGER, str(sum(one["passes"] is None for one in fed))),
+        "inapplicable": results.say(LEDGER, str(counted[Verdict.NOT_APPLICABLE])),
         "cutoffs": [[plainly_said(cell) for cell in line] for line in cutoff_lines(rows)],
         "fed": [[plainly_said(one[key]) for key in FED] for one in fed],
     }
@@ -72,7 +74,7 @@ class Ledger:
         self._rows = {row["name"]: row for row in load(results)}
 
     def value(self, claim: str, key: str) -> float:
-        """Return a measured number, or NaN if the data did not suffice to decide the claim."""
+        """Return a measured number, NaN if the claim was not decided or is not applicable."""
         return float(self._rows[claim]["measured"].get(key, "nan").__str__().replace("none", "nan"))
 
     def quote(self, claim: str, key: str, digits: int = 3) -> Quote:

@@ -195,6 +195,34 @@ def test_its_controls_pass(name, sources):
             assert found.verdict == Verdict.NOT_REPRODUCED, (control.says, found)
 
 
+def without_others(data, on):
+    """Return a dataset of many cases and sweeps in which those that are not named are unknown."""
+    spoilt = data.copy(deep=True)
+    for name in ("case", "sweep"):
+        if name in data.dims:
+            kept = data[name].isin(list(on))
+            for variable, values in spoilt.data_vars.items():
+                if name in values.dims and values.dtype.kind == "f":
+                    spoilt[variable] = values.where(kept)
+    return spoilt
+
+
+def said(finding) -> tuple:
+    return finding.verdict, str(finding.measured), finding.because
+
+
+@pytest.mark.parametrize("name", [name for name in TURNED if CLAIM[name].on])
+def test_a_claim_and_its_controls_read_no_case_but_those_that_they_are_on(name, sources):
+    claim = CLAIM[name]
+    alone = {need: without_others(sources[need], claim.on) for need in claim.needs}
+    assert said(decide(claim, sources | alone)) == said(decide(claim, sources))
+    for control in claim.controls:
+        on = (*claim.on, *control.on)
+        alone = {need: without_others(sources[need], on) for need in claim.needs}
+        found, of_all = (feed(claim, control, given) for given in (sources | alone, sources))
+        assert said(found) == said(of_all), control.says
+
+
 def test_what_is_missing_cannot_be_decided(sources):
     few = sources[EVEN].isel(half_width=slice(0, 3))
     finding = decide(CLAIM["ensemble_fig5_grows"], sources | {EVEN: few})

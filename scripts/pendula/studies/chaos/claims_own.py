@@ -252,9 +252,11 @@ def with_growth_of(case: str):
     controls=(
         wrong_check(
             "small changes that grow as slowly as in the small data at Omega = 8",
+            on=("fig2_small", "fig4_small"),
             trust=("lyapunov", with_growth_of("fig2_small")),
         ),
     ),
+    on=("fig4_small",),
 )
 def decimal_data(trust) -> Finding:
     times, end = trust["decimal_horizon"].values, float(trust["tau"][-1])

@@ -162,9 +162,11 @@ def with_maxima_of_l2(ensembles):
         *stable("fig5_right", "fig5_left", "fig6_left"),
         wrong_check(
             "the large data at Omega = -4, which fall again",
+            on=("fig5_right", "fig6_right"),
             ensembles=renamed("fig5_right", "fig6_right"),
         ),
     ),
+    on=("fig5_right",),
 )
 def ensemble_fig5_grows(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
@@ -194,6 +196,7 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
             confirms=True,
         ),
     ),
+    on=("fig5_right",),
 )
 def ensemble_fig5_conjecture(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
@@ -217,6 +220,7 @@ def ensemble_fig5_conjecture(even, uneven) -> Finding:
     "The l-infinity norm saturates to the same level independently of M.",
     NEEDS,
     controls=(wrong_check("the l2 norm, which grows with M", ensembles=with_maxima_of_l2),),
+    on=("fig5_right",),
 )
 def ensemble_fig5_maximum(even, uneven) -> Finding:
     """Ask whether short, middle and long chains have the same level.
@@ -241,6 +245,7 @@ def ensemble_fig5_maximum(even, uneven) -> Finding:
     "At Omega = -4, large data, the maximal l2 norm grows with M.",
     NEEDS,
     controls=stable("fig6_right", "fig6_left", "fig5_left"),
+    on=("fig6_right",),
 )
 def ensemble_fig6_grows(even, uneven) -> Finding:
     measured, lows, back = {}, {}, []
@@ -269,8 +274,10 @@ def ensemble_fig6_grows(even, uneven) -> Finding:
             "Omega = 0 on chains that its front still crosses",
             dict.fromkeys(NEEDS, renamed("fig6_right", "fig5_right", longest=100)),
             confirms=True,
+            on=("fig5_right",),
         ),
     ),
+    on=("fig6_right",),
 )
 def ensemble_fig6_diverges(even, uneven) -> Finding:
     measured = {}
@@ -291,6 +298,7 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
     "That Theorem 2 is limited to small data is not a technical shortfall.",
     NEEDS,
     controls=stable("fig6_right", "fig6_left", "fig5_left"),
+    on=("fig3_large", "fig6_right"),
 )
 def ensemble_fig6_not_technical(even, uneven) -> Finding:
     omega = float(even["omega"].sel(case="fig3_large"))
@@ -310,6 +318,7 @@ def ensemble_fig6_not_technical(even, uneven) -> Finding:
     "The time span [10, 70] gives the oscillations enough time to be excited in the chain.",
     NEEDS,
     controls=stable("fig6_right", "fig6_left", "fig5_left"),
+    on=("fig3_large", "fig6_right"),
 )
 def ensemble_fig6_time(even, uneven) -> Finding:
     start = float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0])

@@ -216,6 +216,7 @@ def averages_of(sweep, other):
             fig6_left=("fig5_right", lambda left, other: left.assign(l2=averages_of(left, other))),
         ),
     ),
+    on=("fig6_left", "fig6_right"),
 )
 def fig6_caption(left, ensembles) -> Finding:
     readings = (("max", TEXT_6), ("mean", CAPTION_6))

@@ -1,0 +1,211 @@
+"""The configuration that the claims are about: what each dataset rests on, and what differs.
+
+Users may edit every case. Sentences on the paper's figures are then no longer about what was run,
+and must not be judged by it. The file beside this module, paper.json, holds the cases, the sweeps
+and the studies' choices as this project reads the paper. It stays as it is when config/*.yaml are
+edited; `python docs/keep.py config` renews it, and a test fails where the committed files differ.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+FILE = Path(__file__).with_suffix(".json")
+
+FREE = {"seed", "draw", "snapshot_step"}
+"""Keys that change no statement: other draws of the same case, or another look at it."""
+AT_LEAST = {
+    *("members", "swept_members", "samples", "count", "nodes"),
+    *("generations", "population", "starts"),
+}
+"""Sizes of samples and searches: larger ones are still about the same case."""
+AT_MOST = {"tolerance"}
+"""Smaller values are still about the same case."""
+
+EQUATION = ("epsilon", "gamma", "omega")
+DATA = (*EQUATION, "initial")
+CHAIN = (*DATA, "boundary", "output_step")
+FINITE = (*CHAIN, "half_width")
+"""What of a case decides a solution: on a chain without ends, on swept chains, on its own chain."""
+
+Differences = Mapping[str, str]
+"""By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of
+8)"}."""
+
+
+@cache
+def paper() -> dict[str, Any]:
+    """Return the paper's configuration as plain values."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def differences(configuration: Mapping[str, Any]) -> dict[str, str]:
+    """Return where a validated configuration, as plain values, differs from the paper's.
+
+    Cases and sweeps beside the paper's are no difference.
+    """
+    found: dict[str, str] = {}
+    for section, of_paper in paper().items():
+        own = configuration.get(section)
+        for name, value in of_paper.items():
+            path = (section, name)
+            now = own.get(name, "absent") if isinstance(own, Mapping) else "absent"
+            for place, pair in _unlike(value, now, path):
+                found[".".join(place)] = _in_words(place, *pair)
+    return found
+
+
+def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
+    """Yield the places below `place` at which two values differ, with both values."""
+    key = place[-1]
+    if was == now or key in FREE:
+        return
+    if isinstance(was, Mapping) and isinstance(now, Mapping) and key != "initial":
+        if was.get("name") != now.get("name"):
+            yield place, (was["name"], now["name"])
+            return
+        for inner in dict.fromkeys([*was, *now]):
+            pair = (one.get(inner, "absent") for one in (was, now))
+            yield from _unlike(*pair, (*place, inner))
+    elif not _does_as_well(key, was, now):
+        yield place, (was, now)
+
+
+def _does_as_well(key: str, was: Any, now: Any) -> bool:
+    if not all(isinstance(value, int | float) for value in (was, now)):
+        return False
+    return (key in AT_LEAST and now >= was) or (key in AT_MOST and now <= was)
+
+
+def _in_words(place: tuple, was: Any, now: Any) -> str:
+    shown = place[1:] if place[0] in ("cases", "sweeps") else place
+    return f"{'.'.join(shown)} ({_short(now)} in place of {_short(was)})"
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:g}"
+    if value is None:
+        return "none"
+    if isinstance(value, Mapping) and "name" in value:
+        return str(value["name"])
+    if isinstance(value, Mapping):
+        sites = (f"{site}: {_short(pair)}" for site, pair in value.items())
+        return f"{{{', '.join(sites)}}}"
+    if isinstance(value, list):
+        text = f"[{', '.join(map(_short, value))}]"
+        return text if len(text) <= 50 else f"{len(value)} values from {_short(value[0])}"
+    return str(value).removesuffix("+0j")
+
+
+def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -> str:
+    """Return why datasets are not about the paper's cases; an empty text where they are.
+
+    `names` are paths below results/ without their ending. `on` names cases and sweeps where a
+    statement is about some alone of all that a dataset of many holds.
+    """
+    paths = {path for name in names for path in rests_on(name, tuple(on))}
+    said = [
+        words
+        for place, words in differs.items()
+        if any(f"{place}.".startswith(f"{path}.") for path in paths)
+        or any(path.startswith(f"{place}.") for path in paths)
+    ]
+    if not said:
+        return ""
+    more = f" and {len(said) - 3} more" if len(said) > 3 else ""
+    return f"the configuration differs in {', '.join(said[:3])}{more}"
+
+
+# --- What datasets rest on ------------------------------------------------------------------------
+
+
+@cache
+def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the parts of the configuration that decide a dataset, as dotted paths.
+
+    `on` leaves of a check of many cases and sweeps these alone.
+    """
+    folder, _, rest = name.partition("/")
+    stem, _, solver = rest.partition(".")
+    if folder == "trajectories":
+        return (*_keys(stem, *FINITE, "end_time"), *_solver(stem, solver))
+    if folder == "sweeps":
+        return _sweep(stem, solver)
+    return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
+
+
+def _keys(case: str, *keys: str) -> tuple[str, ...]:
+    return tuple(f"cases.{case}.{key}" for key in keys)
+
+
+def _solver(case: str, solver: str = "") -> tuple[str]:
+    return (f"solvers.{solver}" if solver else f"cases.{case}.solver",)
+
+
+def _sweep(name: str, solver: str = "") -> tuple[str, ...]:
+    by = _solver(paper()["sweeps"][name]["case"], solver)
+    return (*_swept(name), *by, f"sweeps.{name}.solver")
+
+
+def _swept(name: str) -> tuple[str, ...]:
+    own = tuple(f"sweeps.{name}.{key}" for key in ("case", "half_widths", "windows"))
+    return (*own, *_keys(paper()["sweeps"][name]["case"], *CHAIN))
+
+
+def _unbounded(name: str) -> tuple[str, ...]:
+    given = paper()["unbounded"]
+    whole = tuple(f"unbounded.{key}" for key in ("tolerance", "output_step"))
+    if name == "thermal":
+        return ("unbounded.thermal", *_keys(given["thermal"]["warm"]["case"], *EQUATION))
+    if name in ("growth", "front"):
+        runs = (*given["cases"], *given["varied"], "thermal")
+        return tuple(dict.fromkeys(path for run in runs for path in _unbounded(run)))
+    if name.startswith("map_"):
+        sweep = name.removeprefix("map_")
+        keys = ("half_widths", "end_time", "output_step", "rest", f"members.{sweep}")
+        maps = tuple(f"unbounded.short.maps.{key}" for key in keys)
+        return (*whole, *maps, *_keys(paper()["sweeps"][sweep]["case"], *DATA))
+    varied = given["varied"].get(name)
+    own = (f"unbounded.varied.{name}",) if varied else ()
+    extent = ("unbounded.short.rest", f"unbounded.short.runs.{name}")
+    return (*whole, *own, *extent, *_keys(varied["case"] if varied else name, *DATA))
+
+
+def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what a check rests on; those of the theory have a key of their own each."""
+    given, theory = paper()["chaos"], paper()["theory"]
+    cases = [case for case in paper()["cases"] if not on or case in on]
+    swept = [sweep for sweep in paper()["sweeps"] if not on or sweep in on]
+    wrong = name.removeprefix("wrong/")
+    if wrong != name:
+        right = theory["wrong"][wrong]["check"] or wrong
+        return (f"theory.wrong.{wrong}", f"theory.{right}")
+    if name in theory:
+        return (f"theory.{name}",)
+    if name.startswith("ensemble"):
+        ensemble = given["ensembles"]
+        cases = [case for case in cases if case in ensemble["cases"]]
+        swept = [sweep for sweep in swept if sweep in ensemble["sweeps"]]
+        of_sweeps = tuple(path for sweep in swept for path in _swept(sweep))
+        return ("chaos.ensembles", *of_sweeps, *_of_all(cases, *FINITE, "end_time"))
+    if name == "lifetimes":
+        of_case = _keys(given["lifetimes"]["case"], *EQUATION, "boundary", "half_width")
+        return ("chaos.lifetimes", *of_case)
+    if name == "members":
+        return ("chaos.members", *_of_all(cases, *FINITE))
+    if name in ("lyapunov", "symmetry"):
+        return (f"chaos.{name}", *_of_all(cases, *FINITE, "end_time"))
+    if name == "sweeps":
+        return tuple(path for sweep in swept for path in _sweep(sweep))
+    if name in ("solvers", "trust", "second_solver"):
+        return ("solvers", *_of_all(cases, *FINITE, "end_time"))
+    if name == "cases":
+        return _of_all(cases, *FINITE, "end_time", "solver")
+    return ()
+
+
+def _of_all(cases: Iterable[str], *keys: str) -> tuple[str, ...]:
+    return tuple(path for case in cases for path in _keys(case, *keys))

@@ -1,0 +1,103 @@
+"""Where a configuration is not the paper's, and which datasets and claims that concerns."""
+
+import copy
+
+import keep
+import pytest
+from pendula.configuration.paper import differences, paper, reason, rests_on
+from pendula.ledger.claim import all_claims, needed
+
+EDITS = {
+    "omega": 1.0,
+    "gamma": 0.5,
+    "epsilon": 2.0,
+    "boundary": "periodic",
+    "initial": {"0": ["2+0j", "0.1+0j"]},
+    "half_width": 20,
+    "end_time": 60.0,
+    "output_step": 0.05,
+    "solver": {"name": "dop853", "rtol": 1e-13, "atol": 1e-13},
+}
+"""Another value for each key of a case that decides its solution."""
+
+
+def edited(*place, value) -> dict:
+    """Return the paper's configuration with one value changed."""
+    whole = copy.deepcopy(paper())
+    inner = whole
+    for key in place[:-1]:
+        inner = inner[key]
+    inner[place[-1]] = value
+    return whole
+
+
+def test_the_committed_configuration_is_the_papers():
+    assert keep.configuration() == paper(), "run `python docs/keep.py config` if this is meant"
+    assert differences(paper()) == {}
+
+
+def test_cases_beside_the_papers_are_no_difference():
+    assert differences(edited("cases", "mine", value={"omega": 1.0})) == {}
+
+
+@pytest.mark.parametrize("key", EDITS)
+@pytest.mark.parametrize("case", paper()["cases"])
+def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
+    differs = differences(edited("cases", case, key, value=EDITS[key]))
+    assert list(differs) == [f"cases.{case}.{key}"]
+    said = reason(differs, [f"trajectories/{case}"])
+    assert said.startswith(f"the configuration differs in {case}.{key} (")
+    for claim in all_claims():
+        own = [name for name in claim.needs if name.split(".")[0] == f"trajectories/{case}"]
+        direct = f"trajectories/{case}" in claim.needs or (own and key != "solver")
+        assert not direct or reason(differs, claim.needs, claim.on) == said, claim.name
+    others = [f"trajectories/{other}" for other in paper()["cases"] if other != case]
+    assert reason(differs, others) == ""
+
+
+def test_words_name_both_values():
+    differs = differences(edited("cases", "fig2_small", "omega", value=1.0))
+    assert list(differs.values()) == ["fig2_small.omega (1 in place of 8)"]
+    differs = differences(edited("cases", "fig2_small", "solver", value=EDITS["solver"]))
+    assert list(differs.values()) == ["fig2_small.solver (dop853 in place of ode45)"]
+    differs = differences(edited("sweeps", "fig5_left", "half_widths", value=[4, 6]))
+    assert list(differs.values()) == ["fig5_left.half_widths ([4, 6] in place of 18 values from 5)"]
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "apart"),
+    [
+        (("chaos", "members", "seed"), 77, False),
+        (("chaos", "members", "members"), 64, False),
+        (("chaos", "members", "members"), 8, True),
+        (("chaos", "members", "tolerance"), 1e-10, False),
+        (("chaos", "members", "tolerance"), 1e-3, True),
+        (("cases", "fig2_small", "snapshot_step"), 0.2, False),
+        (("sweeps", "fig5_left", "windows"), [[10, 60]], True),
+        (("theory", "chart", "sites"), 9, True),
+    ],
+)
+def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):
+    assert bool(differences(edited(*place, value=value))) is apart
+
+
+def test_an_edited_case_leaves_sentences_on_other_cases_alone():
+    differs = differences(edited("cases", "fig2_small", "omega", value=1.0))
+    apart = {claim.name for claim in all_claims() if reason(differs, claim.needs, claim.on)}
+    assert {"fig2_bounded", "fig3_alike", "odd_as_even"} <= apart
+    assert not apart & {
+        "ensemble_fig3_grows",
+        "ensemble_fig4_settles",
+        "theorem_1",
+        "fig4_unstable",
+    }
+
+
+def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
+    for name in needed():
+        assert rests_on(name), name
+        for path in rests_on(name):
+            inner = paper()
+            for key in path.split("."):
+                assert key in inner, (name, path)
+                inner = inner[key]
