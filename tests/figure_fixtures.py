@@ -90,7 +90,7 @@ def make_sweep():
                 for dim, values in zip(dims, coordinates, strict=True)
             },
             {key: PARAMETERS[key] for key in ("epsilon", "gamma", "boundary", "initial")}
-            | {"omega": omega, "case": case},
+            | {"omega": omega, "case": case, "solver": "ode45"},
         )
 
     return make

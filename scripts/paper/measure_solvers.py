@@ -13,15 +13,17 @@ def measure_solvers(
     cases: list[str],
     solvers: list[str],
     sweeps: list[str],
+    others: list[str],
     data: str,
 ) -> None:
     """Write the dataset; `trajectories` run over cases, then over solvers.
 
-    `first` and `second` are the sweeps by the one solver of the paper and by the other.
+    `first` and `second` are the sweeps by the one solver of the paper and by the other. `others`
+    are the cases that the configuration has changed, of which the paper states nothing.
     """
     runs = dict(zip(product(cases, solvers), map(read, trajectories), strict=True))
     pairs = zip(map(read, first), map(read, second), strict=True)
-    save(data, compare(runs, dict(zip(sweeps, pairs, strict=True))))
+    save(data, compare(runs, dict(zip(sweeps, pairs, strict=True)), others))
 
 
 if __name__ == "__main__":

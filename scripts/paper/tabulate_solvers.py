@@ -1,10 +1,11 @@
 """The paper's solvers in numbers: energy, agreement with each other and with the references."""
 
 import math
+from collections.abc import Iterable
 
 import xarray
 from pendula.datasets.netcdf import read
-from pendula.report.words import markdown, write_markdown
+from pendula.report.words import horizons_in_words, markdown, write_markdown
 
 
 def tabulate_solvers(solvers: str, trust: str, table: str, trust_table: str) -> None:
@@ -19,7 +20,8 @@ def tabulate_solvers(solvers: str, trust: str, table: str, trust_table: str) -> 
 def energy_part(data: xarray.Dataset) -> list[str]:
     """Return the largest drift early and by the end, beside the order that the paper states."""
     spans = [str(span) for span in data["span"].values]
-    early, end = (f"{float(until):g}" for until in data["until"].isel(case=0))
+    ends = [[f"{float(until):g}" for until in sorted(set(one.values))] for one in data["until"].T]
+    early, end = (" or ".join(each) for each in ends)
     words = (
         f"Largest drift of H by tau = {early} / by tau = {end}, beside the order that the paper "
         "states. Kept is a drift of at most twice that order."
@@ -31,14 +33,21 @@ def energy_part(data: xarray.Dataset) -> list[str]:
             " / ".join(f"{float(case['largest_drift'].sel(solver=s, span=at)):.1e}" for at in spans)
             for s in data["solver"].values
         ]
-        kept = [int(case["kept"].sel(solver="ode45", span=span)) for span in spans]
-        said = [
-            word if holds else f"not {word}"
-            for word, holds in zip(("early", "to the end"), kept, strict=True)
-        ]
-        rows.append((name, f"{float(case['stated_drift']):.0e}", *drifts, ", ".join(said)))
+        rows.append((name, *_claimed(case, spans, drifts)))
     head = ("case", "paper", *data["solver"].values, "ode45 as claimed")
     return ["## Conservation of the energy", words, markdown(head, rows)]
+
+
+def _claimed(case: xarray.Dataset, spans: list[str], drifts: list[str]) -> list[str]:
+    """Return the drifts with the order that the paper states, if it states one of this case."""
+    if math.isnan(float(case["stated_drift"])):
+        return ["none: another case", *drifts, "no claim"]
+    kept = [int(case["kept"].sel(solver="ode45", span=span)) for span in spans]
+    said = [
+        word if holds else f"not {word}"
+        for word, holds in zip(("early", "to the end"), kept, strict=True)
+    ]
+    return [f"{float(case['stated_drift']):.0e}", *drifts, ", ".join(said)]
 
 
 def agreement_part(data: xarray.Dataset) -> list[str]:
@@ -69,10 +78,7 @@ def sweep_part(data: xarray.Dataset) -> list[str]:
     for sweep in data["sweep"].values:
         for window in data["window"].values:
             cells = [
-                " / ".join(
-                    f"{float(one.sel(sweep=sweep, window=window, statistic=statistic)):.1e}"
-                    for one in found
-                )
+                _both(one.sel(sweep=sweep, window=window, statistic=statistic) for one in found)
                 for statistic in ("max", "mean")
             ]
             rows.append((sweep, window, *cells))
@@ -86,14 +92,23 @@ def trust_part(data: xarray.Dataset) -> list[str]:
         "The first tau at which a norm is off by a part of its full scale (0.67 % is the width of "
         "a line in Figs 2 to 4), against the multiprecision references."
     )
+    if (data["known_until"] < data["run_end"]).any():
+        words += " Where a reference ends before the run, nothing is known of the time after it."
     rows = [
-        (case, solver, *(_time(time, ".4g") for time in data["horizon"].sel(at).values))
+        (case, solver, *horizons_in_words(data.sel(case=case, solver=solver), 4))
         for case in data["case"].values
         for solver in data["solver"].values
-        for at in ({"case": case, "solver": solver},)
     ]
     head = ("case", "solver", *(f"off by {float(size):.2%}" for size in data["size"]))
     return ["# Until when the solvers can be trusted", words, markdown(head, rows)]
+
+
+def _both(found: Iterable[xarray.DataArray]) -> str:
+    """Return two numbers, or that the sweep has no such window."""
+    values = [float(one) for one in found]
+    if any(map(math.isnan, values)):
+        return "not swept"
+    return " / ".join(f"{value:.1e}" for value in values)
 
 
 def _time(time: float, digits: str) -> str:

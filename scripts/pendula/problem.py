@@ -166,6 +166,13 @@ def write_initial(initial: Mapping[int, tuple[complex, complex]]) -> str:
     return json.dumps({str(site): [_as_written(z) for z in pair] for site, pair in initial.items()})
 
 
+def is_even(text: str) -> bool:
+    """Return whether data, as datasets keep them, are the same on sites n and -n."""
+    sites = read_initial(text)
+    rest = (0.0, 0.0)
+    return all(tuple(sites.get(-site, rest)) == tuple(pair) for site, pair in sites.items())
+
+
 def read_initial(text: str) -> dict[int, tuple[complex, complex]]:
     """Return the initial data that `write_initial` has written."""
     return {int(site): tuple(complex(z) for z in pair) for site, pair in json.loads(text).items()}

@@ -20,16 +20,18 @@ def write_report(
     sources: list[str],
     speed_is_fresh: bool,
     settings: str,
+    differs: dict[str, str],
     logs: str,
     html: str,
 ) -> None:
     """Write the page `html` on the files of a run, which lie beside it in folders.
 
     `sources` are the records of code and the references,
-    `settings` the configuration as text and `logs` the folder of the jobs' logs.
+    `settings` the configuration as text, `differs` says where it is not the paper's, and `logs` is
+    the folder of the jobs' logs.
     """
     files = [*datasets, *pictures, ledger, speed_data, speed_table, *speed_pictures, *sources]
-    results = Results(files, html, json.loads(settings))
+    results = Results(files, html, json.loads(settings), differs)
     (times, table), drawn, made_of = (
         [Path(path).relative_to(Path(html).parent).as_posix() for path in paths]
         for paths in ([speed_data, speed_table], speed_pictures, sources)

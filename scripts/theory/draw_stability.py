@@ -11,6 +11,7 @@ def draw_stability(
     windows: str,
     threshold: str,
     points: list[tuple[float, float]],
+    of_paper: bool,
     png: str,
     pdf: str,
     data: str,
@@ -20,9 +21,12 @@ def draw_stability(
     growth_data: str,
     growth_description: str,
 ) -> None:
-    """Draw the chart with the paper's `points` (Omega, gamma), and the growth rates."""
+    """Draw the chart with the cases' `points` (Omega, gamma), and the growth rates.
+
+    `of_paper` says whether these are the paper's cases.
+    """
     charts = read(chart), read(short_chart)
-    drawn = figures.gather_chart(*charts, read(windows), points)
+    drawn = figures.gather_chart(*charts, read(windows), points, of_paper)
     save(figures.draw_chart(drawn), drawn, png, pdf, data, description)
     drawn = figures.gather_rates(*charts, read(threshold))
     save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data, growth_description)

@@ -14,7 +14,7 @@ from pendula.studies.unbounded import section as growth
 TAU = np.linspace(0.0, 10.0, 11)
 
 
-def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
+def chaotic_results(folder, rate: float, lost: float, until: float = 10.0) -> made_up.MadeUp:
     by_parity, by_solver = ("case", "parity"), ("case", "level", "solver")
     rates = np.array([[0.001, 0.002]] * 3 + [[rate, rate / 2]])
     growing = made_up.by_case(
@@ -30,6 +30,8 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
         size=("level", [0.01]),
         decimal_horizon=("decimal_level", [2.0, 5.0]),
         decimal_size=("decimal_level", [1e-12, 0.01]),
+        known_until=(("case", "solver"), np.full((4, 2), until)),
+        run_end=("case", [10.0] * 4),
     )
     inside = {"run_inside": 0.875, "band_width": 0.3, "band_middle": 10.0}
     ensembles = made_up.by_case(
@@ -53,7 +55,8 @@ def chaotic_results(folder, rate: float, lost: float) -> made_up.MadeUp:
             "checks/symmetry": rounded,
             "checks/members": members,
             "checks/lifetimes": lives(),
-            "trajectories/fig4_small": run,
+            "trajectories/fig4_small": run.assign_attrs(omega=1.0),
+            chaos.PRINTED: run,
         },
     )
 
@@ -91,6 +94,22 @@ def test_chaos_is_told_from_the_rates(tmp_path, rate, lost, count):
     assert str(found["lost"]["taylor"]["kept"]) == "3"
     row = [str(cell) for cell in found["rows"][3]]
     assert row[3:] == [f"{lost:g}", f"{2 * lost:g}", "6.5"]
+
+
+@pytest.mark.parametrize(
+    ("until", "said", "counts"),
+    [
+        (10.0, "never", ("3", "0", "0")),
+        (8.0, "not by 8, the reference's end", ("0", "3", "0")),
+        (np.nan, "no reference", ("0", "0", "4")),
+    ],
+)
+def test_never_is_told_from_not_known(tmp_path, until, said, counts):
+    results = chaotic_results(tmp_path, 2.5, np.nan if np.isnan(until) else 4.5, until)
+    found = gathered(results)
+    lost = found["lost"]["ode45"]
+    assert tuple(str(lost[name]) for name in ("kept", "ended", "unknown")) == counts
+    assert str(found["rows"][0][3]) == said
 
 
 def test_a_band_is_as_wide_as_its_quantiles(tmp_path):
@@ -224,6 +243,7 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
         {"printed": ("n", [0.02, printed]), "corrected": ("n", [0.04, 0.04]), "smallest": 3}
     )
     numbers = {"start": 1.01, "delta_0": 0.4, "depth": 6.62, "barrier": 4.0}
+    given = {"constants": {"omega": -4.0}, "pair": ["(1+0j)", "(0.1+0j)"]}
     widened = {"widened_delta_0": 1.34, "widened_bound": 3.39}
     pair = {"allowed_power": 2.0, "breaking": 27.7, "barrier_power": 4.0}
     rows = [
@@ -243,9 +263,13 @@ def test_errata_follow_from_their_checks(tmp_path, printed, fails):
         },
         **{"claims.json": made_up.ledger(*rows)},
     )
+    results.settings = {"theory": {"theorem_2_case": given}}
     found = theory.gather_errata(results, claims.Ledger(results))
+    assert found["case"]["name"].replace("\N{NO-BREAK SPACE}", " ") == "Ω = −4, (A₀, B₀) = (1, 0.1)"
     assert found["constant"]["fails"] is fails and str(found["constant"]["sites"]) == "3"
     assert not found["case"]["covered"] and found["case"]["covered_widened"]
-    assert found["bootstrap"]["fails"] and "27.7" in made_up.text_of(found["bootstrap"])
+    assert found["bootstrap"]["verdict"] == "not reproduced" and "27.7" in made_up.text_of(
+        found["bootstrap"]
+    )
     assert not found["case"]["shallow"]
     assert [row["because"] for row in found["missed"]] == ["it assumes what it proves", "Ω is −4"]

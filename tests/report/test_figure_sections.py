@@ -1,12 +1,15 @@
 """The sections on the figures, the motion and the claims, on made-up results."""
 
 import base64
+import re
 
 import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
+from jinja2 import Environment, FileSystemLoader
 from pendula.ledger import section as claims
+from pendula.report import page
 from pendula.studies.paper import motion
 from pendula.studies.paper import section as paper
 
@@ -22,26 +25,69 @@ def run_of(size: str, scale: float) -> xr.Dataset:
     falling = scale * np.array([1.0, 0.8, 0.6, 0.6, 0.6]) * (5.0 if size == "large" else 1.0)
     norm = (("component", "tau"), np.stack([falling, 0.0 * falling]))
     attributes = {"omega": 8.0, "initial": made_up.SMALL, "solver": "ode45", "steps": 120}
+    attributes |= {"solver_rtol": 1e-7}
     return xr.Dataset({"l2": norm, "linf": norm}, {"tau": np.linspace(0.0, 4.0, 5)}, attributes)
 
 
-def trusted_until(time: float) -> xr.Dataset:
+def trusted_until(time: float, until: float = 4.0) -> xr.Dataset:
+    """Return horizons of runs to tau = 4 where run and reference are known `until` then."""
     horizons = np.array([np.inf, time, np.inf, np.inf])[:, None, None]
-    trust = made_up.by_case(horizon=(("case", "level", "solver"), horizons))
+    trust = made_up.by_case(
+        horizon=(("case", "level", "solver"), np.where(np.isnan(until), np.nan, horizons)),
+        known_until=(("case", "solver"), np.full((4, 1), until)),
+        run_end=("case", [4.0] * 4),
+        size=("level", [0.01]),
+    )
     return trust.assign_coords(solver=["ode45"], level=["visible"])
+
+
+def norms_results(folder, trust: xr.Dataset, scale: float = 1.0, **attributes) -> made_up.MadeUp:
+    """Return the results of Fig 2; `attributes` are those of its runs, not of those judged."""
+    judged = {f"fig2_{size}.ode45": run_of(size, scale) for size in ("small", "large")}
+    own = {name.partition(".")[0]: run.assign_attrs(attributes) for name, run in judged.items()}
+    runs = {f"trajectories/{name}": run for name, run in {**judged, **own}.items()}
+    ensembles = xr.Dataset(coords={"case": ["fig3_large"]})
+    datasets = {"checks/cases": observed(), paper.TRUST: trust, paper.ENSEMBLES: ensembles}
+    return made_up.MadeUp(folder, datasets | runs)
+
+
+def caption(figure: dict) -> str:
+    """Return what the page says of a figure of norms."""
+    folders = [page.STUDIES, page.HERE / "templates"]
+    templates = Environment(loader=FileSystemLoader(folders), trim_blocks=True)
+    part = templates.get_template("paper/section.html.j2").module
+    visible = {"visible": "1 %", "ensemble": {"share": "90 %", "runs": "32"}}
+    shown = {"chain": figure["picture"], "norms": [figure], "sweeps": [], "verdicts": {2: []}}
+    return re.sub("<[^>]*>", "", str(part.figures(visible | shown)))
+
+
+@pytest.mark.parametrize(
+    ("trust", "attributes", "told", "untold"),
+    [
+        (trusted_until(np.inf), {}, "Both runs agree with the references to the end", "visibly"),
+        (trusted_until(3.5), {}, "The runs visibly leave the references", "Both"),
+        (trusted_until(np.inf, 3.0), {}, "to τ = 3. There the reference ends", "to the end"),
+        (trusted_until(np.nan, np.nan), {}, "No reference is known", "agree"),
+        (trusted_until(np.inf), {"solver_rtol": 1e-2}, "No reference is known", "agree"),
+        (trusted_until(np.inf), {"solver": "other"}, "No reference is known", "agree"),
+    ],
+)
+def test_a_caption_says_no_more_of_a_reference_than_is_known(
+    tmp_path, trust, attributes, told, untold
+):
+    results = norms_results(tmp_path, trust, **attributes)
+    if "solver" in attributes:
+        for size in ("small", "large"):
+            run = results[f"trajectories/fig2_{size}"]
+            results._paths[f"trajectories/fig2_{size}.other.nc"] = tmp_path
+            results._read[f"trajectories/fig2_{size}.other"] = run
+    said = caption(paper._norms(results, 2))
+    assert told in said and untold not in said
 
 
 @pytest.mark.parametrize(("scale", "shown"), [(1.0, "0.600 to 1.00"), (2.0, "1.20 to 2.00")])
 def test_norms_are_read_from_their_datasets(tmp_path, scale, shown):
-    results = made_up.MadeUp(
-        tmp_path,
-        {
-            "checks/cases": observed(),
-            paper.TRUST: trusted_until(3.5),
-            "trajectories/fig2_small": run_of("small", scale),
-            "trajectories/fig2_large": run_of("large", scale),
-        },
-    )
+    results = norms_results(tmp_path, trusted_until(3.5), scale)
     figure = paper._norms(results, 2)
     small, large = figure["rows"]
     assert [str(cell) for cell in small[1:3]] == [shown, f"{0.6 * scale:#.3g}"]
@@ -61,7 +107,7 @@ def sweeps(right: list[float]) -> dict[str, xr.Dataset]:
         made[f"sweeps/{name}"] = xr.Dataset(
             dict.fromkeys(("l2", "linf"), (dims, values)),
             {**coords, "window": ["[10, 50]"]},
-            {"omega": omega, "initial": made_up.SMALL},
+            {"omega": omega, "initial": made_up.SMALL, "solver": "ode45"},
         )
     return made
 
@@ -132,8 +178,16 @@ def test_the_run_to_play_is_quantised_time_after_time(tmp_path):
     assert shown["count"] == 4 and shown["step"] == 0.5 and str(shown["peak"]) == "2"
     assert frames[:, 0, 1].tolist() == [128, 255, 255, 255]
     assert frames[2:, 1, 2].tolist() == [191, 191]
-    assert shown["still"] == 2 and str(shown["still_tau"]) == "1"  # two of three sites move
+    assert (
+        shown["half"] and shown["still"] == 2 and str(shown["still_tau"]) == "1"
+    )  # two of three sites move
     assert shown["bars"][0] == [0.0, 1.0, 0.0]
+
+
+def test_a_chain_of_which_half_never_moves_shows_its_end(tmp_path):
+    still = moving_chain().isel(component=[0])
+    shown = motion.played(made_up.MadeUp(tmp_path, {"trajectories/a": still}), "trajectories/a")
+    assert not shown["half"] and shown["still"] == 3
 
 
 def test_the_ledger_is_shown_and_counted(tmp_path):

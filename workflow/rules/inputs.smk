@@ -74,8 +74,19 @@ def makers():
     }
 
 
-def points_of_paper():
-    """Return (Omega, gamma) of the paper's cases in units of epsilon, once each."""
+def other_cases(solver):
+    """Return the cases by a solver that the configuration has changed: no longer the paper's."""
+    return [case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.{solver}"])]
+
+
+def points_are_the_papers():
+    """Return whether no case of a figure has other constants than in the paper."""
+    constants = ("epsilon", "gamma", "omega")
+    return not any(f"cases.{case}.{key}" in DIFFERS for case in PAPER_CASES for key in constants)
+
+
+def points_of_cases():
+    """Return (Omega, gamma) of the figures' cases in units of epsilon, once each."""
     problems = [SETTINGS.problem(case) for case in PAPER_CASES]
     problems = [problem for problem in problems if problem["epsilon"]]
     return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})

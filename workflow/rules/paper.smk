@@ -129,6 +129,7 @@ rule measure_solvers:
         cases=PAPER_CASES,
         solvers=COMPARED,
         sweeps=PAPER_SWEEPS,
+        others=other_cases("ode45"),
     message:
         "Measuring how the solvers conserve the energy, and until when they agree"
     script:

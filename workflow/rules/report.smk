@@ -27,6 +27,7 @@ rule report:
     params:
         speed_is_fresh=SPEED_IS_FRESH,
         settings=settings_in_words(),
+        differs=DIFFERS,
         logs="results/logs",
     message:
         "Writing the report"

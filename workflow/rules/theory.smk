@@ -117,7 +117,8 @@ rule stability_figures:
     conda:
         "../envs/pinned.yaml"
     params:
-        points=points_of_paper(),
+        points=points_of_cases(),
+        of_paper=points_are_the_papers(),
     message:
         "Drawing the stability chart and the growth rates"
     script:

@@ -198,7 +198,7 @@ rule window_map:
         "../envs/pinned.yaml"
     params:
         sweeps=PAPER_SWEEPS,
-        paper_ends=[SETTINGS.sweeps[sweep].drawn.max[1] for sweep in PAPER_SWEEPS],
+        paper_ends=[paper()["sweeps"][sweep]["draw"]["max"][1] for sweep in PAPER_SWEEPS],
     message:
         "Drawing the maxima over half-widths and windows"
     script:

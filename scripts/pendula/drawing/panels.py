@@ -31,7 +31,7 @@ def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None],
         axes.set_xlim(0, float(data["tau"].max()))
         if axes.get_subplotspec().is_first_col():
             axes.set_ylabel(label)
-    style.name_legend(figure, drawn[0])
+    style.name_legend(figure, *drawn)
     return figure
 
 

@@ -89,10 +89,18 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def name_legend(figure: Figure, axes: Axes) -> None:
-    """Put one legend for all panels above them; its lines are thick enough to show their colour."""
-    handles, labels = axes.get_legend_handles_labels()
-    legend = figure.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+def name_legend(figure: Figure, *panels: Axes) -> None:
+    """Put one legend for all panels above them; its lines are thick enough to show their colour.
+
+    What several panels show is named once.
+    """
+    named = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            named.setdefault(label, handle)
+    legend = figure.legend(
+        named.values(), named.keys(), loc="outside upper center", ncols=len(named)
+    )
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
 

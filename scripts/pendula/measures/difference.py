@@ -9,8 +9,12 @@ takes in either run over the time that both have.
 - It does not depend on which of the two runs is named first.
 
 The divergence time is the first output time at which the difference exceeds a level, as a rule the
-visible fraction. A time that never comes is infinite; a time that is not known, since a run is
-absent or of another problem, is NaN.
+visible fraction. Three things must not be taken for each other, in datasets and in words alike:
+
+- a time that comes is a number;
+- a time that never comes, as long as both runs are known, is infinite. Where one of them ends
+  first, nothing is said of the time after that: `known_until` tells when;
+- a time that is not known, since a run is absent or of another problem, is NaN.
 """
 
 import numpy as np
@@ -25,6 +29,10 @@ LEVELS = {"line": 0.0067, "visible": VISIBLE}
 
 NORMS = ("linf", "l2")
 PARAMETERS = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "output_step")
+
+
+ABSENT = "infinite: at no tau that both have; NaN: not known"
+"""What a time stands for that is no number, for the long names of such times."""
 
 
 def norm_difference(linf_a, l2_a, linf_b, l2_b) -> np.ndarray:
@@ -80,9 +88,14 @@ def divergence_time(difference, level: float = VISIBLE):
     """
     values = difference.transpose(..., "tau")
     found = difference.isel(tau=0, drop=True).copy(data=first_above(values["tau"], values, level))
-    about = f"first tau at which two runs differ by {100 * level:.3g} % of full scale"
+    about = f"first tau at which two runs differ by {100 * level:.3g} % of full scale, {ABSENT}"
     found.attrs = {"long_name": about, "units": "1"}
     return found.rename("divergence_time")
+
+
+def known_until(difference):
+    """Return the last tau at which a `difference` is known, NaN where it is known at none."""
+    return difference["tau"].where(difference.notnull()).max("tau")
 
 
 def is_of_same_case(trajectory, reference) -> bool:

@@ -34,4 +34,4 @@ def write(results: Results, measured: Measured, made: dict) -> str:
         }
         for section, template in [*of_studies, *((one, "sections.html.j2") for one in own)]
     ]
-    return render("report.html.j2", sections=sections)
+    return render("report.html.j2", sections=sections, differs=list(results.differs.values()))

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pendula.configuration.paper import Differences, reason
 from pendula.datasets.netcdf import read
 
 from .page import Picture, picture
@@ -19,11 +20,18 @@ class ReportError(RuntimeError):
 class Results:
     """The files of a run; names are paths seen from the page, without the ending .nc or .png.
 
-    `settings` is the configuration of the run's cases and sweeps.
+    `settings` is the configuration of the run's cases and sweeps, `differs` says where it is not
+    the paper's.
     """
 
-    def __init__(self, files: Iterable[str], page: str, settings: Mapping | None = None):
-        self.settings = settings or {}
+    def __init__(
+        self,
+        files: Iterable[str],
+        page: str,
+        settings: Mapping | None = None,
+        differs: Differences | None = None,
+    ):
+        self.settings, self.differs = settings or {}, differs or {}
         home = Path(page).parent
         self._paths = {Path(path).relative_to(home).as_posix(): Path(path) for path in files}
         self._read = {}
@@ -36,6 +44,10 @@ class Results:
 
     def __contains__(self, name: str) -> bool:
         return f"{name}.nc" in self._paths
+
+    def apart(self, *names: str) -> str:
+        """Return why datasets are not about the paper's cases; an empty text where they are."""
+        return reason(self.differs, names)
 
     def path(self, link: str) -> Path:
         """Return where the file is to which the page links."""
@@ -60,8 +72,9 @@ class Results:
         return self.say(name, with_error(value, error))
 
     def quote_time(self, name: str, tau: float) -> Quote:
-        """Return a time, or that it never comes."""
-        return self.say(name, "never" if tau == np.inf else number(tau, 4))
+        """Return a time, or that it never comes, or that it is not known."""
+        words = "never" if tau == np.inf else "not known" if np.isnan(tau) else number(tau, 4)
+        return self.say(name, words)
 
     def say(self, name: str, text: str) -> Quote:
         """Return words made from a dataset, or from another file with its ending, linked to it."""

@@ -75,7 +75,7 @@ def _row(results: Results, source: str, times: xr.DataArray) -> list:
     ]
     case = str(times["case"].values)
     target = float(results[source]["target"].sel(case=case))
-    return [case_of(results["checks/cases"].sel(case=case)), number(target), *cells]
+    return [case_of(results[source].sel(case=case)), number(target), *cells]
 
 
 def _alt(times: xr.DataArray) -> str:

@@ -38,7 +38,7 @@ SIGNS = {"<=": "≤", ">=": "≥", "+-": "±"}
 _POWERS_OF_TEN = re.compile(r"(?<![\w.])\d+(\.\d+)?e[+-]?\d+(?!\w)")
 _MINUS = re.compile(r"(?<![\w)|])-(?=[\w(|])")
 _EXPONENTS = re.compile(r"\^(-?\d+)(?![\d.])")
-_NAMES = re.compile(r"(?<![A-Za-z])(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
+_NAMES = re.compile(r"(?<![A-Za-z])(?<![a-z]\.)(" + "|".join(SYMBOLS) + r")(?![A-Za-z])")
 
 
 class Quote(NamedTuple):
@@ -81,6 +81,25 @@ def with_error(value: float, error: float) -> str:
     first = int(np.floor(np.log10(error)))
     places = max(0, -first + (error < 2.0 * 10.0**first))
     return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
+
+
+def horizon_in_words(time: float, until: float, end: float, digits: int = 4) -> str:
+    """Return when a run leaves its reference: a number, never, not as far as known, or unknown.
+
+    Both are known up to `until`, which is NaN where the case has no reference; the run ends at
+    `end`.
+    """
+    if np.isnan(until):
+        return "no reference"
+    if np.isfinite(time):
+        return number(time, digits)
+    return "never" if until >= end else f"not by {number(until, digits)}, the reference's end"
+
+
+def horizons_in_words(trust, digits: int = 4) -> list[str]:
+    """Return the same of each level of one case and solver in the dataset `checks/trust`."""
+    known = float(trust["known_until"]), float(trust["run_end"])
+    return [horizon_in_words(float(time), *known, digits) for time in trust["horizon"].values]
 
 
 def percent(part: float, digits: int = 2) -> str:

@@ -196,13 +196,17 @@ def compare(
     for name, long_name in COMPARED.items():
         found[name].attrs = {"long_name": long_name}
     title = "The paper's runs among ensembles from almost equal data"
-    return found.assign_attrs({**ensembles.attrs, "title": title})
+    others = {str(run.attrs["solver"]) for run in (*runs.values(), *sweeps.values())} - {"ode45"}
+    by = {"other_solvers": ", ".join(sorted(others))} if others else {}
+    return found.assign_attrs({**ensembles.attrs, **by, "title": title})
 
 
 def _norms_of(pair: xr.Dataset, cases: list[str], runs) -> xr.DataArray:
     norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
     along = xr.Variable("case", cases)
-    return xr.concat(norms, along, join="outer").reindex(tau=pair["tau"], method="nearest")
+    # no further than to the nearest output: beyond its end a run is not known
+    at = {"tau": pair["tau"], "method": "nearest", "tolerance": 1e-9}
+    return xr.concat(norms, along, join="outer").reindex(**at)
 
 
 def _compare_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:

@@ -210,7 +210,7 @@ def draw_ensembles(data: xr.Dataset) -> Figure:
         _draw_sweep(axes, data.sel(sweep=name))
     above[0].set_ylabel(NORM)
     above[0].set_ylim(bottom=0)
-    figure.legend(handles=_ensembles_legend(), loc="outside upper center", ncols=3)
+    figure.legend(handles=_ensembles_legend(data), loc="outside upper center", ncols=3)
     return figure
 
 
@@ -241,7 +241,9 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.set_title(style.name_case(sweep[list(labels)].rename(labels)), loc="left")
 
 
-def _ensembles_legend() -> list:
+def _ensembles_legend(data: xr.Dataset) -> list:
+    true = [Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2})]
+    whose = "its own" if "other_solvers" in data.attrs else "the paper's"
     bands = [
         Patch(color=colour, label=f"{100 * low:g} to {100 * high:g} % of the ensemble")
         for (low, high), colour in BANDS
@@ -249,7 +251,7 @@ def _ensembles_legend() -> list:
     return [
         *bands,
         Line2D([], [], label="median", **MEDIAN),
-        Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2}),
+        *(true if data["true"].notnull().any() else ()),
         Line2D([], [], label="mean and standard deviation", **MEAN),
-        Line2D([], [], label="one run by the paper's solver", **{**OWN_DOT, "linestyle": "-"}),
+        Line2D([], [], label=f"one run by {whose} solver", **{**OWN_DOT, "linestyle": "-"}),
     ]

@@ -8,11 +8,21 @@ from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
 from pendula.numerics.elementary import exp
+from pendula.problem import is_even
 from pendula.report.page import Picture
 from pendula.report.results import Results, Section
-from pendula.report.words import case_of, number, percent, span, with_error
+from pendula.report.words import (
+    case_of,
+    horizons_in_words,
+    number,
+    percent,
+    span,
+    with_error,
+)
 
 LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"
+PRINTED = "truth/fig4_small"
+"""The reference from the data as the paper prints them: it is of this case, whatever is run."""
 ENSEMBLES, MEMBERS, LIVES = "checks/ensemble_runs", "checks/members", "checks/lifetimes"
 
 
@@ -22,6 +32,8 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     rates = growth["exponent"].max("parity")
     chaotic = [str(case) for case in growth["case"].values[growth["chaotic"].values == 1]]
     solvers = [str(solver) for solver in trust["solver"].values]
+    ends = {float(edge(trust["run_end"])) for edge in (np.min, np.max)}
+    bands = [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values]
     return {
         "cases": results.quote(LYAPUNOV, growth.sizes["case"]),
         "chaotic": [case_of(growth.sel(case=case)) for case in chaotic],
@@ -29,12 +41,14 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "rates": results.say(LYAPUNOV, span(rates.sel(case=chaotic), 2) if chaotic else "none"),
         "limit": number(float(exp(MANY))),
         "visible": percent(float(trust["size"].sel(level="visible"))),
-        "end": results.quote(TRUST, float(trust["tau"].max())),
+        "ends": results.say(TRUST, " to ".join(number(end, 4) for end in sorted(ends))),
         "head": ["case", "growth, even", "growth, odd",
                  *(f"{SOLVER_NAMES[name]} leaves" for name in solvers), "uneven from"],
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
         "lost": {name: lost_by(results, name) for name in solvers},
-        "ensembles": [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values],
+        "ensembles": bands,
+        "even": all(band["even"] for band in bands),
+        "all_even": all(is_even(str(data)) for data in growth["initial"].values),
         "widths": [widths_of(results, case) for case in results[ENSEMBLES]["case"].values],
         "lives": lives_of(results),
         "decimal": not_a_tenth(results),
@@ -46,27 +60,37 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 def _row(results: Results, case: str, solvers: list[str]) -> list:
     growth = results[LYAPUNOV].sel(case=case)
-    trust = results[TRUST].sel(case=case, level="visible")
     even, odd = (
         results.quote_error(LYAPUNOV, float(growth["exponent"].sel(parity=parity)),
                             float(growth["exponent_error"].sel(parity=parity)))
         for parity in ("even", "odd")
     )  # fmt: skip
-    lost = [results.quote_time(TRUST, float(trust["horizon"].sel(solver=s))) for s in solvers]
+    known = results[TRUST].sel(case=case, level=["visible"])
+    lost = [results.say(TRUST, *horizons_in_words(known.sel(solver=s))) for s in solvers]
     uneven = float(results["checks/symmetry"]["rounded_time"].sel(case=case))
     return [case_of(growth), even, odd, *lost, results.quote_time("checks/symmetry", uneven)]
 
 
 def lost_by(results: Results, solver: str) -> dict[str, Any]:
-    """Return in how many cases a solver leaves the reference, and when."""
-    horizons = results[TRUST]["horizon"].sel(solver=solver, level="visible").values
-    known = horizons[np.isfinite(horizons)]
+    """Return in how many cases a solver leaves the reference, and when; in how many it is kept.
+
+    A run that goes on after its reference is kept to the end of that alone, `ended`; of a case
+    without a reference nothing is known.
+    """
+    judged = results[TRUST].sel(solver=solver, level="visible")
+    horizons, until = judged["horizon"].values, judged["known_until"].values
+    known, ends = horizons[np.isfinite(horizons)], judged["run_end"].values
+    counts = {
+        "count": len(known),
+        "kept": int((np.isinf(horizons) & (until >= ends)).sum()),
+        "ended": int((np.isinf(horizons) & (until < ends)).sum()),
+        "unknown": int(np.isnan(until).sum()),
+    }
     return {
         "solver": SOLVER_NAMES[solver],
         "any": len(known) > 0,
-        "count": results.quote(TRUST, len(known)),
-        "kept": results.quote(TRUST, int(np.isinf(horizons).sum())),
-        "times": results.say(TRUST, span(known, 4) if len(known) else "never"),
+        **{name: results.quote(TRUST, count) for name, count in counts.items()},
+        "times": results.say(TRUST, span(known, 4) if len(known) else "no time"),
     }
 
 
@@ -74,7 +98,7 @@ def not_a_tenth(results: Results) -> dict[str, Any]:
     """Return when the reference from the double next to 0.1 leaves the one from a tenth."""
     digits, seen = results[TRUST]["decimal_horizon"].values
     return {
-        "omega": number(float(results["trajectories/fig4_small"].attrs["omega"])),
+        "omega": number(float(results[PRINTED].attrs["omega"])),
         "digits": number(float(results[TRUST]["decimal_size"][0])),
         "first": results.quote_time(TRUST, float(digits)),
         "seen": results.quote_time(TRUST, float(seen)),
@@ -86,10 +110,13 @@ def ensemble_of(results: Results, name: str) -> dict[str, Any]:
     case = results[ENSEMBLES].sel(case=name)
     return {
         "case": case_of(case),
+        "even": is_even(str(case["initial"].values)),
+        "of_paper": not results.apart(f"trajectories/{name}"),
         "share": results.say(ENSEMBLES, percent(float(case["band_share"]))),
         "width": results.say(ENSEMBLES, percent(float(case["band_width"]))),
         "middle": results.quote(ENSEMBLES, float(case["band_middle"])),
         "inside": results.say(ENSEMBLES, percent(float(case["run_inside"]))),
+        "told": bool(np.isfinite(float(case["run_inside"]))),
     }
 
 
@@ -176,8 +203,8 @@ def _pictures(results: Results) -> dict[str, Picture]:
     bands = [ensemble_of(results, name) for name in results[ENSEMBLES]["case"].values]
     described = {
         "trust_horizons": "Errors of the norms against τ. "
-        + "; ".join(f"{one['solver']} leaves {one['count']} cases, at τ = {one['times']}"
-                    for one in lost),
+        + "; ".join(f"{one['solver']} leaves {one['count']} cases"
+                    + (f", at τ = {one['times']}" if one["any"] else "") for one in lost),
         "lyapunov": f"Growth of small changes. Rates: {'; '.join(rates)}",
         "symmetry": "The odd part of even solutions against τ. By rounding alone it becomes "
         f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",

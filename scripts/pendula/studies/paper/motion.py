@@ -7,7 +7,7 @@ import numpy as np
 
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results
-from pendula.report.words import case_in_words, measured, number, percent
+from pendula.report.words import case_in_words, case_of, measured, number, percent
 
 SIZES = ("small", "large")
 
@@ -20,18 +20,25 @@ MOVING = 0.5
 
 def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return the pictures beside Figs 2 to 4 and the run to play."""
+    trust = results["checks/trust"]
     return {
         "pictures": [_spacetime(results, which) for which in (2, 3, 4)],
         "played": played(results, f"trajectories/{PLAYED}"),
-        "visible": percent(float(results["checks/trust"]["size"].sel(level="visible"))),
+        "visible": percent(float(trust["size"].sel(level="visible"))),
+        "unknown": [
+            case_of(trust.sel(case=case))
+            for case in trust["case"].values
+            if trust["known_until"].sel(case=case).isnull().all()
+        ],
     }
 
 
 def _spacetime(results: Results, which: int) -> dict[str, Any]:
-    told, alts = [], []
+    told, alts, omegas = [], [], {}
     for source in (f"trajectories/fig{which}_{size}" for size in SIZES):
         run = results[source]
         case = case_in_words(run.attrs["omega"], run.attrs["initial"])
+        omegas.setdefault(float(run.attrs["omega"]), source)
         last = run["modulus"].isel(snapshot=-1).max("component").values
         numbers = (
             str(int((last > MOVING * last.max()).sum())),
@@ -48,7 +55,7 @@ def _spacetime(results: Results, which: int) -> dict[str, Any]:
     return {
         "number": which,
         "picture": results.picture(f"fig{which}_spacetime", alt),
-        "omega": results.quote(source, float(run.attrs["omega"])),
+        "omegas": [results.quote(source, omega) for omega, source in omegas.items()],
         "told": told,
     }
 
@@ -60,8 +67,10 @@ def played(results: Results, source: str) -> dict[str, Any]:
     peak = float(modulus.max())
     steps = np.rint(modulus * (STEPS / peak)).astype(np.uint8)
     tau = run["snapshot_tau"].values
-    still = half_way(modulus)
+    half = half_way(modulus)
+    still = len(modulus) - 1 if half is None else half
     return {
+        "half": half is not None,
         "case": case_in_words(run.attrs["omega"], run.attrs["initial"]),
         "source": results.say(source, source),
         "frames": base64.b64encode(steps.tobytes()).decode(),
@@ -77,11 +86,11 @@ def played(results: Results, source: str) -> dict[str, Any]:
     }
 
 
-def half_way(modulus: np.ndarray) -> int:
-    """Return the first time at which half of the sites move, the last if there is none.
+def half_way(modulus: np.ndarray) -> int | None:
+    """Return the first time at which half of the sites move, None if there is none.
 
     `modulus` is (time, component, site); the picture of that time shows where the front is.
     """
     moving = (modulus.max(axis=1) > MOVING * modulus.max(axis=(1, 2))[:, None]).mean(axis=1)
     found = np.flatnonzero(moving >= 0.5)
-    return int(found[0]) if found.size else len(modulus) - 1
+    return int(found[0]) if found.size else None

@@ -1,5 +1,6 @@
 """The report's part on the paper's figures: norms and sweeps, the chain in motion, the solvers."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.claim import CHANGE, CONSTANT
 from pendula.ledger.section import Ledger
 from pendula.measures.levels import levelling
-from pendula.problem import name_window
+from pendula.problem import is_even, name_window
 from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import (
@@ -17,6 +18,7 @@ from pendula.report.words import (
     STATISTICS,
     case_in_words,
     case_of,
+    horizon_in_words,
     measured,
     number,
     percent,
@@ -24,6 +26,7 @@ from pendula.report.words import (
 )
 
 from .motion import SIZES, gather_motion
+from .solvers import ORDER
 
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
@@ -62,14 +65,29 @@ def _norms(results: Results, which: int) -> dict[str, Any]:
     end = float(results[last]["tau"][-1])
     told = "; ".join(panel["alt"] for panel in panels)
     alt = f"Norms of A and B against τ, 0 to {number(end)}. {told}."
+    known = {state: [p for p in panels if p["known"] == state] for state in KNOWN}
     return {
         "number": which,
         "picture": results.picture(f"fig{which}", alt),
-        "omega": results.quote(runs[0], float(results[runs[0]].attrs["omega"])),
+        "omegas": omegas(results, runs),
         "end": results.quote(last, end),
         "rows": [panel["row"] for panel in panels],
-        "divergences": [(panel["case"], panel["time"]) for panel in panels if panel["diverges"]],
+        "divergences": [(panel["case"], panel["time"]) for panel in known["off"]],
+        "bands": any(panel["band"] for panel in known["off"]),
+        "even": all(panel["even"] for panel in known["off"]),
+        "agree": [panel["case"] for panel in known["agrees"]],
+        "all_agree": len(known["agrees"]) == len(panels),
+        "ended": [(panel["case"], panel["until"], panel["end"]) for panel in known["ended"]],
+        "unknown": [panel["case"] for panel in known["unknown"]],
     }
+
+
+def omegas(results: Results, runs: list[str]) -> list:
+    """Return each detuning of some trajectories once, linked to the first that has it."""
+    found = {}
+    for run in runs:
+        found.setdefault(float(results[run].attrs["omega"]), run)
+    return [results.quote(run, omega) for omega, run in found.items()]
 
 
 def _panel(results: Results, name: str) -> dict[str, Any]:
@@ -78,12 +96,12 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
     l2 = np.sqrt((data["l2"].values ** 2).sum(axis=0))
     late = l2[len(l2) // 2 :]
     case = case_in_words(data.attrs["omega"], data.attrs["initial"])
-    time = _trusted_until(results, name, data.attrs["solver"])
+    off, time, until = _trusted(results, name, data)
     row = [
         case,
         results.say(run, span(l2)),
         results.say(run, measured(late.mean())),
-        results.quote_time(TRUST, time),
+        results.say(TRUST, time),
         *_bound(results, name),
         results.quote(run, data.attrs["steps"], 6),
     ]
@@ -93,16 +111,42 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
         "row": row,
         "alt": f"{alt}amplitude {peak}",
         "case": case,
-        "time": results.quote_time(TRUST, time),
-        "diverges": bool(np.isfinite(time)),
+        "known": off,
+        "time": results.say(TRUST, time),
+        "until": results.quote(TRUST, until),
+        "end": results.quote(run, float(data["tau"][-1])),
+        "band": name in results[ENSEMBLES]["case"].values,
+        "even": is_even(data.attrs["initial"]),
     }
 
 
-def _trusted_until(results: Results, case: str, solver: str) -> float:
-    """Return when a solver leaves the reference, NaN of a solver that was not judged."""
-    horizons = results[TRUST]["horizon"].sel(case=case, level="visible")
-    known = solver in horizons["solver"].values
-    return float(horizons.sel(solver=solver)) if known else float("nan")
+KNOWN = ("off", "agrees", "ended", "unknown")
+"""What is known of a run beside its reference: it leaves it; it agrees to its own end, or to that
+of the reference, which ends before; there is no reference of this case or by this solver."""
+
+
+def _trusted(results: Results, case: str, run) -> tuple[str, str, float]:
+    """Return which of KNOWN a run is, when it leaves the reference, and until when both are known.
+
+    Runs by the shared controls of each solver were judged; one by other controls was not.
+    """
+    trust, solver = results[TRUST].sel(case=case), run.attrs["solver"]
+    by_shared = results[f"trajectories/{case}.{solver}"].attrs
+    if controls_of(by_shared) != controls_of(run.attrs) or solver not in trust["solver"].values:
+        return "unknown", "not judged", float("nan")
+    judged = trust.sel(solver=solver, level="visible")
+    time, until, end = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
+    words = horizon_in_words(time, until, end)
+    if np.isnan(until):
+        return "unknown", words, until
+    if np.isfinite(time):
+        return "off", words, until
+    return "agrees" if until >= end else "ended", words, until
+
+
+def controls_of(attributes: Mapping) -> dict[str, Any]:
+    """Return the solver and its controls, from the attributes of a run."""
+    return {key: value for key, value in attributes.items() if key.startswith("solver")}
 
 
 def _bound(results: Results, case: str) -> list:
@@ -118,14 +162,16 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
     readings = [(statistic, norm) for norm in DRAWN[which] for statistic in STATISTICS]
     found = [_curve(results, name, *reading) for name in names for reading in readings]
     told = "; ".join(curve["alt"] for curve in found if curve["norm"] == "l2" and curve["by_text"])
-    source = f"sweeps/{names[0]}"
-    widths = results[source]["half_width"].values
-    alt = f"Norms of the pair against the half-width M, {widths[0]} to {widths[-1]}. {told}."
+    swept = {f"sweeps/{name}": results[f"sweeps/{name}"]["half_width"].values for name in names}
+    counts = sorted({len(widths) for widths in swept.values()})
+    longest = max(swept, key=lambda source: swept[source].max())
+    least = min(widths.min() for widths in swept.values())
+    alt = f"Norms of the pair against the half-width M, {least} to {swept[longest].max()}. {told}."
     return {
         "number": which,
         "picture": results.picture(f"fig{which}", alt),
-        "widths": results.quote(source, len(widths), 6),
-        "longest": results.quote(source, int(widths[-1]), 6),
+        "widths": results.say(longest, " or ".join(map(str, counts))),
+        "longest": results.quote(longest, int(swept[longest].max()), 6),
         "rows": [curve["row"] for curve in found],
         "samples": _samples(results, which),
         "l2": [curve for curve in found if curve["norm"] == "l2"],
@@ -135,7 +181,7 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
 def _curve(results: Results, name: str, statistic: str, norm: str) -> dict[str, Any]:
     """Return one curve of a sweep: the text speaks of the maximum, the caption of the average."""
     source = f"sweeps/{name}"
-    sweep = results[source]
+    sweep = results[source].sortby("half_width")
     window = name_window(results.settings["sweeps"][name]["drawn"][statistic])
     at = {"quantity": "pair", "statistic": statistic, "window": window}
     widths, values = sweep["half_width"].values, sweep[norm].sel(at).values
@@ -183,13 +229,21 @@ def _samples(results: Results, which: int) -> list[dict[str, Any]]:
     """Return what runs from almost equal data give on the longest chain, of chaotic sweeps."""
     data = results[SAMPLES]
     names = [str(name) for name in data["sweep"].values if str(name).startswith(f"fig{which}_")]
-    return [_sample(results, data.sel(sweep=name).isel(half_width=-1)) for name in names]
+    known = {
+        name: data.sel(sweep=name).dropna("half_width", subset=["swept_run"]) for name in names
+    }
+    return [
+        _sample(results, name, shared.isel(half_width=-1))
+        for name, shared in known.items()
+        if shared.sizes["half_width"]
+    ]
 
 
-def _sample(results: Results, last) -> dict[str, Any]:
+def _sample(results: Results, name: str, last) -> dict[str, Any]:
     off, members = float(last["deviations"]), results[ENSEMBLES].attrs["swept_members"]
     return {
         "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
+        "solver": SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
         "width": results.quote(SAMPLES, int(last["half_width"]), 6),
         "runs": results.quote(ENSEMBLES, int(members)),
         "mean": results.say(SAMPLES, measured(float(last["l2_mean"]))),
@@ -206,19 +260,23 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
     cases = [data.sel(case=case) for case in data["case"].values]
     ode45 = data.sel(solver="ode45")
     papers = data["divergence_time"].isel(pair=0)
+    stated = data["stated_drift"].dropna("case")
+    held = data.sel(case=stated["case"]) if len(stated) else data
     apart = int(np.isfinite(papers).sum())
     solvers = [SOLVER_NAMES[str(solver)] for solver in data["solver"].values]
     return {
-        "drift_head": ["case", "as stated", *solvers, *_kept_heads(early, data)],
+        "drift_head": ["case", "as stated", *solvers, *_kept_heads(early, held)],
         "drift": [_drift(results, case) for case in cases],
+        "stated": len(stated) > 0,
+        "held": results.quote(COMPARED, len(stated)),
+        "others": [case_of(case) for case in cases if np.isnan(float(case["stated_drift"]))],
+        "tolerances": not any(path.startswith("solvers.ode45.") for path in results.differs),
         "kept": results.quote(COMPARED, int(ode45["kept"].sum())),
         "kept_early": results.quote(COMPARED, int(early["kept"].sel(solver="ode45").sum())),
         "early": results.quote(COMPARED, float(early["until"].max())),
-        "allowed": results.quote(
-            COMPARED, float((data["allowed_drift"] / data["stated_drift"])[0])
-        ),
+        "allowed": results.quote(COMPARED, ORDER.number),
         "cases": results.quote(COMPARED, len(cases)),
-        "end": results.quote(COMPARED, float(data["until"].max())),
+        "end": results.quote(COMPARED, float(held["until"].max())),
         "agreement_head": ["case", *(_pair(str(pair)) for pair in data["pair"].values)],
         "agreement": [_agreement(results, case) for case in cases],
         "apart": results.quote(COMPARED, apart),
@@ -230,14 +288,14 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 
 def _drift(results: Results, case) -> list:
+    stated = float(case["stated_drift"])
+    both = results[COMPARED]["kept"].sel(case=str(case["case"].values), solver="ode45")
+    words = {1.0: "yes", 0.0: "no"}
     return [
         case_of(case),
-        results.quote(COMPARED, float(case["stated_drift"])),
+        results.quote(COMPARED, stated) if np.isfinite(stated) else "none: another case",
         *(results.quote(COMPARED, float(value), 2) for value in case["largest_drift"]),
-        *(
-            results.say(COMPARED, "yes" if int(kept) else "no")
-            for kept in results[COMPARED]["kept"].sel(case=str(case["case"].values), solver="ode45")
-        ),
+        *(results.say(COMPARED, words.get(float(kept), "no claim")) for kept in both),
     ]
 
 

@@ -5,7 +5,7 @@ significant differences. Both are measured here once; figures, tables, claims an
 the two datasets.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 import xarray as xr
@@ -13,11 +13,13 @@ import xarray as xr
 from pendula.datasets.trajectories import shared_by
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.difference import (
+    ABSENT,
     LEVELS,
     VISIBLE,
     difference,
     divergence_time,
     is_of_same_case,
+    known_until,
 )
 from pendula.measures.norms import drift
 
@@ -54,20 +56,28 @@ COMPARED = {
 TRUSTED = {
     "level": "level of the difference from which on curves are told apart",
     "size": "size of the level, as a part of full scale",
-    "horizon": "first tau at which a norm is off by the level",
+    "horizon": f"first tau at which a norm is off by the level, {ABSENT}",
+    "known_until": "last tau at which run and reference are both known; NaN: no reference",
+    "run_end": "end of the runs of the case",
     "decimal_size": "size of a level, as a part of full scale",
     "decimal_horizon": "first tau at which data rounded to doubles lead away from data as printed",
 }
 """What the two datasets hold, beside names of the registry and of `measures.difference`."""
 
 
-def compare(runs: Runs, sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]]) -> xr.Dataset:
+def compare(
+    runs: Runs,
+    sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]],
+    others: Collection[str] = (),
+) -> xr.Dataset:
     """Return how each solver keeps the energy, and how far pairs of solvers differ (see COMPARED).
 
-    `sweeps` holds each sweep by the first of the paper's solvers and by the second.
+    `sweeps` holds each sweep by the first of the paper's solvers and by the second. Of the cases
+    `others`, which are not the paper's, it states no order: order and what is kept of it are NaN.
     """
     cases = list(dict.fromkeys(case for case, _ in runs))
-    by_case = [_compare_case(_by_solver(runs, case), case) for case in cases]
+    orders = {case: _stated(case) if case not in others else np.nan for case in cases}
+    by_case = [_compare_case(_by_solver(runs, case), orders[case]) for case in cases]
     data = xr.merge([_stack(by_case, "case", cases), _compare_sweeps(sweeps)])
     title = "The paper's solvers: drift of the energy, and agreement"
     return _described(data.assign(visible=VISIBLE), COMPARED, runs, title)
@@ -77,16 +87,20 @@ def _by_solver(runs: Runs, case: str) -> dict[str, xr.Dataset]:
     return {solver: run for (name, solver), run in runs.items() if name == case}
 
 
-def _compare_case(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
-    return xr.merge([_drifts(runs, case), _differences(runs), _problem(runs)])
+def _stated(case: str) -> float:
+    return STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
 
 
-def _drifts(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
+def _compare_case(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
+    return xr.merge([_drifts(runs, stated), _differences(runs), _problem(runs)])
+
+
+def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
     tau = next(iter(runs.values()))["tau"]
     values = np.array([drift(run["energy"]) for run in runs.values()])
     early = min(EARLY, float(tau[-1]))
     largest = np.stack([values[:, tau <= early].max(axis=1), values.max(axis=1)], axis=1)
-    stated = STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
+    kept = (largest <= ORDER.value * stated).astype(int)
     by_solver = ("solver", "span")
     return xr.Dataset(
         {
@@ -95,7 +109,7 @@ def _drifts(runs: Mapping[str, xr.Dataset], case: str) -> xr.Dataset:
             "until": ("span", [early, float(tau[-1])]),
             "stated_drift": stated,
             "allowed_drift": ORDER.value * stated,
-            "kept": (by_solver, (largest <= ORDER.value * stated).astype(int)),
+            "kept": (by_solver, kept if np.isfinite(stated) else np.full(kept.shape, np.nan)),
         },
         {"tau": tau, "solver": list(runs), "span": ["early", "whole"]},
     )
@@ -152,7 +166,12 @@ def _trust_case(runs: Mapping[str, xr.Dataset], reference: xr.Dataset) -> xr.Dat
     apart = xr.concat(errors, xr.Variable("solver", list(runs)))
     times = [divergence_time(apart, level) for level in LEVELS.values()]
     horizon = xr.concat(times, xr.Variable("level", list(LEVELS)))
-    return xr.merge([apart.to_dataset().assign(horizon=horizon), _problem(runs)])
+    known = {"known_until": known_until(apart), "run_end": _end(runs)}
+    return xr.merge([apart.to_dataset().assign(horizon=horizon, **known), _problem(runs)])
+
+
+def _end(runs: Mapping[str, xr.Dataset]) -> float:
+    return float(next(iter(runs.values()))["tau"][-1])
 
 
 def _error(run: xr.Dataset, reference: xr.Dataset) -> xr.DataArray:

@@ -38,10 +38,11 @@ def gather_chart(
     short_chart: xr.Dataset,
     windows: xr.Dataset,
     points: Sequence[tuple[float, float]],
+    of_paper: bool = True,
 ) -> xr.Dataset:
-    """Return the charts of a long and of a short chain, the stable shares, the paper's points.
+    """Return the charts of a long and of a short chain, the stable shares, the cases' points.
 
-    `points` are pairs (Omega, gamma) in units of epsilon.
+    `points` are pairs (Omega, gamma) in units of epsilon, `of_paper` says whether of its figures.
     """
     short = short_chart[CHART]
     renamed = {name: f"short_{name}" for name in (*short.data_vars, *short.coords)}
@@ -49,9 +50,10 @@ def gather_chart(
     data = xr.merge([chart[CHART], short.rename(renamed), closing], combine_attrs="drop_conflicts")
     omegas, gammas = np.array(points, float).reshape(-1, 2).T
     for name, values in (("point_omega", omegas), ("point_gamma", gammas)):
-        about = {"long_name": f"{name.removeprefix('point_')} of the paper's cases", "units": "1"}
+        whose = "the paper's cases" if of_paper else "the cases"
+        about = {"long_name": f"{name.removeprefix('point_')} of {whose}", "units": "1"}
         data[name] = ("point", values, about)
-    return data
+    return data if of_paper else data.assign_attrs(points="Figs 2 to 4 of this run")
 
 
 @style.styled
@@ -91,7 +93,8 @@ def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
 
 def _mark_points(axes: Axes, data: xr.Dataset) -> None:
     hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
-    axes.plot(data["point_omega"], data["point_gamma"], "o", label="the paper's figures", **hollow)
+    label = data.attrs.get("points", "the paper's figures")
+    axes.plot(data["point_omega"], data["point_gamma"], "o", label=label, **hollow)
 
 
 def _draw_share(axes: Axes, data: xr.Dataset) -> None:

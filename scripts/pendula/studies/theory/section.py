@@ -5,7 +5,9 @@ from typing import Any
 import numpy as np
 
 from pendula.datasets.checks import broken, deciding
+from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import Ledger, load
+from pendula.problem import write_initial
 from pendula.report.results import Results, Section
 from pendula.report.words import Quote, case_in_words, number, symbols
 
@@ -23,6 +25,7 @@ def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
             "printed": ledger.quote("printed_time", "order", 2),
             "right": ledger.quote("slow_time", "order", 2),
             "verdict": ledger.verdict("printed_time"),
+            "known": bool(np.isfinite(ledger.value("slow_time", "order"))),
         },
         "case": _case(results),
         "bootstrap": _bootstrap(results, ledger),
@@ -37,7 +40,7 @@ def _bootstrap(results: Results, ledger: Ledger) -> dict[str, Any]:
     check = results[source]
     numbers = ("allowed_power", "breaking", "barrier_power")
     quoted = {name: results.quote(source, float(check[name])) for name in numbers}
-    return quoted | {"fails": not ledger.holds("bootstrap")}
+    return quoted | {"verdict": ledger.verdict("bootstrap")}
 
 
 def _constant(results: Results) -> dict[str, Any]:
@@ -56,9 +59,11 @@ def _case(results: Results) -> dict[str, Any]:
     source = "checks/theorem_2_case"
     check = results[source]
     numbers = ("start", "delta_0", "depth", "barrier", "widened_delta_0", "widened_bound")
-    case = results["checks/cases"].sel(case="fig3_small")
+    given = results.settings["theory"]["theorem_2_case"]
+    initial = write_initial({0: tuple(map(complex, given["pair"]))})
     return {
-        "name": case_in_words(float(case["omega"]), str(case["initial"].values)),
+        "name": case_in_words(given["constants"]["omega"], initial),
+        "of_paper": not results.apart(source),
         "shallow": bool(check["depth"] < check["barrier"]),
         "covered": bool(check["start"] <= check["delta_0"]),
         "covered_widened": bool(check["start"] <= check["widened_delta_0"]),
@@ -76,7 +81,7 @@ def _missed(results: Results) -> list[dict]:
             "data": [results.say(name, name) for name in row["decided_by"]],
         }
         for row in load(results)
-        if row["verdict"] == "not reproduced"
+        if row["verdict"] == Verdict.NOT_REPRODUCED
     ]
 
 
@@ -90,6 +95,7 @@ def gather_theory(results: Results, ledger: Ledger) -> dict[str, Any]:
         "held": len(rows),
         "faults": faults,
         "cells": results.quote(CHARTS[0], cells, 6),
+        "unsorted": ledger.because("stable_below"),
         "fastest": ledger.quote("stable_below", "fastest"),
         "misclassified": ledger.quote("stable_below", "misclassified"),
         "reached": _reached(results),
@@ -183,7 +189,7 @@ def _rates_alt(results: Results) -> str:
 def _bounds_alt(results: Results) -> str:
     ratios = results["checks/cases"]["ratio"].values
     return (
-        "Observed norms against the bounds of the theorems: the largest P of the paper's cases is "
+        "Observed norms against the bounds of the theorems: the largest P of the cases is "
         f"{number(ratios.min())} to {number(ratios.max())} of its smallest bound."
     )
 

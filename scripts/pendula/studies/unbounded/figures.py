@@ -117,7 +117,8 @@ def _draw_linf(axes: Axes, data: xr.Dataset) -> None:
 def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> xr.Dataset:
     """Return the maps of all sweeps: lowest, mean and highest value over each ensemble.
 
-    `paper_ends` are the ends T of the paper's windows [10, T], one a sweep.
+    `paper_ends` are the ends T of the paper's windows [10, T], one a sweep; NaN stands for one that
+    lies beyond the map.
     """
     found = []
     for data in maps.values():
@@ -130,7 +131,7 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
         panel = panel.assign(predicted_speed=data["predicted_speed"], pulled=data["pulled"])
         found.append(panel.assign_attrs(data.attrs))
     joined = style.join(found, list(maps), "sweep")
-    ends = np.minimum(paper_ends, float(joined["end"][-1]))
+    ends = np.where(np.array(paper_ends) <= float(joined["end"][-1]), paper_ends, np.nan)
     return joined.assign(paper_end=("sweep", ends, {"long_name": "end of the paper's window"}))
 
 
@@ -174,11 +175,12 @@ def _draw_map(axes: Axes, one: xr.Dataset, letter: str) -> QuadMesh:
     look = {"color": "white", "lw": 1.1, "path_effects": OUTLINED}
     way = float(one["predicted_speed"]) * ends
     axes.plot(way, ends, ls="-" if one["pulled"] else (0, (1, 1)), **look)
-    axes.axhline(float(one["paper_end"]), ls=(0, (4, 2)), **look)
-    axes.annotate(
-        "the paper", (0.97, float(one["paper_end"])), (0, 3), ("axes fraction", "data"),
-        "offset points", ha="right", color="white", fontsize=7, path_effects=OUTLINED,
-    )  # fmt: skip
+    if one["paper_end"].notnull():
+        axes.axhline(float(one["paper_end"]), ls=(0, (4, 2)), **look)
+        axes.annotate(
+            "the paper", (0.97, float(one["paper_end"])), (0, 3), ("axes fraction", "data"),
+            "offset points", ha="right", color="white", fontsize=7, path_effects=OUTLINED,
+        )  # fmt: skip
     axes.set_title(f"{letter} {style.name_case(one)}".replace(",  ", "\n"), loc="left")
     _log_axis(axes, one)
     return mesh
@@ -191,7 +193,8 @@ def _log_edges(widths: np.ndarray) -> np.ndarray:
 
 
 def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:
-    for end, fill in ((float(one["paper_end"]), True), (float(one["end"][-1]), False)):
+    ends = ((float(one["paper_end"]), True), (float(one["end"][-1]), False))
+    for end, fill in ends if one["paper_end"].notnull() else ends[1:]:
         maxima = one.sel(end=end, method="nearest")
         for name in ("l2", "linf"):
             middle = maxima[name].sel(band="mean").values
@@ -224,7 +227,9 @@ def _log_axis(axes: Axes, one: xr.Dataset) -> None:
 
 
 def _legend(data: xr.Dataset) -> list[Line2D]:
-    ends = ((True, "the paper's $T$"), (False, f"$T = {float(data['end'][-1]):g}$"))
+    ends = [(True, "the paper's $T$"), (False, f"$T = {float(data['end'][-1]):g}$")]
+    if data["paper_end"].isnull().all():
+        del ends[0]
     looks = [(NORMS[name], partial(_mark, name)) for name in NORMS]
     looks += [
         ("front at $M$", partial(_line, pulled=True)),

@@ -42,6 +42,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "fronts": fronts["rows"],
         "omegas": results.quote(FRONT, len(fronts["rows"])),
         "speed_ratio": results.say(FRONT, span(fronts["speed_ratio"], 4)),
+        "resolved": bool(np.isfinite(ledger.value("unbounded_front", "resolution"))),
         "resolution": ledger.quote("unbounded_front", "resolution", 2),
         "power_ratio": results.say(FRONT, span(fronts["power_ratio"], 2)),
         "tries_known": bool(np.isfinite(ledger.value("unbounded_large", "tried"))),
@@ -62,6 +63,7 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         **quotes,
         "known": bool(np.isfinite(power)),
+        "because": ledger.because("unbounded_in_time"),
         "omega": results.quote(
             "unbounded/fig4_small", results["unbounded/fig4_small"].attrs["omega"]
         ),
