@@ -74,7 +74,8 @@ def test_words_name_both_values():
         (("chaos", "members", "tolerance"), 1e-3, True),
         (("cases", "fig2_small", "snapshot_step"), 0.2, False),
         (("sweeps", "fig5_left", "windows"), [[10, 60]], True),
-        (("theory", "chart", "sites"), 9, True),
+        (("theory", "samples", "count"), 4, False),
+        (("theory", "not_shown", "omega"), 7.0, True),
     ],
 )
 def test_other_draws_and_finer_ones_are_of_the_same_case(place, value, apart):

@@ -14,13 +14,14 @@ from typing import Any
 
 FILE = Path(__file__).with_suffix(".json")
 
-FREE = {"seed", "draw", "snapshot_step"}
-"""Keys that change no statement: other draws of the same case, or another look at it."""
-AT_LEAST = {
-    *("members", "swept_members", "samples", "count", "nodes"),
-    *("generations", "population", "starts"),
+FREE = {
+    *("seed", "draw", "snapshot_step"),
+    *("count", "samples", "generations", "population", "starts", "sites", "points"),
 }
-"""Sizes of samples and searches: larger ones are still about the same case."""
+"""Keys that change no statement: other draws of a case, another look at it, and how thoroughly the
+checks of the theory try what holds of all data. Their controls find a test that is too weak."""
+AT_LEAST = {"members", "swept_members", "nodes"}
+"""Sizes of ensembles and grids: larger ones are still about the same case."""
 AT_MOST = {"tolerance"}
 """Smaller values are still about the same case."""
 
