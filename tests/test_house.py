@@ -29,32 +29,6 @@ STOREYS = (
 COLLECTORS = ("report", "ledger", "archive", "configuration")
 """Rooms that reach the studies by their list alone, without a name of one."""
 
-
-DIFFERS = {
-    *("exp", "expm1", "log", "log1p", "log2", "log10", "logaddexp", "power", "cbrt", "hypot"),
-    *(
-        "sin",
-        "cos",
-        "tan",
-        "sinh",
-        "cosh",
-        "tanh",
-        "arcsin",
-        "arccos",
-        "arctan",
-        "arctan2",
-        "angle",
-    ),
-    *("logspace", "geomspace", "interp", "polyfit", "corrcoef"),
-    *("fft", "linalg", "dot", "vdot", "einsum"),
-}
-"""Functions of NumPy or C whose last bits differ between processors; `numerics` has most."""
-MAY_DIFFER = ("report", "drawing", "figure_diff")
-"""Rooms that write texts and pictures for people, of rounded numbers."""
-ROUNDED = {"studies/theory/threshold.py": {"fft"}}
-"""What a module may use because it rounds what comes of it."""
-
-
 THE_LIST = {("studies",), *(("studies", name) for name in ("STUDIES", "CONFIGURED", "modules"))}
 
 
@@ -117,16 +91,3 @@ def test_a_study_can_be_read_in_a_day(study):
     """A study is read alone; one that outgrows this asks two questions, and is two studies."""
     modules = [module for module in MODULES if module.parts[:2] == ("studies", study)]
     assert len(modules) <= 24 and lines_of(modules) <= 4_350
-
-
-@pytest.mark.parametrize("module", MODULES, ids=str)
-def test_numbers_come_from_functions_with_the_same_bits_everywhere(module):
-    if room_of(module.parts) in MAY_DIFFER:
-        return
-    found = []
-    for node in ast.walk(ast.parse((LIBRARY / module).read_text())):
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            found += [node.attr] if node.value.id in ("np", "math") else []
-        elif isinstance(node, ast.ImportFrom) and node.module in ("math", "numpy"):
-            found += [alias.name for alias in node.names]
-    assert not DIFFERS.intersection(found) - ROUNDED.get(module.as_posix(), set())

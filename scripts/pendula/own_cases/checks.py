@@ -18,7 +18,7 @@ from pendula.datasets.trajectories import trajectory_contents
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
-from pendula.numerics.elementary import log
+from pendula.numerics.elementary import log, modulus, square_modulus
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
@@ -47,7 +47,7 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
 
     `run` is the trajectory that `simulate` made of `problem`.
     """
-    peak = float(np.abs(problem.initial).max())
+    peak = float(modulus(problem.initial).max())
     solver = choose_solver(str(run.attrs["solver"]), peak)
     again = problem.changed(solver=solver, snapshot_every=0)
     said = {f"second_{key}": value for key, value in solver.items()}
@@ -164,9 +164,9 @@ def balance(problem: Problem, run: xr.Dataset, solver: dict) -> dict:
     `solver` carries the state from node to node of the quadrature.
     """
     constants, amplitudes = problem.constants, problem.amplitudes
-    start, largest = float(np.sum(np.abs(amplitudes) ** 2)), float(run["linf"].max()) ** 2
+    start, peak = float(np.sum(square_modulus(amplitudes))), float(run["linf"].max())
     linear = 4 * abs(constants.epsilon) + 2 * abs(constants.gamma) + abs(constants.omega)
-    rate = linear + largest
+    rate = linear + peak * peak
     span = min(problem.end_time, RADIANS / rate) if rate else problem.end_time
     change, integral = integrated_balance(
         constants, problem.boundary, amplitudes, span, PANELS, constants.gamma, solver

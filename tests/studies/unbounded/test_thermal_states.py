@@ -205,3 +205,8 @@ def test_the_grid_reaches_as_far_as_the_deepest_wave_has_weight(numbers):
         edges = widest(constants_of(numbers), beta)
         np.testing.assert_array_equal(edges, edges[0])
         assert beta * (energy(edges[0] ** 2) - least) == pytest.approx(REACH, rel=1e-5)
+
+
+def test_no_zero_of_a_density_has_a_sign(published):
+    density = np.asarray(published[2]["density"].values)
+    assert (density == 0.0).any() and not np.signbit(density).any()

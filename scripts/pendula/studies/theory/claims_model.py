@@ -92,9 +92,8 @@ def with_another_pair(lyapunov):
     size = abs(lyapunov["exponents"])
     fourth = np.sort(size.transpose(..., "index"), axis=-1)[..., 3]  # NaN comes last
     beyond = size > size.isel(index=0, drop=True).copy(data=fourth)
-    kept = beyond | size.isnull()
-    names = ("exponents", "exponents_error")
-    return lyapunov.assign({name: lyapunov[name].where(kept, 0.0) for name in names})
+    both = lyapunov[["exponents", "exponents_error"]].where(beyond | size.isnull(), 0.0)
+    return lyapunov.assign(both)
 
 
 def widening(spectra: int) -> float:
@@ -108,11 +107,7 @@ def widening(spectra: int) -> float:
 
 
 def told_pairs(size, limit):
-    """Return the number of pairs that vanish in each spectrum, as far as its limits can tell.
-
-    An exponent that is not resolved says nothing on integrals. It is told to vanish where it lies
-    with its limit nearer to zero than the exponents of its spectrum lie to each other in the mean.
-    """
+    """Return how many pairs of each spectrum lie nearer to zero than exponents to each other."""
     between = 2.0 * size.max("index") / size.notnull().sum("index")
     return 0.5 * (size + limit < between).sum("index")
 
@@ -145,9 +140,8 @@ def one_integral(lyapunov) -> Finding:
         many = [f"{c}, M = {m}" for c, m in pairs["spectrum"].values[pairs.values > 1.0]]
         return undecided(
             measured,
-            "every integral makes a pair of Lyapunov exponents vanish; more than one pair cannot be"
-            f" told from zero in some spectra ({'; '.join(many)}), whose runs are too short to"
-            " tell: the limits of exponents are wider than what lies between two of them",
+            "every integral makes a pair of Lyapunov exponents vanish; runs are too short to tell"
+            f" more than one pair from zero in some spectra ({'; '.join(many)})",
         )
     caveat = (
         "every integral makes a pair of Lyapunov exponents vanish, and on short chains in chaos"

@@ -260,17 +260,17 @@ def driven_growth(gamma: float, mu: float, ratio: float, steps: int = 64) -> flo
     h = period / steps
     force = -(1.0 + drive * elementary.cos(np.pi / steps * np.arange(2 * steps + 1)))
 
-    def rate(half_steps, z):
-        return np.array([z[1], force[half_steps] * z[0]])
+    def rate(half_steps, state):
+        return np.array([state[1], force[half_steps] * state[0]])
 
-    z = np.eye(2)
+    state = np.eye(2)
     for i in range(0, 2 * steps, 2):
-        k1 = rate(i, z)
-        k2 = rate(i + 1, z + 0.5 * h * k1)
-        k3 = rate(i + 1, z + 0.5 * h * k2)
-        k4 = rate(i + 2, z + h * k3)
-        z = z + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    half = max(1.0, 0.5 * abs(z[0, 0] + z[1, 1]))  # the multipliers are half +- sqrt(half^2 - 1)
+        k1 = rate(i, state)
+        k2 = rate(i + 1, state + 0.5 * h * k1)
+        k3 = rate(i + 1, state + 0.5 * h * k2)
+        k4 = rate(i + 2, state + h * k3)
+        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    half = max(1.0, 0.5 * abs(np.trace(state)))  # the multipliers: half +- sqrt(half^2 - 1)
     return float(elementary.log(half + np.sqrt(half * half - 1.0)) / period / (0.5 * mu * mu))
 
 

@@ -43,6 +43,7 @@ REACH = 25.0
 """The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
 
 DIGITS, DECIMALS = 7, 8
+LAST_DIGIT = float(f"1e-{DIGITS}")
 """Significant digits of what is published, and the decimals of densities."""
 
 
@@ -91,7 +92,7 @@ def state_of_energy(constants: Constants, energy: float = 0.0, nodes: int = 16) 
         reach = reach_of(operator, vector)
         power = float(np.sum(vector * vector * operator.power))
         tried.append(power)
-    error = abs(tried[-1] - tried[-2]) + 0.5 * 10.0**-DIGITS * tried[-1]
+    error = abs(tried[-1] - tried[-2]) + 0.5 * LAST_DIGIT * tried[-1]
     return ThermalState(beta, energy, power, error, operator, vector)
 
 
@@ -240,7 +241,8 @@ HIGHEST_MODULUS, CELLS = 12.0, 80
 def thermal_variables(states: list[ThermalState], warm: list[ThermalState]) -> dict[str, Variable]:
     """Return the states of zero energy, one for each Omega, and the `warm` ones over the energy."""
     cells, omega, energy = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1), "omega", "site_energy"
-    densities = [np.maximum(0.0, density_of(state, cells).round(DECIMALS)) for state in states]
+    # of 0 and -0 processors take either for the larger one, and a sum with zero has no sign
+    densities = [np.maximum(0.0, density_of(one, cells).round(DECIMALS)) + 0.0 for one in states]
     products = [products_of(state, LENGTH) for state in states]
     spectra = [rounded(spectrum_of(one), DIGITS - 1) for one in products]
     lengths = [correlation_length(one) for one in products]

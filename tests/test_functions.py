@@ -1,0 +1,231 @@
+"""The library calls only functions whose bits are the same on every processor.
+
+Processors round + - * / and square roots alike. All else is made of these in `numerics`, and this
+test reads the source for what is not: functions of NumPy, SciPy and C under any name, BLAS and
+powers. It cannot see types, so it takes `x**2` for the square of an array, which is a product, and
+knows a complex number by its name; what it misses, whole runs find (`.ci/elsewhere`).
+"""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pendula.sources import SCRIPTS
+
+LIBRARY = SCRIPTS / "pendula"
+MODULES = sorted(path.relative_to(LIBRARY).as_posix() for path in LIBRARY.rglob("*.py"))
+
+MAY_DIFFER = ("report", "drawing", "figure_diff", "archive")
+"""Rooms that write texts and pictures for people, of rounded numbers."""
+
+ALLOWED = {
+    ("studies/theory/threshold.py", "numpy.fft"): "the norms are rounded before they are stored",
+    ("measures/confidence.py", "scipy.special"): "quantiles and chances are rounded to six digits",
+    ("studies/unbounded/thermal.py", "scipy.special"): "the density is rounded to its digits",
+    ("studies/unbounded/thermal.py", "@"): "the density is rounded to its digits",
+    ("configuration/cost.py", "**"): "what a run will take is an estimate that is told to people",
+    ("numerics/elementary.py", "**"): "powers of Decimal, by its own arithmetic",
+    ("numerics/quadrature.py", "**"): "powers of Fraction, which are exact",
+}
+"""What a module may use, with the reason."""
+
+EXACT = {
+    *("add", "subtract", "multiply", "divide", "true_divide", "negative", "positive", "sqrt"),
+    *("square", "reciprocal", "absolute", "abs", "fabs", "sign", "copysign", "conj", "conjugate"),
+    *("floor", "ceil", "trunc", "rint", "floor_divide", "fmod", "mod", "remainder", "divmod"),
+    *("modf", "frexp", "ldexp", "nextafter", "spacing", "signbit", "heaviside", "deg2rad"),
+    *("rad2deg", "degrees", "radians", "maximum", "minimum", "fmax", "fmin", "clip"),
+    *("isfinite", "isinf", "isnan", "isnat", "equal", "not_equal", "less", "less_equal"),
+    *("greater", "greater_equal", "logical_and", "logical_or", "logical_not", "logical_xor"),
+    *("bitwise_and", "bitwise_or", "bitwise_xor", "bitwise_not", "bitwise_invert", "invert"),
+    *("left_shift", "right_shift", "bitwise_left_shift", "bitwise_right_shift", "bitwise_count"),
+    *("gcd", "lcm"),
+}
+"""NumPy's elementwise functions that round once, or not at all."""
+INEXACT = {name for name in dir(np) if isinstance(getattr(np, name), np.ufunc)} - EXACT
+"""All its others, such as exp, power, hypot, matmul."""
+MADE_OF_THEM = {
+    *("dot", "vdot", "inner", "tensordot", "einsum", "convolve", "correlate", "cov", "corrcoef"),
+    *("logspace", "geomspace", "interp", "polyfit", "polyval", "angle", "unwrap", "sinc", "i0"),
+    *("linalg", "fft", "polynomial", "emath"),
+}
+OF_C = {"sqrt", "floor", "ceil", "trunc", "fabs", "copysign", "frexp", "ldexp", "nextafter", "ulp"}
+OF_C |= {"prod", "fsum", "factorial", "comb", "perm", "gcd", "lcm", "isqrt", "fmod", "modf"}
+OF_C |= {"isfinite", "isinf", "isnan", "isclose", "inf", "nan", "pi", "e", "tau"}
+"""What may be used of `math`; the rest are functions of the C library."""
+
+METHODS = {"dot", "__pow__", "__rpow__", "__matmul__", "__rmatmul__"}
+"""Methods with other bits, whatever they are called on."""
+COMPLEX = {"amplitudes", "initial", "z"}
+"""What complex numbers are called: their modulus is `hypot` of C, and `numerics` has its own."""
+EXACT_BASES = (-1, 0.5, 2)
+"""Numbers whose whole powers are exact."""
+
+
+def names_of(tree: ast.AST) -> dict[str, str]:
+    """Return what each imported name of a module stands for, as a path of packages."""
+    found = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                first = alias.name.split(".")[0]
+                found[alias.asname or first] = alias.name if alias.asname else first
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            for alias in node.names:
+                found[alias.asname or alias.name] = f"{node.module}.{alias.name}"
+    return found
+
+
+def path_of(node: ast.AST, names: dict[str, str]) -> str:
+    """Return the path that an expression such as `la.norm` stands for, or nothing."""
+    if isinstance(node, ast.Name):
+        return names.get(node.id, "")
+    if isinstance(node, ast.Attribute):
+        base = path_of(node.value, names)
+        return base and f"{base}.{node.attr}"
+    return ""
+
+
+def refused(path: str) -> str:
+    """Return the package or the function of a path whose bits differ, or nothing."""
+    package, *rest = path.split(".")
+    if package == "scipy" and rest:
+        return ".".join([package, rest[0]])
+    if package in ("cmath", "statistics") and rest:
+        return package
+    if package == "math" and rest and rest[0] not in OF_C:
+        return path
+    if package == "numpy" and rest and rest[0] in INEXACT | MADE_OF_THEM:
+        return ".".join([package, rest[0]])
+    return ""
+
+
+def whole_power(base: ast.AST, exponent: ast.AST) -> bool:
+    """Return whether a power is a product, or one of a base whose whole powers are exact."""
+    if isinstance(exponent, ast.Constant) and exponent.value == 2:
+        return True
+    try:
+        return ast.literal_eval(base) in EXACT_BASES and not isinstance(exponent, ast.BinOp)
+    except ValueError:
+        return False
+
+
+def complex_inside(node: ast.AST) -> bool:
+    """Return whether an expression holds a complex number, but not only its parts or a function."""
+    if isinstance(node, ast.Call) or (isinstance(node, ast.Attribute) and node.attr in PARTS):
+        return False
+    named = getattr(node, "id", "") or getattr(node, "attr", "")
+    return named in COMPLEX or any(map(complex_inside, ast.iter_child_nodes(node)))
+
+
+PARTS = ("real", "imag", "shape", "size")
+
+
+def uses(source: str) -> Iterator[str]:
+    """Yield what a module uses whose bits differ between processors."""
+    tree = ast.parse(source)
+    names = names_of(tree)
+    yield from filter(None, map(refused, names.values()))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name | ast.Attribute):
+            yield from filter(None, [refused(path_of(node, names))])
+        if isinstance(node, ast.Attribute) and node.attr in METHODS and not path_of(node, names):
+            yield f".{node.attr}"
+        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.MatMult):
+            yield "@"
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            yield from [] if whole_power(node.left, node.right) else ["**"]
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Pow):
+            yield from [] if whole_power(node.target, node.value) else ["**"]
+        if isinstance(node, ast.Call):
+            yield from of_call(node, names)
+
+
+def of_call(node: ast.Call, names: dict[str, str]) -> Iterator[str]:
+    """Yield what a call uses that no imported name tells."""
+    called = getattr(node.func, "id", "") or path_of(node.func, names)
+    if called == "pow":
+        yield "**"
+    if called in ("abs", "numpy.abs", "numpy.absolute") and any(map(complex_inside, node.args)):
+        yield "abs of complex"
+    if called == "getattr" and path_of(node.args[0], names).split(".")[0] in ("numpy", "math"):
+        yield "getattr of a package"
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_numbers_come_from_functions_with_the_same_bits_everywhere(module):
+    if module.split("/")[0].removesuffix(".py") in MAY_DIFFER:
+        return
+    found = {use for use in uses((LIBRARY / module).read_text()) if (module, use) not in ALLOWED}
+    assert not found, f"{module} uses {', '.join(sorted(found))}: see pendula.numerics"
+
+
+@pytest.mark.parametrize(("module", "use"), ALLOWED)
+def test_what_is_allowed_is_still_used(module, use):
+    assert use in set(uses(Path(LIBRARY, module).read_text()))
+
+
+@pytest.mark.parametrize(
+    ("line", "use"),
+    [
+        ("import numpy as np; np.exp(1.0)", "numpy.exp"),
+        ("import numpy; numpy.hypot(x, y)", "numpy.hypot"),
+        ("import numpy as np; np.power(x, 0.2)", "numpy.power"),
+        ("import numpy as np; f = np.cbrt; f(x)", "numpy.cbrt"),
+        ("import numpy as np; np.log.outer(x, y)", "numpy.log"),
+        ("from numpy import exp", "numpy.exp"),
+        ("from numpy import exp as e; e(x)", "numpy.exp"),
+        ("import numpy.linalg", ""),
+        ("import numpy.linalg; numpy.linalg.norm(x)", "numpy.linalg"),
+        ("import numpy.linalg as la; la.norm(x)", "numpy.linalg"),
+        ("from numpy import linalg as la; la.eigh(x)", "numpy.linalg"),
+        ("from numpy.linalg import eigvals", "numpy.linalg"),
+        ("import numpy as np; algebra = np.linalg", "numpy.linalg"),
+        ("import numpy as np; np.fft.rfft(x)", "numpy.fft"),
+        ("from numpy.fft import fft", "numpy.fft"),
+        ("import numpy as np; np.dot(x, y)", "numpy.dot"),
+        ("import numpy as np; np.matmul(x, y)", "numpy.matmul"),
+        ("import numpy as np; np.einsum('ij,j', x, y)", "numpy.einsum"),
+        ("import numpy as np; np.interp(x, y, w)", "numpy.interp"),
+        ("import numpy as np; getattr(np, 'exp')(x)", "getattr of a package"),
+        ("x.dot(y)", ".dot"),
+        ("x @ y", "@"),
+        ("x @= y", "@"),
+        ("x ** 0.2", "**"),
+        ("x ** -1", "**"),
+        ("x ** 3", "**"),
+        ("x ** n", "**"),
+        ("x **= 0.5", "**"),
+        ("2.0 ** (x / 3)", "**"),
+        ("10.0 ** n", "**"),
+        ("pow(x, 3)", "**"),
+        ("x.__pow__(3)", ".__pow__"),
+        ("import math; math.exp(1.0)", "math.exp"),
+        ("import math as m; m.sin(1.0)", "math.sin"),
+        ("from math import hypot", "math.hypot"),
+        ("from math import log as ln; ln(2.0)", "math.log"),
+        ("import cmath; cmath.exp(z)", "cmath"),
+        ("import scipy.special; scipy.special.j1(x)", "scipy.special"),
+        ("from scipy import special", "scipy.special"),
+        ("from scipy.special import j1", "scipy.special"),
+        ("import scipy.optimize as so; so.brentq(f, 0, 1)", "scipy.optimize"),
+        ("abs(z)", "abs of complex"),
+        ("abs(z[0] - 1)", "abs of complex"),
+        ("import numpy as np; np.abs(amplitudes).max()", "abs of complex"),
+        ("abs(problem.initial)", "abs of complex"),
+        ("abs(z.real)", ""),
+        ("abs(energy(amplitudes))", ""),
+        ("x ** 2", ""),
+        ("2.0 ** -53", ""),
+        ("0.5 ** n", ""),
+        ("import math; math.sqrt(2.0)", ""),
+        ("from math import inf, sqrt", ""),
+        ("import numpy as np; np.sqrt(np.abs(x)) * np.pi", ""),
+        ("from pendula.numerics.elementary import exp; exp(x)", ""),
+        ("from .elementary import exp, log; exp(x)", ""),
+    ],
+)
+def test_every_spelling_is_seen(line, use):
+    assert set(uses(line)) == ({use} if use else set())
