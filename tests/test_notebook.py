@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pendula
 import pytest
 import xarray as xr
@@ -106,6 +107,60 @@ def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
     chaotic = pendula.Case(omega=0, solver={"name": "auto", "error": 1e-12})
     with pytest.raises(pendula.IntegrationError, match=r"agree to 1e-12 only before tau = \d"):
         pendula.simulate(chaotic)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda c, r: pendula.simulate({"omega": 8}), "a case, such as Case.omega=8., and not"),
+        (lambda c, r: pendula.simulate(c, 3), "a name for the dataset, and not 3"),
+        (lambda c, r: pendula.simulate(c, hours=-1), "hours: is -1; it must be greater"),
+        (lambda c, r: pendula.simulate(c, hours=1e-9), "the run would take less than a"),
+        (lambda c, r: pendula.simulate(c.changed(half_width=10**10)), "18 TB of memory"),
+        (lambda c, r: pendula.simulate(c.changed(end_time=2e6)), "end_time: the run would"),
+        (lambda c, r: pendula.sweep(8, [2]), "a case, such as Case.omega=8., and not 8"),
+        (lambda c, r: pendula.sweep(c, 3), "half_widths: is 3, not a list"),
+        (lambda c, r: pendula.sweep(c, "23"), "half_widths: is '23', not a list"),
+        (lambda c, r: pendula.sweep(c, [2, 2]), "the same value stands twice: 2"),
+        (lambda c, r: pendula.sweep(c, [3 * 10**9], [(1, 2)]), "half_widths: the run would"),
+        (lambda c, r: pendula.sweep(c, [2], [(1, 2), (1, 2)]), "stands twice: .1.0, 2.0"),
+        (lambda c, r: pendula.sweep(c, [2], None), "windows: is empty, not a list"),
+        (lambda c, r: pendula.sweep(c, [2], [(1, 2)], "a b"), "is not a name: use"),
+        (lambda c, r: pendula.check(8), "a case, such as Case.omega=8., and not 8"),
+        (lambda c, r: pendula.check(c, 8), "a run, as `simulate` and `read` return it, and"),
+        (lambda c, r: pendula.check(c, r[["l2"]]), "the dataset has no linf, energy"),
+        (lambda c, r: pendula.draw_norms(8), "a run, as `simulate` and `read` return it, and"),
+        (lambda c, r: pendula.draw_norms(r, r), "the dataset has no divergence_time"),
+        (lambda c, r: pendula.draw_spacetime(None), "and not empty"),
+        (lambda c, r: pendula.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
+        (lambda c, r: c.changed(omga=8), "omga: is not a known key; did you mean 'omega'"),
+        (lambda c, r: pendula.Case(omega=None), "omega: is empty, not a number"),
+        (lambda c, r: pendula.Case(omega=1, initial={0: (1, 2, 3)}), "site 0 has 3 values"),
+        (lambda c, r: pendula.Case(omega=1, initial=[1, 0]), "not data by site such as"),
+        (lambda c, r: pendula.Case(omega=1, solver="crank_nicolson", output_step=0.001), "div"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_done_is_told_before_anything_runs(call, words, case, run):
+    with pytest.raises(ValueError, match=words) as told:
+        call(case, run)
+    assert isinstance(told.value, pendula.ConfigurationError)
+
+
+def test_a_window_that_no_sweep_has_is_told(case):
+    peaks = pendula.sweep(case, range(2, 5), [(1, 2)])
+    with pytest.raises(ValueError, match=r"there is no window '\[1, 3\]'; known are \[1, 2\]"):
+        pendula.draw_sweep(peaks, "[1, 3]")
+
+
+def test_a_long_run_says_first_what_it_takes(case, monkeypatch, capsys):
+    monkeypatch.setattr(pendula.notebook.cost, "WORTH_SAYING", 1e-6)
+    pendula.simulate(case)
+    assert capsys.readouterr().out == "the run takes less than a second and 1 MB of memory\n"
+
+
+def test_numbers_of_numpy_are_numbers(case):
+    given = pendula.Case(omega=np.float64(8), half_width=np.int64(3), initial={np.int64(0): (1, 0)})
+    assert given.half_width == 3 and type(given.omega) is float
 
 
 def test_a_notebook_is_given_a_picture(run):

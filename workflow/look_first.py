@@ -16,14 +16,14 @@ from pendula.configuration.files import ConfigurationError, read
 ENDINGS = ".yaml", ".yml", ".json"
 
 
-def config_files(arguments: list[str]) -> list[str]:
-    """Return the words that a command line gives to --configfile."""
+def words_of(arguments: list[str], names: tuple[str, ...]) -> list[str]:
+    """Return the words that a command line gives to the option with one of these names."""
     found, taking = [], False
     for word in arguments:
+        name, _, value = word.partition("=")
         if word.startswith("-"):
-            name, _, value = word.partition("=")
-            taking = name.startswith("--configf") and not value
-            found += [value] if name.startswith("--configf") and value else []
+            taking = name in names and not value
+            found += [value] if name in names and value else []
         elif taking:
             found.append(word)
     return found
@@ -45,8 +45,15 @@ def fault_of(file: str) -> str | None:
 
 
 def look(arguments: list[str]) -> None:
-    """End Snakemake with the faults of its configuration files, if they have any."""
-    faults = [fault for file in config_files(arguments) if (fault := fault_of(file))]
+    """End Snakemake with the faults of its configuration, if it has any."""
+    files = words_of(arguments, ("--configfile", "--configfiles"))
+    faults = [fault for file in files if (fault := fault_of(file))]
+    faults += [
+        f"--config takes name=value and every word that follows it, and {word!r} is none: targets "
+        "stand before it, as in snakemake own --config limits='{hours: 2}'"
+        for word in words_of(arguments, ("--config", "-C"))
+        if "=" not in word
+    ]
     if faults:
         print("\n".join(faults), file=sys.stderr)
         raise SystemExit(1)

@@ -9,14 +9,17 @@ Figures are matplotlib's: a notebook shows the one that a cell ends with, and sa
 
 from collections.abc import Iterable
 
+import xarray as xr
 from pydantic import ValidationError
 
+from pendula.configuration.files import ConfigurationError, all_of
 from pendula.configuration.messages import in_words, load
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
 from pendula.own_cases.checks import check_run
 
-from .configuration import cases
+from .configuration import cases, cost, values
+from .configuration.schema import Limits
 from .configuration.solvers import with_controls
 from .problem import Problem
 from .simulation import simulate as simulation
@@ -37,7 +40,7 @@ class Case(cases.Case):
     initial: {site: (A, B)} in complex numbers, at rest elsewhere. {0: (1, 0.1)}.
     end_time, output_step: in tau; observables are kept at every step. 50 and 0.025.
     snapshot_step: in tau; how often the moduli on all sites are kept, whole output steps.
-        Left out, 200 to 400 snapshots are spread over the run.
+        They divide the run. Left out, 200 snapshots or more are spread over it.
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
         or a dict with the controls, such as {"name": "auto", "error": 1e-9}.
 
@@ -67,7 +70,42 @@ class Case(cases.Case):
         return Case(**{**self.model_dump(), **keys})
 
 
-def simulate(case: Case, name: str = "case"):
+def _affordable(case: Case, hours: float | None) -> None:
+    """Raise ConfigurationError if a run takes more than it may.
+
+    A run of minutes says what it will take.
+    """
+    _require(case, Case, "a case, such as Case(omega=8)")
+    try:
+        limits = Limits() if hours is None else Limits(hours=hours)
+    except ValidationError as error:
+        raise in_words(error, "the limit") from None
+    for problem in (case.problem, case.shown_problem):  # snapshots are chosen for what can be run
+        found = cost.find_excess(problem(), limits.model_dump())
+        if found:
+            text = found[1].replace("limits.hours", "hours").replace("limits.", "")
+            raise all_of([f"{found[0]}: {text}"], "the case")
+    _announce(cost.estimate(case.shown_problem()))
+
+
+def _announce(takes: cost.Cost) -> None:
+    if takes.seconds > cost.WORTH_SAYING:
+        print(f"the run takes {takes}", flush=True)
+
+
+def _require(given, kind: type, what: str, *variables: str) -> None:
+    """Raise ConfigurationError unless an argument is of a kind, and a dataset has `variables`."""
+    if not isinstance(given, kind):
+        raise ConfigurationError(f"this takes {what}, and not {values.shown(given)}")
+    absent = [name for name in variables if name not in given]
+    if absent:
+        raise ConfigurationError(f"this takes {what}; the dataset has no {', '.join(absent)}")
+
+
+RUN = "a run, as `simulate` and `read` return it"
+
+
+def simulate(case: Case, name: str = "case", hours: float | None = None):
     """Integrate a case and return its trajectory as an xarray.Dataset.
 
     Coordinates: tau (time,), component ("A", "B"), site (-M..M), part ("re", "im").
@@ -81,8 +119,11 @@ def simulate(case: Case, name: str = "case"):
     Attributes: every parameter, the solver's controls and its work, `name` as "case". All but
     `final` is what `snakemake results/trajectories/{name}.nc` writes.
 
-    Raises IntegrationError, with the reason, where the solver cannot reach end_time with the
-    digits that were asked for.
+    A run that would take more than `hours` (1 if they are left out) or 8 GB of memory is refused
+    before it starts; one of some minutes says first what it takes.
+
+    Raises ConfigurationError for such a run; IntegrationError, with the reason, where the solver
+    cannot reach end_time with the digits that were asked for.
 
     >>> run = simulate(Case(omega=8, end_time=10))
     >>> run["l2"].shape, run["modulus"].shape
@@ -90,6 +131,8 @@ def simulate(case: Case, name: str = "case"):
     >>> bool(abs(run["energy"] - run["energy"][0]).max() < 1e-11)
     True
     """
+    _affordable(case, hours)
+    _require(name, str, "a name for the dataset")
     problem = Problem.of(case.shown_problem())
     trajectory = simulation.simulate(problem)
     variables, attributes = trajectory_contents(name, problem, trajectory)
@@ -101,6 +144,7 @@ def sweep(
     half_widths: Iterable[int],
     windows: Iterable[tuple[float, float]] = ((10, 40), (10, 50), (10, 70)),
     name: str = "sweep",
+    hours: float | None = None,
 ):
     """Integrate a case on chains of many half-widths; return maxima and means of its norms.
 
@@ -112,19 +156,30 @@ def sweep(
     linf), statistic "max" or "mean" (over time, trapezoidal), windows are named "[10, 50]".
     Attributes as in `simulate`. The same as `snakemake results/sweeps/{name}.nc` writes.
 
-    Raises ConfigurationError for windows off the grid, or initial data outside a chain;
-    IntegrationError as `simulate`.
+    Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
+    that would take more than `hours` (1 if they are left out); IntegrationError as `simulate`.
 
     >>> peaks = sweep(Case(omega=-4), [2, 4, 8], windows=[(1, 5)])
     >>> peaks["l2"].sel(quantity="pair", statistic="max", window="[1, 5]").shape
     (3,)
     """
-    asked = {"case": name, "half_widths": list(half_widths), "windows": list(windows)}
-    # the case's own half-width is not used here, and its chain need not hold the initial data
-    settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}})
+    _require(case, Case, "a case, such as Case(omega=8)")
+    asked = {"case": name, "half_widths": _listed(half_widths), "windows": _listed(windows)}
+    limits = {} if hours is None else {"limits": {"hours": hours}}
+    settings = load({"cases": {name: case.model_dump()}, "sweeps": {name: asked}} | limits)
+    _announce(settings.cost_of_sweep(name))
     checked, problem = settings.sweeps[name], Problem.of(settings.swept_problem(name))
     result = sweeps.sweep(problem, checked.half_widths, checked.windows)
     return as_xarray(*sweep_contents(name, problem, checked.half_widths, checked.windows, result))
+
+
+def _listed(given):
+    """Return a list of what can be iterated, such as a range, and all else as it is."""
+    return (
+        [_listed(one) for one in given]
+        if isinstance(given, Iterable) and not isinstance(given, str | dict)
+        else given
+    )
 
 
 def check(case: Case, run=None):
@@ -138,7 +193,9 @@ def check(case: Case, run=None):
     >>> str(found["region"].values), bool(found["ratio"] < 1)
     ('theorem 1', True)
     """
+    _require(case, Case, "a case, such as Case(omega=8)")
     run = simulate(case) if run is None else run
+    _require(run, xr.Dataset, RUN, "linf", "l2", "energy", "tau")
     return check_run(Problem.of(case.shown_problem()), run)
 
 
@@ -155,6 +212,9 @@ def draw_norms(run, checks=None):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
+    _require(run, xr.Dataset, RUN, "linf", "l2")
+    if checks is not None:
+        _require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
     return figures.draw_norms(figures.gather_norms(run, checks))
 
 
@@ -167,6 +227,7 @@ def draw_spacetime(run):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
+    _require(run, xr.Dataset, RUN)
     return figures.draw_spacetime(figures.gather_spacetime(run))
 
 
@@ -183,4 +244,11 @@ def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = N
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
+    _require(sweep, xr.Dataset, "a sweep, as `sweep` returns it", "linf", "l2", "window")
+    known = [str(window) for window in sweep["window"].values]
+    for window in (max_window, mean_window):
+        if window is not None and window not in known:
+            raise ConfigurationError(
+                f"there is no window {values.shown(window)}; known are {', '.join(known)}"
+            )
     return figures.draw_sweep(figures.gather_sweep(sweep, max_window, mean_window))

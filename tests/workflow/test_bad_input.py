@@ -7,6 +7,7 @@ import subprocess
 
 import pytest
 from helpers import ROOT, command_of, snakemake_with
+from look_first import look
 
 NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
 
@@ -47,6 +48,30 @@ def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words
         (tmp_path / name).write_bytes(content)
     command = command_of(ROOT, tmp_path, tmp_path / name)
     assert words in refused(subprocess.run(command, capture_output=True, text=True))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            ["--configfile", "none.yaml", "own"],
+            ["there is no file none.yaml", "snakemake own --con"],
+        ),
+        (["--configfiles=none.yaml"], ["there is no file none.yaml"]),
+        (["--config", "accept=fig3", "fig3"], ["--config takes name=value", "and 'fig3' is none"]),
+        (["-C", "x"], ["and 'x' is none"]),
+    ],
+)
+def test_an_option_that_takes_a_target_for_its_own_says_so(arguments, words, capsys):
+    with pytest.raises(SystemExit) as ended:
+        look(arguments)
+    said = capsys.readouterr().err
+    assert ended.value.code == 1 and all(part in said for part in words)
+
+
+def test_what_is_right_is_let_pass(tmp_path):
+    (tmp_path / "mine.yaml").write_text("cases: {mine: {omega: 8}}")
+    look(["own", "--cores", "2", "--configfile", str(tmp_path / "mine.yaml"), "-C", "bits=any"])
 
 
 def test_a_long_run_says_first_what_it_takes(tmp_path):

@@ -53,7 +53,8 @@ def tell_faults():
 
 
 def plain(settings):
-    return json.loads(settings.model_dump_json())
+    """Return the configuration without the limits of a run, which change no number."""
+    return json.loads(settings.model_dump_json(exclude={"limits"}))
 
 
 def committed_settings():
