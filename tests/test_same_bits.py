@@ -46,13 +46,13 @@ def output_of(command, environment):
 
 @pytest.fixture(scope="module")
 def numbers_by(tmp_path_factory):
-    """Return a function: the folder with the datasets of some_numbers.py by a Python there."""
+    """Return a function: the folder with the datasets of some_numbers.py by some Python."""
     given = tmp_path_factory.mktemp("given")
     some_numbers.prepare(given)
 
-    def make(python, environment):
+    def make(python, environment, *every):
         made = tmp_path_factory.mktemp("made")
-        output_of([python, some_numbers.__file__, given, made], environment)
+        output_of([python, some_numbers.__file__, given, made, *every], environment)
         return made
 
     return make
@@ -107,9 +107,10 @@ def test_another_family_of_processors_gives_the_same_bits(python_of_another_fami
     assert found["machine"] == "aarch64" and found["hashes"] == COMMITTED
 
 
-def test_another_family_gives_the_same_numbers(python_of_another_family, numbers_by, numbers_here):
-    there = numbers_by(python_of_another_family, dict(os.environ))
-    assert unlike(numbers_here, there, ".nc") == []
+def test_another_family_gives_the_same_checks_of_the_theory(python_of_another_family, numbers_by):
+    pythons = (sys.executable, python_of_another_family)
+    here, there = (numbers_by(python, dict(os.environ), "theory") for python in pythons)
+    assert unlike(here, there, ".nc") == []
 
 
 @pytest.mark.parametrize(("name", "even"), bits.RUNS)
