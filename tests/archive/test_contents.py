@@ -24,7 +24,7 @@ def git(folder, *words):
 
 @pytest.fixture
 def project(tmp_path):
-    """Return a folder with two files, one of which may be run."""
+    """Return a folder with two files; the second may be run as a program."""
     folder = tmp_path / "project"
     (folder / "scripts").mkdir(parents=True)
     (folder / "scripts/a.py").write_text("a")

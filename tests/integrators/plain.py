@@ -10,7 +10,7 @@ from scipy.integrate._ivp.rk import RK45
 
 
 def stages(a, f, z, h, first):
-    """Return the slopes of all stages from z, of which the first is known."""
+    """Return the slopes of all stages from z. The slope of the first stage, `first`, is known."""
     k = np.zeros((len(a), *z.shape), complex)
     k[0] = first
     for s in range(1, len(a)):

@@ -137,7 +137,7 @@ rule measure_solvers:
 
 
 rule measure_second_solver:
-    "What the scheme and the step of the second solver decide, of which the paper says little"
+    "What depends on the scheme and the step of the second solver, which the paper hardly describes"
     input:
         code=code("paper/measure_second_solver.py"),
         kernels=kernels("crank_nicolson", "delfour_fortin_payre"),

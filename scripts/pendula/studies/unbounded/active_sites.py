@@ -1,4 +1,4 @@
-"""An even chain of which only the sites in motion are integrated: 0..W, and W grows.
+"""An even chain without ends: only the sites 0..W that are in motion are integrated.
 
 W grows by a block when anything above `rest` of the largest amplitude comes near the last site.
 For the numbers of a short run 1e-20 is enough, four orders below rounding. But a front that is

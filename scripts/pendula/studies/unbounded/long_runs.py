@@ -127,7 +127,7 @@ BAND = ("lowest", "mean", "highest")
 def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
     """Return series, exponents and laws of the ensembles in `runs`, by case.
 
-    `runs` are datasets of `run_variables`, of which the first variant is measured; `thermal`
+    `runs` are datasets of `run_variables`, and the first variant of each is measured. `thermal`
     holds the mean power of the thermal states over Omega. All values are dimensionless.
     """
     first = [run.isel(variant=0) for run in runs.values()]
