@@ -1,6 +1,6 @@
-"""The report's part on the paper's figures: norms and sweeps, the chain in motion, the solvers."""
+"""The report's part on the paper's figures: norms against time, and against the half-width."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,14 +10,12 @@ from pendula.ledger.claim import CHANGE, CONSTANT
 from pendula.ledger.section import Ledger
 from pendula.measures.levels import levelling
 from pendula.problem import is_even, name_window
-from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import (
     FIRM,
     NORMS,
     STATISTICS,
     case_in_words,
-    case_of,
     horizon_in_words,
     measured,
     number,
@@ -26,14 +24,15 @@ from pendula.report.words import (
 )
 
 from .motion import SIZES, gather_motion
-from .solvers import ORDER
+from .section_solvers import gather_solvers
 
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
+SWEPT = ("fig5_left", "fig5_right", "fig6_left", "fig6_right")
+
 TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
 ENSEMBLES = "checks/ensembles"
-COMPARED, STEPS = "checks/solvers", "checks/second_solver"
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -43,6 +42,7 @@ def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
         "chain": results.picture("fig1", f"{alt}each pair."),
         "norms": [_norms(results, which) for which in (2, 3, 4)],
         "sweeps": [_sweeps(results, which) for which in (5, 6)],
+        **half_widths(results, SWEPT),
         "verdicts": {which: ledger.counts(f"Fig {which}") for which in range(1, 7)},
         "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
         "visible": _visible(results),
@@ -162,19 +162,27 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
     readings = [(statistic, norm) for norm in DRAWN[which] for statistic in STATISTICS]
     found = [_curve(results, name, *reading) for name in names for reading in readings]
     told = "; ".join(curve["alt"] for curve in found if curve["norm"] == "l2" and curve["by_text"])
-    swept = {f"sweeps/{name}": results[f"sweeps/{name}"]["half_width"].values for name in names}
-    counts = sorted({len(widths) for widths in swept.values()})
-    longest = max(swept, key=lambda source: swept[source].max())
-    least = min(widths.min() for widths in swept.values())
-    alt = f"Norms of the pair against the half-width M, {least} to {swept[longest].max()}. {told}."
+    widths = half_widths(results, names)
+    alt = f"Norms of the pair against the half-width M, {widths['least']} to {widths['longest']}. "
     return {
         "number": which,
-        "picture": results.picture(f"fig{which}", alt),
-        "widths": results.say(longest, " or ".join(map(str, counts))),
-        "longest": results.quote(longest, int(swept[longest].max()), 6),
+        "picture": results.picture(f"fig{which}", f"{alt}{told}."),
+        **widths,
         "rows": [curve["row"] for curve in found],
         "samples": _samples(results, which),
         "l2": [curve for curve in found if curve["norm"] == "l2"],
+    }
+
+
+def half_widths(results: Results, names: Iterable[str]) -> dict[str, Any]:
+    """Return how many half-widths some sweeps have, and the least and the longest of all."""
+    swept = {f"sweeps/{name}": results[f"sweeps/{name}"]["half_width"].values for name in names}
+    counts = sorted({len(widths) for widths in swept.values()})
+    longest = max(swept, key=lambda source: swept[source].max())
+    return {
+        "widths": results.say(longest, " or ".join(map(str, counts))),
+        "least": str(min(widths.min() for widths in swept.values())),
+        "longest": results.quote(longest, int(swept[longest].max()), 6),
     }
 
 
@@ -252,97 +260,6 @@ def _sample(results: Results, name: str, last) -> dict[str, Any]:
         "off": results.quote(SAMPLES, abs(off), 2),
         "below": off < 0,
     }
-
-
-def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return how well the solvers keep the energy, and until when pairs of them agree."""
-    early, data = (results[COMPARED].sel(span=span) for span in ("early", "whole"))
-    cases = [data.sel(case=case) for case in data["case"].values]
-    ode45 = data.sel(solver="ode45")
-    papers = data["divergence_time"].isel(pair=0)
-    stated = data["stated_drift"].dropna("case")
-    held = data.sel(case=stated["case"]) if len(stated) else data
-    apart = int(np.isfinite(papers).sum())
-    solvers = [SOLVER_NAMES[str(solver)] for solver in data["solver"].values]
-    return {
-        "drift_head": ["case", "as stated", *solvers, *_kept_heads(early, held)],
-        "drift": [_drift(results, case) for case in cases],
-        "stated": len(stated) > 0,
-        "held": results.quote(COMPARED, len(stated)),
-        "others": [case_of(case) for case in cases if np.isnan(float(case["stated_drift"]))],
-        "tolerances": not any(path.startswith("solvers.ode45.") for path in results.differs),
-        "kept": results.quote(COMPARED, int(ode45["kept"].sum())),
-        "kept_early": results.quote(COMPARED, int(early["kept"].sel(solver="ode45").sum())),
-        "early": results.quote(COMPARED, float(early["until"].max())),
-        "allowed": results.quote(COMPARED, ORDER.number),
-        "cases": results.quote(COMPARED, len(cases)),
-        "end": results.quote(COMPARED, float(held["until"].max())),
-        "agreement_head": ["case", *(_pair(str(pair)) for pair in data["pair"].values)],
-        "agreement": [_agreement(results, case) for case in cases],
-        "apart": results.quote(COMPARED, apart),
-        "first": results.quote_time(COMPARED, float(papers.min())),
-        "visible": percent(float(data["visible"])),
-        "schemes": _schemes(results),
-        "pictures": _solver_pictures(results, ode45["largest_drift"].values, apart),
-    }
-
-
-def _drift(results: Results, case) -> list:
-    stated = float(case["stated_drift"])
-    both = results[COMPARED]["kept"].sel(case=str(case["case"].values), solver="ode45")
-    words = {1.0: "yes", 0.0: "no"}
-    return [
-        case_of(case),
-        results.quote(COMPARED, stated) if np.isfinite(stated) else "none: another case",
-        *(results.quote(COMPARED, float(value), 2) for value in case["largest_drift"]),
-        *(results.say(COMPARED, words.get(float(kept), "no claim")) for kept in both),
-    ]
-
-
-def _kept_heads(early, whole) -> list[str]:
-    times = (number(float(data["until"].max())) for data in (early, whole))
-    return [f"kept by ode45 to τ{FIRM}={FIRM}{time}" for time in times]
-
-
-def _schemes(results: Results) -> dict[str, Any]:
-    """Return how far both readings of the second solver are from ode45, at each step."""
-    data = results[STEPS]
-    chosen = data["scheme_difference"].stack(reading=("step", "scheme"))
-    step = float(data.attrs["configured_step"])
-    first = "crank_nicolson"
-    kept = [at for at in chosen["reading"].values if at[1] == first or at[0] == step]
-    kept.sort(key=lambda at: at[1] != first)
-    rows = [
-        [case_of(data.sel(case=case))]
-        + [results.say(STEPS, percent(chosen.sel(case=case, reading=at))) for at in kept]
-        for case in data["case"].values
-    ]
-    return {
-        "head": ["case", *(f"{SOLVER_NAMES[name]}, {number(at)}" for at, name in kept)],
-        "rows": rows,
-        "step": results.quote(STEPS, step),
-        "trapezoidal": SOLVER_NAMES["crank_nicolson"],
-        "conserving": SOLVER_NAMES["delfour_fortin_payre"],
-    }
-
-
-def _agreement(results: Results, case) -> list:
-    times = case["divergence_time"].values
-    return [case_of(case), *(results.quote_time(COMPARED, float(time)) for time in times)]
-
-
-def _pair(names: str) -> str:
-    return " and ".join(SOLVER_NAMES[name] for name in names.split(" - "))
-
-
-def _solver_pictures(results: Results, drifts: np.ndarray, apart: int) -> dict[str, Picture]:
-    told = {
-        "energy_drift": "Drift of the energy against τ by each solver; by ode45 it ends between "
-        f"{number(drifts.min(), 2)} and {number(drifts.max(), 2)}.",
-        "solver_agreement": "Differences of the norms between pairs of solvers against τ; the "
-        f"paper's two diverge in {apart} of {len(drifts)} cases.",
-    }
-    return {name: results.picture(name, alt) for name, alt in told.items()}
 
 
 SECTIONS = (
