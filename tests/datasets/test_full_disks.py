@@ -4,6 +4,8 @@ import errno
 import os
 import resource
 import signal
+import subprocess
+import sys
 
 import pytest
 from pendula.datasets import DatasetError, complete_or_absent
@@ -72,6 +74,19 @@ def test_a_folder_in_the_way_of_a_file_is_named(tmp_path):
     ):
         partial.touch()
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_a_killed_process_left_goes_and_that_of_a_living_one_stays(tmp_path):
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    for process in (dead.pid, os.getppid()):
+        (tmp_path / f".{process}.a.nc").touch()
+    (tmp_path / ".mine.a.nc").touch()
+    with complete_or_absent(tmp_path / "a.nc") as partial:
+        partial.touch()
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("a.nc", f".{os.getppid()}.a.nc", ".mine.a.nc")
+    }
 
 
 def test_a_fault_of_another_file_is_told_as_it_is(tmp_path):

@@ -1,12 +1,7 @@
 """Bad input and accidents: a clear message, a non-zero exit, and no half-written result."""
 
-import os
-import signal
-import subprocess
-
 import pytest
-import yaml
-from helpers import ROOT, command_of, planned, snakemake, snakemake_with, wait_for
+from helpers import ROOT, planned, snakemake, snakemake_with
 
 
 def test_a_bad_configuration_stops_before_any_job(tmp_path):
@@ -79,37 +74,6 @@ def test_a_missing_dataset_is_made_again(finished):
     (finished / "results/trajectories/fig3_small.dop853.nc").unlink()
     jobs = planned(ROOT, finished)
     assert jobs["trajectory"] == 1 and "sweep" not in jobs
-
-
-def test_an_interrupted_run_continues(tmp_path):
-    """Stop the run in a sweep that takes hours: what was finished stays, the rest is made."""
-    target, log = "results/sweeps/mine.nc", tmp_path / "results/logs/sweeps/mine.log"
-    case = {"omega": 0, "initial": {0: [1, 0.1]}, "end_time": 50}
-    sweep = {"case": "mine", "half_widths": [4, 8, *range(30000, 30100)], "windows": [[10, 50]]}
-    settings = {"cases": {"mine": case}, "sweeps": {"mine": sweep}}
-    mine = tmp_path / "mine.yaml"
-    mine.write_text(yaml.safe_dump(settings))
-    process = subprocess.Popen(
-        command_of(ROOT, tmp_path, mine, target),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        # tests that run in the background of a shell ignore interrupts, and so would this run
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )
-    try:
-        wait_for(lambda: log.exists() and "half-width 8 done (2 of 102)" in log.read_text())
-        os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
-        wait_for(lambda: process.poll() is not None)
-    finally:
-        if process.poll() is None:
-            os.killpg(process.pid, signal.SIGKILL)
-    assert process.returncode != 0
-    assert not list(tmp_path.glob("results/sweeps/*")) + list(tmp_path.glob("results/sweeps/.*"))
-    sweep["half_widths"] = [4, 8]
-    result = snakemake_with(settings, ROOT, tmp_path, target)
-    assert result.returncode == 0, result.stderr
-    assert "Compiling" not in result.stderr and (tmp_path / target).exists()
 
 
 def test_the_list_of_targets_explains_itself(finished):

@@ -4,6 +4,7 @@ import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from glob import escape
 from pathlib import Path
 
 
@@ -22,6 +23,7 @@ def complete_or_absent(path: str | Path) -> Iterator[Path]:
     partial = path.with_name(f".{os.getpid()}.{path.name}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        _clear_after_killed(path)
         yield partial
         os.replace(partial, path)
     except OSError as error:
@@ -31,6 +33,19 @@ def complete_or_absent(path: str | Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):  # where the folder is none, or read-only, there is nothing
             partial.unlink(missing_ok=True)
+
+
+def _clear_after_killed(path: Path) -> None:
+    """Remove what processes that were killed left of the file."""
+    for left in path.parent.glob(f".*.{escape(path.name)}"):
+        _, number, _ = left.name.split(".", 2)
+        if number.isdigit():
+            try:
+                os.kill(int(number), 0)  # asks whether there is such a process, and does nothing
+            except ProcessLookupError:
+                left.unlink()
+            except PermissionError:  # there is one, of another user
+                continue
 
 
 def _is_about(error: OSError, partial: Path) -> bool:

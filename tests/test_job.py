@@ -1,0 +1,127 @@
+"""A job says in a sentence why it failed or ended, and its log has the rest."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from helpers import ROOT, wait_for
+
+JOB = """
+import sys, threading
+from types import SimpleNamespace
+from pendula.datasets import DatasetError, complete_or_absent
+from job import run
+
+def fail(result):
+    with complete_or_absent(result) as partial:
+        partial.write_text("half")
+        {body}
+
+named = lambda **values: SimpleNamespace(items=lambda: values.items())
+run(fail, SimpleNamespace(
+    input=named(code="record"), output=named(result="a.nc"), params=named(), log=[{log!r}]
+))
+"""
+WAIT = "print('waiting', flush=True); threading.Event().wait()"
+
+
+def start(folder: Path, body: str, log: str = "a.log") -> subprocess.Popen:
+    return subprocess.Popen(
+        [sys.executable, "-c", JOB.format(body=body, log=log)],
+        cwd=folder,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "scripts")},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+@pytest.mark.parametrize(
+    ("body", "says"),
+    [
+        ("raise DatasetError('a.nc is damaged: delete it')", "a.nc is damaged: delete it"),
+        ("1 / 0", "ZeroDivisionError: division by zero"),
+    ],
+)
+def test_a_fault_is_a_sentence_on_the_screen_with_its_traceback_in_the_log(tmp_path, body, says):
+    job = start(tmp_path, body)
+    _, screen = job.communicate()
+    assert job.returncode == 1 and screen == f"{says}\n(the log has the traceback: a.log)\n"
+    log = (tmp_path / "a.log").read_text()
+    assert log.startswith(screen) and "\nTraceback" in log
+    assert re.search(r"\nwall time: [\d.]+ s\n$", log)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_job_leaves_no_half_of_a_file(tmp_path, how):
+    job = start(tmp_path, WAIT)
+    wait_for(lambda: (tmp_path / "a.log").exists() and (tmp_path / "a.log").read_text())
+    job.send_signal(how)
+    _, screen = job.communicate()
+    assert job.returncode == 130
+    assert "interrupted: run the same command again" in screen and "Traceback" not in screen
+    assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+def test_a_log_on_a_full_disk_hides_no_message(tmp_path):
+    job = start(tmp_path, "raise DatasetError('a.nc is damaged')", log="/dev/full")
+    _, screen = job.communicate()
+    assert job.returncode == 1 and screen.startswith("a.nc is damaged\n")
+
+
+CRASH = """
+import os, signal, sys, threading
+from typing import NamedTuple
+import numba
+
+class Outcome(NamedTuple):
+    value: float
+
+@numba.njit(nogil=True)
+def run(flag, total):
+    total[0] = 0.0
+    while flag[0] == 0:  # read again every time: for LLVM, the other array may be the same
+        total[0] += 1.0
+    return {returns}
+
+import numpy as np
+flag, total = np.zeros(1), np.zeros(1)
+run(np.ones(1), total)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+def press():
+    os.kill(os.getpid(), signal.SIGINT)
+    flag[0] = 1.0
+
+{calls}
+"""
+CALLED = "threading.Timer(0.1, press).start(); run(flag, total)"
+IN_A_THREAD = """
+from pendula.simulation.interrupts import interruptible
+threading.Timer(0.1, press).start()
+interruptible(lambda stop: run(flag, total))
+"""
+
+
+@pytest.mark.parametrize(
+    ("returns", "calls", "status"),
+    [
+        ("(total[0],)", CALLED, -signal.SIGINT),
+        ("Outcome(total[0])", IN_A_THREAD, -signal.SIGINT),
+    ],
+)
+def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple(returns, calls, status):
+    """It kills Python if called as it is: numba makes the tuple by a call of Python, which hears an
+    interrupt, and does not look whether the call worked. In a thread of its own, as all runs are, a
+    kernel returns in peace, and so does one that returns a plain tuple.
+    """
+    command = [sys.executable, "-c", CRASH.format(returns=returns, calls=calls)]
+    env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
+    done = subprocess.run(command, capture_output=True, text=True, env=env)
+    assert done.returncode == status, done.stderr
