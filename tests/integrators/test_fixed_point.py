@@ -163,6 +163,14 @@ def test_an_iteration_that_goes_to_and_fro_is_given_up_as_well(scheme):
 
 
 @each_scheme
+def test_an_iteration_that_leaves_the_doubles_is_given_up_at_once(scheme):
+    """For x' = x^2 from 1e200 the first change is infinite, however short the step."""
+    _, _, outcome = systems.run(scheme, (0.0, 1.0), [0.0, 1.0], (1.0, 1e-12, 50), 1e200 + 0j)
+    assert (outcome.status, outcome.rejected) == (NO_CONTRACTION, 21)
+    assert outcome.evaluations == 21 * (1 + BEGINNING[scheme])
+
+
+@each_scheme
 def test_a_run_ends_at_its_last_output(scheme):
     _, _, outcome = systems.run(scheme, (-1.0, 0.2), [0.0, 0.1, 0.4, 0.5], (0.1, 1e-14, 50), 1 + 0j)
     assert (outcome.status, outcome.time) == (DONE, 0.5)

@@ -42,3 +42,4 @@ def test_the_bound_is_seen_from_both_ends():
         found = growth_margin(tau, np.sqrt(0.5 * np.exp([rate * tau, rate * tau])), gamma)
         assert found["from_start"] == pytest.approx(forth)
         assert found["backwards"] == pytest.approx(back)
+        assert found["steepest"] == pytest.approx(abs(rate) / 2.0)
