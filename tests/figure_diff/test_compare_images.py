@@ -79,6 +79,17 @@ def test_a_single_shade_of_a_pixel_is_found_by_pixels():
     assert _status(was, Picture(colours, [], {}), Method.LOOK) == NEARLY
 
 
+@pytest.mark.parametrize(("top", "status"), [(20, DIFFERENT), (110, NEARLY)])
+def test_where_curves_have_moved_a_title_may_not(top, status):
+    """Ink that moves within its cell is that of a curve, but above the panels it is a text."""
+    pictures = []
+    for left in (40, 190):
+        colours = np.full((220, 300, 3), 255, np.uint8)
+        colours[top : top + 20, left : left + 60] = 0
+        pictures.append(Picture(colours, [(30, 100, 270, 190)], {}))
+    assert _status(*pictures, Method.INK) == status
+
+
 @pytest.mark.parametrize("kept", [100, 5000], ids=["header", "half of the pixels"])
 def test_a_damaged_picture(any_environment, kept):
     path = any_environment.made / PICTURE

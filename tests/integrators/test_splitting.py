@@ -1,5 +1,7 @@
 """splitting: its order, its symmetry in time, and flows that are exact."""
 
+import re
+
 import numpy as np
 import pytest
 from on_chains import WHOLE, data_of, integrate, numbers_of
@@ -105,6 +107,18 @@ def test_amplitudes_too_large_for_the_step_are_reported(size):
     with pytest.raises(IntegrationError, match="step is too long"):
         run(size * random_chain(2), 0.1)
     assert run(random_chain(2), 0.1).outcome.status == DONE
+
+
+def test_a_step_that_becomes_too_long_is_reported_where_it_begins():
+    """A run up to the time that is told succeeds, and fails if it takes one step more."""
+    z, numbers = data_of("fig4_small", half_width=2), numbers_of("fig4_small")
+    with pytest.raises(IntegrationError) as fault:
+        run(z, 0.25, 40.0, 20, numbers)
+    tau = float(re.search(r"tau = ([\d.]+)", str(fault.value))[1])
+    assert 2.0 < tau < 40.0 and tau % 2.0 > 0.0
+    assert run(z, 0.25, tau, 1, numbers).outcome.status == DONE
+    with pytest.raises(IntegrationError, match="step is too long"):
+        run(z, 0.25, tau + 0.25, 1, numbers)
 
 
 @pytest.mark.parametrize("numbers", [(0.7, 1.3, -4.0), (-0.7, 1.3, 4.0), (0.7, -1.3, -4.0)])

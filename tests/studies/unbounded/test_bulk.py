@@ -74,6 +74,13 @@ def test_the_slope_gives_the_power_whatever_the_offset_and_the_delay():
     assert np.isnan(slope_powers(exact(delay=0.0))[0].value)
 
 
+def test_the_line_through_the_squares_starts_at_a_quarter_of_the_run():
+    run = exact().isel(tau=slice(0, 395, 2))  # times to 197, whose quarter is 49.25
+    for first, right in ((49.0, True), (50.0, False)):
+        spoilt = run.assign(l2=run["l2"].where(run["tau"] > first, 0.0))
+        assert (abs(slope_powers(spoilt)[0].value - POWER) < 1e-6) == right
+
+
 def test_thermal_powers_are_unknown_where_none_was_solved():
     found = thermal_powers(thermal(), np.array([2.0, 3.0]))
     assert found[0] == POWER and np.isnan(found[1])
