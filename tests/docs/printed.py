@@ -20,6 +20,9 @@ from snakemake.utils import update_config
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 KINDS = ("", "text", "yaml", "pycon")
+BASELINE = "tests/baseline/"
+MADE_ONCE = ("reference", "speed", "quoted", "tolerances.yaml", "spreads.nc")
+"""What of the baseline no acceptance writes."""
 
 
 class Block(NamedTuple):
@@ -76,9 +79,10 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
     """Make a clone in which the printed commands take seconds.
 
     It holds what git tracks, the finished quick run as its results, and the quick configuration as
-    its own, so that no command has to ask for it. The packages are those of the tests.
+    its own, so that no command has to ask for it. The accepted results, which are those of a full
+    run, are left out: accept the quick run in their place. The packages are those of the tests.
     """
-    for name in code_files(project):
+    for name in filter(is_wanted, code_files(project)):
         (clone / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(project / name, clone / name)
     git = ["git", "-C", str(clone)]
@@ -88,6 +92,12 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
         shutil.copytree(finished / folder, clone / folder)
     _take_quick_configuration(clone / "config")
     _share_packages(clone / ".venv")
+
+
+def is_wanted(name: str) -> bool:
+    """Return whether a file of the project goes into the clone."""
+    inside = name.removeprefix(BASELINE)
+    return inside == name or inside.split("/")[0] in MADE_ONCE
 
 
 def _take_quick_configuration(folder: Path) -> None:

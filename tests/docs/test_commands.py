@@ -133,7 +133,7 @@ def quoted_messages(page: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def messages() -> str:
-    """Return all strings of the project's code, and the code of Snakemake and its Slurm plugin."""
+    """Return all strings of the project's code, what its tests of bad input expect, and Snakemake."""
     code = [path for room in ("scripts", "workflow") for path in (ROOT / room).rglob("*.py")]
     trees = [ast.parse(path.read_text(encoding="utf-8")) for path in code]
     ours = [
@@ -145,7 +145,8 @@ def messages() -> str:
     rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
     snakemake_folder = Path(find_spec("snakemake").origin).parent
     theirs = [path.read_text(encoding="utf-8") for path in snakemake_folder.rglob("*.py")]
-    return "\n".join([*ours, *rules, *theirs, *SYSTEM])
+    tested = (ROOT / "tests/configuration/bad_input.yaml").read_text(encoding="utf-8")
+    return "\n".join([*ours, *rules, *theirs, *SYSTEM, tested])
 
 
 SYSTEM = [
