@@ -4,6 +4,8 @@ import copy
 
 import keep
 import pytest
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.messages import load, require
 from pendula.configuration.paper import differences, paper, reason, rests_on
 from pendula.ledger.claim import all_claims, needed
 
@@ -92,6 +94,16 @@ def test_an_edited_case_leaves_sentences_on_other_cases_alone():
         "theorem_1",
         "fig4_unstable",
     }
+
+
+def test_both_panels_of_a_figure_show_the_same_windows():
+    whole = edited("sweeps", "fig5_left", value={
+        **paper()["sweeps"]["fig5_left"], "windows": [[10, 60]], "draw": None,
+    })  # fmt: skip
+    needs = list(whole["cases"]), list(whole["sweeps"]), []
+    settings = load(whole | {"unbounded": None})
+    with pytest.raises(ConfigurationError, match=r"fig5_right\.draw: has other windows"):
+        require(settings, *needs)
 
 
 def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():

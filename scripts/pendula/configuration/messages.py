@@ -1,6 +1,7 @@
 """Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
 
 import difflib
+from collections.abc import Mapping
 from typing import get_args
 
 from pydantic import BaseModel, ValidationError, create_model
@@ -9,7 +10,7 @@ from pendula.studies import modules
 
 from .cases import Case
 from .files import ConfigurationError, all_of
-from .schema import Configuration
+from .schema import Configuration, Sweep
 from .solvers import Auto, CrankNicolson, DelfourFortinPayre, Dop853, Ode45, Taylor
 from .values import LONGEST_SHOWN, shown
 
@@ -95,8 +96,20 @@ def require(
             for _, text in settings.cases[name].faults_of_step(controls):
                 steps.setdefault(f"solvers.{solver}.step: {text}", name)
     lines += [f"{text} (in cases.{name})" for text, name in steps.items()]
+    lines += _unlike_panels(settings.sweeps, sweeps)
     if lines:
         raise all_of(lines, "the configuration")
+
+
+def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:
+    """Return the faults of panels whose windows are not those of the panel to their left."""
+    beside = {name: f"{name.partition('_')[0]}_left" for name in names}
+    return [
+        f"sweeps.{name}.draw: has other windows than sweeps.{left}, the panel beside it: give both "
+        "the same windows and draw"
+        for name, left in beside.items()
+        if {name, left} <= set(sweeps) and sweeps[name].drawn != sweeps[left].drawn
+    ]
 
 
 def in_words(error: ValidationError, what: str, place: tuple = ()) -> ConfigurationError:
