@@ -133,7 +133,7 @@ def quoted_messages(page: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def messages() -> str:
-    """Return all strings of the project's code, what its tests of bad input expect, and Snakemake."""
+    """Return the strings of our code, what tests of bad input expect, and Snakemake's code."""
     code = [path for room in ("scripts", "workflow") for path in (ROOT / room).rglob("*.py")]
     trees = [ast.parse(path.read_text(encoding="utf-8")) for path in code]
     ours = [
