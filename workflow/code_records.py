@@ -21,7 +21,7 @@ from pendula.archive.contents import code_files
 from pendula.datasets import DatasetError, complete_or_absent
 from pendula.sources import SCRIPTS, attached_to, digest_of, modules_of
 from pendula.studies import STUDIES
-from snakemake.exceptions import WorkflowError
+from stop import stop
 
 ROOT = SCRIPTS.parent
 RECORDS, COPIES, KEPT = (Path("results") / name for name in ("code", "truth", "kept"))
@@ -115,7 +115,7 @@ def _keep(path: Path, content: bytes) -> str:
         with complete_or_absent(path) as partial:
             partial.write_bytes(content)
     except DatasetError as error:
-        raise WorkflowError(str(error)) from None
+        stop(error)
     return path.as_posix()
 
 

@@ -53,6 +53,16 @@ def test_who_only_looks_leaves_the_folder_as_it_is(tmp_path, look):
     assert {path.name for path in tmp_path.iterdir()} <= {".snakemake"}
 
 
+@pytest.mark.parametrize("name", ["results", "results/figures"])
+def test_a_file_in_the_way_of_a_folder_is_named(tmp_path, name):
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text("mine")
+    result = snakemake(ROOT, tmp_path, "fig1")
+    assert result.returncode != 0 and (tmp_path / name).read_text() == "mine"
+    assert f"{tmp_path / name} is a file, and results need a folder" in result.stderr
+    assert "Traceback" not in result.stderr and ".smk" not in result.stderr
+
+
 @pytest.fixture
 def read_only(tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""

@@ -35,6 +35,13 @@ LOOKS = {"-l", "--list", "--list-rules", "--lint", "--dag", "--rulegraph", "--fi
 LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 RESULTS = Path("results").absolute()
+FOLDERS = ["checks", "code", "figure_diff", "figures", "kernels", "kept", "logs", "own", "speed"]
+FOLDERS += ["archive", "sweeps", "tables", "trajectories", "truth", "unbounded"]
+for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
+    if path.is_file():
+        stop(f"{path} is a file, and results need a folder of this name: move the file away")
+    if path.exists() and not os.access(path, os.W_OK) and not code_records.only_looks:
+        stop(f"{path} is read-only: make it writable, or name another folder by --directory")
 file_times.restore(RESULTS)
 if not code_records.only_looks and workflow.exec_mode.name == "DEFAULT":
     atexit.register(file_times.keep, RESULTS)
