@@ -18,18 +18,25 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
-def test_a_planted_fault_is_named_in_one_line(any_environment, fault):
-    made_up.put(any_environment.made, "fig2", regular(), **fault)
-    line = any_environment.findings()[PICTURE].line
-    assert line.startswith(f"different: {PICTURE}: ") and "\n" not in line
+def test_a_planted_fault_is_named_in_one_line(run, fault):
+    made_up.put(run.made, "fig2", regular(), **fault)
+    for line in in_both_environments(run, PICTURE):
+        assert line.startswith(f"different: {PICTURE}: ") and "\n" not in line
+
+
+def in_both_environments(run, picture: str) -> list[str]:
+    """Return what is found by pixels, or by ink, and what in another environment."""
+    here = run.findings()[picture].line
+    run.move_to_another_environment()
+    return [here, run.findings()[picture].line]
 
 
 @pytest.mark.parametrize("fault", [name for name in FAULTS if name != "lost label"])
-def test_faults_are_found_where_the_curves_have_moved(any_environment, fault):
+def test_faults_are_found_where_the_curves_have_moved(run, fault):
     """Lost labels are left to the description there: chaotic curves may move as much ink."""
-    made_up.put(any_environment.made, "fig4", chaotic(seed=7), **FAULTS[fault])
-    line = any_environment.findings()[CHAOTIC_PICTURE].line
-    assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
+    made_up.put(run.made, "fig4", chaotic(seed=7), **FAULTS[fault])
+    for line in in_both_environments(run, CHAOTIC_PICTURE):
+        assert line.startswith(f"different: {CHAOTIC_PICTURE}: ")
 
 
 def _pixels(**changes) -> Picture:

@@ -8,7 +8,9 @@ import json
 import re
 import shutil
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import pytest
@@ -54,11 +56,31 @@ def draw(data):
     return figure
 
 
-def put(folder, data, plant=lambda figure: None):
+def nothing(figure):
+    """Plant no fault."""
+
+
+def put(folder, data, plant=nothing):
     """Write the figure with a fault, and all that stands beside it."""
     figure = draw(data)
     style.styled(plant)(figure)
     style.save(figure, data, *(folder / name for name in (PNG, PDF, DATA, JSON)))
+
+
+@cache
+def files_of(seed: int, plant: Callable) -> dict[str, bytes]:
+    """Return the same files of chaotic data; each figure is drawn once for all tests."""
+    with TemporaryDirectory() as folder:
+        (Path(folder) / "figures").mkdir()
+        put(Path(folder), chaotic(seed), plant)
+        return {name: (Path(folder) / name).read_bytes() for name in (PNG, PDF, DATA, JSON)}
+
+
+def write(run, *names: str, seed: int = 0, plant: Callable = nothing) -> None:
+    """Write these files, or all, of the figure with a fault as another run would have made them."""
+    for name, content in files_of(seed, plant).items():
+        if not names or name in names:
+            (run.made / name).write_bytes(content)
 
 
 def left(plant: Callable) -> Callable:
@@ -277,25 +299,26 @@ def description(data, plant=lambda figure: None) -> dict:
     """Return the description of the figure with a fault, as it is read from a file."""
     figure = draw(data)
     plant(figure)
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     return json.loads(as_text(describe(figure, data)))
 
 
-@pytest.fixture(scope="module")
-def described():
-    """Return the description of the accepted figure."""
-    return description(chaotic())
+@cache
+def described(plant: Callable = nothing) -> dict:
+    """Return the description of the accepted data, drawn once for all tests; do not change it."""
+    return description(chaotic(), plant)
 
 
 @pytest.mark.parametrize("fault", [*FAULTS, *OF_SAME_DATA], ids=lambda fault: fault.name)
-def test_a_fault_is_told_by_panel_and_text(described, fault):
-    found = judge(JSON, described, description(chaotic(), fault.plant), Motion.NONE)
+def test_a_fault_is_told_by_panel_and_text(fault):
+    found = judge(JSON, described(), described(fault.plant), Motion.NONE)
     assert found.status == DIFFERENT and fault.says in found.line
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
-def test_a_fault_is_told_where_the_data_have_moved(described, fault):
-    found = judge(JSON, described, description(chaotic(seed=7), fault.plant), Motion.SEEN)
+def test_a_fault_is_told_where_the_data_have_moved(fault):
+    moved = described(fault.plant) | {"data": "of another run"}
+    found = judge(JSON, described(), moved, Motion.SEEN)
     assert found.status == DIFFERENT and fault.says in found.line
 
 
@@ -307,56 +330,44 @@ IN_FILES = [
 @pytest.mark.parametrize("seed", [0, 7], ids=["accepted data", "moved data"])
 @pytest.mark.parametrize("fault", IN_FILES, ids=lambda fault: fault.name)
 def test_a_fault_is_told_in_every_environment(drawn, fault, seed):
-    put(drawn.made, chaotic(seed), fault.plant)
+    write(drawn, seed=seed, plant=fault.plant)
     for found in in_both_environments(drawn):
         assert found[JSON].status == DIFFERENT and fault.says in found[JSON].line
         assert found[DATA].status == (NEARLY if seed else IDENTICAL)
 
 
 def test_an_untouched_run_is_clean(drawn):
-    put(drawn.made, chaotic())
+    write(drawn)
     for found in in_both_environments(drawn):
         assert {each.status for each in found.values()} == {IDENTICAL}
 
 
 def test_a_picture_of_moved_data_is_nearly_the_same(drawn):
-    put(drawn.made, chaotic(seed=7))
+    write(drawn, seed=7)
     for found in in_both_environments(drawn):
         assert {found[name].status for name in (PNG, PDF, JSON, DATA)} == {NEARLY}
         assert "all words, colours and scales are the same" in found[JSON].says
 
 
-def other_figure(run) -> Path:
-    """Return the folder of a run that drew the figure with another title, of the same data."""
-    folder = run.made.parent / "other"
-    (folder / "figures").mkdir(parents=True)
-    put(folder, chaotic(), lambda figure: figure.axes[0].set_title("another"))
-    return folder
+def title_another(figure):
+    """Draw the same data under another title."""
+    figure.axes[0].set_title("another")
 
 
-def older_run(run) -> Path:
-    """Return the folder of a run that drew the figure of other data."""
-    folder = run.made.parent / "older"
-    (folder / "figures").mkdir(parents=True)
-    put(folder, chaotic(seed=3))
-    return folder
+def of_other_figure(name: str) -> Callable:
+    """Return a fault: the file shows the same data in another figure."""
+    return lambda run: write(run, name, plant=title_another)
 
 
-def copy(name: str, source: Callable) -> Callable:
-    """Return a fault: the file comes from elsewhere."""
-    return lambda run: shutil.copy(source(run) / name, run.made / name)
+def of_older_run(name: str) -> Callable:
+    """Return a fault: the file was drawn of other data."""
+    return lambda run: write(run, name, seed=3)
 
 
 def from_baseline(*names: str) -> Callable:
     """Return a fault: data are new, and these files are those of the accepted run."""
-
-    def plant(run):
-        kept = {name: (run.made / name).read_bytes() for name in names}
-        put(run.made, chaotic(seed=7))
-        for name, content in kept.items():
-            (run.made / name).write_bytes(content)
-
-    return plant
+    new = [name for name in (PNG, PDF, DATA, JSON) if name not in names]
+    return lambda run: write(run, *new, seed=7)
 
 
 def edit(old: str, new: str) -> Callable:
@@ -372,9 +383,7 @@ def edit(old: str, new: str) -> Callable:
 
 def hide_fault(run):
     """Draw a picture with a fault, and put the accepted description beside it."""
-    kept = (run.made / JSON).read_bytes()
-    put(run.made, chaotic(), FAULTS[0].plant)
-    (run.made / JSON).write_bytes(kept)
+    write(run, PNG, PDF, plant=FAULTS[0].plant)
 
 
 def blank_page(run):
@@ -456,11 +465,11 @@ def turn_trailer(run):
 
 STALE = "was not written with its description: it is stale, or of another figure"
 FILES = [
-    ("stale PDF", PDF, DIFFERENT, STALE, copy(PDF, older_run)),
-    ("stale PNG", PNG, DIFFERENT, STALE, copy(PNG, older_run)),
-    ("PDF of another figure", PDF, DIFFERENT, STALE, copy(PDF, other_figure)),
-    ("PNG of another figure", PNG, DIFFERENT, STALE, copy(PNG, other_figure)),
-    ("stale description", JSON, DIFFERENT, "describes other data than", copy(JSON, older_run)),
+    ("stale PDF", PDF, DIFFERENT, STALE, of_older_run(PDF)),
+    ("stale PNG", PNG, DIFFERENT, STALE, of_older_run(PNG)),
+    ("PDF of another figure", PDF, DIFFERENT, STALE, of_other_figure(PDF)),
+    ("PNG of another figure", PNG, DIFFERENT, STALE, of_other_figure(PNG)),
+    ("stale description", JSON, DIFFERENT, "describes other data than", of_older_run(JSON)),
     ("accepted PDF of new data", PDF, DIFFERENT, STALE, from_baseline(PDF)),
     ("accepted PNG of new data", PNG, DIFFERENT, STALE, from_baseline(PNG)),
     ("accepted picture of new data", JSON, DIFFERENT, "other data", from_baseline(PNG, PDF, JSON)),

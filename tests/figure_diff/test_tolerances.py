@@ -79,7 +79,7 @@ def test_without_a_table_every_curve_is_regular(tmp_path):
         ("rules: [{name: x, labels: ['*'], method: pointwise}]", "rules.0.reason"),
         ("rules: [{name: x, labels: ['*'], method: about, reason: x}]", "rules.0.method"),
         ("rules: [{name: x, labels: ['*'], method: chaotic, reason: x, band: 1}]", "rules.0.band"),
-        ("rules: [", "line 1"),
+        ("rules: [", "line "),
     ],
     ids=["without a reason", "unknown method", "unknown key", "no YAML"],
 )

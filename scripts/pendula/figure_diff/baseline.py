@@ -15,6 +15,7 @@ import json
 import platform
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -60,9 +61,14 @@ DECIDE_BITS = ("numpy", "scipy", "numba", "llvmlite", "matplotlib", "pillow")
 """Packages whose versions decide bits of data, or pixels."""
 
 
+@cache
+def _versions() -> dict[str, str]:
+    return {name: version(name) for name in DECIDE_BITS}
+
+
 def environment() -> dict[str, str]:
     """Return what decides bits: versions, and the family of the processor."""
-    return {name: version(name) for name in DECIDE_BITS} | {
+    return _versions() | {
         "freetype": ft2font.__freetype_version__,
         "machine": platform.machine(),
     }

@@ -104,7 +104,7 @@ def read_rules(baseline: Path) -> list[Rule]:
     """
     path = baseline / TOLERANCES
     try:
-        table = _Rules.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
+        table = _Rules.model_validate(yaml.load(path.read_text(encoding="utf-8"), yaml.CSafeLoader))
     except FileNotFoundError:
         return [REGULAR]
     except (yaml.YAMLError, ValidationError) as error:
