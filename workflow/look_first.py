@@ -1,17 +1,18 @@
-"""Reads the files of --configfile before Snakemake does, and says their faults in words.
+"""Reads the configuration before Snakemake does, and says in words what cannot be read.
 
-Snakemake reads them before any line of the Snakefile, and ends in a traceback where one is missing,
-is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python, and is
-read earlier still: those of this project ask here. The option takes every word that follows it, so
+Snakemake reads files before any line of the Snakefile, and ends in a traceback where one is
+missing, is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python, and
+is read earlier still: those of this project ask here. The option takes every word that follows it, so
 that a target behind it is taken for a file; that is said too.
 """
 
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+PROJECT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PROJECT / "scripts"))
 
-from pendula.configuration.files import ConfigurationError, read
+from pendula.configuration.files import ConfigurationError, parse, read  # noqa: E402
 
 ENDINGS = ".yaml", ".yml", ".json"
 
@@ -44,14 +45,23 @@ def fault_of(file: str) -> str | None:
     return None
 
 
+def faults_in(word: str) -> list[str]:
+    """Return what YAML would read in silence in a mapping that --config gives."""
+    value = word.partition("=")[2].strip()
+    return parse(value)[1] if value.startswith("{") else []
+
+
 def look(arguments: list[str]) -> None:
     """End Snakemake with the faults of its configuration, if it has any."""
+    own = sorted(map(str, (PROJECT / "config").glob("*.yaml")))
     files = words_of(arguments, ("--configfile", "--configfiles"))
-    faults = [fault for file in files if (fault := fault_of(file))]
+    faults = [fault for file in [*own, *files] if (fault := fault_of(file))]
+    given = words_of(arguments, ("--config", "-C"))
+    faults += [f"--config {word}: {fault}" for word in given for fault in faults_in(word)]
     faults += [
         f"--config takes name=value and every word that follows it, and {word!r} is none: targets "
         "stand before it, as in snakemake own --config limits='{hours: 2}'"
-        for word in words_of(arguments, ("--config", "-C"))
+        for word in given
         if "=" not in word
     ]
     if faults:

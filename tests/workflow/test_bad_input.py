@@ -60,6 +60,7 @@ def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words
         (["--configfiles=none.yaml"], ["there is no file none.yaml"]),
         (["--config", "accept=fig3", "fig3"], ["--config takes name=value", "and 'fig3' is none"]),
         (["-C", "x"], ["and 'x' is none"]),
+        (["--config", "limits={hours: 1, hours: 2}"], ["line 1: hours: the key stands twice"]),
     ],
 )
 def test_an_option_that_takes_a_target_for_its_own_says_so(arguments, words, capsys):

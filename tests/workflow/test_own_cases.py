@@ -153,4 +153,4 @@ def test_faults_are_told_before_any_job(tmp_path, settings, words):
     result = snakemake_with(settings, ROOT, tmp_path, "own")
     assert result.returncode != 0 and words in result.stderr
     assert "Traceback (most recent" not in result.stderr
-    assert not (tmp_path / "results/logs").exists()
+    assert not list(tmp_path.glob("results/**/*.log"))
