@@ -1,9 +1,9 @@
 """Reads the configuration before Snakemake does, and says in words what cannot be read.
 
 Snakemake reads files before any line of the Snakefile, and ends in a traceback where one is
-missing, is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python, and
-is read earlier still: those of this project ask here. The option takes every word that follows it, so
-that a target behind it is taken for a file; that is said too.
+missing, is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python,
+and is read earlier still: those of this project ask here. The option takes every word behind it, so
+that a target that stands there is taken for a file; that is said too.
 """
 
 import sys
