@@ -38,7 +38,7 @@ FIGURES = [
 
 
 rule all:
-    "Everything: datasets, figures, tables and the report"
+    "Everything: datasets, figures, tables and the report (the target of `snakemake` alone)"
     input:
         expand("results/trajectories/{case}.nc", case=SETTINGS.cases),
         expand("results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
@@ -53,12 +53,16 @@ rule all:
         "results/tables/trust.md",
         "results/tables/hard_cases.md",
         "results/report.html",
+    message:
+        "All datasets, figures, tables and the report are there"
 
 
 rule figures:
-    "All figures"
+    "All figures, each as PNG and PDF with the data that it shows"
     input:
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
+    message:
+        "All figures are there"
 
 
 rule theory:
@@ -68,6 +72,8 @@ rule theory:
         expand("results/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
         "results/claims.json",
         "results/controls.json",
+    message:
+        "The checks of the theory and its figures are there"
 
 
 rule chaos:
@@ -75,6 +81,8 @@ rule chaos:
     input:
         expand("results/checks/{name}.nc", name=CHAOS_CHECKS),
         expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=FIGURE_KINDS.values()),
+    message:
+        "What is measured of chaos, and its figures, are there"
 
 
 include: "workflow/rules/inputs.smk"
@@ -92,8 +100,25 @@ include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/archive.smk"
+include: "workflow/rules/names.smk"
 
 
+# In place of Snakemake's own list, which has no groups and shows what cannot be called too
+workflow.list_rules = lambda only_targets: print(list_targets(workflow.rules))
+
+
+onstart:
+    if workflow.local_exec:
+        jobs, sizes = workflow.dag.needrun_jobs(), not workflow.overwrite_configfiles
+        logger.info(what_it_takes(jobs, workflow.cores, sizes_are_accepted=sizes))
+
+
+# Said when Snakemake has ended, below its own last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
         tell_faults()
+    atexit.register(print, where_to_look(workflow.dag.targetjobs), file=sys.stderr)
+
+
+onerror:
+    atexit.register(print, what_failed(workflow.scheduler.failed), file=sys.stderr)

@@ -7,9 +7,12 @@ rule speed:
         "results/speed/work_precision.md",
         "results/speed/cost.md",
         expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS.values()),
+    message:
+        "The measurements of speed are there"
 
 
 rule work_precision:
+    "Part of speed: every solver and installed peer on the cases of the paper, timed"
     input:
         code=code("benchmarks/jobs/measure_work_precision.py"),
         kernels=kernels(*ALL_SOLVERS),
@@ -30,6 +33,7 @@ rule work_precision:
 
 
 rule cost:
+    "Part of speed: longer chains, longer runs and more active sites, timed"
     input:
         code=code("benchmarks/jobs/measure_cost.py"),
         kernels=kernels("dop853", "taylor"),
@@ -49,6 +53,7 @@ rule cost:
 
 
 rule speed_tables:
+    "Part of speed: what was timed, as tables to read"
     input:
         code=code("benchmarks/jobs/tabulate_speed.py"),
         work_precision="results/speed/work_precision.nc",
@@ -67,6 +72,7 @@ rule speed_tables:
 
 
 rule speed_figures:
+    "Part of speed: what was timed, as figures"
     input:
         code=code("benchmarks/jobs/draw_speed.py"),
         work_precision="results/speed/work_precision.nc",

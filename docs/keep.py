@@ -2,8 +2,8 @@
 
 Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` if the
 long study was made anew. It reduces both to the few numbers that are quoted and writes these to
-tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs, and the long study of
-the chain without ends.
+tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs (by which `snakemake`
+says how long a run will take), and the long study of the chain without ends.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -52,7 +52,12 @@ def keep_full_run(results: Path, folder: Path) -> None:
         for name, values in cases.variables.items()
     }
     _write(folder / "hard_cases.nc", "Hard cases for the solvers", kept)
-    times = job_times(results / "logs")
+    seconds = job_times(results / "logs")
+    text = json.dumps(seconds, indent=1)
+    (folder / "job_seconds.json").write_text(f"{text}\n", encoding="utf-8")
+    times = defaultdict(float)
+    for log, taken in seconds.items():
+        times[log.partition("/")[0]] += taken
     kept = {
         "topic": Variable(("topic",), list(times), "topic of the jobs, the folder of their logs"),
         "seconds": Variable(("topic",), list(times.values()), "wall times, added up", "s"),
@@ -62,13 +67,13 @@ def keep_full_run(results: Path, folder: Path) -> None:
 
 
 def job_times(logs: Path) -> dict[str, float]:
-    """Return the wall times of the jobs, added up by topic: the folder of their logs."""
-    times = defaultdict(float)
+    """Return the wall time of each job by the name of its log below `logs`, without the ending."""
+    times = {}
     for log in sorted(logs.rglob("*.log")):
         place = log.relative_to(logs).with_suffix("")
         last = log.read_text(encoding="utf-8").rstrip().rpartition("\n")[2]
         if "long" not in place.parts and last.startswith(job.TOOK):
-            times[place.parts[0]] += float(last.removeprefix(job.TOOK).split()[0])
+            times[place.as_posix()] = float(last.removeprefix(job.TOOK).split()[0])
     return times
 
 

@@ -71,4 +71,6 @@ def test_the_full_run_is_reduced_to_what_is_quoted(tmp_path):
     with xr.open_dataset(tmp_path / "quoted/job_times.nc") as kept:
         times = dict(zip(kept["topic"].values, kept["seconds"].values, strict=True))
     assert times == {"figures": 3.5, "report": 3.0}
+    seconds = json.loads((tmp_path / "quoted/job_seconds.json").read_text())
+    assert seconds == {"figures/fig1": 1.5, "figures/fig2": 2.0, "report": 3.0}
     assert json.loads((tmp_path / "quoted/claims.json").read_text()) == [{"name": "a"}]

@@ -18,8 +18,8 @@ ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     "bounds",
     "chaos_figures",
-    "ensembles_figure",
-    "lifetimes_figure",
+    "ensembles",
+    "lifetimes",
     "front",
     "growth_law",
     "window_map",

@@ -34,5 +34,5 @@ def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(finished
 
 def test_a_new_omega_reruns_the_cases_of_chaos(finished, clone):
     edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
-    follows = {*MEASURES, "chaos_figures", "ensembles_figure"} - {"measure_lifetimes"}
+    follows = {*MEASURES, "chaos_figures", "ensembles"} - {"measure_lifetimes"}
     assert planned(clone, finished).keys() >= follows  # lives are those of the small case

@@ -37,6 +37,8 @@ def test_a_case_of_ones_own_needs_a_few_lines(tmp_path):
     }
     result = snakemake_with(settings, ROOT, tmp_path, "results/trajectories/mine.nc")
     assert result.returncode == 0, result.stderr
+    last = result.stderr.rstrip().splitlines()[-1]
+    assert last == "Done. Look at results/trajectories/mine.nc."
     import xarray as xr
 
     with xr.open_dataset(tmp_path / "results/trajectories/mine.nc") as data:
@@ -56,6 +58,8 @@ def test_a_failing_job_says_why_on_the_screen_and_keeps_the_traceback_in_its_log
     assert "Traceback" not in result.stderr
     assert "the log has the traceback: results/logs/trajectories/wild.log" in result.stderr
     assert not (tmp_path / "results/trajectories/wild.nc").exists()
+    told = result.stderr.partition("\nFailed:\n")[2]
+    assert "see results/logs/trajectories/wild.log\n    auto: runs in double" in told
 
 
 def test_a_damaged_dataset_is_named_with_the_way_out(finished):

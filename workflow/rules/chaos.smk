@@ -65,7 +65,7 @@ rule measure_ensembles:
 
 
 rule measure_members:
-    "Members of ensembles of every case, reduced to the numbers that sentences are about"
+    "Ensembles of every case, reduced to the numbers that sentences of the paper are about"
     input:
         code=code("chaos/measure_members.py"),
         kernels=kernels("taylor"),
@@ -85,7 +85,7 @@ rule measure_members:
 
 
 rule measure_lifetimes:
-    "How long the central pendulum stays localised, against its initial amplitude"
+    "Ensembles that tell when the central pendulum stops being localised, by its initial amplitude"
     input:
         code=code("chaos/measure_lifetimes.py"),
         kernels=kernels("taylor"),
@@ -104,7 +104,7 @@ rule measure_lifetimes:
         "../../scripts/chaos/measure_lifetimes.py"
 
 
-rule lifetimes_figure:
+rule lifetimes:
     "How long the central pendulum stays localised, against its initial amplitude"
     input:
         code=code("chaos/draw_lifetimes.py"),
@@ -122,7 +122,7 @@ rule lifetimes_figure:
 
 
 rule chaos_figures:
-    "How fast small errors grow, and how evenness is lost"
+    "The two figures lyapunov and symmetry"
     input:
         code=code("chaos/draw_chaos.py"),
         lyapunov="results/checks/lyapunov.nc",
@@ -164,7 +164,7 @@ rule compare_ensembles:
         "../../scripts/chaos/compare_ensembles.py"
 
 
-rule ensembles_figure:
+rule ensembles:
     "What runs from almost equal data share, beside the paper's own"
     input:
         code=code("chaos/draw_ensembles.py"),

@@ -24,6 +24,7 @@ from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from stop import stop
+from targets import list_targets, what_failed, what_it_takes, where_to_look
 
 if not os.access(".", os.W_OK):
     stop(
@@ -31,7 +32,17 @@ if not os.access(".", os.W_OK):
         "folder that you may write to, by --directory"
     )
 # Calls that only look leave the folder as it is. Snakemake tells here of dry runs alone.
-LOOKS = {"-l", "--list", "--list-rules", "--lint", "--dag", "--rulegraph", "--filegraph"}
+LOOKS = {
+    "-l",
+    "--list",
+    "--list-rules",
+    "--lt",
+    "--list-target-rules",
+    "--lint",
+    "--dag",
+    "--rulegraph",
+    "--filegraph",
+}
 LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 RESULTS = Path("results").absolute()

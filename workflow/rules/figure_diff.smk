@@ -21,6 +21,7 @@ rule figure_diff:
 
 
 rule compare_results:
+    "The comparison behind figure_diff, with a page: results/figure_diff/index.html"
     input:
         code=code("figure_diff/compare_results.py"),
         results=everything(),

@@ -21,7 +21,7 @@ rule hard_cases:
 
 
 rule hard_cases_table:
-    "The same as a table to read: results/tables/hard_cases.md"
+    "The hard cases as a table to read: results/tables/hard_cases.md"
     input:
         code=code("hard_cases/tabulate_hard_cases.py"),
         data="results/checks/hard_cases.nc",

@@ -2,12 +2,15 @@
 
 
 rule own:
-    "A report of your own cases and sweeps, given by --configfile: results/own_report.html"
+    "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:
         "results/own_report.html",
+    message:
+        "The report of your own cases and sweeps is there"
 
 
 rule own_checks:
+    "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
         code=code("own/check_case.py"),
         kernels=kernels("taylor", "dop853"),
@@ -29,6 +32,7 @@ rule own_checks:
 
 
 rule own_figures:
+    "The figures of a case of your own: results/own/cases/{case}.png"
     input:
         code=code("own/draw_case.py"),
         run="results/trajectories/{case}.nc",
@@ -49,6 +53,7 @@ rule own_figures:
 
 
 rule own_sweep_figure:
+    "The figure and checks of a sweep of your own: results/own/sweeps/{sweep}.png"
     input:
         code=code("own/draw_sweep.py"),
         sweep="results/sweeps/{sweep}.nc",
@@ -72,6 +77,7 @@ rule own_sweep_figure:
 
 
 rule own_report:
+    "The job behind own"
     input:
         code=code("own/write_report.py"),
         files=some_own_files,

@@ -19,7 +19,7 @@ rule fig1:
 
 
 rule fig2:
-    "Figs 2, 3 and 4: norms against time at Omega = 8, -4 and 0"
+    "Fig 2: norms against time at Omega = 8, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig2_small.nc",
@@ -40,6 +40,7 @@ rule fig2:
 
 
 use rule fig2 as fig3 with:
+    "Fig 3: norms against time at Omega = -4, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig3_small.nc",
@@ -56,6 +57,7 @@ use rule fig2 as fig3 with:
 
 
 use rule fig2 as fig4 with:
+    "Fig 4: norms against time at Omega = 0, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig4_small.nc",
@@ -72,7 +74,7 @@ use rule fig2 as fig4 with:
 
 
 rule fig5:
-    "Figs 5 and 6: norms against half-width, for small and for large data"
+    "Fig 5: norms against half-width for small data"
     input:
         code=code("paper/draw_sweeps.py"),
         left="results/sweeps/fig5_left.nc",
@@ -94,6 +96,7 @@ rule fig5:
 
 
 use rule fig5 as fig6 with:
+    "Fig 6: norms against half-width for large data"
     input:
         code=code("paper/draw_sweeps.py"),
         left="results/sweeps/fig6_left.nc",
@@ -157,7 +160,7 @@ rule measure_second_solver:
 
 
 rule solver_figures:
-    "How well each solver conserves the energy, and until when they draw the same curves"
+    "The two figures energy_drift and solver_agreement: the solvers compared"
     input:
         code=code("paper/draw_solvers.py"),
         solvers="results/checks/solvers.nc",
@@ -175,7 +178,7 @@ rule solver_figures:
 
 
 rule measure_trust:
-    "From when on the norms of a solver are not those of the multiprecision reference"
+    "When the norms of each solver leave those of the multiprecision reference"
     input:
         code=code("paper/measure_trust.py"),
         trajectories=expand(
@@ -199,7 +202,7 @@ rule measure_trust:
 
 
 rule trust_horizons:
-    "When each solver's norms leave the multiprecision reference"
+    "How long each solver stays with the true trajectory, that is with the reference"
     input:
         code=code("paper/draw_trust.py"),
         trust="results/checks/trust.nc",

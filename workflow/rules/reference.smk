@@ -8,9 +8,11 @@ REFERENCES = [*PAPER_CASES, "fig4_small.double"]
 
 
 rule reference:
-    "Verified trajectories of the paper's cases, in multiprecision"
+    "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
     input:
         expand("results/reference/{name}.nc", name=REFERENCES),
+    message:
+        "The references are there"
 
 
 rule reference_case:
@@ -39,6 +41,7 @@ rule reference_case:
 
 
 use rule reference_case as longest_reference_case with:
+    "The case that takes longest, integrated twice: {case}{numbers}.nc"
     wildcard_constraints:
         case=LONGEST,
         numbers=r"(\.double)?",

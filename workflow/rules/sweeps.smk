@@ -2,7 +2,7 @@
 
 
 rule sweep:
-    "A sweep of the paper: {sweep}.nc by its own solver, {sweep}.crank_nicolson.nc by the second"
+    "A sweep of the paper by its own solver and by the second: results/sweeps/{sweep}.nc"
     input:
         code=code("sweeps/sweep_case.py"),
         kernels=lambda wildcards: kernels(own_sweep_solver(wildcards), "crank_nicolson"),
@@ -27,6 +27,7 @@ rule sweep:
 
 
 use rule sweep as own_sweep with:
+    "A sweep of your own, by its own solver: results/sweeps/{sweep}.nc"
     input:
         code=code("sweeps/sweep_case.py"),
         kernels=lambda wildcards: kernels(own_sweep_solver(wildcards)),

@@ -2,7 +2,7 @@
 
 
 rule check_equations:
-    "Section 2: structure, symmetries, expansion; and the errors and gaps of the paper"
+    "Section 2: structure, symmetries and expansion of the equations; errors and gaps of the paper"
     input:
         code=code("theory/run_checks.py"),
         kernels=kernels("ode45", "dop853", "taylor"),
@@ -22,6 +22,7 @@ rule check_equations:
 
 
 use rule check_equations as check_stability with:
+    "Lemma 1: dispersion, thresholds, and measured growth rates of the chain at rest"
     output:
         datasets=checks(*GROUPS["stability"]),
     log:
@@ -33,6 +34,7 @@ use rule check_equations as check_stability with:
 
 
 use rule check_equations as check_bounds with:
+    "Lemma 2 and Theorems 1 to 3: their bounds on random and on the worst data"
     output:
         datasets=checks(*GROUPS["bounds"]),
     log:
@@ -45,6 +47,7 @@ use rule check_equations as check_bounds with:
 
 
 use rule check_equations as check_wrong with:
+    "The same checks of wrong statements, which the claims must refuse"
     output:
         datasets=checks(*(f"wrong/{name}" for name in WRONG)),
     log:
@@ -79,7 +82,7 @@ rule check_observed:
 
 
 rule claims:
-    "results/claims.json, controls.json: every sentence that numbers can decide, and its verdict"
+    "The verdict on every sentence that numbers can decide: results/tables/claims.md, claims.json"
     input:
         code=code("theory/decide_claims.py", "claims"),
         datasets=expand("results/{name}.nc", name=makers()),
@@ -102,7 +105,7 @@ rule claims:
 
 
 rule stability_figures:
-    "Lemma 1: where the chain at rest is unstable, and how fast it leaves"
+    "The two figures stability_chart and growth_rates, on Lemma 1"
     input:
         code=code("theory/draw_stability.py"),
         chart="results/checks/chart.nc",

@@ -45,6 +45,7 @@ rule trajectory:
 
 
 use rule trajectory as own_trajectory with:
+    "A case of your own, by its own solver: results/trajectories/{case}.nc"
     input:
         code=code("trajectories/simulate_case.py"),
         kernels=lambda wildcards: kernels(SETTINGS.cases[wildcards.case].solver.name),
@@ -60,6 +61,7 @@ use rule trajectory as own_trajectory with:
 
 
 use rule own_trajectory as own_trajectory_by_solver with:
+    "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
         code=code("trajectories/simulate_case.py"),
         kernels=lambda wildcards: kernels(wildcards.solver),

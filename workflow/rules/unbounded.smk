@@ -10,9 +10,12 @@ rule unbounded:
     input:
         expand(f"{LONG}/{{name}}.nc", name=[*SETTINGS.unbounded.names, *map_names()]),
         expand(f"{LONG}/{{name}}.{{kind}}", name=UNBOUNDED_FIGURES, kind=["png", "pdf"]),
+    message:
+        "The long study of the chain without ends is there"
 
 
 rule spread:
+    "An ensemble on the chain without ends: results/unbounded/{study}.nc"
     input:
         code=code("unbounded/spread_case.py"),
         kernels=kernels("dop853"),
@@ -34,6 +37,7 @@ rule spread:
 
 
 use rule spread as long_spread with:
+    "The same for longer times: results/unbounded/long/{study}.nc"
     output:
         data=f"{LONG}/{{study}}.nc",
     log:
@@ -46,6 +50,7 @@ use rule spread as long_spread with:
 
 
 rule map_windows:
+    "Maxima over half-widths and windows, for a sweep: results/unbounded/map_{sweep}.nc"
     input:
         code=code("unbounded/map_windows.py"),
         kernels=kernels("dop853"),
@@ -67,6 +72,7 @@ rule map_windows:
 
 
 use rule map_windows as long_map_windows with:
+    "The same for longer times: results/unbounded/long/map_{sweep}.nc"
     output:
         data=f"{LONG}/map_{{sweep}}.nc",
     log:
@@ -78,6 +84,7 @@ use rule map_windows as long_map_windows with:
 
 
 rule thermal:
+    "The thermal states that the bulk of a chain without ends is compared with"
     input:
         code=code("unbounded/solve_thermal.py"),
     output:
@@ -121,6 +128,7 @@ rule measure_growth:
 
 
 use rule measure_growth as long_measure_growth with:
+    "The growth laws, fronts and bulk of the long study"
     input:
         **growth_inputs(LONG),
         code=code("unbounded/measure_growth.py"),
@@ -149,6 +157,7 @@ rule growth_law:
 
 
 use rule growth_law as long_growth_law with:
+    "The figure growth_law of the long study"
     input:
         code=code("unbounded/draw_growth_law.py"),
         growth=f"{LONG}/growth.nc",
@@ -176,6 +185,7 @@ rule front:
 
 
 use rule front as long_front with:
+    "The figure front of the long study"
     input:
         code=code("unbounded/draw_front.py"),
         front=f"{LONG}/front.nc",
@@ -206,6 +216,7 @@ rule window_map:
 
 
 use rule window_map as long_window_map with:
+    "The figure window_map of the long study"
     input:
         code=code("unbounded/draw_window_map.py"),
         maps=expand(f"{LONG}/{{name}}.nc", name=map_names()),

@@ -1,0 +1,115 @@
+"""What a person is told: a list of targets, how long a run will take, and after it where to look.
+
+`snakemake --list` shows every rule in one row, also those with wildcards, which nobody can call by
+name. `list_targets` is put in its place: the targets that can be called, in groups.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+WHOLE, FIGURES, STUDIES = "Everything, and parts of it", "Figures", "Cases, sweeps and studies"
+CHECKS, OWN = "Checks, claims and tables", "Your own cases and sweeps"
+UPKEEP = "Baseline, speed, references and archive"
+GROUPS = (WHOLE, FIGURES, STUDIES, CHECKS, OWN, UPKEEP)
+
+BY_FILE = {
+    "own": OWN,
+    **dict.fromkeys(("archive", "baseline", "benchmarks", "figure_diff", "reference"), UPKEEP),
+}
+"""The group of all targets in a file of rules. The others go by what they make below results/."""
+
+BY_WHAT_IS_MADE = {
+    FIGURES: {"figures"},
+    STUDIES: {"trajectories", "sweeps", "unbounded"},
+    CHECKS: {"checks", "tables", "claims.json", "controls.json"},
+}
+
+PAGES = ("results/figure_diff/index.html", "results/own_report.html", "results/report.html")
+"""What to look at first, where a run made it."""
+
+FEW = 4
+"""So many files are named one by one; of more, their folders are."""
+
+TOOK = "wall time: "
+"""How the last line of the log of a finished job begins (see scripts/job.py)."""
+
+ACCEPTED = Path(__file__).parents[1] / "tests/baseline/quoted/job_seconds.json"
+"""The wall time of each job of the accepted full run, by its log."""
+
+
+def list_targets(rules) -> str:
+    """Return a line for each target that can be called by name, below its group."""
+    callable_ones = [rule for rule in rules if not rule.has_wildcards()]
+    width = max(len(rule.name) for rule in callable_ones)
+    lines = []
+    for group in GROUPS:
+        members = sorted((r for r in callable_ones if group_of(r) == group), key=lambda r: r.name)
+        lines += [group, *(f"  {r.name:{width}}  {r.docstring}" for r in members), ""]
+    return "\n".join([*lines, "Any file can be asked for too: snakemake results/figures/fig2.pdf"])
+
+
+def group_of(rule) -> str:
+    """Return the group that a target is listed in."""
+    if group := BY_FILE.get(Path(rule.snakefile).stem):
+        return group
+    made = {Path(str(path)).parts[1] for path in (rule.output or rule.input)}
+    return next((group for group, folders in BY_WHAT_IS_MADE.items() if made <= folders), WHOLE)
+
+
+def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
+    """Return how long the jobs will take, or nothing where that is not known of one of them.
+
+    Each takes as long as it took in this folder, or else in the accepted run if it is of the same
+    size as there.
+    """
+    accepted = json.loads(ACCEPTED.read_text()) if sizes_are_accepted else {}
+    times = [_seconds(job.log[0], accepted) for job in jobs if job.log]
+    if not times or None in times:
+        return ""
+    seconds = max(sum(times) / cores, *times)
+    shown = f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
+    return f"Expect about {shown}: so long these jobs took before, if {cores} cores are free."
+
+
+def _seconds(log: str, accepted: Mapping[str, float]) -> float | None:
+    last = _lines(log)[-1:]
+    if last and last[0].startswith(TOOK):
+        return float(last[0].removeprefix(TOOK).split()[0])
+    return accepted.get(log.removeprefix("results/logs/").removesuffix(".log"))
+
+
+def _lines(log: str) -> list[str]:
+    path = Path(log)
+    return path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []
+
+
+def where_to_look(targets: Iterable) -> str:
+    """Return what a finished run tells last; `targets` are its target jobs."""
+    made = [str(path) for job in targets for path in (job.output or job.input)]
+    for page in PAGES:
+        if page in made:
+            return f"Done. Open {page} in a browser."
+    shown = sorted(path for path in made if path.endswith(".png")) or sorted(made)
+    if len(shown) > FEW:
+        shown = sorted({f"{Path(path).parent}/" for path in shown})
+    return f"Done. Look at {', '.join(shown)}." if shown else "Done."
+
+
+def what_failed(jobs: Iterable) -> str:
+    """Return what a failed run tells last: of each job what it did, its log and the cause in it."""
+    lines = []
+    for job in sorted(jobs, key=str):
+        lines.append(f"  {job.message or job.rule.name}: see {', '.join(job.log) or 'above'}")
+        lines += [f"    {line}" for log in job.log for line in _cause(log)]
+    if not lines:
+        return "Stopped. The same command goes on from here."
+    kept = "What the other jobs made is kept. Once the cause is mended, the same command goes on."
+    return "\n".join(["Failed:", *lines, kept])
+
+
+def _cause(log: str) -> list[str]:
+    """Return what a log says; where a traceback ends it, the message right above that."""
+    lines = [line for line in _lines(log) if line and not line.startswith((TOOK, "(the log has"))]
+    start = next((i for i, line in enumerate(lines) if line.startswith("Traceback")), None)
+    return lines if start is None else lines[:start][-2:]
