@@ -134,7 +134,10 @@ class Trial:
         passed = json.loads(self.passed.read_text())
         plain = sorted((test for test in passed if passed[test] < inf), key=passed.get)
         others = [test for test in passed if passed[test] == inf]
-        return {"plain": (plain, sum(map(passed.get, plain))), "others": (others, None)}
+        return {
+            "plain": (plain, sum(map(passed.get, plain))),
+            "others": (others, None if others else 0.0),
+        }
 
     def _run(self, tests, seconds, plain, *plugins, writes=False) -> tuple[str, float]:
         """Return the outcome of tests in a fork, and the time that the processor took.

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pendula.numerics.draws import normal
 from pendula.numerics.search import maximise, settings
 
 
@@ -86,3 +87,42 @@ def test_a_slope_without_a_top_is_climbed_as_long_as_one_likes():
     """Its steps grow in one direction alone, until rounding would spoil the covariance."""
     _, _, history = maximise(lambda points: points[:, 0], np.zeros(3), 1.0, 400, 8, 0)
     assert np.all(np.isfinite(history)) and history[-1] > 1e6 * history[50] > 0.0
+
+
+def by_the_tutorial(objective, start, spread, generations, size, seed):
+    """Return the best values, and which steps were so long that the path of C had to wait.
+
+    These are the equations of section A of the tutorial, with draws through a Cholesky factor.
+    """
+    n, rng, s = len(start), np.random.default_rng(seed), settings(len(start), size)
+    mean, sigma, c, drift, path = np.array(start), spread, np.eye(n), np.zeros(n), np.zeros(n)
+    best, waits = [], []
+    for generation in range(1, generations + 1):
+        z = normal(rng, (size, n))
+        y = z @ np.linalg.cholesky(c).T
+        values = objective(mean + sigma * y)
+        best.append(max([*best[-1:], values.max()]))
+        chosen = np.argsort(-values)[: size // 2]
+        z, y, w = z[chosen], y[chosen], s.weights
+        mean = mean + sigma * (w @ y)
+        drift = (1 - s.path_sigma) * drift
+        drift += np.sqrt(s.path_sigma * (2 - s.path_sigma) * s.mu_eff) * (w @ z)
+        length = np.linalg.norm(drift)
+        fade = np.sqrt(1 - (1 - s.path_sigma) ** (2 * generation))
+        h = length / fade < (1.4 + 2 / (n + 1)) * s.typical_length
+        waits.append(not h)
+        path = (1 - s.path_c) * path
+        path += h * np.sqrt(s.path_c * (2 - s.path_c) * s.mu_eff) * (w @ y)
+        c = (1 - s.rank_one - s.rank_mu + s.rank_one * (1 - h) * s.path_c * (2 - s.path_c)) * c
+        c += s.rank_one * np.outer(path, path) + s.rank_mu * (y.T * w) @ y
+        sigma *= np.exp(s.path_sigma / s.damping * (length / s.typical_length - 1))
+    return np.array(best), waits
+
+
+@pytest.mark.parametrize("objective", [hill, lambda points: points[:, 0]], ids=["hill", "slope"])
+def test_its_steps_are_those_of_the_tutorial(objective):
+    given = np.zeros(4), 0.5, 25, 12, 3
+    expected, waits = by_the_tutorial(objective, *given)
+    np.testing.assert_allclose(maximise(objective, *given)[2], expected, rtol=1e-9)
+    if objective is not hill:
+        assert any(waits) and not all(waits)
