@@ -128,6 +128,14 @@ def test_files_of_two_environments_do_not_mix(run):
     assert plan(NAMES, *run, CONFIGURATION).record["environment"] == baseline.environment()
 
 
+def test_naming_all_files_is_accepting_the_run(run):
+    """Only then may lost numbers be accepted together with another environment."""
+    every = choose(["*"], [*NAMES, *baseline.ALLOWANCES])
+    assert set(every) == {*NAMES, *baseline.ALLOWANCES}
+    run.move_to_another_environment()
+    assert plan(NAMES, *run, CONFIGURATION, every).record["environment"] == baseline.environment()
+
+
 def test_a_preview_says_the_same_and_changes_nothing(run, monkeypatch, capsys):
     monkeypatch.chdir(run.made.parent)
     run.change(REGULAR, lambda data: change_a(data, 1.5))

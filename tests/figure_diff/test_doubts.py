@@ -84,7 +84,7 @@ def lose(data):
 
 def test_accepting_refuses_nan_in_place_of_numbers_unless_the_file_is_named(run):
     run.change(CHAOTIC, lose)
-    said = r"l2 has NaN in place of 2 numbers \(.*--config accept=trajectories/fig4_small\)"
+    said = r"NaN in place of 2 numbers .*accept=trajectories/fig4_small, or all files: accept='\*'"
     with pytest.raises(AcceptanceError, match=said):
         run.accept()
     run.accept(chosen=[CHAOTIC])

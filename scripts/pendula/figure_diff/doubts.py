@@ -32,7 +32,8 @@ def doubts(
         lost = [] if accepted is None else _lost(content, hashes.read(accepted))
     except DatasetError:  # a damaged or lost copy is about to be written anew
         return said
-    way_out = f"if this is meant, name it: --config accept={name.removesuffix('.nc')}"
+    stem = name.removesuffix(".nc")
+    way_out = f"if this is meant, name it: --config accept={stem}, or all files: accept='*'"
     return said + [f"{each} ({way_out})" for each in lost]
 
 
