@@ -1,5 +1,8 @@
 """What people type by mistake or on purpose, each with the sentence that they are told."""
 
+import copy
+import datetime
+import random
 import re
 from pathlib import Path
 
@@ -127,3 +130,37 @@ def test_a_figure_asks_for_every_case_of_the_paper():
     cases = {name: case for name, case in CONFIG["cases"].items() if name != "fig2_small"}
     with pytest.raises(ConfigurationError, match=r"cases.fig2_small: is missing or empty"):
         require(load({"cases": cases}), PAPER_CASES, [], STEPPED)
+
+
+ODD = [
+    None, True, 0, -1, 3.7, -0.0, float("nan"), float("inf"), 1e308, 1e-320, 10**30, 10**400, "",
+    "x", "1 2", "010", [], [1], [[1]], [None], {}, {"a": 1}, {0: 1}, {None: 1}, [1, 2, 3], "\0",
+    b"x", datetime.date(2020, 1, 1), {"name": "taylor"}, {1: [1, 2]}, "nan",
+    2**63, "1e5", [0.5, "x"],
+]  # fmt: skip
+
+
+def places(section, above=()):
+    """Yield the path of every value of a configuration."""
+    for key, value in section.items() if isinstance(section, dict) else enumerate(section):
+        yield (*above, key)
+        if isinstance(value, dict | list):
+            yield from places(value, (*above, key))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_an_odd_value_anywhere_is_read_or_told_in_our_words(seed):
+    chance, everywhere = random.Random(seed), list(places(WHOLE))
+    told = 0
+    for place in chance.sample(everywhere, 60):
+        changed = copy.deepcopy(WHOLE)
+        section = changed
+        for key in place[:-1]:
+            section = section[key]
+        section[place[-1]] = copy.deepcopy(chance.choice(ODD))
+        try:
+            require(load(changed), PAPER_CASES, PAPER_SWEEPS, STEPPED)
+        except ConfigurationError as fault:
+            told += 1
+            assert "Input" not in str(fault) and "should" not in str(fault)
+    assert told > 30

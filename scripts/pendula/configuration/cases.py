@@ -152,7 +152,7 @@ class Case(Model):
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
         found = find_fault(constants, peak, span, given)
         angle = rate(constants, peak) * span
-        took = cost.estimate(self.problem(solver=given, end_time=span))
+        took = cost.estimate(self.problem(solver=given, end_time=span, snapshot_step=None))
         if found is not None and cost.HOUR < took.seconds < inf:
             found = found[0], f"{found[1]}, and would take {took}"
         if found is None and 0.0 < angle < SMALLEST_ANGLE:
