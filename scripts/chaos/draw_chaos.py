@@ -8,28 +8,15 @@ from pendula.studies.chaos import figures
 def draw_chaos(
     lyapunov: str,
     symmetry: str,
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
-    symmetry_png: str,
-    symmetry_pdf: str,
-    symmetry_data: str,
-    symmetry_description: str,
+    exponents: list[str],
+    odd_parts: list[str],
 ) -> None:
     """Draw the exponents, then the odd parts beside what the exponents predict."""
     growth = read(lyapunov)
     drawn = figures.gather_lyapunov(growth)
-    save(figures.draw_lyapunov(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_lyapunov(drawn), drawn, *exponents)
     drawn = figures.gather_symmetry(read(symmetry), growth)
-    save(
-        figures.draw_symmetry(drawn),
-        drawn,
-        symmetry_png,
-        symmetry_pdf,
-        symmetry_data,
-        symmetry_description,
-    )
+    save(figures.draw_symmetry(drawn), drawn, *odd_parts)
 
 
 if __name__ == "__main__":

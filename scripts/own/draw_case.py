@@ -5,31 +5,16 @@ from pendula.drawing.style import save
 from pendula.own_cases import figures
 
 
-def draw_case(
-    run: str,
-    checks: str,
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
-    spacetime_png: str,
-    spacetime_pdf: str,
-    spacetime_data: str,
-    spacetime_description: str,
-) -> None:
-    """Draw a trajectory with the second run of its checks, and write what was drawn."""
+def draw_case(run: str, checks: str, norms: list[str], spacetime: list[str]) -> None:
+    """Draw a trajectory with the second run of its checks, and write what was drawn.
+
+    `norms` and `spacetime` are the files of the two figures: PNG, PDF, data, description.
+    """
     trajectory = read(run)
     drawn = figures.gather_norms(trajectory, read(checks))
-    save(figures.draw_norms(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_norms(drawn), drawn, *norms)
     drawn = figures.gather_spacetime(trajectory)
-    save(
-        figures.draw_spacetime(drawn),
-        drawn,
-        spacetime_png,
-        spacetime_pdf,
-        spacetime_data,
-        spacetime_description,
-    )
+    save(figures.draw_spacetime(drawn), drawn, *spacetime)
 
 
 if __name__ == "__main__":

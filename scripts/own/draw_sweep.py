@@ -13,15 +13,12 @@ def draw_sweep(
     text_window: str,
     caption_window: str,
     checks: str,
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
+    figure: list[str],
 ) -> None:
     """Draw the maximum over one window and the mean over another; check the norms by `name`."""
     swept = read(sweep)
     drawn = figures.gather_sweep(swept, text_window, caption_window)
-    save_figure(figures.draw_sweep(drawn), drawn, png, pdf, data, description)
+    save_figure(figures.draw_sweep(drawn), drawn, *figure)
     save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
 
 

@@ -10,32 +10,20 @@ def draw_norms(
     large: str,
     references: list[str],
     ensembles: list[str],
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
-    spacetime_png: str,
-    spacetime_pdf: str,
-    spacetime_data: str,
-    spacetime_description: str,
+    norms: list[str],
+    spacetime: list[str],
 ) -> None:
     """Draw small and large data with the true norms of `references`, and write what was drawn.
 
     `ensembles` names the dataset with the ensemble of either case, if there is one.
+    `norms` and `spacetime` are the files of the two figures: PNG, PDF, data, description.
     """
     trajectories = [read(small), read(large)]
     bands = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_norms(trajectories, [read(path) for path in references], bands)
-    save(figures.draw_norms(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_norms(drawn), drawn, *norms)
     drawn = figures.gather_spacetime(trajectories, drawn)
-    save(
-        figures.draw_spacetime(drawn),
-        drawn,
-        spacetime_png,
-        spacetime_pdf,
-        spacetime_data,
-        spacetime_description,
-    )
+    save(figures.draw_spacetime(drawn), drawn, *spacetime)
 
 
 if __name__ == "__main__":

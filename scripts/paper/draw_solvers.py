@@ -7,21 +7,15 @@ from pendula.studies.paper import figures
 
 def draw_solvers(
     solvers: str,
-    energy_png: str,
-    energy_pdf: str,
-    energy_data: str,
-    energy_description: str,
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
+    energy: list[str],
+    agreement: list[str],
 ) -> None:
     """Draw the drift of the energy and the differences of the norms, as they were measured."""
     measured = read(solvers)
     drawn = figures.gather_drift(measured)
-    save(figures.draw_drift(drawn), drawn, energy_png, energy_pdf, energy_data, energy_description)
+    save(figures.draw_drift(drawn), drawn, *energy)
     drawn = figures.gather_agreement(measured)
-    save(figures.draw_agreement(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_agreement(drawn), drawn, *agreement)
 
 
 if __name__ == "__main__":

@@ -12,14 +12,8 @@ def draw_stability(
     threshold: str,
     points: list[tuple[float, float]],
     of_paper: bool,
-    png: str,
-    pdf: str,
-    data: str,
-    description: str,
-    growth_png: str,
-    growth_pdf: str,
-    growth_data: str,
-    growth_description: str,
+    stability: list[str],
+    growth: list[str],
 ) -> None:
     """Draw the chart with the cases' `points` (Omega, gamma), and the growth rates.
 
@@ -27,9 +21,9 @@ def draw_stability(
     """
     charts = read(chart), read(short_chart)
     drawn = figures.gather_chart(*charts, read(windows), points, of_paper)
-    save(figures.draw_chart(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_chart(drawn), drawn, *stability)
     drawn = figures.gather_rates(*charts, read(threshold))
-    save(figures.draw_rates(drawn), drawn, growth_png, growth_pdf, growth_data, growth_description)
+    save(figures.draw_rates(drawn), drawn, *growth)
 
 
 if __name__ == "__main__":

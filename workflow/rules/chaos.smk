@@ -128,8 +128,8 @@ rule chaos_figures:
         lyapunov="results/checks/lyapunov.nc",
         symmetry="results/checks/symmetry.nc",
     output:
-        **figure("lyapunov"),
-        **figure("symmetry", "symmetry_"),
+        exponents=files_of("results/figures/lyapunov"),
+        odd_parts=files_of("results/figures/symmetry"),
     log:
         "results/logs/figures/chaos.log",
     conda:

@@ -145,7 +145,10 @@ def reference_problem(case):
 FIGURE_KINDS = {"png": "png", "pdf": "pdf", "data": "nc", "description": "json"}
 
 
-def figure(name, prefix=""):
-    return {
-        f"{prefix}{key}": f"results/figures/{name}.{kind}" for key, kind in FIGURE_KINDS.items()
-    }
+def figure(name):
+    return {key: f"results/figures/{name}.{kind}" for key, kind in FIGURE_KINDS.items()}
+
+
+def files_of(stem):
+    """Return all files of a figure, for a job that draws more than one."""
+    return [f"{stem}.{kind}" for kind in FIGURE_KINDS.values()]

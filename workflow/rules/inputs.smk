@@ -26,11 +26,6 @@ def some_own_files(wildcards):
     return own_files()
 
 
-def own_figure(folder, prefix="", part=""):
-    stem = f"results/own/{folder}{part}"
-    return {f"{prefix}{key}": f"{stem}.{kind}" for key, kind in FIGURE_KINDS.items()}
-
-
 # The theory, and the ledger of all claims.
 def checks(*names):
     return [f"results/checks/{name}.nc" for name in names]

@@ -38,8 +38,8 @@ rule own_figures:
         run="results/trajectories/{case}.nc",
         checks="results/own/cases/{case}.checks.nc",
     output:
-        **own_figure("cases/{case}"),
-        **own_figure("cases/{case}", "spacetime_", ".spacetime"),
+        norms=files_of("results/own/cases/{case}"),
+        spacetime=files_of("results/own/cases/{case}.spacetime"),
     log:
         "results/logs/own/cases/{case}.log",
     wildcard_constraints:
@@ -58,7 +58,7 @@ rule own_sweep_figure:
         code=code("own/draw_sweep.py"),
         sweep="results/sweeps/{sweep}.nc",
     output:
-        **own_figure("sweeps/{sweep}"),
+        figure=files_of("results/own/sweeps/{sweep}"),
         checks="results/own/sweeps/{sweep}.checks.nc",
     log:
         "results/logs/own/sweeps/{sweep}.log",

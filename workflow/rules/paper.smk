@@ -27,8 +27,8 @@ rule fig2:
         references=references("fig2_small", "fig2_large"),
         ensembles=ensembles_of("fig2_small", "fig2_large"),
     output:
-        **figure("fig2"),
-        **figure("fig2_spacetime", "spacetime_"),
+        norms=files_of("results/figures/fig2"),
+        spacetime=files_of("results/figures/fig2_spacetime"),
     log:
         "results/logs/figures/fig2.log",
     conda:
@@ -48,8 +48,8 @@ use rule fig2 as fig3 with:
         references=references("fig3_small", "fig3_large"),
         ensembles=ensembles_of("fig3_small", "fig3_large"),
     output:
-        **figure("fig3"),
-        **figure("fig3_spacetime", "spacetime_"),
+        norms=files_of("results/figures/fig3"),
+        spacetime=files_of("results/figures/fig3_spacetime"),
     log:
         "results/logs/figures/fig3.log",
     message:
@@ -65,8 +65,8 @@ use rule fig2 as fig4 with:
         references=references("fig4_small", "fig4_large"),
         ensembles=ensembles_of("fig4_small", "fig4_large"),
     output:
-        **figure("fig4"),
-        **figure("fig4_spacetime", "spacetime_"),
+        norms=files_of("results/figures/fig4"),
+        spacetime=files_of("results/figures/fig4_spacetime"),
     log:
         "results/logs/figures/fig4.log",
     message:
@@ -165,8 +165,8 @@ rule solver_figures:
         code=code("paper/draw_solvers.py"),
         solvers="results/checks/solvers.nc",
     output:
-        **figure("energy_drift", "energy_"),
-        **figure("solver_agreement"),
+        energy=files_of("results/figures/energy_drift"),
+        agreement=files_of("results/figures/solver_agreement"),
     log:
         "results/logs/figures/solvers.log",
     conda:

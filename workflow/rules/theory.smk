@@ -113,8 +113,8 @@ rule stability_figures:
         windows="results/checks/windows.nc",
         threshold="results/checks/threshold.nc",
     output:
-        **figure("stability_chart"),
-        **figure("growth_rates", "growth_"),
+        stability=files_of("results/figures/stability_chart"),
+        growth=files_of("results/figures/growth_rates"),
     log:
         "results/logs/figures/stability.log",
     conda:
