@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_up_results import CHAOTIC_PICTURE, PICTURE, chaotic, regular
 from pendula.drawing import style
-from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, compare_images
+from pendula.figure_diff import DAMAGED, DIFFERENT, IDENTICAL, NEARLY, Motion, compare_images
 from pendula.figure_diff.compare_images import Method, Picture
 
 FAULTS = {
@@ -84,6 +84,20 @@ def test_a_single_shade_of_a_pixel_is_found_by_pixels():
     found = compare_images.judge(PICTURE, was, Picture(colours, [], {}), Method.PIXELS)
     assert found.status == DIFFERENT and found.says == "1 pixels differ, in x 200-200, y 100-100"
     assert _status(was, Picture(colours, [], {}), Method.LOOK) == NEARLY
+
+
+@pytest.mark.parametrize(
+    ("motion", "here", "elsewhere"),
+    [
+        (Motion.NONE, Method.PIXELS, Method.LOOK),
+        (Motion.UNSEEN, Method.LOOK, Method.LOOK),
+        (Motion.SEEN, Method.INK, Method.INK),
+        (Motion.WRONG, Method.LOOK, Method.LOOK),
+    ],
+)
+def test_the_less_the_data_moved_the_stricter_a_picture_is_compared(motion, here, elsewhere):
+    assert compare_images.method(motion, same_environment=True) == here
+    assert compare_images.method(motion, same_environment=False) == elsewhere
 
 
 @pytest.mark.parametrize(("top", "status"), [(20, DIFFERENT), (110, NEARLY)])
