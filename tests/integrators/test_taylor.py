@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, CASES, power_series, random_chain
 from pendula.compiled import uncached
-from pendula.integrators import DONE, taylor
+from pendula.integrators import DONE, INTERRUPTED, taylor
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.simd import LANES
 
@@ -142,3 +142,9 @@ def test_a_solution_that_blows_up_is_reported_where_it_does():
     values, _, outcome = systems.run("taylor", -1.0, times, (1e-7, 1e-9), start=3.0 + 1.0j)
     assert outcome.status != DONE
     np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)
+
+
+def test_a_run_that_is_stopped_at_once_has_taken_no_step():
+    stop = np.ones(1, np.bool_)
+    _, _, outcome = systems.run("taylor", 1.0, [0.0, 1.0], (1e-6, 1e-9), stop=stop)
+    assert outcome == (INTERRUPTED, 0.0, 0, 0, 0)

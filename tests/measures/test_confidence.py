@@ -52,6 +52,7 @@ def test_a_ratio_to_what_may_be_zero_has_no_limits():
 def test_limits_of_a_share_are_exact(count, members):
     known = stats.binomtest(count, members).proportion_ci(0.95, "exact")
     found = confidence.share_limits(count, members)
+    assert found.value == count / members
     np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-5)
 
 
