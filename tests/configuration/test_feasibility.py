@@ -29,6 +29,9 @@ def test_runs_of_more_than_a_milliard_steps_are_refused(name):
     assert obstacle(name, step=49e-9) == (
         "the run takes 1e+09 steps, more than 1e+09: the step is too short"
     )
+    rest = {"size": 0.0, "numbers": (0.0, 0.0, 0.1), "step": 2.0**-20}  # exact in doubles
+    assert obstacle(name, span=1e9 * 2.0**-20, **rest) is None
+    assert "too short" in obstacle(name, span=(1e9 + 1.0) * 2.0**-20, **rest)
     for step in (0.0, -0.1, np.nan):
         assert "must be positive" in obstacle(name, step=step)
 
@@ -38,6 +41,8 @@ def test_steps_too_long_for_the_series_of_the_linear_flow_are_refused():
     assert "linear terms" in obstacle("splitting", step=100.0, size=0.0)
     assert "linear terms" in obstacle("splitting", step=2.0, numbers=(1.0, 1.0, 1e3))
     assert obstacle("splitting", step=1.0) is None
+    assert obstacle("splitting", step=2.0) is None  # 4 + 4 + 2 times 2 is 20, whatever the data
+    assert "linear terms" in obstacle("splitting", step=2.01)
 
 
 @pytest.mark.parametrize("name", ["taylor", "dop853", "ode45"])
