@@ -21,6 +21,7 @@ import shutil
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import llvmlite
@@ -37,14 +38,16 @@ OFF = "off"
 UNUSED = 30 * 86400.0
 """Seconds after which machine code of a text that nobody runs any more is removed."""
 DIGEST = hashlib.sha256().digest_size
+DIGITS = 16
+"""Hexadecimal digits of a digest in the name of a folder or a file."""
 
 
 def kept_in() -> Path | None:
     """Return the folder of all kernels, or None where the user switched it off."""
-    named = os.environ.get(VARIABLE)
-    if named == OFF:
+    named = os.environ.get(VARIABLE, "").strip()
+    if named.lower() == OFF:
         return None
-    return Path(named) if named else platformdirs.user_cache_path("pendula")
+    return Path(named).expanduser() if named else platformdirs.user_cache_path("pendula")
 
 
 class KernelCache(_Cache):
@@ -96,7 +99,7 @@ class KernelCache(_Cache):
         except OSError as fault:
             warnings.warn(
                 f"compiled kernels cannot be kept in {self._folder.parent}, so that each job"
-                f" compiles its own ({fault}); name another folder by {VARIABLE}, or"
+                f" compiles its own ({fault.strerror}); name another folder by {VARIABLE}, or"
                 f" `{VARIABLE}={OFF}`",
                 stacklevel=2,
             )
@@ -114,15 +117,23 @@ class KernelCache(_Cache):
         return self._folder / f"{self._name}-{_digest(signature, codegen.magic_tuple())}.kernel"
 
     def _remove_unused(self) -> None:
-        """Remove what was compiled from former texts of this module, unless it was used of late."""
+        """Remove what was compiled from former texts of this module, unless it was used of late.
+
+        A user may name a folder that holds other things too, so only what has the names of ours is
+        removed.
+        """
         former = self._folder.name.rpartition("-")[0]
-        for folder in self._folder.parent.glob(f"{former}-*"):
+        ours = f"{former}-{'[0-9a-f]' * DIGITS}"
+        for folder in self._folder.parent.glob(ours):
             if time.time() - folder.stat().st_mtime > UNUSED:
-                shutil.rmtree(folder, ignore_errors=True)
+                for file in folder.glob("*.kernel"):
+                    file.unlink(missing_ok=True)
+                with suppress(OSError):  # something else lies in it
+                    folder.rmdir()
 
 
 def _digest(*parts) -> str:
-    return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:16]
+    return hashlib.sha256("\n".join(map(str, parts)).encode()).hexdigest()[:DIGITS]
 
 
 def _compiler() -> list[str]:
