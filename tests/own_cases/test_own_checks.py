@@ -70,6 +70,13 @@ def test_a_wrong_run_breaks_lemma_2_and_its_bound():
     assert found["from_start"]["data"] > 1 and found["ratio"]["data"] > 1
 
 
+def test_lemma_2_does_not_hold_of_a_run_that_is_too_steep_in_between():
+    found = checks.check_run(*made(STILL))
+    assert not section._decided(found)["too_steep"]
+    found["steepest"] = found["steepest"] * 0 + 7.0  # as of ode45 at a tolerance of 0.9
+    assert found["from_start"] < 1 and section._decided(found)["too_steep"]
+
+
 def test_the_numbers_of_lemma_1_and_of_the_balance(still):
     assert float(still["gamma_0"]) == 2.0 and still["finite_rate"] == 0
     assert float(still["finite_threshold"]) >= 2.0

@@ -26,6 +26,8 @@ from pendula.report.words import (
 # ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
 # more than this.
 SLACK = 1e-6
+STEEPEST = 1.01
+"""Growth of P that is steeper than its bound by more than this is seen in the digits shown."""
 WEAKEST = 1e-6
 """A drive that lets P grow by less over a whole run cannot be told from rounding."""
 ENDS = {
@@ -91,6 +93,7 @@ def _said(checks, link: str) -> dict[str, Quote]:
 
 
 def _decided(checks) -> dict[str, Any]:
+    driven = 4.0 * abs(checks.attrs["gamma"]) * checks.attrs["end_time"] > WEAKEST
     error = np.nan_to_num(float(checks["largest_difference"]))
     limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
     return {
@@ -99,8 +102,9 @@ def _decided(checks) -> dict[str, Any]:
         "chaotic": bool(checks.get("chaotic", 0)),
         "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
         "region": str(checks["region"].values),
-        "driven": 4.0 * abs(checks.attrs["gamma"]) * checks.attrs["end_time"] > WEAKEST,
+        "driven": driven,
         "growth_holds": bool(checks["from_start"] <= limit),
+        "too_steep": bool(driven and checks["steepest"] > STEEPEST),
         "bound_holds": bool(checks["ratio"] <= limit),
         "infinite_grows": bool(checks["infinite_rate"] > 0),
         "finite_grows": bool(checks["finite_rate"] > 0),
