@@ -129,6 +129,10 @@ def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
         (lambda c, r: pendula.check(8), "a case, such as Case.omega=8., and not 8"),
         (lambda c, r: pendula.check(c, 8), "a run, as `simulate` and `read` return it, and"),
         (lambda c, r: pendula.check(c, r[["l2"]]), "the dataset has no linf, energy"),
+        (lambda c, r: pendula.check(c.changed(omega=8, gamma=0), r), "differ in gamma, omega"),
+        (lambda c, r: pendula.check(c.changed(initial={1: (1, 0)}), r), "differ in initial"),
+        (lambda c, r: pendula.draw_norms(r.drop_vars("tau")), "the dataset has no tau"),
+        (lambda c, r: pendula.draw_spacetime(r.drop_vars("modulus")), "snapshot_step.; the data"),
         (lambda c, r: pendula.draw_norms(8), "a run, as `simulate` and `read` return it, and"),
         (lambda c, r: pendula.draw_norms(r, r), "the dataset has no divergence_time"),
         (lambda c, r: pendula.draw_spacetime(None), "and not empty"),
@@ -167,9 +171,8 @@ def test_a_notebook_is_given_a_picture(run):
     assert pendula.draw_norms(run)._repr_png_().startswith(b"\x89PNG")
 
 
-def test_a_run_without_snapshots_is_no_picture_of_space_and_time(run):
-    with pytest.raises(ValueError, match="snapshot_step"):
-        pendula.draw_spacetime(run.drop_vars("modulus"))
+def test_a_run_by_another_solver_is_checked_too(case, run):
+    assert pendula.check(case.changed(solver="dop853"), run)["divergence_time"] == np.inf
 
 
 def test_the_second_run_is_drawn_where_it_diverges_only(run, case):

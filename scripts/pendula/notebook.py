@@ -21,7 +21,7 @@ from pendula.own_cases.checks import check_run
 from .configuration import cases, cost, values
 from .configuration.schema import Limits
 from .configuration.solvers import with_controls
-from .problem import Problem
+from .problem import Problem, by_site, write_initial
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
@@ -91,6 +91,22 @@ def _affordable(case: Case, hours: float | None) -> None:
 def _announce(takes: cost.Cost) -> None:
     if takes.seconds > cost.WORTH_SAYING:
         print(f"the run takes {takes}", flush=True)
+
+
+# What a run keeps of its case, and what decides its trajectory.
+OF_ONE_RUN = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "end_time")
+
+
+def _require_run_of(case: Case, run: xr.Dataset) -> None:
+    """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
+    problem = Problem.of(case.shown_problem())
+    made_of = {**problem.plain(), "initial": write_initial(by_site(problem.initial))}
+    other = [key for key in OF_ONE_RUN if run.attrs.get(key, "absent") != made_of[key]]
+    if other:
+        raise ConfigurationError(
+            f"the run is of another case: they differ in {', '.join(other)}; give the run of this "
+            "case, or leave it out"
+        )
 
 
 def _require(given, kind: type, what: str, *variables: str) -> None:
@@ -196,6 +212,7 @@ def check(case: Case, run=None):
     _require(case, Case, "a case, such as Case(omega=8)")
     run = simulate(case) if run is None else run
     _require(run, xr.Dataset, RUN, "linf", "l2", "energy", "tau")
+    _require_run_of(case, run)
     return check_run(Problem.of(case.shown_problem()), run)
 
 
@@ -212,7 +229,7 @@ def draw_norms(run, checks=None):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
-    _require(run, xr.Dataset, RUN, "linf", "l2")
+    _require(run, xr.Dataset, RUN, "linf", "l2", "tau")
     if checks is not None:
         _require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
     return figures.draw_norms(figures.gather_norms(run, checks))
@@ -227,7 +244,7 @@ def draw_spacetime(run):
     """
     from .own_cases import figures  # here, so that who draws nothing does without it
 
-    _require(run, xr.Dataset, RUN)
+    _require(run, xr.Dataset, f"{RUN}, with snapshots (its case has a snapshot_step)", "modulus")
     return figures.draw_spacetime(figures.gather_spacetime(run))
 
 
