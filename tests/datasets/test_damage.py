@@ -97,6 +97,15 @@ def test_a_file_of_another_kind_is_refused(tmp_path, content):
         read(tmp_path / "a.nc")
 
 
+@pytest.mark.parametrize(
+    ("path", "words"), [("", "is a folder: name"), ("/", "^/ is a folder: name"), (3, "not a int")]
+)
+def test_what_is_no_file_at_all_is_not_to_be_deleted(path, words):
+    with pytest.raises(DatasetError, match=words) as told:
+        read(path)
+    assert "delete" not in str(told.value)
+
+
 def test_whatever_a_library_makes_of_a_damaged_file_names_it(tmp_path):
     (tmp_path / "a.json").write_text("{")
     with (

@@ -115,6 +115,10 @@ def read(path: str | Path):
     """
     import xarray  # here, so that writing does without it
 
+    if not isinstance(path, str | Path):
+        raise DatasetError(f"this takes the path of a dataset, and not a {type(path).__name__}")
+    if not path or Path(path).is_dir():
+        raise DatasetError(f"{str(path) or 'an empty path'} is a folder: name a dataset in it")
     with readable(path):
         return xarray.load_dataset(path, engine="netcdf4")
 
