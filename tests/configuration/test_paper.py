@@ -60,6 +60,8 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
 def test_words_name_both_values():
     differs = differences(edited("cases", "fig2_small", "omega", value=1.0))
     assert list(differs.values()) == ["fig2_small.omega (1 in place of 8)"]
+    differs = differences(edited("cases", "fig2_small", "omega", value=8.0000000001))
+    assert list(differs.values()) == ["fig2_small.omega (8.0000000001 in place of 8)"]
     differs = differences(edited("cases", "fig2_small", "solver", value=EDITS["solver"]))
     assert list(differs.values()) == ["fig2_small.solver (dop853 in place of ode45)"]
     differs = differences(edited("sweeps", "fig5_left", "half_widths", value=[4, 6]))

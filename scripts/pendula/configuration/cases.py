@@ -1,5 +1,6 @@
 """A case: every key, its default (the paper's value), and what its values must be together."""
 
+import re
 from collections.abc import Iterator, Mapping
 from math import inf
 from typing import Annotated, Any, Literal
@@ -13,6 +14,8 @@ from .feasibility import find_fault, rate
 from .solvers import Solver, Taylor
 from .values import Complex, Model, Number, Positive, Whole, fault, faults, shown
 
+SITE = re.compile(r"[-+]?\d{1,15}", re.ASCII)
+"""The number of a site as a word."""
 FEWEST = 200
 """A smooth picture needs so many snapshots."""
 MOST_NUMBERS = 20_000_000
@@ -69,7 +72,7 @@ def _sites(given: Any) -> Any:
         raise fault(f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}")
     found: dict = {}
     for key, pair in given.items():
-        site = int(key) if isinstance(key, str) and key.strip("+-").isdecimal() else key
+        site = int(key) if isinstance(key, str) and SITE.fullmatch(key) else key
         if site in found and len(found) < len(given):
             raise fault(f"the site {site} stands twice, as a number and as a word")
         if isinstance(pair, list | tuple) and len(pair) > 2:

@@ -138,13 +138,22 @@ def _faults_of_mapping(node: yaml.MappingNode, place: tuple, above: set, loader)
         if not isinstance(key, yaml.ScalarNode):
             yield f"{line} {'.'.join(place)}: a key must be a name or a number"
             continue
+        read_as = _read_as(key, tag, loader)
         if tag in ("bool", "null", "timestamp"):
             yield f"{line} {path}: the key is read as {tag}; put it into quotes"
-        elif (tag, name) in seen:
+        elif read_as in seen:
             yield f"{line} {path}: the key stands twice"
         yield from (f"{line} {path}: the key {text}" for text in _surprises(key, tag, loader))
-        seen.add((tag, name))
+        seen.add(read_as)
         yield from _faults(value, place if tag == "merge" else (*place, name), above, loader)
+
+
+def _read_as(key: yaml.ScalarNode, tag: str, loader) -> Any:
+    """Return what YAML makes of a key: 1, +1 and 0x1 are the same, and 1 and "1" are not."""
+    try:
+        return loader.construct_object(key) if tag in ("int", "float") else (tag, key.value)
+    except ValueError:  # told elsewhere
+        return tag, key.value
 
 
 def _surprises(node: yaml.ScalarNode, tag: str, loader) -> Iterator[str]:

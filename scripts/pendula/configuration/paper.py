@@ -82,7 +82,9 @@ def _does_as_well(key: str, was: Any, now: Any) -> bool:
 
 def _in_words(place: tuple, was: Any, now: Any) -> str:
     shown = place[1:] if place[0] in ("cases", "sweeps") else place
-    return f"{'.'.join(shown)} ({_short(now)} in place of {_short(was)})"
+    short, of_paper = _short(now), _short(was)
+    told = str(now) if short == of_paper else short  # else they seem the same
+    return f"{'.'.join(shown)} ({told} in place of {of_paper})"
 
 
 def _short(value: Any) -> str:
@@ -98,7 +100,7 @@ def _short(value: Any) -> str:
     if isinstance(value, list):
         text = f"[{', '.join(map(_short, value))}]"
         return text if len(text) <= 50 else f"{len(value)} values from {_short(value[0])}"
-    return str(value).removesuffix("+0j")
+    return "0" if str(value) == "0j" else str(value).removesuffix("+0j")
 
 
 def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -> str:
