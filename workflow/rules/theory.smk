@@ -82,7 +82,7 @@ rule check_observed:
 
 
 rule claims:
-    "The verdict on every sentence that numbers can decide: results/tables/claims.md, claims.json"
+    "The ledger: each claim with its verdict, in results/claims.json and results/tables/claims.md"
     input:
         code=code("theory/decide_claims.py", "claims"),
         datasets=expand("results/{name}.nc", name=makers()),

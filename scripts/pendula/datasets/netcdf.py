@@ -85,7 +85,7 @@ def save(path: str | Path, dataset) -> None:
 def _has_checksum(values: np.ndarray) -> bool:
     """Return whether HDF5 can keep a checksum of the values: of words and single numbers it cannot.
 
-    They, and all else in a file, have the digest of `stored`.
+    These, and all else in a file, are covered by the line that `seal` adds.
     """
     return values.ndim > 0 and values.size > 0 and values.dtype.kind in "biuf"
 

@@ -28,12 +28,13 @@ FEWEST = 6
 class Control(NamedTuple):
     """A wrong case for a deciding function, which must not confirm the claim by it.
 
-    `fed` says what takes the place of a needed dataset: the name of another dataset, a function of
-    the right one, or a pair of both: the name and a function of the right and the other dataset.
-    `confirms` turns the control round, for a claim that is not reproduced: the
-    function must confirm this right case, or it could not have confirmed anything. `undecided` says
-    that the function must not decide this case at all, because a bound does not exist there, say.
-    `on` names the paper's cases and sweeps that it takes from a dataset of many.
+    `fed` says, by the name of a needed dataset, what takes its place: the name of another dataset,
+    a function that makes the wrong dataset from the right one, or a pair of a name and a function
+    that makes it from the right and the named dataset. `confirms` turns the control round, for a
+    claim that is not reproduced: the function must confirm this right case, or it could not have
+    confirmed anything. `undecided` says that the function must leave this case undecided, for
+    example because a bound does not exist there. `on` names the paper's cases and sweeps that the
+    control takes from a dataset of many.
     """
 
     says: str
@@ -147,7 +148,7 @@ def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair")
         raise UndecidableError(f"the sweep has no window {window}")
     values = sweep[norm].sel(quantity=quantity, statistic=statistic, window=window).values
     if len(values) < FEWEST:
-        raise UndecidableError("the sweep has fewer than six half-widths")
+        raise UndecidableError(f"the sweep has fewer than {FEWEST} half-widths")
     return sweep["half_width"].values, values
 
 
@@ -236,9 +237,10 @@ def _confirmed(finding: Finding) -> bool:
 def evaluate(sources: Mapping, differs: Differences | None = None) -> list[dict]:
     """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
 
-    A verdict that changes where a cut-off moves by a third says so. A claim whose function
-    confirms a wrong case cannot be decided by it. `differs` says where the configuration is not
-    the paper's: a claim or a control that rests on it is not applicable.
+    A verdict that changes where a cut-off moves by a third says so. Where a function confirms a
+    claim and a wrong case too, the claim cannot be decided by it. `differs` says where the
+    configuration is not the paper's: a claim or a control that rests on such a key is not
+    applicable.
     """
     return [_row(claim, sources, differs or {}) for claim in all_claims()]
 
