@@ -12,7 +12,7 @@ from collections.abc import Iterable
 import xarray as xr
 from pydantic import ValidationError
 
-from pendula.configuration.files import ConfigurationError, all_of
+from pendula.configuration.files import ConfigurationError, list_faults
 from pendula.configuration.messages import in_words, load
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
@@ -84,7 +84,7 @@ def _affordable(case: Case, hours: float | None) -> None:
         found = cost.find_excess(problem(), limits.model_dump())
         if found:
             text = found[1].replace("limits.hours", "hours").replace("limits.", "")
-            raise all_of([f"{found[0]}: {text}"], "the case")
+            raise list_faults([f"{found[0]}: {text}"], "the case")
     _announce(cost.estimate(case.shown_problem()))
 
 

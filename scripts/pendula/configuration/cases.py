@@ -1,4 +1,7 @@
-"""A case: every key, its default (the paper's value), and what its values must be together."""
+"""A case: every key with its default, and which values fit each other.
+
+A default is the value of the paper's cases, save for `solver` and `snapshot_step`.
+"""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -21,7 +24,7 @@ FEWEST = 200
 MOST_NUMBERS = 20_000_000
 """At most so many moduli are kept in memory: very long chains have fewer snapshots."""
 MOST_COUNTED = 1e15
-"""More steps are refused by their cost, whatever remains of the division."""
+"""Of more steps no digit tells whether they divide a time; such runs are refused by their cost."""
 
 
 def choose_every(outputs: int, sites: int) -> int:
@@ -180,4 +183,4 @@ class Case(Model):
 
 
 SMALLEST_ANGLE = 1e-9
-"""Radians: of a shorter run, rounding is most of what is seen."""
+"""Radians by which a run must turn its data: of less, rounding is most of what is seen."""

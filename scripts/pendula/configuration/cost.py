@@ -1,9 +1,10 @@
 """What a run will take, estimated before it starts, so that one without end is refused by its key.
 
-A run is so many steps, each of so many sites. The steps follow from the largest rate at which the
-data turn and from the tolerance, at a power of one over the order of the method. The constants are
-those of the measured speeds in tests/baseline/speed; a test holds the estimates to a factor of
-three of all of them. Growth by instability and the drive is bounded by where it saturates.
+The cost of a run is the number of its steps times that of its sites. The number of steps follows
+from the fastest rate at which the data turn, and from the tolerance by the order of the method.
+Where the chain is unstable the data grow, and turn faster: they count as if they had grown to the
+size at which growth ends. The constants fit the speeds that were measured (tests/baseline/speed),
+and a test asks that every estimate is within a factor of three of what was measured.
 """
 
 from collections.abc import Iterable, Mapping
@@ -14,7 +15,7 @@ from .feasibility import Obstacle
 
 HOUR, GIGABYTE = 3600.0, 1e9
 WORTH_SAYING = 180.0
-"""Seconds: of a longer run its length is said before it starts."""
+"""Seconds: a run that will take longer says so before it starts."""
 
 
 class Explicit(NamedTuple):
@@ -170,7 +171,7 @@ def auto_tolerances(error: float) -> list[float]:
 def find_excess(problem: Mapping, limits: Mapping[str, float]) -> Obstacle | None:
     """Return the key that makes a run longer or larger than is allowed, and what it would take.
 
-    It is the key whose change to the paper's value would save most.
+    It is the key whose change to its value in PLAIN would save most.
     """
     cost = estimate(problem)
     if cost.excess(limits) <= 1.0:
@@ -198,7 +199,7 @@ PLAIN = {
     "initial": {"initial": {0: (1.0, 0.1)}},
     "solver": {"solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}},
 }
-"""Ordinary values of the keys that decide a cost."""
+"""Ordinary values, at which a run is short, of the keys that decide a cost."""
 
 
 def duration(seconds: float) -> str:

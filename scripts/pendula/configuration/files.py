@@ -30,14 +30,14 @@ SURPRISES = {
 PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The tags of YAML that a configuration may have; others would make objects of programs."""
 WHOLE = ("initial", "lengths")
-"""Mappings that are one value: what comes later replaces them, and adds nothing to them."""
+"""Keys of mappings that are one value: a later file replaces them, and adds nothing to them."""
 
 
 class ConfigurationError(ValueError):
     """The configuration has faults; the message lists them all."""
 
 
-def all_of(lines: list[str], what: str) -> ConfigurationError:
+def list_faults(lines: list[str], what: str) -> ConfigurationError:
     """Return the error that lists all faults of `what`, a line each."""
     many = f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:"
     return ConfigurationError("\n  ".join([many, *lines]))
@@ -59,7 +59,7 @@ def read(path: Path | str) -> dict:
         what = "is empty" if found is None else "holds no keys"
         faults = [f"{what}; give cases: {{mine: {{omega: ...}}}}, as docs/own_cases.md shows"]
     if faults:
-        raise all_of(faults, str(path))
+        raise list_faults(faults, str(path))
     return found
 
 

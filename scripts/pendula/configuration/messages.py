@@ -9,15 +9,12 @@ from pydantic import BaseModel, ValidationError, create_model
 from pendula.studies import modules
 
 from .cases import Case
-from .files import ConfigurationError, all_of
+from .files import ConfigurationError, list_faults
 from .schema import Configuration, Sweep
-from .solvers import Auto, CrankNicolson, DelfourFortinPayre, Dop853, Ode45, Taylor
+from .solvers import Solvers
 from .values import LONGEST_SHOWN, shown
 
-SOLVERS = {
-    model.model_fields["name"].default: model
-    for model in (Ode45, CrankNicolson, DelfourFortinPayre, Dop853, Taylor, Auto)
-}
+SOLVERS = tuple(Solvers.model_fields)
 HINTS = {
     "N": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
     "sites": "the chain has N = 2 half_width + 1 sites, always an odd number: give half_width",
@@ -74,7 +71,7 @@ def load(raw: dict) -> Configuration:
         for key, text in section.faults(settings)
     ]
     if lines:
-        raise all_of(lines, "the configuration")
+        raise list_faults(lines, "the configuration")
     return settings
 
 
@@ -98,7 +95,7 @@ def require(
     lines += [f"{text} (in cases.{name})" for text, name in steps.items()]
     lines += _unlike_panels(settings.sweeps, sweeps)
     if lines:
-        raise all_of(lines, "the configuration")
+        raise list_faults(lines, "the configuration")
 
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:
@@ -117,7 +114,7 @@ def in_words(error: ValidationError, what: str, place: tuple = ()) -> Configurat
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
     lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
-    return all_of(lines, what)
+    return list_faults(lines, what)
 
 
 def _describe(fault: dict) -> str:

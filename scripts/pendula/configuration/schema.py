@@ -18,13 +18,13 @@ from .solvers import Solver, Solvers, with_controls
 from .values import Distinct, Model, Name, Positive, Whole, Window, faults, shown
 
 Faults = Iterator[tuple[str, str]]
-"""Keys, whose path starts where they are raised, and what is wrong with each."""
+"""Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
 
 
 PAPER_CASES = [f"fig{n}_{size}" for n in (2, 3, 4) for size in ("small", "large")]
 PAPER_SWEEPS = [f"fig{n}_{side}" for n in (5, 6) for side in ("left", "right")]
 AS_A_STUDY = 10.0
-"""How many times as long as a run a study may take with all of its own."""
+"""All runs of a study together may take this many times as long as one run may."""
 
 
 class Drawn(Model):
@@ -130,7 +130,7 @@ class Configuration(Model):
                 yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
 
     def excess(self, key: str, costs: list[cost.Cost], times: float = 1.0) -> Faults:
-        """Yield the key that makes runs, all of them `times` over, cost more than is allowed."""
+        """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""
         total = cost.Cost(
             times * sum(one.seconds for one in costs),
             max((one.memory for one in costs), default=0.0),
@@ -180,7 +180,7 @@ class Configuration(Model):
         return found or self._excess_of_sweep(name)
 
     def _excess_of_sweep(self, name: str) -> list[tuple[str, str]]:
-        """Return the key that makes a sweep too long, of half-widths and windows or its case's."""
+        """Return which key makes a sweep too long, `windows` or `half_widths`, and its cost."""
         limits, total = self.limits.model_dump(), self.cost_of_sweep(name)
         if total.excess(limits) <= 1.0:
             return []
@@ -196,7 +196,7 @@ class Configuration(Model):
         return cost.sum_of({**problem, "half_width": m} for m in self.sweeps[name].half_widths)
 
     def long_runs(self) -> list[str]:
-        """Return what each run takes that lasts for minutes, to be said before it starts."""
+        """Return a sentence on each run that will last for minutes, to be said before it starts."""
         found = {f"cases.{name}": cost.estimate(self.shown_problem(name)) for name in self.cases}
         found |= {f"sweeps.{name}": self.cost_of_sweep(name) for name in self.sweeps}
         long = {path: one for path, one in found.items() if one.seconds > cost.WORTH_SAYING}
