@@ -74,7 +74,7 @@ def run(function: Callable, snakemake) -> None:
         **dict(snakemake.params.items()),
     }
     arguments.pop("code", None)
-    # What ends a job kindly, as a cluster does at its limit of time, acts as Ctrl-C does.
+    # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     path = snakemake.log[0]
     log = _Log(path)

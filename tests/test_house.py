@@ -29,7 +29,7 @@ STOREYS = (
 COLLECTORS = ("report", "ledger", "archive", "configuration")
 """Rooms that reach the studies by their list alone, without a name of one."""
 
-THE_LIST = {("studies",), *(("studies", name) for name in ("STUDIES", "CONFIGURED", "modules"))}
+THE_LIST = {("studies",), *(("studies", name) for name in ("STUDIES", "modules"))}
 
 
 def room_of(parts: tuple[str, ...]) -> str:

@@ -7,8 +7,8 @@ content changes: editing a module reruns what imports it, while touching files, 
 project anew beside finished results, reruns nothing. Committed data are copied in the same way,
 since their paths would change with the clone.
 
-A call that only looks, such as a dry run, leaves the folder as it is. What it finds missing or out
-of date it writes to a temporary folder, so that Snakemake sees the same as in a run.
+A call that only looks, such as a dry run, writes nothing to results/. The records that are missing
+or out of date go to a temporary folder then, so that Snakemake sees the same as in a run.
 """
 
 import atexit
@@ -35,7 +35,7 @@ only_looks = False
 def code(script: str, *parts: str) -> str:
     """Return the path of the record for a script, brought up to date.
 
-    Those of the benchmarks are named from the project's folder, all others from scripts/. `parts`
+    `script` is a path below scripts/, or one of benchmarks/ below the project's folder. `parts`
     names modules, such as "section", that the script finds by the list of studies: its imports
     do not show them. Raises ValueError where two rules want different records of one script.
     """
@@ -72,9 +72,10 @@ def committed(file: str) -> str:
 
 
 def kept(file: str) -> str:
-    """Return the path of a copy of a result, brought up to date: no job is run to renew it.
+    """Return the path of a copy of a result, brought up to date.
 
-    Where an archive was unpacked, the copy is there without the result.
+    A job that takes the copy in place of the result never makes the result again. Where an archive
+    was unpacked, the copy is there without the result.
     """
     source, copy = Path(file), KEPT / Path(file).name
     return _hand_out(copy, (source if source.exists() else copy).read_bytes())

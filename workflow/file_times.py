@@ -1,10 +1,11 @@
 """When each result was written, kept beside the results for copies that lose it.
 
 Snakemake makes a file again that is older than what it is made from. `cp -r` gives every file the
-time at which it was copied, so that in the copy some results seem older than their inputs. So the
-times of all results, with their contents, are kept in a file, whose own time stands in it. Where
-that is another one, the file was copied: every result with the content that was kept gets its time
-back. So a copy reruns what its original would have rerun.
+time at which it was copied, so that in the copy some results seem older than their inputs. For this
+reason a run ends by writing the times and the digests of all results into a file, and gives this
+file the time of the newest result. Where the file has another time, it was copied: then every
+result that still has its digest gets its time back. So a copy reruns what its original would have
+rerun.
 """
 
 import hashlib
@@ -20,9 +21,9 @@ KEPT = "logs/file_times.json"
 
 
 def keep(results: Path) -> None:
-    """Write down the time and the content of every result, if there are results.
+    """Write down the time and the digest of every result, if there are results.
 
-    It is the last that a run does, so that a full disk fails nothing.
+    A full disk fails nothing here: the results are made already, and only a copy lacks their times.
     """
     known, found = _recall(results), {}
     for path in sorted(results.rglob("*")):

@@ -1,9 +1,10 @@
 """Reads the configuration before Snakemake does, and says in words what cannot be read.
 
-Snakemake reads files before any line of the Snakefile, and ends in a traceback where one is
-missing, is not UTF-8, or holds a number or a date that Python refuses. A profile may hold Python,
-and is read earlier still: those of this project ask here. The option takes every word behind it, so
-that a target that stands there is taken for a file; that is said too.
+Snakemake reads the files of --configfile before any line of the Snakefile, and ends in a traceback
+where one is missing, is not UTF-8, or holds a number or a date that Python refuses. It reads its
+profile earlier still, and a profile may hold Python: so the profiles of this project call `look`.
+The option --configfile takes every word behind it, so that a target that stands there is taken for
+a file; `look` says that too.
 """
 
 import sys

@@ -8,6 +8,8 @@ import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from job import TOOK
+
 WHOLE, FIGURES, STUDIES = "Everything, and parts of it", "Figures", "Cases, sweeps and studies"
 CHECKS, OWN = "Checks, claims and tables", "Your own cases and sweeps"
 UPKEEP = "Baseline, speed, references and archive"
@@ -30,9 +32,6 @@ PAGES = ("results/figure_diff/index.html", "results/own_report.html", "results/r
 
 FEW = 4
 """So many files are named one by one; of more, their folders are."""
-
-TOOK = "wall time: "
-"""How the last line of the log of a finished job begins (see scripts/job.py)."""
 
 ACCEPTED = Path(__file__).parents[1] / "tests/baseline/quoted/job_seconds.json"
 """The wall time of each job of the accepted full run, by its log."""
@@ -69,7 +68,7 @@ def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
         return ""
     seconds = max(sum(times) / cores, *times)
     shown = f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
-    return f"Expect about {shown}: so long these jobs took before, if {cores} cores are free."
+    return f"Expect about {shown} on {cores} free cores, from how long these jobs took before."
 
 
 def _seconds(log: str, accepted: Mapping[str, float]) -> float | None:

@@ -31,7 +31,8 @@ if not os.access(".", os.W_OK):
         f"{os.getcwd()} is read-only, and Snakemake keeps notes there even of a dry run: name a "
         "folder that you may write to, by --directory"
     )
-# Calls that only look leave the folder as it is. Snakemake tells here of dry runs alone.
+# Calls that only look write nothing to results/. Snakemake says of dry runs that they are such calls,
+# and of no other, so that the options of the others are listed.
 LOOKS = {
     "-l",
     "--list",

@@ -1,7 +1,7 @@
 """A seal at the end of a dataset, by which a bit that a disk gives back wrong is found.
 
-HDF5 can keep a checksum of an array of numbers, and `netcdf` asks it for that, so that any reader is
-told of a changed number. HDF5 keeps none of words, of single numbers, and of the tables that say
+HDF5 can keep a checksum of an array of numbers, and `netcdf` asks it for that, so that any reader
+is told of a changed number. HDF5 keeps none of words, of single numbers, and of the tables that say
 where the pieces of an array lie; where such a table is damaged, the library of HDF5 may crash. So
 `seal` adds a last line to each file, which HDF5 does not look at, with the SHA-256 of all bytes
 before it. `check` compares it before HDF5 opens the file.

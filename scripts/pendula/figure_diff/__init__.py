@@ -42,7 +42,7 @@ class Finding:
     visible: bool = False
     """Of a dataset: whether curves within tolerance moved so far that a picture shows it."""
     agrees: bool = False
-    """Of a fault: whether other bits are all that is wrong, and the allowances would excuse it."""
+    """Of a fault: whether the allowances would excuse it, so that only its bits are wrong."""
 
     @property
     def is_fault(self) -> bool:

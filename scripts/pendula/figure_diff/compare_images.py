@@ -136,7 +136,7 @@ def _on_white(layers: np.ndarray) -> np.ndarray:
 
 
 def compare(name: str, reference: Path, new: Path, description: Path, by: Method) -> Finding:
-    """Return the finding for an image; `description` is that of the new one, whose mark it has."""
+    """Return the finding for the PNG `new`, which must carry the mark of its `description`."""
     try:
         if _mark(new) != read_description(description).fingerprint:
             says = "was not written with its description: it is stale, or of another figure"

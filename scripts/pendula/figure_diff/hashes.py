@@ -30,9 +30,10 @@ LEAST = 1e-30
 """Single precision loses digits below 1e-38 and ends at 3e38; this keeps well away from both."""
 
 WORK = ("steps", "rejected_steps", "right_hand_sides")
-MOST_WORK = 0.1
 """Attributes that count what a solver did. They follow its path, so that in chaos they change where
-numbers do: another rounding moved the largest by 0.09 of themselves."""
+numbers do."""
+MOST_WORK = 0.1
+"""How far such a count may change, as a part of it: another rounding moved one by 0.09."""
 
 Hashes = dict[str, Any]
 """Of a dataset: the hash of its `attributes`, and its `variables` by name; of a variable its `type`
