@@ -63,6 +63,16 @@ def test_a_file_in_the_way_of_a_folder_is_named(tmp_path, name):
     assert "Traceback" not in result.stderr and ".smk" not in result.stderr
 
 
+def test_results_on_a_disk_that_is_not_there_are_told(tmp_path):
+    (tmp_path / "results").symlink_to(tmp_path / "scratch")
+    result = snakemake(ROOT, tmp_path, "--dry-run", "fig1")
+    assert result.returncode != 0
+    assert (
+        f"results is a link to {tmp_path / 'scratch'}, which is not there"
+        in result.stdout + result.stderr
+    )
+
+
 @pytest.fixture
 def read_only(tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""

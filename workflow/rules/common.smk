@@ -52,6 +52,8 @@ FOLDERS += ["archive", "sweeps", "tables", "trajectories", "truth", "unbounded"]
 for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
     if path.is_file():
         stop(f"{path} is a file, and results need a folder of this name: move the file away")
+    if path.is_symlink() and not path.exists():
+        stop(f"{path} is a link to {os.readlink(path)}, which is not there: make it, or mount it")
     if path.exists() and not os.access(path, os.W_OK) and not code_records.only_looks:
         stop(f"{path} is read-only: make it writable, or name another folder by --directory")
 file_times.restore(RESULTS)
