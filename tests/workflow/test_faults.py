@@ -78,9 +78,3 @@ def test_a_missing_dataset_is_made_again(finished):
     (finished / "results/trajectories/fig3_small.dop853.nc").unlink()
     jobs = planned(ROOT, finished)
     assert jobs["trajectory"] == 1 and "sweep" not in jobs
-
-
-def test_the_list_of_targets_explains_itself(finished):
-    result = snakemake(ROOT, finished, "--list")
-    assert "Figs 5 and 6: norms against half-width" in result.stdout
-    assert all(f"\nfig{n} (" in result.stdout for n in range(1, 7))
