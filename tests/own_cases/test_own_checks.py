@@ -63,6 +63,23 @@ def test_a_refused_second_run_leaves_its_reason_and_no_numbers():
     assert np.isnan(again["largest_difference"]) and np.isnan(again["difference"]).all()
 
 
+TINY = Case(omega=-4, half_width=1, initial={0: ("1e-140", 0)}, end_time=2,
+            solver={"name": "taylor", "atol": 1e-154})  # fmt: skip
+
+
+def test_data_whose_errors_have_vanishing_squares_are_checked_all_the_same():
+    found = checks.check_run(*made(TINY))
+    assert found.attrs["second_name"] == "dop853" and "second_refusal" not in found.attrs
+    assert float(found["largest_difference"]) < 1e-8 and float(found["balance_error"]) < 1e-12
+    assert section._decided(found)["balanced"]
+
+
+def test_data_that_no_second_method_takes_leave_a_reason_and_no_balance():
+    found = checks.check_run(*made(TINY.changed(initial={0: ("5e-152", 0)})))
+    assert "smaller than the absolute tolerance 1e-150" in found.attrs["second_refusal"]
+    assert np.isnan(found["balance_error"]) and not section._decided(found)["balanced"]
+
+
 def test_a_wrong_run_breaks_lemma_2_and_its_bound():
     run = simulate(STILL)
     run["l2"] = run["l2"] * np.exp(5.0 * run["tau"])

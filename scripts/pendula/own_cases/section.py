@@ -108,6 +108,7 @@ def _decided(checks) -> dict[str, Any]:
         "bound_holds": bool(checks["ratio"] <= limit),
         "infinite_grows": bool(checks["infinite_rate"] > 0),
         "finite_grows": bool(checks["finite_rate"] > 0),
+        "balanced": bool(np.isfinite(checks["balance_error"])),
         "other_sign": float(checks.attrs["epsilon"]) < 0,
     }
 
