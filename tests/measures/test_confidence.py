@@ -165,3 +165,23 @@ def test_distances_of_the_limits_of_a_ratio_add_in_squares_of_logarithms():
 def test_shares_of_another_confidence_are_exact():
     known = stats.binomtest(3, 10).proportion_ci(0.8, "exact")
     assert confidence.share_limits(3, 10, 0.8)[1:] == pytest.approx((known.low, known.high), 1e-5)
+
+
+def test_limits_of_the_mean_of_two_are_known():
+    """Student's t of one degree of freedom is 12.706."""
+    found = confidence.mean_limits([2.0, 4.0])
+    assert tuple(found) == pytest.approx((3.0, 3.0 - 12.7062, 3.0 + 12.7062), rel=1e-5)
+
+
+def test_half_of_the_distance_of_limits():
+    assert confidence.Limits(3.0, 1.0, 6.0).half == 2.5
+
+
+def test_the_chance_of_a_draw_has_six_decimals():
+    known = 2.0 * stats.t.sf(3.0 / np.sqrt(1.125), 7)
+    assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == round(known, 6)
+
+
+def test_a_ratio_and_its_limits_do_not_hang_on_the_unit():
+    found = confidence.ratio_limits((0.1, 0.2), (0.01, 0.02), 8)
+    assert tuple(found) == pytest.approx(confidence.ratio_limits((10.0, 20.0), (1.0, 2.0), 8))

@@ -97,3 +97,12 @@ def test_a_growth_counts_after_three_standard_errors_are_taken_off():
         rate = np.log(factor) / 40.0 + errors
         growth = rate * tau + np.concatenate([[0.0], np.cumsum(wiggle[:-1])])
         assert is_chaotic(tau, growth, np.ones_like(tau)) == chaotic
+
+
+def test_an_octave_that_begins_before_the_first_output_begins_there():
+    tau = np.array([0.0, 3.0, 3.5, 4.0, 8.0, 16.0])
+    values = np.where(tau > 0.0, (tau + 1.0) ** 2, 0.0)[None]
+    found = local_exponents(tau, values, 3)[1][0].value
+    x, known = np.linspace(np.log(3.0), np.log(4.0), 60), np.log(tau[1:4])
+    bent = np.interp(x, known, 2.0 * np.log(tau[1:4] + 1.0))
+    assert found == pytest.approx(np.polyfit(x, bent, 1)[0], rel=1e-9)

@@ -70,3 +70,10 @@ def test_correlations_are_numpys_and_zero_where_nothing_changes():
     assert correlation(one, other) == pytest.approx(np.corrcoef(one, other)[0, 1])
     assert correlation(one, -3.0 * one + 1.0) == pytest.approx(-1.0)
     assert correlation(one, np.full(50, 2.0)) == correlation(np.full(50, 2.0), one) == 0.0
+
+
+def test_a_drift_by_less_than_the_tolerance_a_step_is_measured_from_the_last_value():
+    drifting = np.array([1.0, 2.0, 10.0, 10.04, 10.08])
+    assert levelling(WIDTHS, drifting) == np.inf
+    means = np.array([1.0, 2.0, 3.0, 3.2, 3.4])
+    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1), 2.0) == np.inf

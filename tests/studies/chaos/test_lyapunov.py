@@ -2,18 +2,11 @@
 
 import numpy as np
 import pytest
-from oracle import random_chain
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
-from pendula.models.amplitudes import Chain
-from pendula.models.tangent import ROWS
-from pendula.simulation.lattice import Reduction, choose_ends, pack
 from pendula.studies.chaos import lyapunov
-from pendula.studies.chaos.tangent_dynamics import inner, orthonormalise
-from pendula.studies.chaos.tangents import PARITIES
+from pendula.studies.chaos.tangent_dynamics import grow
+from pendula.studies.chaos.tangents import PARITIES, random_tangent
 from problems import problem_of
-
-WHOLE = Reduction(even=False, synchronised=False)
-HALF = Reduction(even=True, synchronised=False)
 
 
 @pytest.fixture(scope="module")
@@ -34,28 +27,6 @@ def test_exponents_come_in_pairs_of_opposite_sign(whole_spectrum):
 def test_two_exponents_vanish(whole_spectrum):
     rates = mean_rate(whole_spectrum.tau, whole_spectrum.log_growth, 50.0)
     np.testing.assert_allclose(rates[5:7], 0.0, atol=0.05)
-
-
-def test_orthonormalising_measures_what_a_qr_decomposition_does():
-    states = np.array([pack(random_chain(2, seed=seed), WHOLE) for seed in range(4)])
-    bundle, lengths = np.concatenate(states), np.empty(3)
-    chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", WHOLE))
-    orthonormalise(chain, bundle, lengths)
-    vectors = states[1:, :, 1:-1].reshape(3, -1).T
-    expected = np.abs(np.diag(np.linalg.qr(vectors)[1]))
-    np.testing.assert_allclose(lengths, expected, rtol=1e-12)
-    after = bundle.reshape(4, ROWS, -1)[1:, :, 1:-1].reshape(3, -1)
-    np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
-
-
-def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
-    u, v = random_chain(3, even=True, seed=1), random_chain(3, even=True, seed=2)
-    products = [
-        inner(Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept)), pack(u, kept), pack(v, kept))
-        for kept in (WHOLE, HALF)
-    ]
-    assert products[0] == pytest.approx(np.sum(u.conj() * v).real)
-    assert products[1] == pytest.approx(products[0], rel=1e-13)
 
 
 @pytest.mark.parametrize("parity", PARITIES)
@@ -103,3 +74,19 @@ def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_wit
             np.testing.assert_array_equal(told[1], [*one.half, *rest])
             if gamma:
                 assert found["vanishing"][at] == np.sum((one.low <= 0.0) & (one.high >= 0.0)) > 0
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity):
+    problem, place = problem_of("fig4_small", half_width=2), PARITIES.index(parity)
+    vector = random_tangent(5, parity, np.random.default_rng([20170817, place]))
+    known = grow(problem, vector[None], 1.0, even=parity == "even")
+    found = lyapunov.follow_parity(problem, parity, 1.0)
+    np.testing.assert_array_equal(found.log_growth, known.log_growth)
+
+
+def test_a_basis_has_four_vectors_a_site_drawn_in_turn_by_one_seed():
+    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(20170817)
+    basis = np.array([random_tangent(3, None, rng) for _ in range(12)])
+    found = lyapunov.follow_all(problem, 1.0)
+    np.testing.assert_array_equal(found.log_growth, grow(problem, basis, 1.0).log_growth)

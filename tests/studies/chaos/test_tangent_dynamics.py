@@ -1,14 +1,16 @@
 """The variational equations against differences of equation (4), and Lemma 1 as their limit."""
 
+import hashlib
+
 import numpy as np
 import pytest
 from oracle import BOUNDARIES, random_chain, slope
 from pendula.models.amplitudes import Chain
 from pendula.models.linear_chain import finite_rate
-from pendula.models.tangent import bundle_rates, tangent_rates
+from pendula.models.tangent import ROWS, bundle_rates, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos.tangent_dynamics import grow
+from pendula.studies.chaos.tangent_dynamics import grow, inner, orthonormalise, scale, subtract
 from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)
@@ -79,3 +81,51 @@ def test_a_vector_grows_like_the_distance_of_two_solutions():
     assert growth.log_growth[0, -1] == pytest.approx(np.log(distance), abs=1e-7)
     both = np.linalg.norm((ends[0] + ends[1]) / 2)
     assert growth.size[-1] == pytest.approx(both, rel=1e-9)
+
+
+def test_orthonormalising_measures_what_a_qr_decomposition_does():
+    states = np.array([pack(random_chain(2, seed=seed), WHOLE) for seed in range(4)])
+    bundle, lengths = np.concatenate(states), np.empty(3)
+    chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", WHOLE))
+    orthonormalise(chain, bundle, lengths)
+    vectors = states[1:, :, 1:-1].reshape(3, -1).T
+    expected = np.abs(np.diag(np.linalg.qr(vectors)[1]))
+    np.testing.assert_allclose(lengths, expected, rtol=1e-12)
+    after = bundle.reshape(4, ROWS, -1)[1:, :, 1:-1].reshape(3, -1)
+    np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
+
+
+def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
+    u, v = random_chain(3, even=True, seed=1), random_chain(3, even=True, seed=2)
+    products = [
+        inner(Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept)), pack(u, kept), pack(v, kept))
+        for kept in (WHOLE, HALF)
+    ]
+    assert products[0] == pytest.approx(np.sum(u.conj() * v).real)
+    assert products[1] == pytest.approx(products[0], rel=1e-13)
+
+
+def test_products_and_sums_leave_the_ghosts_beside_the_chain_alone():
+    """A ghost at the mirror repeats a site, which would count a third time."""
+    u, v = 1.0 + np.arange(24.0).reshape(4, 6), 2.0 + np.arange(24.0).reshape(4, 6) ** 2
+    for kept, weights in ((WHOLE, [1, 1, 1, 1]), (HALF, [1, 2, 2, 2])):
+        chain = Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept))
+        assert inner(chain, u, v) == np.sum(weights * u[:, 1:-1] * v[:, 1:-1])
+    less, more = u.copy(), u.copy()
+    subtract(less, 0.5, v)
+    scale(more, 3.0)
+    for found, known in ((less, u - 0.5 * v), (more, 3.0 * u)):
+        np.testing.assert_array_equal(found[:, 1:-1], known[:, 1:-1])
+        np.testing.assert_array_equal(found[:, [0, -1]], u[:, [0, -1]])
+
+
+HASH = "669dfa1c71eb6f7b"
+"""Of the bits that every machine must get of the growth below."""
+
+
+def test_the_bits_of_growth_are_those_of_every_machine():
+    z, *vectors = (np.round(random_chain(2, even=True, seed=n), 3) for n in (4, 5, 6))
+    growth = grow(problem_from(z, CONSTANTS), np.array(vectors), 3.0, even=True)
+    assert growth.tau.tolist() == [0.25 * step for step in range(13)]
+    bits = growth.log_growth.tobytes() + growth.size.tobytes()
+    assert hashlib.sha256(bits).hexdigest()[:16] == HASH

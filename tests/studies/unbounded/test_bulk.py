@@ -11,6 +11,7 @@ from pendula.studies.unbounded.bulk import (
     bulk_means,
     bulk_of,
     bulk_powers,
+    end_of_bulk,
     energy_terms,
     late_means,
     mean_powers,
@@ -78,6 +79,12 @@ def test_the_line_through_the_squares_starts_at_a_quarter_of_the_run():
     run = exact().isel(tau=slice(0, 395, 2))  # times to 197, whose quarter is 49.25
     for first, right in ((49.0, True), (50.0, False)):
         spoilt = run.assign(l2=run["l2"].where(run["tau"] > first, 0.0))
+        assert (abs(slope_powers(spoilt)[0].value - POWER) < 1e-6) == right
+
+
+def test_the_quarter_of_the_run_is_itself_on_the_line():
+    for first, right in ((49.5, True), (50.0, False)):
+        spoilt = exact().assign(l2=exact()["l2"].where(exact()["tau"] > first, 0.0))
         assert (abs(slope_powers(spoilt)[0].value - POWER) < 1e-6) == right
 
 
@@ -177,3 +184,16 @@ def test_waves_and_moduli_are_given_at_the_middle_of_their_cells():
     assert found["wave_number"].values[[0, 16, 32]].tolist() == [0.0, np.pi / 2.0, np.pi]
     assert len(found["wave_number"].values) == 64
     assert found["modulus"].values.tolist() == [0.5, 2.0]
+
+
+def test_the_bulk_ends_at_the_last_site_above_its_level():
+    sites = np.zeros((4, 9))
+    sites[:, 2], sites[0, 4], sites[0, 6] = 1.0, 1.1, 1.0  # powers of 4, 1.21 and just 1
+    assert end_of_bulk(sites) == 4 and end_of_bulk(sites, 1.5) == 2
+    assert end_of_bulk(0.0 * sites) == 0
+
+
+def test_a_tail_is_what_exceeds_its_level_and_not_the_level_itself():
+    steps = np.zeros((4, 11))
+    steps[0] = np.arange(11) ** 0.25  # |A|^4 of 1 to 8 and 8 zeros: a fifth of them exceed 5
+    assert tail_scale(steps, 10, 0.2) == pytest.approx(2.0)

@@ -1,5 +1,7 @@
 """The thermal states by the transfer operator, against exact cases and against sampled rings."""
 
+import hashlib
+
 import numpy as np
 import pytest
 from metropolis import energy_of, mean_and_error, sample
@@ -123,6 +125,7 @@ def test_the_bonds_hold_the_energy_that_the_virial_says():
 
 def test_power_spectrum_and_density_tell_one_power():
     state = state_of_energy(constants_of((1.0, 1.0, 3.0)))
+    assert state.operator.nodes.shape == (4, 16)
     assert spectrum_of(products_of(state, 64)).mean() == pytest.approx(state.power / 2.0, rel=1e-9)
     fine = np.linspace(0.0, 8.0, 801)
     density, middle = density_of(state, fine), 0.5 * (fine[1:] + fine[:-1])
@@ -149,6 +152,21 @@ def published():
     states = [state_of_energy(constants_of((1.0, 1.0, omega)), nodes=8) for omega in (0.0, 2.0)]
     warm = [state_of_energy(constants_of((1.0, 1.0, -4.0)), one, nodes=8) for one in (0.0, 3.0)]
     return states, warm, thermal_variables(states, warm)
+
+
+HASH = "a5fcb46809c98608"
+"""Of the bits that every machine must get of the states above."""
+
+
+def test_the_bits_of_thermal_states_are_those_of_every_machine(published):
+    told = []
+    for state in (*published[0], *published[1]):
+        products = products_of(state, 16)
+        told += [state.beta, state.power, state.power_error, *terms_of(state)]
+        told += [*products.ravel(), *spectrum_of(products), correlation_length(products)]
+    # adding zero makes -0 and 0 the same number
+    bits = (np.array(told) + 0.0).tobytes()
+    assert hashlib.sha256(bits).hexdigest()[:16] == HASH
 
 
 def test_what_is_published_is_rounded_to_the_digits_that_it_states(published):
