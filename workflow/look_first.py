@@ -7,6 +7,7 @@ The option --configfile takes every word behind it, so that a target that stands
 a file; `look` says that too.
 """
 
+import os
 import sys
 from pathlib import Path
 
@@ -68,3 +69,17 @@ def look(arguments: list[str]) -> None:
     if faults:
         print("\n".join(faults), file=sys.stderr)
         raise SystemExit(1)
+
+
+def forget() -> None:
+    """Unload this project's modules: the Snakefile may be that of another copy of the project.
+
+    Snakemake takes the profile of the folder in which it is called, whatever --snakefile says. The
+    Snakefile must import, and record as what its jobs depend on, the code that lies beside it.
+    """
+    added = {str(PROJECT / "workflow"), str(PROJECT / "scripts")}
+    sys.path[:] = [folder for folder in sys.path if folder not in added]
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None) or ""
+        if file == __file__ or file.startswith(str(PROJECT / "scripts") + os.sep):
+            del sys.modules[name]
