@@ -103,6 +103,12 @@ include: "workflow/rules/archive.smk"
 include: "workflow/rules/names.smk"
 
 
+if workflow.is_main_process:
+    misspelt = faults_of_targets(asked(), workflow.rules, [*OWN_CASES, *OWN_SWEEPS])
+    if misspelt:
+        stop("\n".join(misspelt))
+
+
 # In place of Snakemake's own list, which has no groups and shows what cannot be called too
 workflow.list_rules = lambda only_targets: print(list_targets(workflow.rules))
 

@@ -1,14 +1,20 @@
-"""What a person is told: a list of targets, how long a run will take, and after it where to look.
+"""What a person is told of targets: their list, a misspelt one, how long a run will take, its end.
 
 `snakemake --list` shows every rule in one row, also those with wildcards, which nobody can call by
-name. `list_targets` is put in its place: the targets that can be called, in groups.
+name. `list_targets` is put in its place: the targets that can be called, in groups. Of a target
+that nothing makes, Snakemake says that an input function may have failed; `faults_of_targets` names
+the nearest targets.
 """
 
+import difflib
 import json
+import os
+import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from job import TOOK
+from snakemake.cli import get_argument_parser
 
 WHOLE, FIGURES, STUDIES = "Everything, and parts of it", "Figures", "Cases, sweeps and studies"
 CHECKS, OWN = "Checks, claims and tables", "Your own cases and sweeps"
@@ -54,6 +60,50 @@ def group_of(rule) -> str:
         return group
     made = {Path(str(path)).parts[1] for path in (rule.output or rule.input)}
     return next((group for group, folders in BY_WHAT_IS_MADE.items() if made <= folders), WHOLE)
+
+
+def asked() -> list[str]:
+    """Return the targets of the command line, as Snakemake itself reads them from it.
+
+    While it reads the Snakefile, it has not yet handed them on.
+    """
+    started = Path(sys.argv[0]).name in ("snakemake", "__main__.py")
+    return get_argument_parser().parse_args(sys.argv[1:]).targets if started else []
+
+
+def faults_of_targets(words: Iterable[str], rules: Iterable, own: Iterable[str]) -> list[str]:
+    """Return a sentence on each word that is no target; `own` are a user's cases and sweeps."""
+    named = {rule.name: rule for rule in rules}
+    return [fault for word in words if (fault := _fault_of_target(word, named, own))]
+
+
+def _fault_of_target(word: str, rules: Mapping, own: Iterable[str]) -> str | None:
+    patterns = {name: rule for name, rule in rules.items() if rule.has_wildcards()}
+    if word in patterns:
+        text = "makes more than one file: name the file that you want, and not the rule"
+        return f"{word} {text}. {patterns[word].docstring}"
+    path = word if os.path.isabs(word) else os.path.relpath(word)
+    is_made = any(rule.is_producer(path) for rule in rules.values())
+    if word in rules or is_made or ("/" in word and os.path.exists(path)):
+        return None
+    if word in own:
+        return (
+            f"there is no target {word}: it is a case or a sweep of your own, and the target own "
+            "makes the figures, the checks and the report of all of them"
+        )
+    callable_ones = rules.keys() - patterns.keys()
+    if "/" in word:
+        parts = [rules[name] for name in callable_ones]
+        files = {f for rule in parts for f in [*rule.output, *rule.input] if isinstance(f, str)}
+        text = "A file of a case of your own needs its --configfile"
+        return f"nothing makes the file {word}{_nearest(path, files, 0.8)} {text}"
+    nearest = _nearest(word, callable_ones, 0.5)
+    return f"there is no target {word}{nearest} `snakemake --list` shows all"
+
+
+def _nearest(word: str, known: Iterable[str], likeness: float) -> str:
+    near = difflib.get_close_matches(word, sorted(known), 3, likeness)
+    return f"; did you mean {' or '.join(near)}?" if near else "."
 
 
 def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 import targets
-from helpers import ROOT, snakemake
+from helpers import ROOT, snakemake, snakemake_with
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +53,23 @@ def test_every_target_stands_in_its_group(listed):
     }
     assert some == {name: group for group in listed for name in some if name in listed[group]}
     assert list(targets.GROUPS) == list(listed)
+
+
+def test_what_is_no_target_is_told_with_the_nearest_before_anything_runs(tmp_path):
+    words = ["figure2", "qqqq", "trajectory", "mine", "fig2", "results/trajectories/mine.nc"]
+    words += ["results/trajectories/fig2_small.rk4.nc", "results/trajectories/mine.ode45.nc"]
+    result = snakemake_with({"cases": {"mine": {"omega": 1}}}, ROOT, tmp_path, *words)
+    assert result.returncode == 1 and "Exception" not in result.stdout + result.stderr
+    said = result.stderr.splitlines()
+    assert any(
+        re.fullmatch("there is no target figure2; did you mean .*fig2.*all", x) for x in said
+    )
+    assert "there is no target qqqq. `snakemake --list` shows all" in said
+    assert "a sweep of your own, and the target own makes" in result.stderr
+    assert "fig2_small.rk4.nc; did you mean results/trajectories/fig2_small.nc" in result.stderr
+    assert "trajectory makes more than one file: name the file" in result.stderr
+    assert len([line for line in said if line.startswith(("there is no", "nothing"))]) == 4
+    assert not (tmp_path / "results/trajectories/mine.nc").exists()
 
 
 def test_each_text_is_of_one_target_alone(texts):

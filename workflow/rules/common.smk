@@ -24,7 +24,14 @@ from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from stop import stop
-from targets import list_targets, what_failed, what_it_takes, where_to_look
+from targets import (
+    asked,
+    faults_of_targets,
+    list_targets,
+    what_failed,
+    what_it_takes,
+    where_to_look,
+)
 
 if not os.access(".", os.W_OK):
     stop(
