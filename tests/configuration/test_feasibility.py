@@ -3,11 +3,17 @@
 import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
-from pendula.configuration.feasibility import SERIES_ORDER, find_obstacle
+from pendula.configuration.feasibility import (
+    SERIES_ORDER,
+    SMALLEST_DATA,
+    SMALLEST_ERROR,
+    find_fault,
+    find_obstacle,
+)
 from pendula.integrators.taylor import ORDER
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import IntegrationError, simulate
-from problems import PAPER, make_problem
+from problems import PAPER, constants_of, make_problem
 
 
 def obstacle(name="dop853", size=1.0, span=50.0, numbers=PAPER, **controls):
@@ -121,3 +127,49 @@ def test_the_angle_that_a_run_may_turn_is_counted_with_the_weight_of_each_term(n
 
 def test_the_order_of_the_power_series_is_that_of_the_solver():
     assert SERIES_ORDER == ORDER
+
+
+def fault(numbers=(0.0, 0.0, 1.0), peak=0.0, span=1.0, **solver):
+    return find_fault(constants_of(numbers), peak, span, {"name": "dop853"} | solver)
+
+
+def test_the_key_that_stands_in_the_way_is_named():
+    assert fault((np.nan, 1.0, np.inf))[0] == "epsilon"
+    assert fault(span=np.inf)[0] == "end_time"
+    assert fault((0.0, 0.0, 1e5), span=1e5)[0] == "end_time"  # as fast as it is long
+    assert fault((0.0, 0.0, 2e5), span=1e5)[0] == "omega"
+    assert fault((0.0, 1e5, 0.0), span=1e5)[0] == "gamma"
+
+
+def test_what_is_just_possible_is_not_refused():
+    assert fault(span=1e9) is None
+    assert fault(peak=SMALLEST_DATA) is None
+    assert fault(peak=1.0, rtol=0.0, atol=SMALLEST_ERROR * 1e148) is None
+    assert fault(peak=1.0, rtol=1e-9, atol=SMALLEST_ERROR) is None
+    assert fault(name="taylor", rtol=0.0, atol=0.0) is None  # the data are zero, and stay it
+
+
+def test_tolerances_are_numbers_of_at_least_zero():
+    for rtol, atol in ((-0.5, 1.0), (1.0, -0.5), (1.0, np.nan)):
+        assert "not both numbers" in fault(peak=1.0, rtol=rtol, atol=atol)[1]
+    assert "ode45 must be positive" in fault(name="ode45", peak=1.0, rtol=0.0, atol=1e-9)[1]
+    assert fault(name="ode45", peak=2.0, rtol=1.0, atol=1e-9) is None
+
+
+def test_rounding_is_a_part_of_the_data():
+    assert fault(name="taylor", peak=1e3, rtol=1e-15, atol=0.0) is None
+    assert fault(name="taylor", peak=1e-3, rtol=1e-17, atol=2e-19) is None
+    assert "rounding" in fault(name="taylor", peak=1e3, rtol=1e-17, atol=2e-14)[1]
+
+
+def test_power_series_are_refused_by_the_size_of_their_last_coefficient():
+    """With |A| = 1 it is the rate to the sixteenth power, with |A| = 2^-28 it is 2^-940."""
+    for power, refused in ((269.5, False), (270.5, True)):
+        rate = 10.0 ** (power / 16)
+        numbers = (0.0, 0.0, rate - 0.5)
+        found = fault(numbers, 1.0, 1.0 / rate, name="taylor", rtol=1e-9, atol=0.0)
+        assert (found is not None) == refused
+    moving, resting = 1e-6 * 2.0**57, 0.9e-6 * 2.0**57
+    zero, tolerances = (0.0, 0.0, 0.0), {"name": "taylor", "rtol": 1e-9, "atol": 0.0}
+    assert "numbers of 1e-283:" in fault(zero, 2.0**-28, moving, **tolerances)[1]
+    assert fault(zero, 2.0**-28, resting, **tolerances) is None

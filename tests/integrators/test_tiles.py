@@ -104,3 +104,17 @@ def test_the_worse_of_two_errors_is_the_larger(one, other):
 @pytest.mark.parametrize(("one", "other"), [(np.nan, 1.0), (1.0, np.nan)])
 def test_an_error_that_is_no_number_is_never_forgotten(one, other):
     assert np.isnan(dop853.worse(one, other))
+
+
+@pytest.mark.parametrize(
+    ("sites", "count", "held"),
+    [(1, 1, 1), (512, 1, 512), (513, 2, 287), (1024, 2, 542), (1025, 3, 372), (1536, 3, 542)],
+)
+def test_chains_are_cut_into_tiles_of_about_equal_length(sites, count, held):
+    assert tiles.count_tiles(sites) == count
+    assert tiles.tile_length(sites, count) == held
+
+
+def test_tiles_lie_in_their_margins_or_at_the_ends():
+    places = [tiles.tile_place(tile, 3, 1536) for tile in range(3)]
+    assert places == [(0, 0, 512), (497, 512, 1024), (994, 1024, 1536)]

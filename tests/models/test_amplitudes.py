@@ -11,9 +11,13 @@ from pendula.models.amplitudes import (
     FREE,
     LANES,
     MIRROR,
+    PERIODIC,
     Chain,
+    can_be_tiled,
     chain_of_tile,
+    fill_site_terms,
     midpoint_rates,
+    nonlinear_flow,
     rates,
     rates_at_site,
 )
@@ -124,3 +128,18 @@ def test_a_tile_ends_as_the_chain_does_where_it_reaches_an_end(left, right):
         rates(chain_of_tile(chain, first == 0, stop == 7), tile, found)
         inner = slice(1 if first == 0 else 2, -1 if stop == 7 else -2)
         np.testing.assert_array_equal(found[:, inner], whole[:, first : stop + 2][:, inner])
+
+
+def test_all_chains_but_rings_can_be_tiled():
+    tiled = [can_be_tiled(Chain(*CONSTANTS, left, FREE)) for left in (DIRICHLET, FREE, MIRROR)]
+    assert tiled == [True, True, True]
+    assert not can_be_tiled(Chain(*CONSTANTS, PERIODIC, PERIODIC))
+
+
+def test_flows_and_terms_of_sites_leave_ghosts_alone():
+    y = np.full((4, 5), 0.3)
+    nonlinear_flow(y, 0.5)
+    np.testing.assert_array_equal(y[:, [0, -1]], 0.3)
+    terms = np.full(5, np.nan)
+    fill_site_terms(Chain(*CONSTANTS, FREE, FREE), y, terms)
+    np.testing.assert_array_equal(np.isnan(terms), [True, False, False, False, True])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from oracle import BOUNDARIES, SOLVERS, laplacian, random_chain
-from pendula.models.linear_chain import flow
+from pendula.models.linear_chain import driven, flow, stable_windows, widest_gamma
 from pendula.simulation.simulate import simulate
 from problems import make_problem
 from scipy.linalg import expm
@@ -77,3 +77,26 @@ def test_tiny_data_follow_the_flow_to_many_digits(boundary):
     solver = {"name": "dop853", "rtol": 1e-12, "atol": 1e-20}
     final = simulate(make_problem(z, CONSTANTS, boundary, solver, end_time=2.0)).final
     np.testing.assert_allclose(final, flow(z, 2.0, *CONSTANTS, boundary), atol=1e-15)
+
+
+def test_a_mode_grows_turns_or_drifts_on_either_side_of_its_threshold():
+    """D'' = (4 gamma^2 - kappa^2) D, with gamma = 1 / 2 and squares of 1 / 4, -1 / 4 and 0."""
+    kappa, tau = np.sqrt([0.75, 1.25, 1.0]), 0.8
+    even, odd = driven(kappa, 0.5, tau)
+    np.testing.assert_allclose(even, [np.cosh(0.4), np.cos(0.4), 1.0], rtol=1e-14)
+    np.testing.assert_allclose(odd, [2 * np.sinh(0.4), 2 * np.sin(0.4), 0.8], rtol=1e-14)
+
+
+def test_windows_of_short_chains():
+    """The modes of a free chain of three sites have 0, 1 and 3; a window of no width is none."""
+    expected = [[0.0, 1.0], [1.0, 3.0], [3.0, 4.0]]
+    np.testing.assert_allclose(stable_windows(0.0, 1.0, 3, "free"), expected, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("sites", "boundary", "widest"),
+    [(1, "dirichlet", 1.0), (2, "dirichlet", 0.5), (1, "free", 2.0), (2, "free", 1.0)],
+)
+def test_the_widest_gamma_of_short_chains(sites, boundary, widest):
+    """Their modes have 2; 1 and 3; 0; 0 and 2."""
+    assert widest_gamma(1.0, sites, boundary) == pytest.approx(widest, rel=1e-14)

@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
 from pendula.models.amplitudes import DIRICHLET, FREE, MIRROR, PERIODIC
-from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
+from pendula.simulation.lattice import (
+    WHOLE,
+    Reduction,
+    choose_ends,
+    find_reduction,
+    pack,
+    unfold,
+    unpack,
+)
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
 
@@ -71,3 +79,7 @@ def test_unfolding_mirrors_the_sites_and_keeps_later_axes():
 def test_ends_of_the_whole_and_of_half_the_chain(boundary, whole, far):
     assert choose_ends(boundary, Reduction(False, False)) == (whole, whole)
     assert choose_ends(boundary, Reduction(True, False)) == (MIRROR, far)
+
+
+def test_the_whole_is_not_reduced():
+    assert WHOLE._asdict() == {"even": False, "synchronised": False}

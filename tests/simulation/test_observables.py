@@ -93,3 +93,10 @@ def test_norms_do_not_look_at_ghosts(reduction):
     y[:, [0, -1]] = 1e3
     linf, l2 = norms(chain_for("free", reduction), y, 0)
     assert (linf, l2) == pytest.approx((np.abs(z[0]).max(), np.linalg.norm(z[0])))
+
+
+def test_a_record_without_moduli_keeps_none():
+    record = blank_record(2, 5, 3, 0)
+    observe(chain_for("dirichlet", WHOLE), pack(random_chain(2), WHOLE), 2, record)
+    assert record.modulus.shape == (2, 5, 0)
+    assert record.scratch.shape == (2, 7)  # of the columns of a state

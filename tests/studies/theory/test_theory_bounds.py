@@ -9,6 +9,7 @@ from pendula.models.bounds import (
     best_bound,
     coercivity,
     extent,
+    lipschitz,
     proven_region,
     theorem_1_bound,
     theorem_2_bound,
@@ -17,6 +18,7 @@ from pendula.models.bounds import (
     widened_barrier,
     widened_bound,
     widened_delta_0,
+    with_positive_coupling,
 )
 from pendula.numerics.search import maximise
 from pendula.studies.theory.equations import total_energy
@@ -212,3 +214,37 @@ def test_the_sign_of_the_drive_does_not_matter(constants):
     assert widened_barrier(other) == widened_barrier(constants)
     assert theorem_2_constants(other) == theorem_2_constants(constants)
     assert extent(other) == extent(constants)
+
+
+def test_a_negative_coupling_is_that_of_the_staggered_chain():
+    staggered = constants_of((-1.0, 1.0, -8.0))
+    assert with_positive_coupling(staggered) == NEGATIVE
+    assert theorem_2_constants(staggered) == (0.4, 10.0)
+    assert theorem_1_bound(1.0, constants_of((-1.0, 1.0, 4.0))) == 0.5
+
+
+def test_the_constants_of_the_proofs():
+    assert extent(NEGATIVE) == 10.0
+    assert lipschitz(NEGATIVE, 2.0) == 16.0
+    assert theorem_1_bound(1.0, constants_of((1.0, 1.0, 6.5))) == 2.0
+    assert theorem_1_bound(-1.0, constants_of((1.0, 1.0, 6.0))) == np.inf
+    assert theorem_3_bound(-1200.0 * (1 + 1e-9), 6, NEGATIVE) == 240.0
+    assert theorem_3_bound(-1200.0 + 12.0 * 9.0, 6, NEGATIVE) == 24.0 * 13.0
+
+
+def test_no_barrier_is_widened_where_theorem_2_does_not_apply():
+    for numbers in ((0.0, 1.0, -4.0), (1.0, 0.0, 4.0), (1.0, 1.0, -2.0)):
+        assert widened_barrier(constants_of(numbers)) == (0.0, 0.0)
+    assert min(widened_barrier(constants_of((1.0, 1.0, -3.0)))) > 1.0  # the gap is one
+
+
+def test_regions_end_where_their_theorems_do():
+    assert proven_region(0.0, 0.0, NEGATIVE, "dirichlet") == "theorem 2 by its energy"
+    assert proven_region(-1.0, 0.4, NEGATIVE, "dirichlet") == "theorem 2 by its energy"
+    assert proven_region(-1.0, 0.399, NEGATIVE, "dirichlet") == "theorem 2"
+
+
+@pytest.mark.parametrize("power", [1e-6, 0.1, 0.9, 3.0])
+def test_a_widened_bound_is_where_the_coercivity_reaches_the_energy(power):
+    energy = -coercivity(power, NEGATIVE)
+    assert widened_bound(energy, 0.5 * power, NEGATIVE) == pytest.approx(power, rel=1e-9)
