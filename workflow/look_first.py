@@ -47,6 +47,15 @@ def fault_of(file: str) -> str | None:
     return None
 
 
+def fault_of_folder(folder: str) -> str | None:
+    """Return why Snakemake can neither enter nor make the folder of --directory, or None."""
+    path = Path(folder).absolute()
+    there = next(place for place in (path, *path.parents) if os.path.lexists(place))
+    if not there.is_dir():
+        return f"--directory {folder}: {there} is no folder, and results need one: name another"
+    return None
+
+
 def faults_in(word: str) -> list[str]:
     """Return what YAML would read in silence in a mapping that --config gives."""
     value = word.partition("=")[2].strip()
@@ -66,6 +75,8 @@ def look(arguments: list[str]) -> None:
         for word in given
         if "=" not in word
     ]
+    folders = words_of(arguments, ("--directory", "-d"))[:1]  # targets may follow it
+    faults += [fault for folder in folders if (fault := fault_of_folder(folder))]
     if faults:
         print("\n".join(faults), file=sys.stderr)
         raise SystemExit(1)

@@ -60,6 +60,9 @@ def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words
         (["--configfiles=none.yaml"], ["there is no file none.yaml"]),
         (["--config", "accept=fig3", "fig3"], ["--config takes name=value", "and 'fig3' is none"]),
         (["-C", "x"], ["and 'x' is none"]),
+        (["--directory", __file__, "own"], [f"--directory {__file__}: {__file__} is no folder"]),
+        ([f"--directory={__file__}/a/b", "own"], [f"/a/b: {__file__} is no folder, and results"]),
+        (["-d", "/dev/null"], ["/dev/null is no folder, and results need one: name another"]),
         (["--config", "limits={hours: 1, hours: 2}"], ["line 1: hours: the key stands twice"]),
     ],
 )
@@ -73,6 +76,7 @@ def test_an_option_that_takes_a_target_for_its_own_says_so(arguments, words, cap
 def test_what_is_right_is_let_pass(tmp_path):
     (tmp_path / "mine.yaml").write_text("cases: {mine: {omega: 8}}")
     look(["own", "--cores", "2", "--configfile", str(tmp_path / "mine.yaml"), "-C", "bits=any"])
+    look(["--directory", str(tmp_path / "not/yet"), __file__])
 
 
 def test_a_long_run_says_first_what_it_takes(tmp_path):
