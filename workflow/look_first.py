@@ -34,6 +34,10 @@ def words_of(arguments: list[str], names: tuple[str, ...]) -> list[str]:
 
 def fault_of(file: str) -> str | None:
     """Return what keeps a file from being read, in words, or None."""
+    if Path(file).is_dir():
+        return f"--configfile {file}: this is a folder: name a file in it, such as mine.yaml"
+    if Path(file).exists() and not Path(file).is_file():
+        return f"--configfile {file}: this is no regular file, and it must be read more than once"
     try:
         read(file)
     except ConfigurationError as error:

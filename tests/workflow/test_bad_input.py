@@ -60,6 +60,8 @@ def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words
         (["--configfiles=none.yaml"], ["there is no file none.yaml"]),
         (["--config", "accept=fig3", "fig3"], ["--config takes name=value", "and 'fig3' is none"]),
         (["-C", "x"], ["and 'x' is none"]),
+        (["--configfile", str(ROOT)], [f"--configfile {ROOT}: this is a folder: name a file"]),
+        (["--configfile", "/dev/null"], ["/dev/null: this is no regular file, and it must"]),
         (["--directory", __file__, "own"], [f"--directory {__file__}: {__file__} is no folder"]),
         ([f"--directory={__file__}/a/b", "own"], [f"/a/b: {__file__} is no folder, and results"]),
         (["-d", "/dev/null"], ["/dev/null is no folder, and results need one: name another"]),
