@@ -113,6 +113,23 @@ def test_what_is_odd_but_right_is_read(tmp_path):
     assert str(case.omega) == "0.0" and case.half_width == 20 and case.gamma == 0.5
 
 
+def test_a_whole_number_may_be_written_with_an_exponent(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text(
+        "cases: {mine: {omega: 1, end_time: 1, half_width: 1e4, initial: {-1E1: [1, 0]}}}\n"
+        "sweeps: {s: {case: mine, windows: [[0, 1]], half_widths: [1e2, 1e+1, 200e-1, '3e1']}}"
+    )
+    found = load(merge(CONFIG, read(path)))
+    assert found.cases["mine"].half_width == 10_000 and found.cases["mine"].initial == {-10: (1, 0)}
+    assert list(found.sweeps["s"].half_widths) == [100, 10, 20, 30]
+
+
+@pytest.mark.parametrize("word", ["1e1", "'10.0'", "+10", "'10'"])
+def test_a_site_that_is_written_in_two_ways_stands_twice(word, tmp_path):
+    text = f"cases: {{mine: {{omega: 1, initial: {{10: [1, 0], {word}: [2, 0]}}}}}}"
+    assert "stands twice" in faults(text, tmp_path)[0]
+
+
 def test_initial_data_replace_those_of_the_paper_and_other_keys_are_added():
     above = {"cases": {"fig2_small": {"initial": {3: [1, 0]}, "end_time": 4}}}
     case = load(merge(CONFIG, above)).cases["fig2_small"]

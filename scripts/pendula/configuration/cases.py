@@ -3,7 +3,6 @@
 A default is the value of the paper's cases, save for `solver` and `snapshot_step`.
 """
 
-import re
 from collections.abc import Iterator, Mapping
 from math import inf
 from typing import Annotated, Any, Literal
@@ -15,10 +14,8 @@ from pendula.problem import Constants
 from . import cost
 from .feasibility import find_fault, rate
 from .solvers import Solver, Taylor
-from .values import Complex, Model, Number, Positive, Whole, fault, faults, shown
+from .values import Complex, Model, Number, Positive, Whole, as_whole, fault, faults, shown
 
-SITE = re.compile(r"[-+]?\d{1,15}", re.ASCII)
-"""The number of a site as a word."""
 FEWEST = 200
 """A smooth picture needs so many snapshots."""
 MOST_NUMBERS = 20_000_000
@@ -75,7 +72,7 @@ def _sites(given: Any) -> Any:
         raise fault(f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}")
     found: dict = {}
     for key, pair in given.items():
-        site = int(key) if isinstance(key, str) and SITE.fullmatch(key) else key
+        site = as_whole(key)
         if site in found and len(found) < len(given):
             raise fault(f"the site {site} stands twice, as a number and as a word")
         if isinstance(pair, list | tuple) and len(pair) > 2:

@@ -59,6 +59,18 @@ def _plain(value: Any, what: str = "a number") -> Any:
     return value
 
 
+def as_whole(value: Any) -> Any:
+    """Return the whole number that a word such as "1e6" or "20.0" means; leave all else as it is.
+
+    YAML takes 1e6 for a word, and 1.0e6 for a number.
+    """
+    if isinstance(value, str) and NUMBER.fullmatch(value.strip(" ")):
+        number = float(value)
+        if number.is_integer() and abs(number) < 10.0**MOST_DIGITS:
+            return int(number)
+    return value
+
+
 def _countable(value: int) -> int:
     if digits(value) > MOST_DIGITS:
         raise fault(f"is {shown(value)}, more than can be counted to")
@@ -102,7 +114,7 @@ Number = Annotated[
 Positive = Annotated[Number, Field(gt=0)]
 Whole = Annotated[
     int,
-    BeforeValidator(lambda value: _plain(value, "a whole number")),
+    BeforeValidator(lambda value: as_whole(_plain(value, "a whole number"))),
     AfterValidator(_countable),
 ]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_NAME)]
