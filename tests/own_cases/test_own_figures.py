@@ -26,6 +26,13 @@ def test_titles_say_every_parameter(gathered):
     assert right.get_title("left") == "$(A_{0}, B_{0}) = (1, 0.1)$,  ends at rest"
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_chain_at_rest_is_drawn_at_zero_and_without_a_warning(make_trajectory):
+    figure = figures.draw_norms(figures.gather_norms(make_trajectory(scale=0.0)))
+    for axes in figure.axes:
+        assert axes.get_ylim() == (0, 1) and not np.any(axes.get_lines()[0].get_ydata())
+
+
 def test_one_site_fills_its_picture(make_trajectory):
     run = make_trajectory().isel(site=[2])
     figure = figures.draw_spacetime(figures.gather_spacetime(run))

@@ -71,7 +71,8 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
         axes.set_ylabel(f"{NORMS[name]} norm")
     for axes, name in zip(grid[0], NORMS, strict=True):
         shown = [f"{strip.prefix}{name}" for strip in strips]
-        axes.set_ylim(0, HEADROOM * max(float(case[curves].max()) for curves in shown))
+        top = max(float(case[curves].max()) for curves in shown)
+        axes.set_ylim(0, HEADROOM * top or 1.0)  # a chain at rest has no scale of its own
         axes.set_xlim(0, float(case[name].dropna("tau", how="all")["tau"].max()))
         axes.yaxis.set_major_locator(MaxNLocator(5 if len(strips) == 1 else 3))
     return grid
