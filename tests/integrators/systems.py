@@ -138,3 +138,12 @@ def accurate(mu, times, start=START):
     span = times[0], times[-1]
     tight = {"method": "DOP853", "rtol": 3e-14, "atol": 1e-14}
     return solve_ivp(slope, span, [start], t_eval=times, **tight).y[0]
+
+
+def stopped_by(output, outputs):
+    """Return a record, and a flag that is raised when a positive number is written as `output`.
+
+    The flag is the highest byte of that number.
+    """
+    record = np.zeros((2, outputs))
+    return record, record[0, output : output + 1].view(np.bool_)[7:8]

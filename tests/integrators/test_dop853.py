@@ -201,3 +201,86 @@ def test_a_solution_that_blows_up_is_reported_where_it_does():
     values, _, outcome = systems.run("dop853", -1.0, times, (1e-7, 1e-9), start=3.0 + 1.0j)
     assert outcome.status != DONE
     np.testing.assert_array_equal(np.isfinite(values), times <= outcome.time)
+
+
+def test_a_first_guess_of_the_step_is_a_hundredth_of_the_time_scale():
+    guesses = [((1.0, 0.5), 0.02), ((2e-5, 1.0), 2e-7), ((1e-6, 1.0), 1e-6), ((1.0, 1e-6), 1e-6)]
+    for sizes, expected in guesses:
+        assert dop853.euler_step(*sizes) == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_step_changes_by_the_eighth_root_of_its_error():
+    assert [dop853.step_factor(error) for error in (0.0, 2.0**-8, 2.0**8)] == [6.0, 1.8, 0.45]
+
+
+@pytest.mark.parametrize("estimates", [(np.inf, 1.0), (1.0, np.inf), (np.inf, np.inf)])
+def test_an_estimate_that_overflows_is_an_infinite_error(estimates):
+    assert dop853.step_error(1.0, *estimates) == np.inf
+
+
+def test_a_norm_counts_the_columns_that_are_asked_for_and_nothing_else():
+    v, y = np.full((4, 6), 1e6), np.ones((4, 6))
+    v[:, 2:4] = [[0.3, 0.0], [0.4, 0.0], [0.0, 1.2], [0.0, 0.5]]
+    spare = np.full((4, 6), 1e9)
+    assert dop853.weighted_norm(v, y, y, spare, (0.0, 2.0), (2, 4)) == pytest.approx(0.65)
+    assert dop853.weighted_norm(v[:2], y[:2], y[:2], spare, (0.0, 2.0), (2, 4)) == 0.25
+
+
+def test_interpolating_leaves_ghosts_alone():
+    out = np.full((2, 5), 7.0)
+    dop853.interpolate(0.5, np.ones((2, 5)), np.zeros((7, 2, 5)), out)
+    np.testing.assert_array_equal(out, [[7.0, 1.0, 1.0, 1.0, 7.0]] * 2)
+    c = np.full((7, 2, 5), 7.0)
+    dop853.prepare_interpolant(np.ones((2, 5)), np.ones((2, 5)), 0.1, np.zeros((16, 2, 5)), c)
+    np.testing.assert_array_equal(c[:3], [[[7.0, 0.0, 0.0, 0.0, 7.0]] * 2] * 3)
+
+
+def stopped_after_a_step(end, controls, start):
+    """Return the outcome of a run that is stopped when its first step is taken."""
+    record, stop = systems.stopped_by(1, 3)
+    times = np.array([0.0, 1e-15 * end, end])
+    return systems.run("dop853", 1.0, times, controls, start, record, stop)[2]
+
+
+@pytest.mark.parametrize(
+    ("start", "controls", "end"),
+    [
+        (2.0 + 0.5j, (1e-6, 1e-6), 10.0),
+        (0.1 + 0.5j, (1e-3, 1e-6), 10.0),
+        (1e-9 + 0j, (0.0, 1e-3), 10.0),  # almost at rest: a hundred times the least guess
+        (2.0 + 0.5j, (10.0, 10.0), 100.0),  # slow, but not at rest
+        (2.0 + 0.5j, (10.0, 10.0), 0.25),
+    ],
+)
+def test_the_first_step_is_the_published_one(start, controls, end):
+    f, z = systems.oscillator(1.0), np.array([start])
+    expected = plain.dop853_start(f, z, f(z), *controls, end)
+    outcome = stopped_after_a_step(end, controls, start)
+    assert outcome.rejected == 0
+    assert outcome.time == pytest.approx(min(expected, end), rel=1e-9)
+
+
+def test_data_at_rest_are_not_refused_for_a_first_guess_that_is_too_short():
+    """The guess is 1e-6, and twice the shortest step takes its place where that is longer."""
+    for first in (0.0, -1e5):
+        times = [first, first + 1e5]
+        _, _, outcome = systems.run("dop853", 1.0, times, (1e-6, 1e-6), start=0j)
+        # 2e-5 (6^n - 1) / 5 first passes 1e5 at n = 14
+        assert (outcome.status, outcome.steps, outcome.rejected) == (DONE, 14, 0)
+    for end, expected in ((1e5, 2e-5), (1e4, 2e-6), (9e3, 1e-6)):
+        assert stopped_after_a_step(end, (0.0, 1e-3), 1e-20 + 0j).time == pytest.approx(expected)
+
+
+def test_the_first_step_too_leaves_no_remnant_of_the_order_of_rounding():
+    times = [0.0, 1e-6 * (1.0 + 1e-9)]
+    assert systems.run("dop853", 1.0, times, (1e-6, 1e-6), start=0j)[2].steps == 1
+
+
+def test_a_run_that_begins_before_zero_is_given_up_where_any_other_is():
+    times = np.linspace(0.0, 10.0, 41)
+    here, there = (
+        systems.run("dop853", -1.0, times - first, (1e-7, 1e-9), start=3.0 + 1.0j)[2]
+        for first in (0.0, 10.0)
+    )
+    assert here.status == there.status != DONE
+    assert (there.time + 10.0, there.steps) == pytest.approx((here.time, here.steps), abs=5.0e-2)

@@ -7,7 +7,8 @@ import pytest
 import systems
 from on_chains import data_of, integrate
 from oracle import SOLVERS, random_chain
-from pendula.integrators import DONE, NO_CONTRACTION
+from pendula.integrators import DONE, NO_CONTRACTION, crank_nicolson
+from pendula.integrators.fixed_point import PAST, extrapolate, is_finite, size, update
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 
@@ -174,3 +175,108 @@ def test_an_iteration_that_leaves_the_doubles_is_given_up_at_once(scheme):
 def test_a_run_ends_at_its_last_output(scheme):
     _, _, outcome = systems.run(scheme, (-1.0, 0.2), [0.0, 0.1, 0.4, 0.5], (0.1, 1e-14, 50), 1 + 0j)
     assert (outcome.status, outcome.time) == (DONE, 0.5)
+
+
+def test_a_guess_is_exact_where_increments_are_a_polynomial_of_degree_five():
+    places = np.arange(6.0).reshape(2, 3)
+    past, new = np.full((PAST, 2, 3), np.nan), np.zeros((2, 3))
+
+    def state(t):
+        return (0.1 * t + places) ** 6
+
+    for t in range(15):
+        latest = t % PAST
+        past[latest] = state(t + 1) - state(t)
+        if t >= 5:
+            extrapolate(state(t + 1), past, latest, new)
+            np.testing.assert_allclose(new, state(t + 2), rtol=1e-11)
+
+
+@each_scheme
+@pytest.mark.parametrize("outputs", [1, 8])
+def test_after_six_steps_of_a_smooth_solution_one_iteration_does(scheme, outputs):
+    """The guess then errs by the seventh power of the step, which is below the tolerance."""
+    costs = [
+        systems.run(scheme, (-1.0, 0.0), np.linspace(0.0, 0.01 * n, outputs + 1),
+                    (0.01, 1e-9, 50), 1 + 0j)[2].evaluations
+        for n in (8, 48)
+    ]  # fmt: skip
+    assert costs[1] - costs[0] == 40
+
+
+@each_scheme
+@pytest.mark.parametrize(
+    ("rate", "times", "lengths"),
+    [
+        (-1.0, [0.0, 4.0, 5.0], [1.0] * 5),  # a step of 4 is halved twice
+        (-1.0, [0.0, 1.0, 1.25], [1.0, 0.25]),
+        (-1e6, [0.0, 1e-6, 1.8e-6], [1e-6, 0.8e-6]),
+    ],
+)
+def test_steps_of_other_lengths_begin_anew(scheme, rate, times, lengths):
+    controls = (times[1], 1e-13, 500)
+    _, final, _ = systems.run(scheme, (rate, 0.0), times, controls, 1 + 0j)
+    turns = -rate * np.array(lengths)
+    assert final.real == pytest.approx(np.prod((2 - turns) / (2 + turns)), rel=1e-10)
+
+
+@each_scheme
+def test_small_data_are_iterated_as_far_as_large_ones(scheme):
+    runs = [
+        systems.run(scheme, (-1.0, 0.0), [0.0, 0.1, 0.4], (0.1, 1e-10, 50), scale + 0j)
+        for scale in (1.0, 2.0**-40)
+    ]
+    assert runs[1][1] * 2.0**40 == runs[0][1]
+    assert runs[1][2] == runs[0][2]
+
+
+@each_scheme
+@pytest.mark.parametrize(("most", "halvings", "iterations"), [(6, 0, 6), (5, 1, 5 + 4 + 4)])
+def test_as_many_iterations_are_made_as_are_allowed(scheme, most, halvings, iterations):
+    """For x' = -x changes shrink by h / 2: from 1 / 2 below 1e-3 in six, with halves in four."""
+    controls = (0.5, 1e-3, most)
+    _, _, outcome = systems.run(scheme, (-1.0, 0.0), [0.0, 0.5], controls, 1 + 0j)
+    begun = BEGINNING[scheme] * (1 + 2 * halvings)
+    assert outcome == (DONE, 0.5, 1, halvings, iterations + begun)
+
+
+@each_scheme
+def test_at_rest_each_step_takes_one_iteration(scheme):
+    _, final, outcome = systems.run(scheme, (-1.0, 0.0), [0.0, 1.0], (0.5, 1e-3, 5), 0j)
+    assert (final, outcome) == (0j, (DONE, 1.0, 2, 0, 2 + BEGINNING[scheme]))
+
+
+@each_scheme
+@pytest.mark.parametrize("times", [[0.0, 2.0], [0.0, 0.5, 2.0]])
+def test_the_time_of_a_fault_is_that_of_the_steps_before_it(scheme, times):
+    _, _, outcome = systems.run(scheme, (0.0, 1.0), times, (0.01, 1e-12, 50), 1 + 0j)
+    assert outcome.status != DONE and outcome.steps > 60
+    assert outcome.time == pytest.approx(0.01 * outcome.steps, rel=1e-12)
+
+
+@pytest.mark.parametrize("place", [(0, 1), (0, 3), (1, 1), (1, 3)])
+def test_the_size_of_a_state_is_that_of_its_largest_part_but_for_ghosts(place):
+    y = np.full((2, 5), 0.5)
+    y[:, [0, -1]] = 9.0
+    y[place] = -2.0
+    assert size(y) == 2.0
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", [(0, 0), (1, 2), (1, 4)])
+def test_a_state_with_one_part_that_is_no_number_is_not_finite(place, value):
+    y = np.full((2, 5), 1e300)
+    assert is_finite(y)
+    y[place] = value
+    assert not is_finite(y)
+
+
+def test_sums_leave_ghosts_alone():
+    old, slope_, new = np.full((3, 2, 5), 2.0)
+    new[:, [0, -1]] = 7.0
+    update(old, 0.5, slope_.copy(), new)
+    np.testing.assert_array_equal(new, [[7.0, 3.0, 3.0, 3.0, 7.0]] * 2)
+    crank_nicolson.advance(old, 0.25, slope_, new)
+    np.testing.assert_array_equal(new, [[7.0, 2.5, 2.5, 2.5, 7.0]] * 2)
+    crank_nicolson.reflect(old, new)
+    np.testing.assert_array_equal(new, [[7.0, 1.5, 1.5, 1.5, 7.0]] * 2)

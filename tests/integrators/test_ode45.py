@@ -6,7 +6,7 @@ import pytest
 import systems
 from on_chains import data_of, integrate, numbers_of
 from oracle import CASES, SOLVERS, random_chain, slope
-from pendula.integrators import DONE, ode45
+from pendula.integrators import DONE, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, ode45
 from pendula.simulation.lattice import find_reduction
 from trees import defect
 
@@ -212,3 +212,53 @@ def test_a_run_that_begins_before_zero_is_given_up_where_any_other_is():
     )
     assert here.status == there.status != DONE
     assert (there.time + 10.0, there.steps) == pytest.approx((here.time, here.steps), abs=5.0e-2)
+
+
+@pytest.mark.parametrize(
+    ("t", "expected"), [(0.0, 2.0**-1070), (1.0, 2.0**-48), (-2.0, 2.0**-47), (1e-300, 2.0**-1045)]
+)
+def test_the_shortest_step_is_sixteen_spacings(t, expected):
+    assert ode45.spacing(t) == expected
+
+
+@pytest.mark.parametrize("place", [(0, 1), (1, 3), (2, 1), (3, 3)])
+def test_the_error_of_any_part_of_any_site_counts_but_not_those_of_ghosts(place):
+    k, y = np.zeros((7, 4, 5)), np.ones((4, 5))
+    k[:, :, [0, -1]] = 1e3 * np.arange(7.0)[:, None, None]
+    k[6][place] = 2.0
+    found = ode45.relative_error(y, y, k, 1e-2, np.zeros((4, 5)))
+    assert found == pytest.approx(2.0 * abs(ode45.E7) / np.sqrt(2.0), rel=1e-13)
+
+
+def test_interpolating_leaves_ghosts_alone():
+    out = np.full((2, 5), 7.0)
+    ode45.interpolate(0.5, np.ones((2, 5)), 0.1, np.zeros((7, 2, 5)), out)
+    np.testing.assert_array_equal(out, [[7.0, 1.0, 1.0, 1.0, 7.0]] * 2)
+
+
+@pytest.mark.parametrize(("end", "status"), [(9.9, INTERRUPTED), (10.1, STEP_TOO_SMALL)])
+def test_a_step_of_a_ten_milliardth_of_the_run_is_refused(end, status):
+    """The first step reaches to the first output; there the run is stopped."""
+    record, stop = systems.stopped_by(1, 3)
+    times = [0.0, 1e-9, end]
+    _, _, outcome = systems.run("ode45", 1.0, times, (1e-6, 1e-6), record=record, stop=stop)
+    taken = int(status == INTERRUPTED)
+    assert outcome == (status, taken * 1e-9, taken, 0, 1 + 6 * taken)
+
+
+@pytest.mark.parametrize(("mu", "status"), [(1e18, STEP_TOO_SMALL), (1e200, NOT_FINITE)])
+def test_a_step_is_never_shorter_than_what_the_time_resolves(mu, status):
+    """The run is so short that a ten-milliardth of it is less than sixteen spacings."""
+    _, _, outcome = systems.run("ode45", mu, [1.0, 1.0 + 1e-6], (1e-6, 1e-6))
+    assert outcome == (status, 1.0, 0, 0, 7)
+
+
+@pytest.mark.parametrize("first", [-8.0, 8.0])
+def test_the_time_at_which_a_run_begins_does_not_matter(first):
+    times = np.array([0.0, 2.0**-20, 8.0])
+    _, final, outcome = systems.run("ode45", 1.0, times, (1e-6, 1e-6))
+    _, other, there = systems.run("ode45", 1.0, times + first, (1e-6, 1e-6))
+    assert there[2:] == outcome[2:] and there.time == first + 8.0
+    assert other == pytest.approx(final, rel=1e-9)
+    _, _, rest = systems.run("ode45", 1.0, [first, first + 10.0], (1e-6, 1e-6), start=0j)
+    assert rest.steps == 10

@@ -1,12 +1,15 @@
 """splitting: its order, its symmetry in time, and flows that are exact."""
 
 import re
+from math import factorial
 
 import numpy as np
 import pytest
+import systems
 from on_chains import WHOLE, data_of, integrate, numbers_of
 from oracle import laplacian, random_chain, slope
-from pendula.integrators import DONE, splitting
+from pendula.compiled import uncached
+from pendula.integrators import DONE, INTERRUPTED, splitting
 from pendula.models.amplitudes import Chain, linear_radius, linear_rates, nonlinear_flow
 from pendula.simulation.lattice import choose_ends, pack, unpack
 from pendula.simulation.simulate import IntegrationError
@@ -146,3 +149,68 @@ def test_spans_that_round_above_a_whole_number_of_steps_take_no_further_one():
     """In doubles 1.1 / 0.1 is above 11, and 0.3 / 0.1 below 3."""
     z = 0.1 * random_chain(1)
     assert [run(z, 0.1, end=end).outcome.steps for end in (0.3, 1.1)] == [3, 11]
+
+
+@pytest.mark.parametrize("x", [1e-3, 0.1, 1.0, 10.0])
+def test_terms_are_counted_up_to_the_first_that_does_not_matter(x):
+    n = splitting.count_terms(x)
+    assert x**n / factorial(n) <= 1e-17 < x ** (n - 1) / factorial(n - 1)
+
+
+@uncached
+def spin(calls, y, dy):
+    calls[0] += 1
+    dy[0, 1] = y[1, 1]
+    dy[1, 1] = -y[0, 1]
+
+
+@uncached
+def unit_radius(calls):
+    return 1.0
+
+
+@uncached
+def stand_still(y, h):
+    return True
+
+
+solve_spin = splitting.build(spin, unit_radius, stand_still, systems.keep)
+
+
+@uncached
+def run_spin(calls, y, times, controls, work, record, stop):
+    return solve_spin(calls, y, times, controls, work, record, stop)
+
+
+def spun(times, step, calls, stop):
+    y, work, record = np.zeros((2, 3)), np.zeros((2, 2, 3)), np.zeros((2, len(times)))
+    y[0, 1] = 1.0
+    outcome = run_spin(calls, y, np.array(times), (step,), work, record, stop)
+    return complex(y[0, 1], y[1, 1]), outcome
+
+
+def test_the_evaluations_are_those_that_were_made():
+    """Three steps and a single one: the last linear flow of a step joins the first of the next."""
+    calls, first, inner = np.zeros(1, int), *np.split(np.abs(splitting.LINEAR_PARTS), [1])
+    final, outcome = spun([0.0, 0.3, 0.4], 0.1, calls, np.zeros(1, np.bool_))
+    flows = [*inner] * 4 + [*first] * 4 + [2.0 * first[0]] * 2
+    expected = sum(splitting.count_terms(0.1 * part) for part in flows)
+    assert outcome == (DONE, 0.4, 4, 0, expected)
+    assert calls[0] == expected
+    assert final == pytest.approx(np.exp(-0.4j), rel=1e-14)
+
+
+def test_a_run_that_is_stopped_says_how_far_it_came():
+    calls = np.zeros(1, int)
+    stop = calls.view(np.bool_)[1:2]  # raised by the call number 256
+    _, outcome = spun([0.0, 0.05, 10.0], 0.05, calls, stop)
+    assert outcome.status == INTERRUPTED and outcome.rejected == 0
+    assert outcome.steps > 1
+    assert outcome.time == pytest.approx(0.05 * outcome.steps, rel=1e-12)
+
+
+def test_scaled_slopes_are_added_at_sites_alone():
+    slope_, term, y = np.full((3, 2, 4), 2.0)
+    splitting.add_scaled(slope_, 0.25, term, y)
+    np.testing.assert_array_equal(term, [[2.0, 0.5, 0.5, 2.0]] * 2)
+    np.testing.assert_array_equal(y, [[2.0, 2.5, 2.5, 2.0]] * 2)

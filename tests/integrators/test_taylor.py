@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from on_chains import data_of, integrate, numbers_of
 from oracle import BOUNDARIES, CASES, power_series, random_chain
 from pendula.compiled import uncached
-from pendula.integrators import DONE, INTERRUPTED, taylor
+from pendula.integrators import DONE, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, taylor
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.simd import LANES
 
@@ -148,3 +148,61 @@ def test_a_run_that_is_stopped_at_once_has_taken_no_step():
     stop = np.ones(1, np.bool_)
     _, _, outcome = systems.run("taylor", 1.0, [0.0, 1.0], (1e-6, 1e-9), stop=stop)
     assert outcome == (INTERRUPTED, 0.0, 0, 0, 0)
+
+
+def test_work_arrays_hold_the_smallest_component_and_no_more():
+    """A single site of one component has two rows of three numbers in each array."""
+    assert 6 * (WORK - 1) < BLOCK_SIZE + taylor.GHOSTS_SIZE <= 6 * WORK
+    assert taylor.RIGHT + taylor.ORDER_STRIDE == taylor.GHOSTS_SIZE
+
+
+@pytest.mark.parametrize(
+    ("last_but_one", "last"), [(1.0, 1e-3), (1e-3, 1.0), (np.inf, 1.0), (1.0, np.inf)]
+)
+def test_a_step_is_allowed_by_the_last_two_orders(last_but_one, last):
+    """The tolerance is 0.35: 0.2, and 0.3 of the modulus 0.5."""
+    series = describe(np.zeros((2, 3)), np.zeros((WORK, 2, 3)))
+    c = series.memory[:BLOCK_SIZE].reshape(ORDER + 1, 3, LANES)
+    c[0, :2, 0], c[ORDER - 1, 0, 0], c[ORDER, 1, 0] = (0.3, 0.4), last_but_one, -last
+    step = taylor.allowed_step(series, 0.3, 0.2)
+    expected = min((0.35 / last) ** (1 / ORDER), (0.35 / last_but_one) ** (1 / (ORDER - 1)))
+    expected = expected if last + last_but_one < np.inf else np.nan
+    assert step == pytest.approx(expected, rel=1e-3, nan_ok=True)
+
+
+def stopped_after_a_step(end, first=0.0):
+    """Return the outcome of a run that is stopped when its first step is taken."""
+    record, stop = systems.stopped_by(1, 3)
+    times = np.array([first, first + 1e-9, end])
+    return systems.run("taylor", 1.0, times, (1e-6, 1e-6), record=record, stop=stop)[2]
+
+
+def test_a_step_of_a_ten_milliardth_of_the_run_is_refused():
+    h = stopped_after_a_step(10.0).time
+    assert 0.01 < h < 1.0
+    assert stopped_after_a_step(0.99e10 * h) == (INTERRUPTED, h, 1, 0, ORDER)
+    assert stopped_after_a_step(1.01e10 * h) == (STEP_TOO_SMALL, 0.0, 1, 0, ORDER)
+
+
+def test_no_remnant_of_the_order_of_rounding_is_left():
+    """A step may stretch by 1e-9 to reach the end."""
+    h = stopped_after_a_step(10.0).time
+    ends = (h * (1 - 1e-3), h * (1 + 5e-10), h * (1.0 + 1e-9), h * (1 + 5e-9))
+    steps = [systems.run("taylor", 1.0, [0.0, end], (1e-6, 1e-6))[2].steps for end in ends]
+    assert steps == [1, 1, 1, 2]
+
+
+def test_a_run_that_begins_before_zero_is_given_up_where_any_other_is():
+    times = np.linspace(0.0, 10.0, 41)
+    here, there = (
+        systems.run("taylor", -1.0, times - first, (1e-7, 1e-9), start=3.0 + 1.0j)[2]
+        for first in (0.0, 10.0)
+    )
+    assert here.status == there.status == STEP_TOO_SMALL
+    assert (there.time + 10.0, there.steps) == pytest.approx((here.time, here.steps), abs=1e-6)
+    assert here.evaluations == ORDER * here.steps and here.rejected == 0
+
+
+def test_a_series_beyond_the_doubles_is_told_from_a_step_too_short():
+    _, _, outcome = systems.run("taylor", 1.0, [0.0, 1.0], (1e-6, 1e-6), start=1e200 + 1e200j)
+    assert outcome == (NOT_FINITE, 0.0, 1, 0, ORDER)
