@@ -130,6 +130,28 @@ def test_a_site_that_is_written_in_two_ways_stands_twice(word, tmp_path):
     assert "stands twice" in faults(text, tmp_path)[0]
 
 
+@pytest.mark.parametrize(
+    ("controls", "words"),
+    [
+        ("rtol: 0", "solvers.ode45.rtol: is 0; it must be greater than 0"),
+        ("rtlo: 0.1", "solvers.ode45.rtlo: is not a known key; did you mean 'rtol'?"),
+        ("name: 5", "solvers.ode45.name: is 5; it must be one of 'ode45'"),
+    ],
+)
+def test_a_fault_of_shared_controls_is_told_once_and_not_of_each_case(controls, words, tmp_path):
+    assert faults(f"solvers: {{ode45: {{{controls}}}}}", tmp_path) == [words]
+
+
+def test_a_case_keeps_what_is_sound_of_shared_controls_and_tells_its_own_faults(tmp_path):
+    shared = "solvers: {taylor: {rtol: 0, atol: 1e-40}}"  # 1e-14 would not do for such data
+    mine = "mine: {omega: 1, initial: {0: [1e-25, 0]}}"
+    other = "other: {omega: 1, solver: {name: taylor, rtol: -1}}"
+    assert faults(f"{shared}\ncases: {{{mine}, {other}}}", tmp_path) == [
+        "cases.other.solver.rtol: is -1; it must be greater than 0",
+        "solvers.taylor.rtol: is 0; it must be greater than 0",
+    ]
+
+
 def test_initial_data_replace_those_of_the_paper_and_other_keys_are_added():
     above = {"cases": {"fig2_small": {"initial": {3: [1, 0]}, "end_time": 4}}}
     case = load(merge(CONFIG, above)).cases["fig2_small"]

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationError
 
 from .values import Model, Positive, Whole
 
@@ -83,4 +83,20 @@ def with_controls(item: Any, shared: Any) -> Any:
         return item
     name = given.get("name")
     controls = shared.get(name) if isinstance(name, str) else None
-    return {**item, "solver": {**controls, **given} if isinstance(controls, dict) else given}
+    controls = _sound(name, controls) if isinstance(controls, dict) else {}
+    return {**item, "solver": {**controls, **given}}
+
+
+def _sound(name: str, controls: dict) -> dict:
+    """Return the shared controls without their faults, which are told where they stand alone.
+
+    Each case that uses the solver would repeat them.
+    """
+    if name not in Solvers.model_fields:
+        return controls
+    try:
+        Solvers.model_validate({name: controls})
+    except ValidationError as error:
+        faulty = {fault["loc"][1] for fault in error.errors() if len(fault["loc"]) > 1}
+        return {key: value for key, value in controls.items() if key not in faulty}
+    return controls
