@@ -22,7 +22,9 @@ STOREYS = (
     ("models",),
     ("integrators",),
     ("measures",),
-    ("simd", "compiled", "kernel_cache", "numerics", "sources", "configuration", "problem"),
+    ("configuration",),
+    ("feasibility",),
+    ("simd", "compiled", "kernel_cache", "numerics", "sources", "problem"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
 

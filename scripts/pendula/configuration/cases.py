@@ -9,10 +9,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from pendula.feasibility import find_fault, rate
 from pendula.problem import Constants
 
 from . import cost
-from .feasibility import find_fault, rate
 from .solvers import Solver, Taylor
 from .values import Complex, Model, Number, Positive, Whole, as_whole, fault, faults, shown
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from math import inf
 from typing import NamedTuple
 
-from .feasibility import Obstacle
+from pendula.feasibility import Obstacle
 
 HOUR, GIGABYTE = 3600.0, 1e9
 WORTH_SAYING = 180.0

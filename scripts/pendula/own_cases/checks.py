@@ -12,10 +12,10 @@ from dataclasses import astuple
 import numpy as np
 import xarray as xr
 
-from pendula.configuration.feasibility import SMALLEST_ERROR
 from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
+from pendula.feasibility import SMALLEST_ERROR
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate

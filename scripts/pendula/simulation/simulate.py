@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from pendula.configuration.feasibility import find_obstacle
+from pendula.feasibility import find_obstacle
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.measures.difference import norm_difference
 from pendula.models.amplitudes import Chain

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from oracle import SOLVERS, random_chain
-from pendula.configuration.feasibility import (
+from pendula.feasibility import (
     SERIES_ORDER,
     SMALLEST_DATA,
     SMALLEST_ERROR,
