@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from pendula.datasets import complete_or_absent
-from pendula.figure_diff import comparison_page, dump
+from pendula.figure_diff import comparison_page
 from pendula.figure_diff.baseline import compare
 
 
@@ -27,7 +27,7 @@ def compare_results(
     found = compare(names, Path(made), folder, configuration, any_bits)
     with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
         new_html.write_text(comparison_page.render(found, Path(made), folder), "utf-8")
-        dump(found, new_verdict)
+        comparison_page.dump(found, new_verdict)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,8 @@ import pytest
 from figure_diff.compare_results import compare_results
 from made_up_results import CHAOTIC_PICTURE, NAMES, PICTURE, REGULAR, change_a, regular
 from pendula.datasets.netcdf import save
-from pendula.figure_diff import load
 from pendula.figure_diff.baseline import compare
+from pendula.figure_diff.comparison_page import load
 
 EXTRA = "figures/fig9.nc"
 

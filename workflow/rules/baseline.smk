@@ -44,7 +44,7 @@ def verdict_told_at_the_end(wildcards):
 
 def tell_faults():
     """Say in one line each what is not as in the baseline, and fail if any of it is a fault."""
-    from pendula.figure_diff import load  # here, since few runs compare
+    from pendula.figure_diff.comparison_page import load  # here, since few runs compare
 
     verdict = load("results/figure_diff/verdict.json")
     print(*verdict.lines, sep="\n", end="; see results/figure_diff/index.html\n", file=sys.stderr)

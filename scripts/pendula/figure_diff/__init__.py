@@ -1,14 +1,10 @@
 """Compares what a run made with the accepted baseline: data, images, and one page about both."""
 
-import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import StrEnum
-from pathlib import Path
 from typing import NamedTuple
-
-from pendula.datasets.netcdf import readable
 
 IDENTICAL, NEARLY = "identical", "nearly the same"
 DIFFERENT, DAMAGED, MISSING, EXTRA = "different", "damaged", "missing", "extra"
@@ -88,17 +84,3 @@ class Verdict(NamedTuple):
         if agree:
             tally += f". {agree} of the different files {IF_MEANT}"
         return [*told, self.judged, tally]
-
-
-def dump(verdict: Verdict, path: str | Path) -> None:
-    """Write the verdict to `path` as JSON."""
-    findings = [asdict(finding) for finding in verdict.findings]
-    text = json.dumps({"judged": verdict.judged, "findings": findings}, indent=1)
-    Path(path).write_text(text + "\n", encoding="utf-8")
-
-
-def load(path: str | Path) -> Verdict:
-    """Return the verdict that `dump` wrote to `path`."""
-    with readable(path):
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-        return Verdict(content["judged"], [Finding(**entry) for entry in content["findings"]])

@@ -1,7 +1,9 @@
-"""The page of the comparison: it shows reference, new image and difference side by side."""
+"""What a comparison writes: its verdict, and a page of reference, new image and difference."""
 
+import json
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import asdict
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -9,12 +11,27 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from pendula.datasets.netcdf import readable
 from pendula.report import page
 from pendula.report.page import address_of
 
 from . import IDENTICAL, STATUSES, Finding, Verdict
 from .compare_images import DamagedImageError, read
 from .tolerances import NEEDS_A_REASON, Allowance, allowances, read_tolerances
+
+
+def dump(verdict: Verdict, path: str | Path) -> None:
+    """Write the verdict to `path` as JSON."""
+    findings = [asdict(finding) for finding in verdict.findings]
+    text = json.dumps({"judged": verdict.judged, "findings": findings}, indent=1)
+    Path(path).write_text(text + "\n", encoding="utf-8")
+
+
+def load(path: str | Path) -> Verdict:
+    """Return the verdict that `dump` wrote to `path`."""
+    with readable(path):
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        return Verdict(content["judged"], [Finding(**entry) for entry in content["findings"]])
 
 
 def render(verdict: Verdict, made: Path, folder: Path) -> str:
