@@ -17,8 +17,8 @@ def pack_results(
 
     `records` name the code that made the results, `configuration` is what they were made with.
     """
+    code = contents.code_files(PROJECT)  # first, for it names what is missing
     about = metadata.read_about(PROJECT)
-    code = contents.code_files(PROJECT)
     contents.check_records(map(Path, records), code)
     members = {name: PROJECT / name for name in code}
     members |= {name: Path(name) for name in (*results, *records)}
