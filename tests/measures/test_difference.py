@@ -117,6 +117,8 @@ def test_times_are_the_same_up_to_a_thousand_millionth():
 def test_a_divergence_time_says_at_which_part_of_full_scale():
     found = divergence_time(difference(run(changes={("l2", 0, 4): 2.021}), run()))
     assert found == 2.0 and found.attrs["units"] == "1"
-    assert found.attrs["long_name"].endswith("differ by 1 % of full scale")
+    assert found.attrs["long_name"].startswith(
+        "first tau at which two runs differ by 1 % of full scale,"
+    )
     below = difference(run(changes={("l2", 0, 4): 2.019}), run())
     assert divergence_time(below) == np.inf

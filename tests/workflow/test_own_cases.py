@@ -137,7 +137,7 @@ def test_a_sweep_of_a_paper_case_has_its_page(tmp_path):
     sweep = {"case": "fig3_small", "half_widths": [0, 2], "windows": [[1, 2]]}
     result = snakemake_with({"sweeps": {"mine": sweep}}, ROOT, tmp_path, "own")
     assert result.returncode == 0, result.stderr
-    assert "The case fig3_small of the paper" in (tmp_path / REPORT).read_text()
+    assert "The case fig3_small, as it is configured," in (tmp_path / REPORT).read_text()
 
 
 @pytest.mark.parametrize(
