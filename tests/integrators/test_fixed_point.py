@@ -8,7 +8,7 @@ import systems
 from on_chains import data_of, integrate
 from oracle import SOLVERS, random_chain
 from pendula.integrators import DONE, NO_CONTRACTION, crank_nicolson
-from pendula.integrators.fixed_point import PAST, extrapolate, is_finite, size, update
+from pendula.integrators.fixed_point import PAST, accept, extrapolate, is_finite, size, update
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError
 
@@ -209,6 +209,7 @@ def test_after_six_steps_of_a_smooth_solution_one_iteration_does(scheme, outputs
     ("rate", "times", "lengths"),
     [
         (-1.0, [0.0, 4.0, 5.0], [1.0] * 5),  # a step of 4 is halved twice
+        (-1.0, [0.0, 3.0, 4.0], [1.5, 1.5, 1.0]),
         (-1.0, [0.0, 1.0, 1.25], [1.0, 0.25]),
         (-1e6, [0.0, 1e-6, 1.8e-6], [1e-6, 0.8e-6]),
     ],
@@ -280,3 +281,11 @@ def test_sums_leave_ghosts_alone():
     np.testing.assert_array_equal(new, [[7.0, 2.5, 2.5, 2.5, 7.0]] * 2)
     crank_nicolson.reflect(old, new)
     np.testing.assert_array_equal(new, [[7.0, 1.5, 1.5, 1.5, 7.0]] * 2)
+
+
+def test_a_step_that_is_accepted_leaves_its_increment():
+    old, new, increment = np.arange(30.0).reshape(3, 2, 5) ** 2
+    expected, end = new - old, new.copy()
+    accept(old, new, increment)
+    np.testing.assert_array_equal(increment, expected)
+    np.testing.assert_array_equal(old, end)
