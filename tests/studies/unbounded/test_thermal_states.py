@@ -1,6 +1,7 @@
 """The thermal states by the transfer operator, against exact cases and against sampled rings."""
 
 import hashlib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from pendula.studies.unbounded.thermal import (
     thermal_variables,
     widest,
 )
+from pendula.studies.unbounded.transfer import reach_of
 from problems import constants_of
 
 CELLS = np.linspace(0.0, 12.0, 81)
@@ -78,7 +80,8 @@ def test_a_pair_alone_is_a_plain_integral():
     assert np.average(energy, weights=weight) == pytest.approx(2.0, rel=1e-6)
     power = np.average(np.broadcast_to(first + second, energy.shape), weights=weight)
     assert state.power == pytest.approx(power, abs=max(3.0 * state.power_error, 1e-6))
-    assert np.abs(products_of(state, 8)[:, 1:]).max() < 1e-9  # the sites know nothing of each other
+    products = products_of(state, 8)  # the sites know nothing of each other
+    assert np.abs(products[:, 1]).max() < 1e-9 and not products[:, 2:].any()
 
 
 def test_a_narrow_density_has_no_images_far_from_it():
@@ -203,7 +206,8 @@ def test_what_is_published_is_what_the_states_are_like(published):
     assert np.min(found["density"]) >= 0.0
     for i, state in enumerate(both[0]):
         products = products_of(state, 64)
-        np.testing.assert_allclose(found["density"][i], density_of(state, CELLS), atol=1e-8)
+        np.testing.assert_allclose(found["density"][i], density_of(state, CELLS, 28), atol=1e-8)
+        np.testing.assert_array_equal(density_of(state, CELLS), density_of(state, CELLS, 28))
         np.testing.assert_allclose(found["spectrum"][i], spectrum_of(products), rtol=1e-5)
         assert found["correlation_length"][i] == pytest.approx(
             correlation_length(products), rel=1e-3
@@ -228,3 +232,15 @@ def test_the_grid_reaches_as_far_as_the_deepest_wave_has_weight(numbers):
 def test_no_zero_of_a_density_has_a_sign(published):
     density = np.asarray(published[2]["density"].values)
     assert (density == 0.0).any() and not np.signbit(density).any()
+
+
+def test_a_grid_reaches_one_node_beyond_the_last_that_counts_and_never_past_its_end():
+    vector = np.zeros((2, 5, 5, 5, 5))
+    for last in ([0, 1, 2, 4], [3, 3, 3, 3]):
+        vector[:, *last] = 1.0
+    state = SimpleNamespace(nodes=np.arange(20.0).reshape(4, 5))
+    assert reach_of(state, vector).tolist() == [4.0, 9.0, 14.0, 19.0]
+    vector[:, 3, 3, 3, 3] = 3e-5  # its square is below a part of 1e-9
+    assert reach_of(state, vector).tolist() == [1.0, 7.0, 13.0, 19.0]
+    vector[:, 3, 3, 3, 3] = 3.2e-5
+    assert reach_of(state, vector).tolist() == [4.0, 9.0, 14.0, 19.0]
