@@ -68,6 +68,7 @@ def test_the_first_time_above_a_level_counts_and_never_is_not_unknown():
     assert divergence_time(found, 0.005) == 2.0
     assert divergence_time(found, 0.2) == 4.0
     assert divergence_time(found, 0.5) == np.inf
+    assert not divergence_time(found).coords
     assert np.isnan(divergence_time(found * np.nan, 0.5))
     values = np.array([[0.0, 1.0, 2.0], [0.0, np.nan, 0.0], [np.nan] * 3])
     np.testing.assert_array_equal(first_above([5, 6, 7], values, 1.0), [7.0, np.inf, np.nan])

@@ -124,3 +124,15 @@ def test_a_constant_is_the_weighted_mean():
     chi2 = np.sum(((means.values - height) / means.errors) ** 2)
     assert (found.chi2, found.criterion) == pytest.approx((chi2, chi2 + 2.0))
     assert found.at(1e5) == pytest.approx(height) and tuple(found.slope) == (0.0, 0.0, 0.0)
+
+
+def test_an_output_at_the_edge_of_two_spans_belongs_to_the_later_one():
+    tau = np.arange(1.0, 257.0)  # the edges are 1, 2, 4 ... 256
+    for span in range(SPANS):
+        curve = np.where(tau == 2.0**span, [[1.0], [2.0]], 0.0)
+        assert np.flatnonzero(span_means(tau, curve, 1.0).values).tolist() == [span]
+
+
+def test_a_fourth_root_is_taken_back_from_zero_on():
+    law = GROWING["fourth_root_of_log_tau"]
+    assert law.unbend(np.array([-1.0, 0.0, 1 / 16, 81.0])).tolist() == [0.0, 0.0, 0.5, 3.0]

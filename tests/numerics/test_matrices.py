@@ -32,9 +32,21 @@ def test_the_factor_is_triangular_and_gives_the_matrix_back():
         np.array([[2.0]]),
         np.array([[1.0, 1e-200], [1e-200, 3.0]]),
         np.diag([1e-8, 1.0, 1e8]) + 1e-3,
+        np.array([[2.0, 1.0], [1.0, 2.0]]),
+        np.array([[1.0, 0.0, 2.0], [0.0, 5.0, 3.0], [2.0, 3.0, 9.0]]),
         np.diag(np.full(9, 2.0)) - np.diag(np.ones(8), 1) - np.diag(np.ones(8), -1),
     ],
-    ids=["random", "one", "zero", "number", "tiny_entry", "scales", "laplacian"],
+    ids=[
+        "random",
+        "one",
+        "zero",
+        "number",
+        "tiny_entry",
+        "scales",
+        "entry_one",
+        "entry_zero",
+        "laplacian",
+    ],
 )
 def test_eigenvalues_of_symmetric_matrices(matrices):
     found, expected = symmetric_eigenvalues(matrices), np.linalg.eigvalsh(matrices)
@@ -51,3 +63,7 @@ def test_the_bound_of_growth_is_zero_for_a_turn_and_holds_for_any_matrix():
     assert growth_bound(turn) == 0.0
     for matrix in SQUARE:
         assert np.linalg.eigvals(matrix).real.max() <= growth_bound(matrix)
+
+
+def test_the_bound_of_growth_is_the_largest_sum_of_a_row_of_the_symmetric_part():
+    assert growth_bound(np.array([[1.0, 2.0], [0.0, -3.0]])) == 4.0

@@ -76,6 +76,8 @@ def test_data_must_be_even():
         begin(on_sites({0: (1.0, 0.0), 1: (1.0, 0.0)}), None)
     even = on_sites({-1: (1.0, 0.0), 1: (1.0, 0.0)})
     assert begin(even, None).shape == (4, BLOCK + 4)
+    wide = on_sites({-5: (1.0, 0.0), 5: (1.0, 0.0)})
+    assert begin(wide, None).shape == (4, BLOCK + 8)
 
 
 def test_one_component_is_enough_where_a_equals_b():
