@@ -66,7 +66,7 @@ def as_whole(value: Any) -> Any:
     """
     if isinstance(value, str) and NUMBER.fullmatch(value.strip(" ")):
         number = float(value)
-        if number.is_integer() and abs(number) < 10.0**MOST_DIGITS:
+        if number.is_integer() and digits(int(number)) <= MOST_DIGITS:
             return int(number)
     return value
 
