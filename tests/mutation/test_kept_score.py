@@ -36,6 +36,10 @@ def test_the_score_follows_from_its_counts(kept):
     assert (kept["score"], kept["low"], kept["high"]) == tuple(limits)
 
 
+def test_the_tests_notice_more_than_nineteen_of_twenty_mutants(kept):
+    assert kept["score"] > 0.95 and not kept["plain"]
+
+
 def test_decisive_modules_and_their_tests_exist(decisive):
     for module, tests in decisive.items():
         assert (ROOT / "scripts/pendula" / module).exists(), module
