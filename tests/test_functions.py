@@ -1,9 +1,10 @@
 """The library calls only functions whose bits are the same on every processor.
 
-Processors round + - * / and square roots alike. All else is made of these in `numerics`, and this
-test reads the source for what is not: functions of NumPy, SciPy and C under any name, BLAS and
-powers. It cannot see types, so it takes `x**2` for the square of an array, which is a product, and
-knows a complex number by its name; what it misses, whole runs find (`.ci/elsewhere`).
+Processors round + - * / and square roots alike, and `numerics` makes all other functions of these.
+This test reads the source and refuses powers, BLAS, and functions of NumPy, SciPy and C, whatever
+name they were imported by. It cannot see types. So it takes `x**2` for the square of an array,
+which is a product, and it knows a complex number by its name. Whole runs on played machines find
+what it misses (`.ci/elsewhere`).
 """
 
 import ast

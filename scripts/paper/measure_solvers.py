@@ -19,7 +19,7 @@ def measure_solvers(
     """Write the dataset; `trajectories` run over cases, then over solvers.
 
     `first` and `second` are the sweeps by the one solver of the paper and by the other. `others`
-    are the cases that the configuration has changed, of which the paper states nothing.
+    are the cases that the configuration has changed: the paper states nothing about them.
     """
     runs = dict(zip(product(cases, solvers), map(read, trajectories), strict=True))
     pairs = zip(map(read, first), map(read, second), strict=True)

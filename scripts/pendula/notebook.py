@@ -80,7 +80,8 @@ def _affordable(case: Case, hours: float | None) -> None:
         limits = Limits() if hours is None else Limits(hours=hours)
     except ValidationError as error:
         raise in_words(error, "the limit") from None
-    for problem in (case.problem, case.shown_problem):  # snapshots are chosen for what can be run
+    # The second problem chooses the times of its snapshots, which needs a run that is not too long.
+    for problem in (case.problem, case.shown_problem):
         found = cost.find_excess(problem(), limits.model_dump())
         if found:
             text = found[1].replace("limits.hours", "hours").replace("limits.", "")

@@ -4,22 +4,15 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.datasets.netcdf import read, write
-from pendula.problem import Constants, Problem, on_sites
 from pendula.sources import describe_machine
+from problems import problem_of
 from scipy.integrate._ivp import dop853_coefficients as published
 
 from benchmarks import cost, figures, machine
 from benchmarks.tables import tabulate_cost
 
-PROBLEM = Problem(
-    constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
-    half_width=4,
-    boundary="dirichlet",
-    initial=on_sites({0: (1.0, 0.1)}),
-    end_time=50.0,
-    output_step=0.025,
-    solver={"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
-)
+TIGHT = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
+PROBLEM = problem_of("fig3_small", half_width=4, end_time=50.0, solver=TIGHT)
 
 
 @pytest.fixture(scope="module")

@@ -4,24 +4,18 @@ import numpy as np
 import pytest
 from pendula.datasets.netcdf import read, write
 from pendula.drawing import style
-from pendula.problem import Constants, Problem, on_sites
 from pendula.simulation.simulate import simulate
+from problems import problem_of
 
 from benchmarks import contestants, figures, points, work_precision
 from benchmarks.contestants import OURS
 from benchmarks.problems import OUTPUT_STEP, Reference, until
 from benchmarks.tables import tabulate_work_precision
 
-PROBLEM = Problem(
-    constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
-    half_width=4,
-    boundary="dirichlet",
-    initial=on_sites({0: (1.0, 0.1)}),
-    end_time=50.0,
-    output_step=OUTPUT_STEP,
-    solver={"name": "dop853", "rtol": 1e-14, "atol": 1e-14},
-    snapshot_every=4,
-)
+TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
+PROBLEM = problem_of(
+    "fig3_small", half_width=4, end_time=50.0, output_step=OUTPUT_STEP, solver=TIGHT
+).changed(snapshot_every=4)
 
 
 def counted(action):

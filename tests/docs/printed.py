@@ -1,8 +1,9 @@
 """The blocks of README and docs/ in the order in which a reader meets them, and how they are run.
 
-A block without a word after its fence holds commands. `text` is what the commands before it print,
-with "..." for what differs from run to run. `yaml` is a file, whose first line names it. `pycon` is
-a session of Python. A comment `<!-- fails -->` above a block says that its commands must fail.
+A block without a word after its fence holds commands. A block `text` shows what these commands
+print; "..." stands where two runs print different words. A block `yaml` is a file, and its first
+line names the file. A block `pycon` is a session of Python. A comment `<!-- fails -->`
+above a block says that its commands must fail.
 """
 
 import os

@@ -57,7 +57,7 @@ class Cost(NamedTuple):
         return f"{'' if ' than ' in time else 'about '}{time} and {amount(self.memory)} of memory"
 
     def excess(self, limits: Mapping[str, float]) -> float:
-        """Return how many times it is what `limits` allow."""
+        """Return this cost divided by the largest that `limits` allow: above 1 it is refused."""
         return max(
             self.seconds / (limits["hours"] * HOUR), self.memory / (limits["gigabytes"] * GIGABYTE)
         )

@@ -1,8 +1,8 @@
 """Compares a PNG with that of the baseline, by the strictest Method that the circumstances allow.
 
 The form of a file (its kind of pixels, frames and dots per inch) is exact by every method. The
-description beside a picture tells its texts and colours (`compare_description`), so this module
-looks for what only pixels show.
+description beside a picture tells its texts and colours (`compare_description`). This module
+compares the pixels, because a fault can show in them alone.
 """
 
 import itertools

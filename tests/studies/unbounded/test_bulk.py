@@ -72,6 +72,7 @@ def test_late_means_are_taken_of_the_late_half():
 
 def test_the_slope_gives_the_power_whatever_the_offset_and_the_delay():
     assert slope_powers(exact())[0].value == pytest.approx(POWER, rel=1e-9)
+    assert slope_powers(exact(delay=0.5))[0].value == pytest.approx(POWER, rel=1e-9)
     assert np.isnan(slope_powers(exact(delay=0.0))[0].value)
 
 

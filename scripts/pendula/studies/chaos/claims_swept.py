@@ -69,7 +69,8 @@ class Means(NamedTuple):
 def maxima(ensembles, sweep: str, norm: str, window: str) -> Means:
     """Return the means of the maxima of the pair's norm over a window."""
     if ensembles.sizes["half_width"] < FEWEST or window not in ensembles["window"].values:
-        raise UndecidableError("the ensemble has fewer than six half-widths, or not the window")
+        text = f"the ensemble has fewer than {FEWEST} half-widths, or not the window"
+        raise UndecidableError(text)
     chosen = {"sweep": sweep, "quantity": "pair", "statistic": "max", "window": window}
     kept, members = ensembles.sel(chosen), int(ensembles.attrs["swept_members"])
     values = (kept[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))

@@ -274,7 +274,7 @@ def swept_chances(second, drawn, norms) -> list[float]:
     """
     shared = np.intersect1d(second["half_width"], drawn["half_width"])
     if len(shared) < FEWEST:
-        raise UndecidableError("sweep and ensemble share fewer than six half-widths")
+        raise UndecidableError(f"sweep and ensemble share fewer than {FEWEST} half-widths")
     second, members = second.sel(half_width=shared), int(drawn.attrs["swept_members"])
     found = []
     for widths in distinct_runs(second):
@@ -364,7 +364,7 @@ def together(chances: list[np.ndarray]) -> float:
 def regular_difference(first, second) -> float:
     """Return the largest relative difference of the pair's norms over all of a sweep."""
     if first.sizes["half_width"] < FEWEST:
-        raise UndecidableError("the sweeps have fewer than six half-widths")
+        raise UndecidableError(f"the sweeps have fewer than {FEWEST} half-widths")
     pair = {"quantity": "pair"}
     off = [abs(second[norm] / first[norm] - 1.0).sel(pair).max() for norm in ("l2", "linf")]
     return float(max(off))
