@@ -35,10 +35,10 @@ from problems import constants_of, problem_of
 CONSTANTS = constants_of((1.2, 0.7, -3.0))
 
 
-def exact(**changes):
+def exact(delay=1.4, **changes):
     """Return runs whose l2^2 is 2 v P tau less the delay, and an offset of -50."""
-    run = spread(0.5, **changes)
-    passed = 2.9 * TAU - 1.4 * np.log(np.maximum(TAU, 1.0))
+    run = spread(0.5, delay=delay, **changes)
+    passed = 2.9 * TAU - delay * np.log(np.maximum(TAU, 1.0))
     return run.assign(l2=0.0 * run["l2"] + np.sqrt(np.maximum(2.0 * POWER * passed - 50.0, 1.0)))
 
 
