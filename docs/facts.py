@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import study_errors
 import xarray as xr
 from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
@@ -71,8 +72,10 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         references,
     )
     topics += (speed, hard_cases, mutation)
-    return {topic.__name__: topic(baseline) for topic in topics} | {
-        "configured": configured(configuration, chaos_study)
+    return {
+        **{topic.__name__: topic(baseline) for topic in topics},
+        **study_errors.facts(baseline),
+        "configured": configured(configuration, chaos_study),
     }
 
 

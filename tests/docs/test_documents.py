@@ -205,7 +205,7 @@ def test_every_fact_follows_its_dataset():
         after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(seed))))
         same = {name for name in same if after.get(name) == before[name]}
     named = re.compile(
-        r"configured\.|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
+        r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$"
     )
     left = {

@@ -121,6 +121,9 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONG
 Distinct = AfterValidator(_distinct)
 """Beside the type of a list: no value stands in it twice."""
 Window = tuple[Number, Number]
+Needs = dict[Name, Positive]
+"""The largest error that what a part of a study shows bears, by the name of the part. No job reads
+them: docs/studies.md has them beside the errors that are reached."""
 
 
 class Model(BaseModel):

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from pendula.configuration.cost import Cost, estimate
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Positive, Whole, Window
+from pendula.configuration.values import Distinct, Model, Name, Needs, Positive, Whole, Window
 
 Count = Annotated[Whole, Field(ge=1)]
 Seed = Annotated[Whole, Field(ge=0)]
@@ -95,6 +95,7 @@ class Settings(Model):
     ensembles: Ensembles
     members: Members
     lifetimes: Lifetimes
+    needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""

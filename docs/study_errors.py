@@ -1,0 +1,116 @@
+"""The error that each part of a study needs, and the one that the accepted results reach.
+
+A study says in its configuration which error each of its parts needs, below `needs`. Here stands,
+under the same name, how that error is read from the datasets of a baseline, and what the part takes.
+Both go into docs/studies.md, and a test holds the reached errors to the needed ones.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+import yaml
+from pendula.measures.confidence import difference_limits
+from pendula.report.words import number
+
+CONFIG = Path(__file__).resolve().parents[1] / "config"
+
+
+def chaos(baseline) -> dict[str, float]:
+    """Return the errors of exponents, of lost evenness, and of ensembles."""
+    lyapunov, lives = baseline["checks/lyapunov"], baseline["checks/lifetimes"]
+    chaotic = lyapunov["chaotic"] == 1
+    late = lyapunov["divergence_measured"]
+    predicted = abs(lyapunov["divergence_predicted"] - late).where(np.isfinite(late))
+    return {
+        "exponents": _most((lyapunov["exponent_error"] / lyapunov["exponent"]).where(chaotic)),
+        "divergence": _most(predicted),
+        "spectra": _most(_zeros_error(lyapunov.isel(spectrum_half_width=0))),
+        "undriven_spectra": _most(lyapunov["exponents_error_undriven"]),
+        "evenness": _most(baseline["checks/symmetry"]["rounded"].where(~chaotic)),
+        "sweeps": max(_swept_error(baseline[f"checks/{name}"]) for name in SWEPT),
+        "members": max(_panels_error(baseline["checks/members"], kind) for kind in KINDS),
+        "lives": _most(lives["surviving_high"].isel(tau=-1).where(lives["surviving"][:, -1] == 0)),
+        "rates": _most((lives["choice_rate_high"] / lives["choice_rate_low"]) ** 0.5),
+    }
+
+
+SWEPT, KINDS = ("ensembles", "ensembles_uneven"), ("even", "uneven")
+
+
+def _most(values: xr.DataArray) -> float:
+    return float(values.max())
+
+
+def _zeros_error(spectra: xr.Dataset) -> xr.DataArray:
+    """Return the limits of the exponent next to zero over the mean distance of all, by case."""
+    size, error = abs(spectra["exponents"]), spectra["exponents_error"]
+    between = 2.0 * size.max("index") / size.notnull().sum("index")
+    return error.isel(index=size.argmin("index")) / between
+
+
+def _swept_error(ensembles: xr.Dataset) -> float:
+    """Return the largest relative standard error of a mean over the members."""
+    return _most((ensembles["l2_error"] / ensembles["l2_mean"]).sel(quantity="pair"))
+
+
+def _panels_error(members: xr.Dataset, kind: str) -> float:
+    """Return the limits of the difference between the panels of Fig 4, relative to the lower."""
+    levels = members["l2_level"].sel(kind=kind, quantity="pair").isel(window=0)
+    small, large = (levels.sel(case=f"fig4_{size}").values for size in ("small", "large"))
+    return float(difference_limits(small, large).half / large.mean())
+
+
+def chaos_sizes(given: dict) -> dict[str, str]:
+    """Return how long, how many and how finely, by the parts of `chaos`."""
+    lyapunov, swept, lives = given["lyapunov"], given["ensembles"], given["lifetimes"]
+    spectrum = lyapunov["spectrum"]
+    chains = ", ".join(f"{number(m)}" for m in spectrum["lengths"])
+    times = ", ".join(number(lengths) for lengths in spectrum["lengths"].values())
+    short = f"M = {chains} for {times} times the case, tolerance {number(spectrum['tolerance'])}"
+    least = min(spectrum["lengths"])
+    return {
+        "exponents": f"{number(lyapunov['lengths'])} times the case, tolerance"
+        f" {number(lyapunov['tolerance'])}",
+        "divergence": "tolerances " + ", ".join(map(number, lyapunov["diverging_tolerances"])),
+        "spectra": short,
+        "undriven_spectra": f"the same, M = {number(least)} alone",
+        "evenness": f"{number(given['symmetry']['members'])} perturbed runs and one unperturbed,"
+        f" tolerance {number(given['symmetry']['tolerance'])}",
+        "sweeps": f"{number(swept['swept_members'])} members of two kinds, one in"
+        f" {number(swept['every'])} half-widths, tolerance {number(swept['tolerance'])}",
+        "members": _ensemble(given["members"], "members of two kinds"),
+        "lives": _ensemble(lives, f"members from {len(lives['amplitudes'])} amplitudes"),
+        "rates": f"the same from one amplitude, {len(lives['compared']['choices'])} choices",
+    }
+
+
+def _ensemble(given: dict, words: str) -> str:
+    return f"{number(given['members'])} {words}, tolerance {number(given['tolerance'])}"
+
+
+STUDIES: dict[str, tuple[Callable, Callable]] = {"chaos": (chaos, chaos_sizes)}
+"""The study by its name in the configuration: how its errors are read, and what its parts take."""
+
+
+def errors(baseline) -> dict[str, dict[str, float]]:
+    """Return the reached error of every part of every study."""
+    return {study: reached(baseline) for study, (reached, _) in STUDIES.items()}
+
+
+def given(study: str) -> dict:
+    """Return a study's section of the configuration."""
+    return yaml.safe_load((CONFIG / f"{study}.yaml").read_text(encoding="utf-8"))[study]
+
+
+def facts(baseline) -> dict[str, dict[str, dict[str, str]]]:
+    """Return needed and reached error and the sizes as text, by study and part."""
+    found = {}
+    for study, reached in errors(baseline).items():
+        needed, sizes = given(study)["needs"], STUDIES[study][1](given(study))
+        found[f"{study}_study"] = {
+            part: {"needed": number(needed[part]), "reached": number(error, 2), "sizes": sizes[part]}
+            for part, error in reached.items()
+        }
+    return found
