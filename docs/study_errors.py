@@ -1,7 +1,7 @@
 """The error that each part of a study needs, and the one that the accepted results reach.
 
 A study says in its configuration which error each of its parts needs, below `needs`. Here stands,
-under the same name, how that error is read from the datasets of a baseline, and what the part takes.
+under the same name, how that error is read from the datasets of a baseline, and what a part takes.
 Both go into docs/studies.md, and a test holds the reached errors to the needed ones.
 """
 
@@ -110,7 +110,11 @@ def facts(baseline) -> dict[str, dict[str, dict[str, str]]]:
     for study, reached in errors(baseline).items():
         needed, sizes = given(study)["needs"], STUDIES[study][1](given(study))
         found[f"{study}_study"] = {
-            part: {"needed": number(needed[part]), "reached": number(error, 2), "sizes": sizes[part]}
+            part: {
+                "needed": number(needed[part]),
+                "reached": number(error, 2),
+                "sizes": sizes[part],
+            }
             for part, error in reached.items()
         }
     return found
