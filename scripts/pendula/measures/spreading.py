@@ -5,19 +5,20 @@ in b. A power of tau laid through such a curve is off for as long as b counts, s
 All sums are plain ones, so that the last bits hang on no library.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from pendula.numerics.elementary import exp, expm1, log
+from pendula.numerics.elementary import expm1, log
 
 from .confidence import CONFIDENCE, Limits, mean_limits, student
 
 BLOCKS = 10
 """Stretches of time that count as independent in the error of a single curve."""
 
-STEPS = 20
-"""Steps of Gauss and Newton to the exponent."""
+STEPS, SETTLED = 20, 1e-10
+"""The most steps of Gauss and Newton to the exponent, and the change of it that ends them."""
 
 LEAST, MOST, GRID, NEARLY_ZERO = -1.0, 3.0, 0.05, 1e-4
 """Exponents are searched between the first two, and first on a grid; those nearer to zero than the
@@ -83,37 +84,60 @@ def _of_stretches(x: np.ndarray, y: np.ndarray, line: Line, confidence: float) -
     return Limits(line.slope, line.slope - half, line.slope + half)
 
 
-def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> float:
-    """Return q of the law squares = a tau^(2 q) + b of least squares, between LEAST and MOST.
+def exponent_with_offset(tau: np.ndarray, squares: np.ndarray) -> np.ndarray:
+    """Return q of the law squares = a tau^(2 q) + b of least squares for curves (..., time).
 
-    The best of a grid is refined by the method of Gauss and Newton. Near q = 0 the law is a
-    logarithm, and below it tends to a limit.
+    The best of a grid from LEAST to MOST is refined by the method of Gauss and Newton. Near q = 0
+    the law is a logarithm, and below it tends to a limit.
     """
     x = log(tau / tau[-1])
-    grid = np.linspace(LEAST, MOST, round((MOST - LEAST) / GRID) + 1)
-    first = q = float(min(grid, key=lambda tried: _left_over(x, squares, tried)))
+    first = q = _best_of_grid(x.tobytes(), squares)
     for _ in range(STEPS):
-        law, change = _law(x, q)
-        alone = change - lay_line(law, change).at(law)  # what no choice of a and b can make
-        share = (alone * squares).sum() / (alone * alone).sum()
-        slope = lay_line(law, squares - share * change).slope
-        if slope == 0.0:
+        law, change = _law(x, q[..., None])
+        slope_of_change = _slope(law, change)
+        alone = _centred(change) - slope_of_change * _centred(law)  # what no a and b can make
+        share = (alone * squares).sum(axis=-1) / (alone * alone).sum(axis=-1)
+        slope = _slope(law, squares - share[..., None] * change)[..., 0]
+        step = np.divide(share, slope, out=np.zeros_like(share), where=slope != 0.0)
+        before, q = q, np.clip(q + step, first - GRID, first + GRID)
+        if np.abs(q - before).max() < SETTLED:
             break
-        q = min(max(q + share / slope, first - GRID), first + GRID)
-    return min(max(float(q), LEAST), MOST)
+    return np.clip(q, LEAST, MOST)
 
 
-def _left_over(x: np.ndarray, squares: np.ndarray, q: float) -> float:
-    """Return the sum of squares that the law with q leaves."""
-    law = _law(x, q)[0]
-    return float(((squares - lay_line(law, squares).at(law)) ** 2).sum())
+def _best_of_grid(x: bytes, squares: np.ndarray) -> np.ndarray:
+    """Return the q of the grid whose law leaves the least sum of squares of each curve."""
+    exponents, laws = _laws_of_grid(x)
+    explained = [(laws * one).sum(axis=-1) ** 2 for one in squares.reshape(-1, laws.shape[-1])]
+    return exponents[np.argmax(explained, axis=-1)].reshape(squares.shape[:-1])
 
 
-def _law(x: np.ndarray, q: float) -> tuple[np.ndarray, np.ndarray]:
+@lru_cache(maxsize=8)
+def _laws_of_grid(x: bytes) -> tuple[np.ndarray, np.ndarray]:
+    """Return the exponents of the grid, and their laws less their means, of sum of squares one.
+
+    All curves with the same times share them; `x` is the bytes of log(tau / tau[-1]).
+    """
+    exponents = np.linspace(LEAST, MOST, round((MOST - LEAST) / GRID) + 1)
+    laws = _centred(_law(np.frombuffer(x), exponents[:, None])[0])
+    return exponents, laws / np.sqrt((laws * laws).sum(axis=-1, keepdims=True))
+
+
+def _centred(values: np.ndarray) -> np.ndarray:
+    return values - values.mean(axis=-1, keepdims=True)
+
+
+def _slope(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the slopes of least squares of y over x, (..., 1)."""
+    off = _centred(x)
+    return (off * y).sum(axis=-1, keepdims=True) / (off * off).sum(axis=-1, keepdims=True)
+
+
+def _law(x: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return (exp(2 q x) - 1) / (2 q), which is x at q = 0, and its derivative by q."""
-    p = 2.0 * (q if abs(q) > NEARLY_ZERO else NEARLY_ZERO)
+    p = 2.0 * np.where(np.abs(q) > NEARLY_ZERO, q, NEARLY_ZERO)
     law = expm1(p * x) / p
-    return law, 2.0 * (x * exp(p * x) - law) / p
+    return law, 2.0 * (x * (1.0 + p * law) - law) / p
 
 
 def fit_exponent(tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFIDENCE) -> Limits:
@@ -122,5 +146,4 @@ def fit_exponent(tau: np.ndarray, l2: np.ndarray, start: float, confidence=CONFI
     The limits are those of the mean over the members; one member alone has infinite ones.
     """
     kept = tau >= start
-    found = [exponent_with_offset(tau[kept], series[kept] ** 2) for series in l2]
-    return mean_limits(found, confidence)
+    return mean_limits(exponent_with_offset(tau[kept], l2[:, kept] ** 2), confidence)
