@@ -51,15 +51,26 @@ def test_the_speed_at_omega_zero_is_that_of_the_saddle_point():
 def test_in_the_middle_of_the_band_the_saddle_is_known():
     """There s = 2 epsilon sin k, so that decay tanh decay = 1 and v = 2 sinh decay."""
     front = linear_front(constants(2.0))
-    assert front.decay * np.tanh(front.decay) == pytest.approx(1.0, abs=1e-6)
-    assert front.speed == pytest.approx(2.0 * np.sinh(front.decay), rel=1e-6)
-    assert front.wave_number == pytest.approx(np.pi / 2, abs=1e-6)
+    assert front.decay * np.tanh(front.decay) == pytest.approx(1.0, abs=1e-12)
+    assert front.speed == pytest.approx(2.0 * np.sinh(front.decay), rel=1e-12)
+    assert front.wave_number == pytest.approx(np.pi / 2, abs=1e-12)
 
 
 def test_speeds_are_symmetric_about_the_middle_and_scale_with_the_equations():
     assert linear_front(constants(0.5)).speed == pytest.approx(linear_front(constants(3.5)).speed)
     one, twice = linear_front(constants(0.5)), linear_front(constants(0.5).scaled(2.0))
     assert twice.speed == pytest.approx(2.0 * one.speed)
+
+
+@pytest.mark.parametrize("omega", [-1.95, -1.75, 5.9])
+def test_near_the_edge_of_the_band_two_waves_are_equally_fast_at_the_least_speed(omega):
+    """No saddle point is the least there, over decays, of the largest speed over waves."""
+    front = linear_front(constants(omega))
+    waves, nearby = np.linspace(0.0, np.pi, 20001), np.linspace(0.99, 1.01, 81)
+    speeds = [
+        growth_rate(waves, decay, constants(omega)).max() / decay for decay in nearby * front.decay
+    ]
+    assert front.speed == pytest.approx(min(speeds), rel=2e-5)
 
 
 def test_at_the_edge_of_the_band_the_front_becomes_the_fastest_wave():
@@ -339,7 +350,7 @@ def test_the_bulk_is_compared_with_the_thermal_state_nearest_to_its_omega(measur
         np.testing.assert_array_equal(found[f"thermal_{name}"], states.sel(omega=0.0)[name])
 
 
-HASH = "b7420dc425ab8093"
+HASH = "ba346a3eb4b76d4a"
 """Of the bits that every machine must get of the fronts below."""
 
 

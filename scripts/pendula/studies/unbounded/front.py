@@ -60,6 +60,11 @@ DELAY = "sites lost per unit of log tau on the way to that speed"
 REST = "sites yet to be lost on that way, times tau^(1/2)"
 PULLED = "one: a front is pulled at that speed; zero: no wave packet is faster"
 PIECE_TAU, SITE_OF_FRONT = "slow time at the end of a piece of the run", "site of the front"
+WAVES, DECAYS = np.linspace(0.0, np.pi, 801), exp(np.linspace(log(1e-3), log(6.0), 60))
+"""The grid on which the speed of linear spreading is looked for."""
+
+NEWTON = 12
+"""Steps of Newton's method to the saddle point."""
 RESOLVES = "limits, to each side: what the places of a front between two sites resolve"
 """What these quantities are called in every dataset of this study."""
 
@@ -95,31 +100,56 @@ def is_unstable(constants: Constants) -> bool:
 
 def linear_front(constants: Constants) -> LinearFront:
     """Return the front of data of finite extent in the linearised infinite chain."""
-    waves, decays = np.linspace(0.0, np.pi, 801), exp(np.linspace(log(1e-3), log(6.0), 400))
     if not is_unstable(constants):
-        speeds = group_velocity(waves[1:-1], constants)
+        speeds = group_velocity(WAVES[1:-1], constants)
         best = int(np.argmax(speeds))
-        return LinearFront(float(speeds[best]), 0.0, float(waves[1 + best]))
-    speed, wave, decay = _least(waves, decays, constants)
-    q_span, d_span = waves[1], 0.03 * decay
-    for _ in range(10):  # the neighbourhood of the saddle, ever smaller
-        box = np.linspace(-1.0, 1.0, 21)
-        speed, wave, decay = _least(wave + q_span * box, decay + d_span * box, constants)
-        q_span, d_span = 0.3 * q_span, 0.3 * d_span
-    return LinearFront(speed, decay, wave, _diffusion(wave, decay, constants))
+        return LinearFront(float(speeds[best]), 0.0, float(WAVES[1 + best]))
+    wave, decay = _least(WAVES[::8], DECAYS, constants)
+    wave, decay = _saddle(wave, decay, constants) or _corner(decay, constants)
+    s, _, curvature = _growing_branch(wave, decay, constants)
+    return LinearFront(float(s.real / decay), decay, wave, complex(-0.5 * curvature))
 
 
-def _diffusion(wave: float, decay: float, constants: Constants) -> complex:
-    """Return -s''(k) / 2 of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
+def _saddle(wave: float, decay: float, constants: Constants) -> tuple[float, float] | None:
+    """Return the saddle point near a point of the grid, by Newton's method; None if none is near.
+
+    The speed Re s / decay does not change to first order there, so that s'' is all of the Jacobian.
+    """
+    nearest = decay
+    for _ in range(NEWTON):
+        s, slope, curvature = _growing_branch(wave, decay, constants)
+        step = quotient(slope + 1j * (s.real / decay), curvature)
+        wave, decay = wave - float(step.real), decay - float(step.imag)
+        if not 0.7 * nearest < decay < 1.4 * nearest:
+            return None
+    s = _growing_branch(wave, decay, constants)[0]
+    fastest = growth_rate(WAVES, decay, constants).max()
+    return (wave, decay) if modulus(step) < 1e-8 and fastest <= s.real * (1.0 + 1e-9) else None
+
+
+def _corner(decay: float, constants: Constants) -> tuple[float, float]:
+    """Return where the least speed near `decay` is that of two waves at once, which is no saddle.
+
+    Weakly unstable chains are so. Ever finer grids in the decay come close to the corner.
+    """
+    waves, span = np.linspace(0.0, np.pi, 6401), 0.2 * decay
+    for _ in range(6):
+        wave, decay = _least(waves, decay + span * np.linspace(-1.0, 1.0, 9), constants)
+        span *= 0.3
+    return wave, decay
+
+
+def _growing_branch(wave: float, decay: float, constants: Constants) -> tuple[complex, ...]:
+    """Return s, s'(k) and s''(k) of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
     epsilon, gamma, omega = astuple(constants)
     cosine = complex_of(cos(wave) * cosh(decay), -sin(wave) * sinh(decay))
     sine = complex_of(sin(wave) * cosh(decay), cos(wave) * sinh(decay))
     kappa = 2.0 * epsilon * (1.0 - cosine) - omega
-    slope, curvature = 2.0 * epsilon * sine, 2.0 * epsilon * cosine
+    of_kappa, curvature = 2.0 * epsilon * sine, 2.0 * epsilon * cosine
     s = square_root(4.0 * gamma * gamma - product(kappa, kappa))
-    first = quotient(product(kappa, slope), s)
-    twice = product(slope, slope) + product(kappa, curvature) + product(first, first)
-    return complex(quotient(twice, 2.0 * s))
+    slope = -quotient(product(kappa, of_kappa), s)
+    twice = product(of_kappa, of_kappa) + product(kappa, curvature) + product(slope, slope)
+    return s, slope, -quotient(twice, s)
 
 
 def growth_rate(wave, decay, constants: Constants):
@@ -139,14 +169,11 @@ def group_velocity(k, constants: Constants):
     return np.abs(2.0 * epsilon * sin(k) * kappa) / np.sqrt(square)
 
 
-def _least(
-    waves: np.ndarray, decays: np.ndarray, constants: Constants
-) -> tuple[float, float, float]:
-    """Return (speed, wave number, decay) of the least over decays of the largest over waves."""
+def _least(waves: np.ndarray, decays: np.ndarray, constants: Constants) -> tuple[float, float]:
+    """Return (wave number, decay) of the least over decays of the largest speed over waves."""
     speeds = growth_rate(waves[:, None], decays, constants) / decays
     j = int(np.argmin(speeds.max(axis=0)))
-    i = int(np.argmax(speeds[:, j]))
-    return float(speeds[i, j]), float(waves[i]), float(decays[j])
+    return float(waves[np.argmax(speeds[:, j])]), float(decays[j])
 
 
 # --- Measured -------------------------------------------------------------------------------------
