@@ -1,11 +1,15 @@
 """What many tests use: the real snakemake, waiting without a clock, and skips with a way out."""
 
 import importlib
+import json
+import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable
+from functools import cache
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 from types import ModuleType
 from typing import NoReturn
 
@@ -69,7 +73,9 @@ def snakemake(
     """Run snakemake on the quick configuration of `project`, with its results in `directory`."""
     configuration = project / "config" / "quick.yaml"
     command = command_of(project, directory, configuration, *arguments)
-    return subprocess.run(command, capture_output=True, text=True, env=env)
+    if env is not None:  # which decides how packages are imported
+        return subprocess.run(command, capture_output=True, text=True, env=env)
+    return run_ready(command)
 
 
 def snakemake_with(
@@ -78,8 +84,29 @@ def snakemake_with(
     """Run snakemake with a configuration of one's own beside the project's."""
     mine = directory / "mine.yaml"
     mine.write_text(yaml.safe_dump(settings))
-    command = command_of(project, directory, mine, *arguments)
-    return subprocess.run(command, capture_output=True, text=True)
+    return run_ready(command_of(project, directory, mine, *arguments))
+
+
+def run_ready(command: list[str]) -> subprocess.CompletedProcess:
+    """Run `python -m snakemake ...` as a fork of a process that has imported Snakemake."""
+    with NamedTemporaryFile("r") as out, NamedTemporaryFile("r") as err:
+        request = [os.getcwd(), dict(os.environ), [out.name, err.name], command[3:]]
+        process = _ready()
+        process.stdin.write(json.dumps(request) + "\n")
+        process.stdin.flush()
+        code = int(process.stdout.readline())
+        return subprocess.CompletedProcess(command, code, out.read(), err.read())
+
+
+@cache
+def _ready() -> subprocess.Popen:
+    """Start that process, once for each worker of pytest; it ends when its input does."""
+    return subprocess.Popen(
+        [sys.executable, str(ROOT / "tests/ready_snakemake.py")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
 
 
 def command_of(project: Path, directory: Path, configuration: Path, *arguments: str) -> list[str]:
