@@ -57,6 +57,15 @@ rule all:
         "All datasets, figures, tables and the report are there"
 
 
+rule paper:
+    "Figs 1 to 6 of the paper, and a table of the claims on them: results/tables/claims_figures.md"
+    input:
+        expand("results/figures/fig{n}.{kind}", n=range(1, 7), kind=FIGURE_KINDS.values()),
+        "results/tables/claims_figures.md",
+    message:
+        "The paper's figures and the table of the claims on them are there"
+
+
 rule figures:
     "All figures, each as PNG and PDF with the data that it shows"
     input:
@@ -95,6 +104,7 @@ include: "workflow/rules/unbounded.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/chaos.smk"
+include: "workflow/rules/ledger.smk"
 include: "benchmarks/benchmarks.smk"
 include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"

@@ -33,8 +33,8 @@ def recorded(tmp_path, monkeypatch):
     """Return a function: the files that the record of a script lists, below scripts/pendula."""
     monkeypatch.chdir(tmp_path)
 
-    def files(*script: str) -> set[str]:
-        text = Path(code_records.code(*script)).read_text()
+    def files(*script: str, of: str = "") -> set[str]:
+        text = Path(code_records.code(*script, of=of)).read_text()
         return {line.split()[1].removeprefix("scripts/pendula/") for line in text.splitlines()}
 
     return files
@@ -104,14 +104,20 @@ def test_a_record_lists_the_modules_that_are_found_by_the_list_of_studies(record
     names = ("section.py", "section.html.j2")
     parts = {"studies/paper/section_solvers.py"}
     assert of_studies == {f"studies/{study}/{name}" for study in told for name in names} | parts
-    claims = {file for file in recorded("theory/decide_claims.py", "claims") if "/claims" in file}
-    assert {"studies/paper/claims_norms.py", "studies/chaos/claims.py"} <= claims
+
+
+def test_a_record_may_be_of_one_study_alone(recorded):
+    files = recorded("ledger/decide_claims.py", "chaos/claims", of="chaos")
+    claims = {file for file in files if "/claims" in file}
+    own = ("claims", "claims_own", "claims_swept")
+    assert claims == {f"studies/chaos/{name}.py" for name in own}
 
 
 def test_a_script_has_one_record_whoever_asks_for_it(recorded):
-    recorded("theory/decide_claims.py", "claims")
+    recorded("ledger/decide_claims.py", "chaos/claims", of="chaos")
+    recorded("ledger/decide_claims.py", "paper/claims", of="paper")
     with pytest.raises(ValueError, match="is recorded with"):
-        recorded("theory/decide_claims.py")
+        recorded("ledger/decide_claims.py", "paper/claims", of="chaos")
 
 
 def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):

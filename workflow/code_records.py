@@ -32,14 +32,16 @@ only_looks = False
 """Whether this call of Snakemake makes nothing; the rules set it."""
 
 
-def code(script: str, *parts: str) -> str:
+def code(script: str, *parts: str, of: str = "") -> str:
     """Return the path of the record for a script, brought up to date.
 
     `script` is a path below scripts/, or one of benchmarks/ below the project's folder. `parts`
-    names modules, such as "section", that the script finds by the list of studies: its imports
-    do not show them. Raises ValueError where two rules want different records of one script.
+    names modules, such as "section", that the script finds by the list of studies, or such as
+    "paper/claims" in one of them: its imports do not show them. Raises ValueError where two rules
+    want different records of one script, unless `of` tells them apart.
     """
-    record = RECORDS / (script.removesuffix(".py").replace("/", ".") + ".txt")
+    name = script.removesuffix(".py").replace("/", ".")
+    record = RECORDS / (f"{name}.{of}.txt" if of else f"{name}.txt")
     if _parts.setdefault(record.absolute(), parts) != parts:
         raise ValueError(f"{script} is recorded with {_parts[record.absolute()]} and {parts}")
     folder = ROOT if script.startswith("benchmarks/") else SCRIPTS
@@ -51,8 +53,9 @@ def code(script: str, *parts: str) -> str:
 
 def _of_studies(part: str) -> list[Path]:
     """Return the modules in the studies whose names start with this, each with its package."""
-    folders = [SCRIPTS / "pendula/studies" / study for study in STUDIES]
-    found = [path for folder in folders for path in sorted(folder.glob(f"{part}*.py"))]
+    alone, _, start = part.rpartition("/")
+    folders = [SCRIPTS / "pendula/studies" / study for study in ([alone] if alone else STUDIES)]
+    found = [path for folder in folders for path in sorted(folder.glob(f"{start}*.py"))]
     return [path for module in found for path in (module.with_name("__init__.py"), module)]
 
 

@@ -14,6 +14,11 @@ from theory import run_checks
 
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_wrong", "check_observed"}
+PARTS = {
+    "figures": ("paper/claims_norms", "paper/claims_sweeps"),
+    "solvers": ("paper/claims_regular", "paper/claims_solvers"),
+    **{study: (f"{study}/claims",) for study in ("theory", "chaos", "unbounded")},
+}
 FIGURES = {"stability_chart", "growth_rates", "bounds"}
 FIGURE_RULES = {"stability_figures", "bounds"}
 
@@ -80,8 +85,17 @@ def test_the_table_shows_every_claim_and_every_tolerance(finished):
     assert {row.count("|") for row in rows} == {8, 5, 7, 6}  # claims, cut-offs, controls, checks
 
 
-def test_all_that_the_claims_need_is_an_input(finished):
-    assert all((finished / f"results/{name}.nc").exists() for name in needed())
+@pytest.mark.parametrize("part", PARTS)
+def test_a_part_of_the_ledger_reads_what_its_claims_rest_on_and_checks_to_show(finished, part):
+    read = set(json.loads((finished / f"results/claims/{part}.json").read_text())["read"])
+    rest_on = set(needed(*PARTS[part]))
+    assert rest_on <= read
+    assert all(name.startswith("checks/") for name in read - rest_on)
+
+
+def test_the_parts_of_the_ledger_hold_every_claim_once():
+    names = [claim.name for modules in PARTS.values() for claim in all_claims(*modules)]
+    assert sorted(names) == sorted(claim.name for claim in all_claims())
 
 
 def test_a_violated_check_is_written_and_named(tmp_path, monkeypatch, capsys):
@@ -98,7 +112,7 @@ def test_a_violated_check_turns_its_claim(finished):
     check["gradient_error"] = xr.full_like(check["gradient_error"], np.nan)
     check.to_netcdf(path)
     result = snakemake(ROOT, finished, "results/claims.json")
-    log = (finished / "results/logs/claims.log").read_text()
+    log = (finished / "results/logs/claims/theory.log").read_text()
     assert result.returncode == 0, result.stderr
     for text in (result.stderr, log):
         assert "CHECK VIOLATED: gradient: gradient_error is nan" in text
@@ -118,12 +132,19 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone,
     change(clone / "scripts/pendula/studies/theory" / module)
     jobs = set(planned(clone, finished))
     without = {"check_observed"} if module == "checks.py" else set()
-    assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {"claims", "report", "all"}
+    assert jobs == (CHECK_RULES - without) | FIGURE_RULES | {
+        "decide_claims",
+        "claims",
+        "report",
+        "all",
+    }
 
 
-def test_an_edit_of_a_claim_reruns_the_ledger_alone(finished, clone):
+def test_an_edit_of_a_claim_decides_its_part_of_the_ledger_alone(finished, clone):
     change(clone / "scripts/pendula/studies/paper/claims_norms.py")
-    assert set(planned(clone, finished)) == {"claims", "report", "all"}
+    jobs = planned(clone, finished)
+    assert set(jobs) == {"decide_claims", "claims", "report", "all"}
+    assert jobs["decide_claims"] == 1
 
 
 def test_an_edit_of_a_figure_of_the_theory_reruns_its_jobs_alone(finished, clone):

@@ -19,7 +19,7 @@ from code_records import code, committed, copies, kept, records, was_made, whole
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
-from pendula.configuration.paper import differences, paper, reason
+from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
@@ -54,8 +54,8 @@ LOOKS = {
 LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 RESULTS = Path("results").absolute()
-FOLDERS = ["checks", "code", "figure_diff", "figures", "kernels", "kept", "logs", "own", "speed"]
-FOLDERS += ["archive", "sweeps", "tables", "trajectories", "truth", "unbounded"]
+FOLDERS = ["checks", "claims", "code", "figure_diff", "figures", "kernels", "kept", "logs", "own"]
+FOLDERS += ["archive", "speed", "sweeps", "tables", "trajectories", "truth", "unbounded"]
 for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
     if path.is_file():
         stop(f"{path} is a file, and results need a folder of this name: move the file away")

@@ -62,11 +62,12 @@ def makers():
         "thermal": ["results/unbounded/thermal.nc"],
         "measure_growth": ["results/unbounded/growth.nc", "results/unbounded/front.nc"],
     }
-    return {
-        path.removeprefix("results/").removesuffix(".nc"): rule
-        for rule, paths in made_by.items()
-        for path in paths
-    }
+    return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
+
+
+def name_of(path):
+    """Return the name that the claims have for a dataset."""
+    return path.removeprefix("results/").removesuffix(".nc")
 
 
 def other_cases(solver):
@@ -272,3 +273,52 @@ def settings_in_words():
     studies = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
     told = {"cases": cases, "sweeps": swept, **studies}
     return json.dumps(told, sort_keys=True, default=str)
+
+
+# The parts of the ledger, and the modules of claims in each, by the starts of their names
+CLAIMS_OF = {
+    "figures": ["paper/claims_norms", "paper/claims_sweeps"],
+    "solvers": ["paper/claims_regular", "paper/claims_solvers"],
+    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "unbounded")},
+}
+
+
+def claims_need():
+    """Return by part of the ledger the rule that makes each of the datasets that it reads.
+
+    Beside what the claims rest on these are the checks of the part, which its table shows.
+    """
+    second = trajectories(".crank_nicolson"), sweeps(".crank_nicolson")
+    of_theory = (*(name for names in GROUPS.values() for name in names), "sweeps")
+    needs = {
+        "figures": [*trajectories(), *sweeps(), *checks("not_shown", "ensembles")],
+        "solvers": [
+            *(*trajectories(), *trajectories(".dop853"), *sweeps(), *second[0], *second[1]),
+            *checks("cases", "lyapunov", "ensembles", "members", *SOLVER_CHECKS),
+        ],
+        "theory": [
+            *(*trajectories(), *checks("lyapunov", *of_theory)),
+            *checks(*(f"wrong/{name}" for name in WRONG)),
+        ],
+        "chaos": [
+            *below(["sweeps/fig5_left", "sweeps/fig6_left"]),
+            *checks("trust", *CHAOS_CHECKS),
+        ],
+        "unbounded": [
+            *expand("results/unbounded/{name}.nc", name=SETTINGS.unbounded.names),
+            *expand("results/unbounded/{name}.nc", name=[*map_names(), "thermal"]),
+        ],
+    }
+    made_by = makers()
+    named = {part: map(name_of, paths) for part, paths in needs.items()}
+    return {part: {name: made_by[name] for name in names} for part, names in named.items()}
+
+
+def below(names):
+    return [f"results/{name}.nc" for name in names]
+
+
+CLAIMS_NEED = claims_need()
+CLAIMS_CODE = {
+    part: code("ledger/decide_claims.py", *modules, of=part) for part, modules in CLAIMS_OF.items()
+}

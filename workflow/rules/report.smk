@@ -15,7 +15,7 @@ rule report:
         speed_pictures=SPEED_PICTURES,
         sources=[
             *map(code, NUMBERS_BY),
-            code("theory/decide_claims.py", "claims"),
+            *CLAIMS_CODE.values(),
             *references(*PAPER_CASES, "fig4_small.double"),
         ],
     output:

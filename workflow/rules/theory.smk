@@ -1,4 +1,4 @@
-# The paper's theory on numbers: the checks, the ledger of its claims, and figures that show them.
+# The paper's theory on numbers: the checks, and figures that show them.
 
 
 rule check_equations:
@@ -79,29 +79,6 @@ rule check_observed:
         "Setting the cases and sweeps beside the bounds of the theorems"
     script:
         "../../scripts/theory/check_observed.py"
-
-
-rule claims:
-    "The ledger: each claim with its verdict, in results/claims.json and results/tables/claims.md"
-    input:
-        code=code("theory/decide_claims.py", "claims"),
-        datasets=expand("results/{name}.nc", name=makers()),
-    output:
-        ledger="results/claims.json",
-        controls="results/controls.json",
-        table="results/tables/claims.md",
-    log:
-        "results/logs/claims.log",
-    conda:
-        "../envs/pinned.yaml"
-    params:
-        names=list(makers()),
-        makers=makers(),
-        differs=DIFFERS,
-    message:
-        "Deciding the claims of the paper"
-    script:
-        "../../scripts/theory/decide_claims.py"
 
 
 rule stability_figures:

@@ -109,17 +109,24 @@ def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -
     `names` are paths below results/ without their ending. `on` names cases and sweeps where a
     statement is about some alone of all that a dataset of many holds.
     """
-    paths = {path for name in names for path in rests_on(name, tuple(on))}
-    said = [
-        words
-        for place, words in differs.items()
-        if any(f"{place}.".startswith(f"{path}.") for path in paths)
-        or any(path.startswith(f"{place}.") for path in paths)
-    ]
+    said = list(concerning(differs, names, on).values())
     if not said:
         return ""
     more = f" and {len(said) - 3} more" if len(said) > 3 else ""
     return f"the configuration differs in {', '.join(said[:3])}{more}"
+
+
+def concerning(
+    differs: Differences, names: Iterable[str], on: Iterable[str] = ()
+) -> dict[str, str]:
+    """Return the differences that the datasets called `names` rest on, as `reason` takes them."""
+    paths = {path for name in names for path in rests_on(name, tuple(on))}
+    return {
+        place: words
+        for place, words in differs.items()
+        if any(f"{place}.".startswith(f"{path}.") for path in paths)
+        or any(path.startswith(f"{place}.") for path in paths)
+    }
 
 
 # --- What datasets rest on ------------------------------------------------------------------------

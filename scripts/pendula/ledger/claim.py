@@ -1,15 +1,16 @@
 """How a study declares a claim, how its function reads datasets, and the verdicts on all claims."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from types import ModuleType
 from typing import NamedTuple
 
 from pendula import studies
 from pendula.configuration.paper import Differences, reason
 
 from .criterion import Finding, UndecidableError, Verdict, not_applicable, undecided
-from .cutoff import Cutoff, Flip, flips
+from .cutoff import Cutoff, Flip, flips, recorded
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
 # that none is fitted to the numbers of one row.
@@ -158,25 +159,52 @@ def number(check, name: str, **selection) -> float:
 
 
 @cache
-def all_claims() -> tuple[Claim, ...]:
-    """Return the claims of all studies in the order of the paper.
+def all_claims(*modules: str) -> tuple[Claim, ...]:
+    """Return the claims of all studies, or those in `modules`, in the order of the paper.
 
-    Each module of claims names the SECTION of the paper with which it begins; modules of one
-    section come in the order of the list of studies.
+    `modules` are starts of names, such as "theory/claims" and "paper/claims_norms".
     """
-    modules = sorted(studies.all_modules("claims"), key=lambda module: module.SECTION)
     return tuple(
         function.claim
-        for module in modules
+        for module in _in_order(modules)
         for function in vars(module).values()
         if hasattr(function, "claim")
     )
 
 
-def needed() -> list[str]:
-    """Return every dataset that the ledger reads, once each, in the order of the claims."""
+def sections(*modules: str) -> dict[str, int]:
+    """Return the section of the paper with which each module begins, by its name in the rows."""
+    return {_home(module.__name__): module.SECTION for module in _in_order(modules)}
+
+
+def in_order(rows: Iterable[dict], sections: Mapping[str, int]) -> list[dict]:
+    """Return rows of several parts of the ledger in the order of the paper.
+
+    Each module of claims names the SECTION of the paper with which it begins; modules of one
+    section come in the order of the list of studies.
+    """
+
+    def place(row: dict) -> tuple:
+        module = row["function"].rpartition(".")[0]
+        study = module.partition(".")[0]
+        return sections[module], studies.STUDIES.index(study), module
+
+    return sorted(rows, key=place)
+
+
+def _in_order(modules: tuple[str, ...]) -> list[ModuleType]:
+    found = [module for start in modules or ("claims",) for module in studies.all_modules(start)]
+    return sorted(found, key=lambda module: module.SECTION)
+
+
+def _home(module: str) -> str:
+    return module.removeprefix(f"{studies.__name__}.")
+
+
+def needed(*modules: str) -> list[str]:
+    """Return every dataset that the claims in `modules` read, once each, in their order."""
     names: list[str] = []
-    for claim in all_claims():
+    for claim in all_claims(*modules):
         names += claim.needs
         names += [name for control in claim.controls for name in control.names]
     return list(dict.fromkeys(names))
@@ -234,25 +262,29 @@ def _confirmed(finding: Finding) -> bool:
     return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
 
-def evaluate(sources: Mapping, differs: Differences | None = None) -> list[dict]:
+def evaluate(
+    sources: Mapping, differs: Differences | None = None, modules: Iterable[str] = ()
+) -> list[dict]:
     """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
+
+    `modules` are those of the claims, as `all_claims` takes them; without any they are all.
 
     A verdict that changes where a cut-off moves by a third says so. Where a function confirms a
     claim and a wrong case too, the claim cannot be decided by it. `differs` says where the
     configuration is not the paper's: a claim or a control that rests on such a key is not
     applicable.
     """
-    return [_row(claim, sources, differs or {}) for claim in all_claims()]
+    return [_row(claim, sources, differs or {}) for claim in all_claims(*modules)]
 
 
 def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
-    home = claim.decide.__module__.removeprefix(f"{studies.__name__}.")
     apart = reason(differs, claim.needs, claim.on)
     if apart:
-        finding, cutoffs, moved = not_applicable(apart), [], []
+        finding, cutoffs, moved = not_applicable(apart), set(), []
     else:
-        finding = decide(claim, sources)
-        cutoffs, moved = flips(lambda: str(decide(claim, sources).verdict))
+        with recorded() as cutoffs:
+            finding = decide(claim, sources)
+        moved = flips(finding.verdict, cutoffs, lambda: str(decide(claim, sources).verdict))
     controls = [
         (control, not_applicable(why) if why else feed(claim, control, sources))
         for control in claim.controls
@@ -264,12 +296,12 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
         "place": claim.place,
         "says": claim.says,
         "decided_by": list(claim.needs),
-        "function": f"{home}.{claim.decide.__name__}",
+        "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
         "measured": {name: plain(value) for name, value in finding.measured.items()},
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
-        "cutoffs": [_cutoff_row(cutoff) for cutoff in cutoffs],
+        "cutoffs": [_cutoff_row(cutoff) for cutoff in sorted(cutoffs)],
         "rests_on": [
             _cutoff_row(flip.cutoff) | {"moved_to": plain(flip.value), "verdict": flip.verdict}
             for flip in moved

@@ -79,16 +79,16 @@ class Flip(NamedTuple):
         return f"{self.verdict} at {self.value:.3g} in place of {self.cutoff.number:.3g}"
 
 
-def flips(verdict_of: Callable[[], str]) -> tuple[list[Cutoff], list[Flip]]:
-    """Return the cut-offs that a decision reads, and the moves of them that change its verdict."""
-    with recorded() as read:
-        verdict = verdict_of()
-    cutoffs = sorted(read)
+def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[Flip]:
+    """Return the moves of the cut-offs that a decision has `read` that change its `verdict`.
+
+    `verdict_of` decides again.
+    """
     found = []
-    for cutoff in cutoffs:
+    for cutoff in sorted(read):
         for factor in MOVES:
             with moving(cutoff, factor), recorded():
                 other = verdict_of()
             if other != verdict:
                 found.append(Flip(cutoff, cutoff.moved(factor), other))
-    return cutoffs, found
+    return found

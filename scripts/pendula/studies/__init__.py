@@ -18,8 +18,11 @@ def modules(part: str) -> dict[str, ModuleType]:
 
 
 def all_modules(part: str) -> Iterator[ModuleType]:
-    """Yield the modules of STUDIES whose names start with this, such as "claims"."""
-    here = Path(__file__).parent
-    for study in STUDIES:
-        for path in sorted((here / study).glob(f"{part}*.py")):
+    """Yield the modules of STUDIES whose names start with this, such as "claims".
+
+    Those of one study alone have its name before, as in "paper/claims".
+    """
+    here, (alone, _, start) = Path(__file__).parent, part.rpartition("/")
+    for study in [alone] if alone else STUDIES:
+        for path in sorted((here / study).glob(f"{start}*.py")):
             yield import_module(f"{__name__}.{study}.{path.stem}")

@@ -159,7 +159,8 @@ def test_a_sweep_is_held_to_its_ensemble_point_by_point():
 def test_chains_that_show_one_trajectory_are_one_run():
     sweep = swept([10.0, 12.0, 14.0, 14.001, 13.0, 15.0, 15.0, 15.0])
     sweep = sweep.isel(quantity=0, statistic=0, window=0)
-    assert claims.distinct_runs(sweep) == [[5], [10], [15, 20], [25], [30, 35, 40]]
+    norms = (sweep[norm].values for norm in ("l2", "linf"))
+    assert claims.distinct_runs(norms) == [[0], [1], [2, 3], [4], [5, 6, 7]]
 
 
 def test_points_without_an_ensemble_are_named():

@@ -2,19 +2,13 @@
 
 import numpy as np
 
-from pendula.ledger.chaotic import chaotic
 from pendula.ledger.claim import (
     CHANGE,
     FACTOR,
-    LARGE,
     MUCH,
-    SMALL,
-    cases_reversed,
-    checks,
     claim,
     late,
     runs,
-    wrong_check,
     wrong_run,
 )
 from pendula.ledger.criterion import (
@@ -31,8 +25,7 @@ from pendula.ledger.criterion import (
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.levels import correlation
 from pendula.measures.norms import constants, largest, total_power
-from pendula.models.bounds import proven_region, theorem_1_bound, theorem_3_bound
-from pendula.models.linear_chain import gamma_0
+from pendula.models.bounds import proven_region, theorem_1_bound
 from pendula.numerics.elementary import log
 
 SECTION = 5
@@ -43,8 +36,6 @@ MOST = Cutoff(0.5, '"excites others": most of P is on other sites')
 ANTICORRELATED = Cutoff(-0.8, '"oscillates between": |A|^2 falls where |B|^2 rises', -1.0)
 KEPT = Cutoff(0.75, '"effectively separated": A keeps three quarters of its maximum', 1.0)
 FOLDED = Cutoff(1.0 / 3.0, '"is unstable": amplitudes grow by e within tau = 3')
-GAMMA = EPSILON = 1.0
-"""Of all cases of the paper."""
 UNSTABLE = 3.0
 """The time over which a growth is taken: before the small data are large."""
 
@@ -259,83 +250,3 @@ def fig4_unstable(small) -> Finding:
     measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}
     says = f"mean rate of growth up to tau = {UNSTABLE:g}"
     return judge(measured, Above(FOLDED, "mean_rate", says=says))
-
-
-def of_regular_cases(check):
-    """Return a check of the cases alone that small data keep regular."""
-    return check.sel(case=["fig2_small", "fig3_small"])
-
-
-@claim(
-    "Section 5",
-    "The conservation of H is a measure of the numerical error.",
-    checks("solvers", "trust"),
-    controls=(
-        wrong_check(
-            "the regular cases alone",
-            confirms=True,
-            solvers=of_regular_cases,
-            trust=of_regular_cases,
-        ),
-    ),
-)
-def energy_measures_error(solvers, trust) -> Finding:
-    shared = [name for name in trust["solver"].values if name in solvers["solver"].values]
-    kept = solvers["kept"].sel(span="whole", solver=shared) == 1
-    horizon = trust["horizon"].sel(level="visible", solver=shared)
-    if not np.isfinite(horizon.values).any() and np.isnan(horizon.values).any():
-        raise UndecidableError("no reference of these cases tells the errors")
-    off = (kept & np.isfinite(horizon)).any("solver")
-    measured = {"runs_that_keep_H": kept.sum(), "of_them_off": (kept & np.isfinite(horizon)).sum()}
-    fails = (
-        f"runs of {', '.join(map(str, off['case'].values[off.values]))} keep H to the stated order"
-        " and have norms that are off by 1 % and more: H feels neither a shift in time nor chaos"
-    )
-    return judge(measured, AtMost(0, "of_them_off"), fails=fails)
-
-
-@claim(
-    "Section 6",
-    "Stable dynamics is relatively simple, that of unstable chains is more interesting.",
-    checks("lyapunov", "cases"),
-    controls=(
-        wrong_check(
-            "the exponents of the cases in reverse order",
-            lyapunov=cases_reversed,
-        ),
-    ),
-)
-def stable_is_regular(lyapunov, cases) -> Finding:
-    grown = chaotic(lyapunov).sel(case=cases["case"])
-    covered = cases["region"] != "none"
-    measured = {
-        "cases_a_theorem_covers": covered.sum(),
-        "chaotic_among_them": (grown & covered).sum(),
-        "others": (~covered).sum(),
-        "regular_among_them": (~grown & ~covered).sum(),
-    }
-    criterion = AtMost(0, "chaotic_among_them", "regular_among_them")
-    at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
-    names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
-    caveat = f"{names} is chaotic though small data at its Omega are stable" if names else ""
-    return judge(measured, criterion, caveat)
-
-
-@claim(
-    "Section 5, before Fig 5",
-    "By Theorem 3 the solution in the finite chain stays bounded.",
-    (*SMALL, *LARGE),
-    controls=(
-        wrong_run(
-            "the bound of a chain of three sites",
-            fig4_small=lambda run: run.assign_attrs(half_width=1),
-        ),
-    ),
-)
-def finite_bound(*trajectories) -> Finding:
-    ratios = []
-    for ds in trajectories:
-        sites = 2 * int(ds.attrs["half_width"]) + 1
-        bound = theorem_3_bound(float(ds["energy"][0]), sites, constants(ds))
-        ratios.append(total_power(ds).max() / bound)
-    return judge({"largest": max(ratios)}, AtMost(1.0, "largest", says="largest P over C_N"))

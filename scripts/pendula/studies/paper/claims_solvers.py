@@ -5,6 +5,7 @@ second solver is held to the ensemble, as one more draw from it.
 """
 
 import json
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -249,20 +250,19 @@ def _caveat(regular: dict[str, float], measured, schemes) -> str:
 # --- The second solver: Figs 5 and 6 --------------------------------------------------------------
 
 
-def distinct_runs(run) -> list[list[int]]:
-    """Return the half-widths of one sweep, those together whose chains show one trajectory.
+def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
+    """Return the places of the half-widths of one sweep, those together that show one trajectory.
 
     A front that does not reach the ends leaves no trace of them, so that longer chains repeat it.
+    `norms` are those of the sweep at each half-width.
     """
+    both, close = np.stack(list(norms)), REPEATED.value
     groups: list[list[int]] = []
-    for width in run["half_width"].values.tolist():
-        if groups:
-            last = run.sel(half_width=groups[-1][0])
-            off = [abs(run[norm].sel(half_width=width) / last[norm] - 1.0) for norm in NORMS]
-            if float(max(off)) < REPEATED.value:
-                groups[-1].append(width)
-                continue
-        groups.append([width])
+    for place in range(both.shape[1]):
+        if groups and np.max(np.abs(both[:, place] / both[:, groups[-1][0]] - 1.0)) < close:
+            groups[-1].append(place)
+        else:
+            groups.append([place])
     return groups
 
 
@@ -275,21 +275,20 @@ def swept_chances(second, drawn, norms) -> list[float]:
     shared = np.intersect1d(second["half_width"], drawn["half_width"])
     if len(shared) < FEWEST:
         raise UndecidableError(f"sweep and ensemble share fewer than {FEWEST} half-widths")
-    second, members = second.sel(half_width=shared), int(drawn.attrs["swept_members"])
-    found = []
-    for widths in distinct_runs(second):
-        run, own = second.sel(half_width=widths), drawn.sel(half_width=widths)
-        chances = [
-            chance_of_draw(
-                run[norm].values,
-                own[f"{norm}_mean"].values,
-                own[f"{norm}_deviation"].values,
-                members,
-            )
-            for norm in norms
-        ]
-        found.append(together(chances))
-    return found
+    second, drawn = second.sel(half_width=shared), drawn.sel(half_width=shared)
+    members = int(drawn.attrs["swept_members"])
+    chances = [
+        chance_of_draw(
+            second[norm].values,
+            drawn[f"{norm}_mean"].values,
+            drawn[f"{norm}_deviation"].values,
+            members,
+        )
+        for norm in norms
+    ]
+    found = np.stack(chances)
+    runs = distinct_runs(second[norm].values for norm in NORMS)
+    return [together(found[:, places]) for places in runs]
 
 
 def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
@@ -357,7 +356,7 @@ def of_most(chances: list[np.ndarray]) -> float:
 
 def together(chances: list[np.ndarray]) -> float:
     """Return the chance that the least of so many chances is that small, by Bonferroni's bound."""
-    every = np.concatenate([np.atleast_1d(one) for one in chances]) if chances else np.ones(1)
+    every = np.concatenate([np.ravel(one) for one in chances]) if len(chances) else np.ones(1)
     return float(min(1.0, every.size * every.min()))
 
 
