@@ -14,6 +14,7 @@ sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts",
 
 import code_records
 import file_times
+import warm
 from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
 from pendula import __version__
