@@ -15,6 +15,7 @@ from typing import NoReturn
 
 import pytest
 import yaml
+from pendula.configuration.files import gather
 from pendula.configuration.messages import load
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -60,11 +61,12 @@ def wait_for(happened: Callable[[], object]) -> None:
         time.sleep(0.01)
 
 
-def chosen(study: str):
-    """Return the validated section of a study in the project's configuration."""
-    files = [ROOT / f"config/{name}.yaml" for name in ("config", study)]
-    raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
-    return getattr(load(raw), study)
+def chosen(study: str, *over: str):
+    """Return the validated section of a study, with the files of these names laid over it."""
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", study, *over)]
+    raw = gather(files, {})
+    kept = {"cases", "sweeps", "solvers", "limits", study}
+    return getattr(load({key: raw[key] for key in raw.keys() & kept}), study)
 
 
 def snakemake(

@@ -1,4 +1,4 @@
-"""The checks of the full reproduction, each run once for all tests."""
+"""The checks at the sizes of the quick run, each run once for all tests."""
 
 from functools import cache
 
@@ -11,7 +11,7 @@ from pendula.studies.theory.settings import GROUPS
 @pytest.fixture(scope="session")
 def checked():
     """Return a function: the numbers of a check by its name."""
-    section = chosen("theory")
+    section = chosen("theory", "quick")
     groups = section.wrong_arguments(), *map(section.arguments, GROUPS)
     arguments = {name: given for group in groups for name, given in group.items()}
     return cache(lambda name: run_check(name, arguments[name]))
