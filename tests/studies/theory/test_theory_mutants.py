@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from helpers import HANGS
+from helpers import edit
 
 LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
 MUTANTS = Path(__file__).parent / "mutants.py"
@@ -47,32 +47,44 @@ CONSISTENT = {
 }
 
 
-def failing_check(folder, edits) -> str:
-    """Return the first check that fails on a library with these edits, run as plain Python."""
-    scripts = folder / "scripts"
-    skip = shutil.ignore_patterns("__pycache__", "drawing")
-    shutil.copytree(LIBRARY, scripts / "pendula", ignore=skip)
-    for name, old, new in edits:
-        path = scripts / "pendula" / name
-        text = path.read_text(encoding="utf-8")
-        assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {name}"
-        path.write_text(text.replace(old, new), encoding="utf-8")
-    environment = os.environ | {"PYTHONPATH": str(scripts), "NUMBA_DISABLE_JIT": "1"}
+@pytest.fixture(scope="module")
+def asked():
+    """Return a process that takes folders of mutants; without a compiler, as mutants are small."""
     command = [sys.executable, "-W", "ignore", str(MUTANTS)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=HANGS)
-    assert done.returncode == 0, done.stderr
-    return done.stdout.strip()
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, env=environment, **pipes) as process:
+        yield process
+        process.stdin.close()
 
 
-def test_the_library_itself_passes(tmp_path):
-    assert failing_check(tmp_path, []) == "none"
+@pytest.fixture
+def failing_check(asked, tmp_path):
+    """Return a function: the first check that fails on a library with these edits."""
+
+    def find(edits) -> str:
+        skip = shutil.ignore_patterns("__pycache__", "drawing")
+        shutil.copytree(LIBRARY, tmp_path / "pendula", ignore=skip)
+        for name, old, new in edits:
+            edit(tmp_path / "pendula" / name, old, new)
+        asked.stdin.write(f"{tmp_path}\n")
+        asked.stdin.flush()
+        found = asked.stdout.readline().rstrip("\n")
+        assert found and not found.startswith("no check")
+        return found
+
+    return find
+
+
+def test_the_library_itself_passes(failing_check):
+    assert failing_check([]) == "none"
 
 
 @pytest.mark.parametrize("name", MUTATIONS)
-def test_mutant_is_caught(name, tmp_path):
-    assert failing_check(tmp_path, [MUTATIONS[name]]) != "none"
+def test_mutant_is_caught(name, failing_check):
+    assert failing_check([MUTATIONS[name]]) != "none"
 
 
 @pytest.mark.parametrize("name", CONSISTENT)
-def test_mutant_of_equations_and_energy_alike_is_caught(name, tmp_path):
-    assert failing_check(tmp_path, CONSISTENT[name]) != "none"
+def test_mutant_of_equations_and_energy_alike_is_caught(name, failing_check):
+    assert failing_check(CONSISTENT[name]) != "none"
