@@ -17,6 +17,7 @@ from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
 
 from .description import as_text, describe
+from .thrift import thrifty
 
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
@@ -158,6 +159,7 @@ def save(
         complete_or_absent(pdf) as new_pdf,
         complete_or_absent(netcdf) as new_netcdf,
         complete_or_absent(description) as new_description,
+        thrifty(),
     ):
         # not savefig, which draws everything once more to find out what it will draw
         figure.canvas.draw()
@@ -165,7 +167,8 @@ def save(
         new_description.write_text(text, encoding="utf-8")
         mark = fingerprint(text)
         about = {"Software": None, "Panels": _panels(figure), "Description": mark}
-        imsave(new_png, figure.canvas.buffer_rgba(), format="png", dpi=figure.dpi, metadata=about)
+        pixels, quick = figure.canvas.buffer_rgba(), {"compress_level": 3}
+        imsave(new_png, pixels, dpi=figure.dpi, metadata=about, format="png", pil_kwargs=quick)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})

@@ -1,0 +1,103 @@
+"""Saving a figure without doing anything twice: the same pictures, and fonts that a PDF can use."""
+
+import re
+import zlib
+from contextlib import nullcontext
+from io import BytesIO
+
+import numpy as np
+import pytest
+from fontTools.ttLib import TTFont
+from matplotlib.axis import Axis
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from pendula.drawing import style, thrift
+
+
+def draw():
+    """Return a figure with shared axes, aligned labels, a colour bar, and titles below ticks."""
+    figure = style.new_figure(4, 3)
+    grid = figure.subplots(2, 2, sharex=True, sharey="col")
+    for row, (left, right) in enumerate(grid):
+        left.semilogy(np.arange(1.0, 9.0) ** 5, label="$x^5$")
+        left.set_ylabel(r"$10^{9}$ and more" if row else r"$\tau$")
+        image = right.imshow(np.eye(3), extent=(0, 7, -0.5, 0.5), aspect="auto")
+        right.set_title(f"row {row}", loc="left")
+        right.xaxis.tick_top()
+    figure.colorbar(image, ax=grid[:, 1].tolist())
+    figure.align_ylabels()
+    style.name_legend(figure, *grid.flat)
+    return figure
+
+
+@style.styled
+def save(thrifty):
+    """Return the pixels of a figure and its PDF."""
+    figure = draw()
+    with thrifty(), BytesIO() as pdf:
+        figure.canvas.draw()
+        pixels = np.array(figure.canvas.buffer_rgba())
+        figure.set_layout_engine("none")
+        FigureCanvasPdf(figure).print_pdf(pdf, metadata={"CreationDate": None})
+        return pixels, pdf.getvalue()
+
+
+@pytest.fixture(scope="module")
+def saved():
+    return {"thrifty": save(thrift.thrifty), "plain": save(nullcontext)}
+
+
+def streams(pdf):
+    """Return what the streams of a PDF hold, unpacked."""
+    packed = re.findall(rb"\sstream\r?\n(.*?)\r?\nendstream", pdf, re.DOTALL)
+    return [zlib.decompress(one) if one[:1] == b"x" else one for one in packed]
+
+
+def fonts(pdf):
+    return [TTFont(BytesIO(one)) for one in streams(pdf) if one[:4] == b"\0\1\0\0"]
+
+
+def test_the_pixels_are_those_of_matplotlib_alone(saved):
+    assert np.array_equal(saved["thrifty"][0], saved["plain"][0])
+
+
+def test_the_pdf_is_that_of_matplotlib_alone_but_for_its_fonts(saved):
+    thrifty, plain = (
+        [one for one in streams(saved[name][1]) if one[:4] != b"\0\1\0\0"]
+        for name in ("thrifty", "plain")
+    )
+    assert thrifty == plain and len(plain) > 3
+
+
+def test_fonts_hold_the_outlines_of_matplotlib_alone_and_nothing_to_set_text_with(saved):
+    thrifty, plain = fonts(saved["thrifty"][1]), fonts(saved["plain"][1])
+    assert len(thrifty) == len(plain) > 1
+    for slim, full in zip(thrifty, plain, strict=True):
+        assert {*slim.keys()} - {"GlyphOrder"} <= thrift.TABLES < {*full.keys()}
+        shapes = [
+            [font["glyf"][name].getCoordinates(font["glyf"])[0] for name in font.getGlyphOrder()]
+            for font in (slim, full)
+        ]
+        assert all(map(np.array_equal, *shapes))
+        assert [*slim["hmtx"].metrics.values()] == [*full["hmtx"].metrics.values()]
+
+
+def test_ticks_are_found_anew_where_limits_or_sizes_change():
+    figure = draw()
+    axes = figure.axes[0]
+    with thrift.thrifty():
+        figure.canvas.draw()
+        before = [tick.get_loc() for tick in axes.yaxis._update_ticks()]
+        axes.set_ylim(1, 10)
+        limited = [tick.get_loc() for tick in axes.yaxis._update_ticks()]
+        axes.set_yscale("linear")
+        figure.set_size_inches(4, 1)
+        small = [tick.get_loc() for tick in axes.yaxis._update_ticks()]
+    assert before != limited != small
+
+
+def test_matplotlib_is_as_it_was_afterwards():
+    before = Axis._update_ticks
+    with pytest.raises(KeyError), thrift.thrifty():
+        assert Axis._update_ticks is not before
+        raise KeyError
+    assert Axis._update_ticks is before
