@@ -18,7 +18,7 @@ from matplotlib.axis import Axis
 from matplotlib.mathtext import MathTextParser
 
 TABLES = {"glyf", "head", "hhea", "hmtx", "loca", "maxp", "cvt ", "fpgm", "prep"}
-"""What a PDF takes from a font (ISO 32000-2, 9.9.2). The other tables join letters or name them, and
+"""What a PDF takes from a font (ISO 32000-2, 9.9.2). Other tables join letters or name them, and
 it takes most of the time of embedding a font to reduce those to the letters of a figure."""
 
 
