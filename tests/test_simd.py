@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pendula import simd
 from pendula.compiled import uncached
 from pendula.simd import (
+    LANES,
     fill,
     keep_lanes,
     larger_magnitude,
@@ -23,19 +23,19 @@ from pendula.simd import (
     load,
     right_neighbours,
     store,
-    vec4_views,
+    vector_views,
 )
 
-ONE = np.array([1.0, -2.0, 3.5, 0.1])
-OTHER = np.array([0.3, 5.0, -7.0, 0.2])
-EIGHT = np.concatenate([ONE, OTHER])
+ONE = np.array([1.0, -2.0, 3.5, 0.1, 7.7, 1e-3, -0.6, 2.2])
+OTHER = np.array([0.3, 5.0, -7.0, 0.2, 1.9, -4.4, 8.8, 0.7])
+BOTH = np.concatenate([ONE, OTHER])
 LARGE = [0.0, -0.0, 1e-320, -1.0, 1e300, -np.inf, np.nan, -np.nan]
-numbers = st.lists(st.floats(allow_nan=False), min_size=4, max_size=4).map(np.array)
+numbers = st.lists(st.floats(allow_nan=False), min_size=LANES, max_size=LANES).map(np.array)
 
 
 def lanes_of(function, *arguments):
     """Return the vector that a compiled `function(out, ...)` stores at the start of `out`."""
-    out = np.full(simd.LANES, np.nan)
+    out = np.full(LANES, np.nan)
     function(out, *arguments)
     return out
 
@@ -48,9 +48,10 @@ def copy_vector(out, array, place):
     store(out, 0, load(array, place))
 
 
-@pytest.mark.parametrize("place", range(5))
-def test_load_takes_four_numbers_from_any_place(place):
-    np.testing.assert_array_equal(lanes_of(copy_vector, EIGHT, place), EIGHT[place : place + 4])
+@pytest.mark.parametrize("place", range(LANES + 1))
+def test_load_takes_a_vector_from_any_place(place):
+    found = lanes_of(copy_vector, BOTH, place)
+    np.testing.assert_array_equal(found, BOTH[place : place + LANES])
 
 
 @uncached
@@ -58,11 +59,11 @@ def store_repeated(out, place, number):
     store(out, place, fill(number))
 
 
-@pytest.mark.parametrize("place", range(5))
-def test_store_writes_four_numbers_and_no_more_and_fill_repeats_one(place):
-    out, expected = np.zeros(8), np.zeros(8)
+@pytest.mark.parametrize("place", range(LANES + 1))
+def test_store_writes_a_vector_and_no_more_and_fill_repeats_one(place):
+    out, expected = np.zeros(2 * LANES), np.zeros(2 * LANES)
     store_repeated(out, place, 0.1)
-    expected[place : place + 4] = 0.1
+    expected[place : place + LANES] = 0.1
     np.testing.assert_array_equal(out, expected)
 
 
@@ -73,7 +74,8 @@ def copy_by_flat_index(out, array):
 
 def test_load_counts_a_flat_index_through_the_rows_of_an_array():
     array = np.arange(15.0).reshape(3, 5)
-    np.testing.assert_array_equal(lanes_of(copy_by_flat_index, array), [6, 7, 8, 9])
+    found = lanes_of(copy_by_flat_index, array)
+    np.testing.assert_array_equal(found, np.arange(6, 6 + LANES))
 
 
 @uncached
@@ -81,11 +83,11 @@ def add_vectors(out, a, b):
     store(out, 0, load(a, 0) + load(b, 0))
 
 
-def test_four_numbers_are_one_register_to_llvm():
+def test_eight_numbers_are_one_register_to_llvm():
     """No fewer: the code would be right, and slow."""
     lanes_of(add_vectors, ONE, OTHER)
     (code,) = add_vectors.inspect_llvm().values()
-    assert "fadd <4 x double>" in code
+    assert "fadd <8 x double>" in code
 
 
 # --- Arithmetic ---
@@ -124,20 +126,21 @@ def test_operators_of_two_vectors_have_the_bits_of_numpy(symbol, one, other):
 @uncached
 def operate_with_number(out, number, a):
     store(out, 0, number + load(a, 0))
-    store(out, 4, number - load(a, 0))
-    store(out, 8, number * load(a, 0))
+    store(out, LANES, number - load(a, 0))
+    store(out, 2 * LANES, number * load(a, 0))
 
 
 def test_operators_take_a_number_to_the_left_of_a_vector():
-    out = np.zeros(12)
+    out = np.zeros(3 * LANES)
     operate_with_number(out, 0.7, ONE)
-    np.testing.assert_array_equal(out.reshape(3, 4), [0.7 + ONE, 0.7 - ONE, 0.7 * ONE])
+    np.testing.assert_array_equal(out.reshape(3, LANES), [0.7 + ONE, 0.7 - ONE, 0.7 * ONE])
 
 
 def test_minus_changes_the_sign_of_zero_too():
-    out = lanes_of(negate_vector, np.array([0.0, -0.0, 1.5, np.inf]))
-    np.testing.assert_array_equal(np.signbit(out), [True, False, True, True])
-    np.testing.assert_array_equal(out, [0.0, 0.0, -1.5, -np.inf])
+    out = lanes_of(negate_vector, np.array([0.0, -0.0, 1.5, np.inf, *[1.0] * 4]))
+    signs = [True, False, True, True, *[True] * 4]
+    np.testing.assert_array_equal(np.signbit(out), signs)
+    np.testing.assert_array_equal(out, [0.0, 0.0, -1.5, -np.inf, *[-1.0] * 4])
 
 
 @uncached
@@ -147,8 +150,8 @@ def multiply_and_add(out, a, b, c):
 
 def test_a_product_and_a_sum_are_never_fused():
     """(1 + e)(1 - e) - 1 is zero when the product is rounded, -e^2 when it is not."""
-    e = np.full(4, 2.0**-30)
-    out = lanes_of(multiply_and_add, 1.0 + e, 1.0 - e, -np.ones(4))
+    e = np.full(LANES, 2.0**-30)
+    out = lanes_of(multiply_and_add, 1.0 + e, 1.0 - e, -np.ones(LANES))
     np.testing.assert_array_equal(out, 0.0)
 
 
@@ -157,15 +160,16 @@ def test_a_product_and_a_sum_are_never_fused():
 
 @uncached
 def shift_both_ways(out, array):
-    store(out, 0, left_neighbours(load(array, 0), load(array, 4)))
-    store(out, 4, right_neighbours(load(array, 0), load(array, 4)))
+    store(out, 0, left_neighbours(load(array, 0), load(array, LANES)))
+    store(out, LANES, right_neighbours(load(array, 0), load(array, LANES)))
 
 
 def test_shifts_show_each_site_its_neighbour():
-    out = np.zeros(8)
-    shift_both_ways(out, EIGHT)
-    np.testing.assert_array_equal(out[:4], EIGHT[3:7], "left neighbours of the second block")
-    np.testing.assert_array_equal(out[4:], EIGHT[1:5], "right neighbours of the first block")
+    out = np.zeros(2 * LANES)
+    shift_both_ways(out, BOTH)
+    left, right = BOTH[LANES - 1 : -1], BOTH[1 : LANES + 1]
+    np.testing.assert_array_equal(out[:LANES], left, "left neighbours of the second block")
+    np.testing.assert_array_equal(out[LANES:], right, "right neighbours of the first block")
 
 
 @uncached
@@ -173,9 +177,9 @@ def keep_some(out, a, count):
     store(out, 0, keep_lanes(load(a, 0), count, 9.0))
 
 
-@pytest.mark.parametrize("count", range(5))
+@pytest.mark.parametrize("count", range(LANES + 1))
 def test_keep_lanes_replaces_what_follows_the_count(count):
-    expected = np.where(np.arange(4) < count, ONE, 9.0)
+    expected = np.where(np.arange(LANES) < count, ONE, 9.0)
     np.testing.assert_array_equal(lanes_of(keep_some, ONE, count), expected)
 
 
@@ -199,16 +203,16 @@ def larger_of_numbers(a, b):
 @pytest.mark.parametrize("other", LARGE)
 @pytest.mark.parametrize("one", LARGE)
 def test_the_larger_magnitude_is_found_in_each_lane_and_nan_wins(one, other):
-    a, b = np.array([one, 1.0, other, 1.0]), np.array([other, 2.0, one, -2.0])
-    expected = [larger_of_numbers(one, other), 2.0, larger_of_numbers(one, other), 2.0]
+    a, b = np.array([one, 1.0, other, 1.0] * 2), np.array([other, 2.0, one, -2.0] * 2)
+    expected = [larger_of_numbers(one, other), 2.0] * 4
     np.testing.assert_array_equal(lanes_of(larger_of_vectors, a, b), expected)
 
 
-@pytest.mark.parametrize("lane", range(4))
+@pytest.mark.parametrize("lane", range(LANES))
 @pytest.mark.parametrize("largest", [-1e-320, 2.0, -np.inf, np.nan, -np.nan])
 def test_the_largest_lane_is_found_wherever_it_is(largest, lane):
-    values = np.zeros(4)
-    values[(lane + 1) % 4] = np.inf if np.isnan(largest) else 0.0
+    values = np.zeros(LANES)
+    values[(lane + 1) % LANES] = np.inf if np.isnan(largest) else 0.0
     values[lane] = largest
     np.testing.assert_equal(largest_of_vector(values), abs(largest))
 
@@ -239,51 +243,51 @@ def test_ghosts_and_later_rows_do_not_count_as_largest():
 
 @uncached
 def shape_of_view(state):
-    return vec4_views((state,))[0].shape
+    return vector_views((state,))[0].shape
 
 
 def test_a_view_has_the_shape_of_its_state():
-    assert shape_of_view(np.zeros((3, 11))) == (3, 11)
+    assert shape_of_view(np.zeros((3, 15))) == (3, 15)
 
 
 @uncached
 def read_view(out, state, row, j):
-    store(out, 0, vec4_views((state,))[0][row, j])
+    store(out, 0, vector_views((state,))[0][row, j])
 
 
 @pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
-def test_reading_a_view_gives_four_columns_of_a_row(row, j):
-    state = np.arange(33.0).reshape(3, 11)
-    np.testing.assert_array_equal(lanes_of(read_view, state, row, j), state[row, j : j + 4])
+def test_reading_a_view_gives_as_many_columns_of_a_row(row, j):
+    state = np.arange(45.0).reshape(3, 15)
+    np.testing.assert_array_equal(lanes_of(read_view, state, row, j), state[row, j : j + LANES])
 
 
 @uncached
 def write_view(state, row, j):
-    vec4_views((state,))[0][row, j] = fill(1.0)
+    vector_views((state,))[0][row, j] = fill(1.0)
 
 
 @pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
-def test_writing_a_view_changes_four_columns_of_a_row_and_nothing_else(row, j):
-    state, expected = np.zeros((3, 11)), np.zeros((3, 11))
+def test_writing_a_view_changes_as_many_columns_of_a_row_and_nothing_else(row, j):
+    state, expected = np.zeros((3, 15)), np.zeros((3, 15))
     write_view(state, row, j)
-    expected[row, j : j + 4] = 1.0
+    expected[row, j : j + LANES] = 1.0
     np.testing.assert_array_equal(state, expected)
 
 
 @uncached
 def add_views(target, one, other):
-    views = vec4_views((target, one, other))
+    views = vector_views((target, one, other))
     views[0][0, 0] = views[1][0, 0] + views[2][0, 0]
 
 
 def test_several_states_are_viewed_at_once_each_by_itself():
-    target = np.zeros((1, 4))
+    target = np.zeros((1, LANES))
     add_views(target, ONE[None], OTHER[None])
     np.testing.assert_array_equal(target[0], ONE + OTHER)
 
 
 def write_sum(y, j):
-    """Write the sum of two rows; one column of an array, or four of a view."""
+    """Write the sum of two rows; one column of an array, or a vector of a view."""
     y[2, j] = y[0, j] + 0.5 * y[1, j]
 
 
@@ -292,14 +296,14 @@ write_sum_compiled = uncached(write_sum)
 
 @uncached
 def write_sum_by_view(state, j):
-    write_sum_compiled(vec4_views((state,))[0], j)
+    write_sum_compiled(vector_views((state,))[0], j)
 
 
-def test_what_is_written_for_one_site_serves_for_four():
-    state = np.random.default_rng(0).normal(size=(3, 9))
+def test_what_is_written_for_one_site_serves_for_a_vector():
+    state = np.random.default_rng(0).normal(size=(3, LANES + 5))
     by_view, by_site = state.copy(), state.copy()
     write_sum_by_view(by_view, 3)
-    for j in range(3, 7):
+    for j in range(3, 3 + LANES):
         write_sum_compiled(by_site, j)
     np.testing.assert_array_equal(by_view, by_site)
     assert not np.array_equal(by_view, state)

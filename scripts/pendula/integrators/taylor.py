@@ -5,8 +5,8 @@ which are the state, it writes those of the orders 1 to ORDER. What stands here 
 coefficients lie in memory, their sums, the step that they allow, and the loop. No step is ever
 rejected, and outputs between steps are sums of the same series.
 
-Layout. Sites go four to a block, a `Vector` (see pendula.simd). A block holds, order after order,
-the real parts of its four sites, their imaginary parts, and four numbers for the rule, which keeps
+Layout. Sites go LANES to a block, a `Vector` (see pendula.simd). A block holds, order after order,
+the real parts of its sites, their imaginary parts, and a number a site for the rule, which keeps
 |A|^2 / 2 there. All coefficients of a block lie side by side: each is at a fixed distance from the
 start of the block, and a short chain fits into the fastest cache. Behind all blocks lie the ghosts,
 what each component sees beyond its two ends, for the order that is at work.

@@ -24,7 +24,7 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.numerics import elementary
-from pendula.simd import LANES, vec4_views
+from pendula.simd import LANES, vector_views
 
 # --- The chain and its ends ---------------------------------------------------------------------
 
@@ -84,8 +84,8 @@ def chain_of_tile(chain, at_left_end, at_right_end):
     return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
-# --- The right-hand side at one site, or at four ------------------------------------------------
-# Every function of this part takes numbers, or `Vector`s of four sites (see pendula.simd).
+# --- The right-hand side at one site, or at a vector of sites -----------------------------------
+# Every function of this part takes numbers, or `Vector`s of sites (see pendula.simd).
 
 
 @inlined_by_llvm
@@ -136,9 +136,9 @@ def site_rates(chain, y, re, j, squared_modulus, dy):
 def at_every_site(rule):
     """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
 
-    It goes through both components, four sites at a time where a row has at least eight. The last
-    block of a row then overlaps the one before and writes the same bits again, which costs less
-    than a remainder that goes site by site.
+    It goes through both components, a vector of sites at a time where a row is as long as that. The
+    last block of a row then overlaps the one before and writes the same bits again, which costs
+    less than a remainder that goes site by site.
     """
 
     @inlined_by_llvm
@@ -151,10 +151,10 @@ def at_every_site(rule):
     @inlined_by_llvm
     def write(chain, states, dy):
         """`states` is a tuple of states of the shape of `dy`, whose ghosts are filled."""
-        if dy.shape[1] - 2 < 2 * LANES:
+        if dy.shape[1] - 2 < LANES:
             walk(chain, states, dy, 1)
         else:
-            walk(chain, vec4_views(states), vec4_views((dy,))[0], LANES)
+            walk(chain, vector_views(states), vector_views((dy,))[0], LANES)
 
     return write
 

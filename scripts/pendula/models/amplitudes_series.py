@@ -7,7 +7,7 @@ With A = sum_k a_k s^k and D = |A|^2 / 2 = sum_k d_k s^k, (4) gives
 
 so that two Cauchy products make the coefficient c_k of the cubic term. From top to bottom: the ends
 of the chain, order by order; the Cauchy products; the recurrence; the order of the work on a chain
-that outgrows the cache. How a series lies in memory, in blocks of four sites, says
+that outgrows the cache. How a series lies in memory, in blocks of sites, says
 pendula.integrators.taylor; `m` is that memory, and `i` always the place at which a block begins.
 
 Bits. Each lane does what a site alone would, so it changes no bit where in its block a site stands;
@@ -194,7 +194,7 @@ def write_next_order(chain, series, k, first, last):
 # --- The order of the work ----------------------------------------------------------------------
 
 CACHED_BLOCKS = 64
-"""A chain of more blocks outgrows the cache."""
+"""A chain of more blocks outgrows a cache of half a megabyte."""
 GROUP = 4
 """Blocks that take an order together in a wave: 17 groups of them fit into the cache."""
 
