@@ -6,7 +6,7 @@ overflows, or a step that shrinks to nothing.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from math import frexp, isfinite
 
 import numpy as np
 
@@ -50,14 +50,11 @@ def find_fault(constants: Constants, peak: float, span: float, solver: Mapping) 
 
 def _rates(constants: Constants, peak: float) -> dict[str, float]:
     """Return bounds of the relative rates at which data of the size `peak` turn or grow, by key."""
-    epsilon, gamma, omega = np.abs([constants.epsilon, constants.gamma, constants.omega])
-    with np.errstate(over="ignore"):
-        cubic = float(0.5 * np.square(peak))
     return {
-        "epsilon": float(4 * epsilon),
-        "omega": float(omega),
-        "gamma": float(2 * gamma),
-        "initial": cubic,
+        "epsilon": 4.0 * abs(constants.epsilon),
+        "omega": abs(float(constants.omega)),
+        "gamma": 2.0 * abs(constants.gamma),
+        "initial": 0.5 * (peak * peak),
     }
 
 
@@ -67,8 +64,8 @@ def rate(constants: Constants, peak: float) -> float:
 
 
 def _find_in_data(constants: Constants, peak: float, span: float) -> Obstacle | None:
-    values = {**asdict(constants), "initial": peak, "end_time": span}
-    endless = [key for key, value in values.items() if not np.isfinite(value)]
+    values = {**vars(constants), "initial": peak, "end_time": span}
+    endless = [key for key, value in values.items() if not isfinite(value)]
     if endless:
         return endless[0], "the data or the constants are not finite"
     if 0.0 < peak < SMALLEST_DATA:
@@ -132,6 +129,9 @@ def _find_in_series(
     """
     total = rate(constants, peak)
     if solver["name"] != "taylor" or peak == 0.0 or total * span < 1e-6:
+        return None
+    octaves = abs(frexp(peak)[1]) + SERIES_ORDER * (abs(frexp(total)[1]) + 1)
+    if octaves < 270.0:  # as always, and then the logarithms need not be asked: 2^270 < 1e270
         return None
     power = (log(peak) + SERIES_ORDER * log(total)) / log(10.0)
     if abs(power) > 270.0:

@@ -311,3 +311,11 @@ def energy_with_scratch(chain, y, scratch):
 def energy(chain, y):
     """Return H of equation (8) for the state `y`; see `energy_with_scratch`."""
     return energy_with_scratch(chain, y, np.empty((2, y.shape[1])))
+
+
+@kernel
+def energies(chain, states, out):
+    """Write H of each of `states` (count, row, 1 + site) into `out` (count,)."""
+    scratch = np.empty((2, states.shape[2]))
+    for i in range(len(states)):
+        out[i] = energy_with_scratch(chain, states[i], scratch)

@@ -87,12 +87,12 @@ def coercivity(power, constants: Constants):
     -H >= |Omega| P - gamma P (1 + s) - P^3 (1 - 3 s^2 / 4) / (64 epsilon), here at its least s.
     Concave in P. Does not hold on a ring or with free ends, where a constant has no gradient.
     """
-    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
+    k = with_positive_coupling(constants)
     power = np.asarray(power, dtype=float)
-    cubic = power * power / (64.0 * epsilon)
+    cubic = power * power / (64.0 * k.epsilon)
     with np.errstate(divide="ignore", over="ignore"):
-        s = np.minimum(1.0, 2.0 * abs(gamma) / (3.0 * cubic))
-    return power * (abs(omega) - abs(gamma) * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
+        s = np.minimum(1.0, 2.0 * abs(k.gamma) / (3.0 * cubic))
+    return power * (abs(k.omega) - abs(k.gamma) * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:

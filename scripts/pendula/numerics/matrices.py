@@ -21,11 +21,11 @@ def multiply(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def cholesky(matrix: np.ndarray) -> np.ndarray:
-    """Return the lower triangular L with L L^T = `matrix`, symmetric and positive definite."""
+    """Return the lower triangular L with L L^T = `matrix` (..., n, n), each positive definite."""
     factor = np.zeros_like(matrix)
-    for j in range(len(matrix)):
-        column = matrix[j:, j] - times(factor[j:, :j], factor[j, :j])
-        factor[j:, j] = column / np.sqrt(column[0])
+    for j in range(matrix.shape[-1]):
+        column = matrix[..., j:, j] - times(factor[..., j:, :j], factor[..., j, :j])
+        factor[..., j:, j] = column / np.sqrt(column[..., :1])
     return factor
 
 

@@ -8,6 +8,7 @@ although the package `cma` has it, which takes eigenvectors, seeds NumPy's globa
 would be one more pin, of 25,000 lines, in place of 70 that one reads beside the tutorial.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -53,34 +54,59 @@ def maximise(objective, start: np.ndarray, spread: float, generations: int, size
     `objective` maps points (size, n) to values (size,). Starts from `start` with steps of
     `spread` in every direction.
     """
-    rng = np.random.default_rng(seed)
-    n, mean, sigma = len(start), np.array(start, float), spread
-    s = settings(n, size)
-    covariance, drift, path, forgotten = np.eye(n), np.zeros(n), np.zeros(n), 1.0
-    best_point, best, history = mean, -np.inf, []
+    found = maximise_all(
+        lambda points: objective(points[0])[None],
+        np.asarray(start, float)[None],
+        *(spread, generations, size, [seed]),
+    )
+    point, value, history = (part[0] for part in found)
+    return point, float(value), history
+
+
+def maximise_all(
+    objective, starts: np.ndarray, spread: float, generations: int, size: int, seeds: Sequence
+):
+    """Return the same of several searches side by side, each with the bits that it has alone.
+
+    `starts` are (search, n), and `objective` maps points (search, size, n) to values (search,
+    size). The searches share every call, which for a few numbers costs more than computing them.
+    """
+    rngs = [np.random.default_rng(seed) for seed in seeds]
+    mean, (count, n) = np.array(starts, float), np.shape(starts)
+    s, one = settings(n, size), np.eye(n)
+    sigma, covariance = np.full(count, float(spread)), np.broadcast_to(one, (count, n, n))
+    drift, path, forgotten = np.zeros((count, n)), np.zeros((count, n)), 1.0
+    best_points, best, history = mean, np.full(count, -np.inf), []
     for _ in range(generations):
-        drawn = normal(rng, (size, n))
-        least = LEAST_SCALE * covariance.diagonal().max()
-        steps = times(cholesky(covariance + least * np.eye(n)), drawn)
-        values = objective(mean + sigma * steps)
-        order = np.argsort(-values, kind="stable")
-        if values[order[0]] > best:
-            best, best_point = float(values[order[0]]), mean + sigma * steps[order[0]]
+        drawn = np.stack([normal(rng, (size, n)) for rng in rngs])
+        least = LEAST_SCALE * covariance.diagonal(0, 1, 2).max(axis=1)
+        factor = cholesky(covariance + least[:, None, None] * one)
+        steps = times(factor[:, None], drawn)
+        points = mean[:, None] + sigma[:, None, None] * steps
+        values = objective(points)
+        order = np.argsort(-values, axis=1, kind="stable")[:, :, None]
+        top = np.take_along_axis(values, order[:, 0], axis=1)[:, 0]
+        points = np.take_along_axis(points, order[:, :1], axis=1)[:, 0]
+        best_points = np.where((top > best)[:, None], points, best_points)
+        best = np.where(top > best, top, best)
         history.append(best)
-        kept, weights = steps[order[: len(s.weights)]], s.weights[:, None]
-        move = np.sum(weights * kept, axis=0)
-        mean = mean + sigma * move
-        white = np.sum(weights * drawn[order[: len(s.weights)]], axis=0)
+        parents, weights = order[:, : len(s.weights)], s.weights[:, None]
+        kept = np.take_along_axis(steps, parents, axis=1)
+        move = np.sum(weights * kept, axis=1)
+        mean = mean + sigma[:, None] * move
+        white = np.sum(weights * np.take_along_axis(drawn, parents, axis=1), axis=1)
         drift = (1 - s.path_sigma) * drift + np.sqrt(
             s.path_sigma * (2 - s.path_sigma) * s.mu_eff
         ) * white
-        length = np.sqrt(np.sum(drift * drift))
+        length = np.sqrt(np.sum(drift * drift, axis=1))
         forgotten *= (1 - s.path_sigma) * (1 - s.path_sigma)
         steady = length / np.sqrt(1 - forgotten) < (1.4 + 2 / (n + 1)) * s.typical_length
-        path = (1 - s.path_c) * path + steady * np.sqrt(s.path_c * (2 - s.path_c) * s.mu_eff) * move
-        missed = (not steady) * s.path_c * (2 - s.path_c)
-        covariance = (1 - s.rank_one - s.rank_mu + s.rank_one * missed) * covariance
-        covariance += s.rank_one * path[:, None] * path
-        covariance += s.rank_mu * multiply(kept.T, weights * kept)
-        sigma *= exp(s.path_sigma / s.damping * (length / s.typical_length - 1))
-    return best_point, best, np.array(history)
+        taken = steady * np.sqrt(s.path_c * (2 - s.path_c) * s.mu_eff)
+        path = (1 - s.path_c) * path + taken[:, None] * move
+        missed = ~steady * s.path_c * (2 - s.path_c)
+        fading = 1 - s.rank_one - s.rank_mu + s.rank_one * missed
+        covariance = fading[:, None, None] * covariance
+        covariance += s.rank_one * path[:, :, None] * path[:, None, :]
+        covariance += s.rank_mu * multiply(kept.swapaxes(1, 2), weights * kept)
+        sigma = sigma * exp(s.path_sigma / s.damping * (length / s.typical_length - 1))
+    return best_points, best, np.array(history).T

@@ -1,5 +1,6 @@
 """From a problem to its trajectory: by one run, or by runs at ever finer tolerance."""
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -49,24 +50,37 @@ def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory
     """
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, reduction)
+    if reduction is None:
+        reduction = find_reduction(problem.amplitudes)
+    times, record, y, outcome = integrate(problem, reduction, interruptible)
+    return _collect(problem, times, record, y, reduction, outcome)
+
+
+def integrate(
+    problem: Problem, reduction: Reduction, call: Callable
+) -> tuple[np.ndarray, Record, np.ndarray, Outcome]:
+    """Return times, observables of the part that `reduction` leaves, its final state, the outcome.
+
+    `call` is `interruptible`. Who makes very many short runs calls them all by that once, since a
+    thread costs as much as such a run, and hands on here a function that calls a kernel at once.
+    Raises IntegrationError as `simulate` does.
+    """
     obstacle = find_obstacle(problem)
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
-    amplitudes = problem.amplitudes
-    reduction = find_reduction(amplitudes) if reduction is None else reduction
     method = SOLVERS[problem.solver["name"]]
-    times, y = problem.times, pack(amplitudes, reduction)
+    times, y = problem.times, pack(problem.amplitudes, reduction)
     record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
     controls = tuple(float(problem.solver[name]) for name in method.controls)
     chain = make_chain(problem.constants, problem.boundary, reduction)
     work = aligned((method.work, *y.shape))
-    outcome = interruptible(method.run, chain, y, times, controls, work, record)
+    outcome = call(method.run, chain, y, times, controls, work, record)
     if outcome.status != DONE:
         raise _stopped(problem, outcome.time, FAULTS[outcome.status])
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
             raise _stopped(problem, outcome.time, "the state, its norms or its energy overflow")
-    return _collect(problem, times, record, y, reduction, outcome)
+    return times, record, y, outcome
 
 
 def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:

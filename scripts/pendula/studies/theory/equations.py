@@ -12,13 +12,20 @@ import numpy as np
 
 from pendula.datasets.checks import tabulate, variable
 from pendula.measures.norms import power_of
-from pendula.models.amplitudes import ENDS, energy, rates
+from pendula.models.amplitudes import ENDS, energies, energy, rates
 from pendula.numerics import elementary
 from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import complex_of, modulus, product
 from pendula.problem import Constants, Problem
+from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, pack, unpack
-from pendula.simulation.simulate import IntegrationError, Trajectory, make_chain, simulate
+from pendula.simulation.simulate import (
+    IntegrationError,
+    Trajectory,
+    integrate,
+    make_chain,
+    simulate,
+)
 
 EPS = np.finfo(float).eps
 BOUNDARIES = tuple(ENDS)
@@ -38,7 +45,18 @@ def run(
 
     The trajectory has its start and as many `outputs`, in equal steps up to `end_time`.
     """
-    problem = Problem(
+    return simulate(_problem(constants, boundary, amplitudes, end_time, outputs, solver), WHOLE)
+
+
+def _problem(
+    constants: Constants,
+    boundary: str,
+    amplitudes: np.ndarray,
+    end_time: float,
+    outputs: int,
+    solver: Mapping,
+) -> Problem:
+    return Problem(
         constants=constants,
         half_width=amplitudes.shape[1] // 2,
         boundary=boundary,
@@ -47,7 +65,6 @@ def run(
         output_step=end_time / outputs,
         solver=solver,
     )
-    return simulate(problem, WHOLE)
 
 
 def right_hand_side(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
@@ -61,6 +78,15 @@ def right_hand_side(constants: Constants, boundary: str, amplitudes: np.ndarray)
 def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) -> float:
     """Return H of equation (8) for amplitudes (2, N), as the library computes it."""
     return float(energy(make_chain(constants, boundary, WHOLE), pack(amplitudes, WHOLE)))
+
+
+def total_energies(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
+    """Return H of each of `amplitudes` (count, 2, N), as `total_energy` gives it."""
+    count, _, sites = amplitudes.shape
+    states, found = np.zeros((count, 4, sites + 2)), np.empty(count)
+    states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = amplitudes.real, amplitudes.imag
+    energies(make_chain(constants, boundary, WHOLE), states, found)
+    return found
 
 
 def squared_norm(l2: np.ndarray) -> np.ndarray:
@@ -83,16 +109,25 @@ def run_powers(
     such a run breaks every bound, and nothing that is read off it can pass for a number.
     """
     solver = {"name": "taylor", **tolerances}
-    runs = list(zip(constants, boundaries, amplitudes, strict=True))
-    powers, energies = np.full((len(runs), outputs + 1), np.inf), np.empty(len(runs))
-    for i, (own, boundary, data) in enumerate(runs):
-        try:
-            trajectory = run(own, boundary, data, end_time, outputs, solver)
-        except IntegrationError:
-            powers[i, 0] = power_of(data)
-            energies[i] = total_energy(own, boundary, data)
-        else:
-            powers[i], energies[i] = squared_norm(trajectory.l2), trajectory.energy[0]
+    problems = [
+        _problem(own, boundary, data, end_time, outputs, solver)
+        for own, boundary, data in zip(constants, boundaries, amplitudes, strict=True)
+    ]
+    powers, energies = np.full((len(problems), outputs + 1), np.inf), np.empty(len(problems))
+
+    def follow(stop: np.ndarray) -> None:
+        for i, problem in enumerate(problems):
+            if stop[0]:
+                return
+            try:
+                _, record, _, _ = integrate(problem, WHOLE, lambda run, *given: run(*given, stop))
+            except IntegrationError:
+                powers[i, 0] = power_of(problem.amplitudes)
+                energies[i] = total_energy(problem.constants, problem.boundary, problem.amplitudes)
+            else:
+                powers[i], energies[i] = squared_norm(record.l2), record.energy[0]
+
+    interruptible(follow)
     return powers, energies
 
 

@@ -14,7 +14,6 @@ larger states have H > 0.
 """
 
 from dataclasses import astuple
-from functools import partial
 
 import numpy as np
 
@@ -33,10 +32,10 @@ from pendula.models.bounds import (
 from pendula.models.linear_chain import curvatures
 from pendula.numerics.draws import exponential, normal, uniform
 from pendula.numerics.elementary import complex_of, exp, square_modulus
-from pendula.numerics.search import maximise
+from pendula.numerics.search import maximise_all
 from pendula.problem import Constants
 
-from .equations import BOUNDARIES, draw_shape, misstated, run_powers, total_energy
+from .equations import BOUNDARIES, draw_shape, misstated, run_powers, total_energies, total_energy
 
 FAMILIES = ("theorem_1", "theorem_2_ball", "theorem_2_energy", "theorem_2_widened", "theorem_3")
 
@@ -170,7 +169,7 @@ def ratios(
         powers, energies = follow(constants, boundary, amplitudes, end_time)
     else:
         powers = np.sum(square_modulus(amplitudes), axis=(1, 2))[:, None]
-        energies = np.array([total_energy(constants, boundary, data) for data in amplitudes])
+        energies = total_energies(constants, boundary, amplitudes)
     limits = bound(family, energies, powers[:, 0], amplitudes.shape[2], stated)
     inside = np.isfinite(limits)
     # outside, the energy leads back to where it lies below the barrier
@@ -219,16 +218,27 @@ def check_worst(
     Each question has as many searches as `starts`, as a search may end on a lower hill; where every
     candidate is run one is enough, since those find one hill.
     """
+    questions = [
+        (family, constants, misstated(constants, gamma_times=gamma_times), boundary)
+        for family, boundary in QUESTIONS
+        for constants in (Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[family[:9]]),)
+    ]
+    counts = [1 if family in RUN else starts for family, _ in QUESTIONS]
+    keys = [[seed, number, i] for number, count in enumerate(counts) for i in range(count)]
+    firsts = np.array([first_point(sites, key) for key in keys])
+    ends = np.cumsum(counts)[:-1]
+
+    def objective(points: np.ndarray) -> np.ndarray:
+        """Return the values of all searches, those of one question by one call."""
+        parts = zip(questions, np.split(points, ends), strict=True)
+        values = [ratios(*own, end_time, np.concatenate(part)) for own, part in parts]
+        return np.concatenate(values).reshape(len(points), -1)
+
+    searched = maximise_all(objective, firsts, 0.5, generations, population, keys)
     found, followed, history, alike, known = [], [], [], [], []
-    for number, (family, boundary) in enumerate(QUESTIONS):
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[family[:9]])
-        stated = misstated(constants, gamma_times=gamma_times)
-        objective = partial(ratios, family, constants, stated, boundary, end_time)
-        searches = [
-            maximise(objective, first_point(sites, key), 0.5, generations, population, key)
-            for key in ([seed, number, i] for i in range(1 if family in RUN else starts))
-        ]
-        points, values, rises = map(np.array, zip(*searches, strict=True))
+    parts = (np.split(part, ends) for part in searched)
+    for question, points, values, rises in zip(questions, *parts, strict=True):
+        family, constants, stated, boundary = question
         found.append(values.max())
         alike.append(np.mean(values > values.max() - SAME_HILL))
         history.append(rises.max(axis=0))
