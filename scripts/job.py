@@ -2,6 +2,7 @@
 
 import atexit
 import gc
+import json
 import os
 import signal
 import sys
@@ -11,11 +12,15 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import psutil
+from pendula import spent
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
 # would take a fifth of a second in every job.
 atexit.register(gc.freeze)
 
+SPENT = "spent: "
+"""How the line of a log begins that says what processor time was spent on, in seconds, and the
+largest memory, in megabytes."""
 TOOK = "wall time: "
 """How the last line of a log begins."""
 
@@ -74,6 +79,7 @@ def run(function: Callable, snakemake) -> None:
         **dict(snakemake.params.items()),
     }
     arguments.pop("code", None)
+    start = time.process_time()
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     path = snakemake.log[0]
@@ -88,11 +94,11 @@ def run(function: Callable, snakemake) -> None:
     except KeyboardInterrupt:
         print("interrupted: run the same command again to continue")
         log.write(traceback.format_exc())
-        _took(log)
+        _took(log, start)
         os._exit(INTERRUPTED)  # at once: a thread may be compiling, and is not waited for
     finally:
         sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
-        _took(log)
+        _took(log, start)
         log.close()
 
 
@@ -102,5 +108,19 @@ def say(error: Exception) -> str:
     return str(error) if ours else f"{type(error).__name__}: {error}"
 
 
-def _took(log: _Log) -> None:
+def _spent(start: float) -> dict[str, float]:
+    """Return the processor time by kind, and the memory; `start` is the time before the job."""
+    import resource
+
+    used = spent.seconds()
+    used[spent.REST] -= start
+    unit = 1 if sys.platform == "darwin" else 1024
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6
+    rounded = {kind: round(taken, 3) for kind, taken in {"start-up": start, **used}.items()}
+    return {**rounded, "memory": round(memory)}
+
+
+def _took(log: _Log, start: float) -> None:
+    with suppress(ImportError):  # Windows has no such module
+        log.write(f"{SPENT}{json.dumps(_spent(start))}\n")
     log.write(f"{TOOK}{time.time() - psutil.Process().create_time():.1f} s\n")

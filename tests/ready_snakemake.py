@@ -46,7 +46,7 @@ def main() -> None:
     for name in PACKAGES:
         importlib.import_module(name)
     gc.freeze()
-    sys.argv[1:] = serve()
+    sys.argv[:] = ["snakemake", *serve()]
     importlib.import_module("snakemake.cli").main()
 
 

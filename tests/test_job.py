@@ -1,5 +1,6 @@
 """A job says in a sentence why it failed or ended, and its log has the rest."""
 
+import json
 import os
 import re
 import signal
@@ -53,7 +54,9 @@ def test_a_fault_is_a_sentence_on_the_screen_with_its_traceback_in_the_log(tmp_p
     assert job.returncode == 1 and screen == f"{says}\n(the log has the traceback: a.log)\n"
     log = (tmp_path / "a.log").read_text()
     assert log.startswith(screen) and "\nTraceback" in log
-    assert re.search(r"\nwall time: [\d.]+ s\n$", log)
+    spent = re.search(r"\nspent: (.*)\nwall time: [\d.]+ s\n$", log)
+    kinds = {"start-up", "compiling", "writing", "drawing", "computing", "memory"}
+    assert json.loads(spent[1]).keys() == kinds
     assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
 
 

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from job import TOOK
+from job import SPENT, TOOK
 from snakemake.cli import get_argument_parser
 
 WHOLE, FIGURES, STUDIES = "Everything, and parts of it", "Figures", "Cases, sweeps and studies"
@@ -159,6 +159,8 @@ def what_failed(jobs: Iterable) -> str:
 
 def _cause(log: str) -> list[str]:
     """Return what a log says; where a traceback ends it, the message right above that."""
-    lines = [line for line in _lines(log) if line and not line.startswith((TOOK, "(the log has"))]
+    lines = [
+        line for line in _lines(log) if line and not line.startswith((SPENT, TOOK, "(the log has"))
+    ]
     start = next((i for i, line in enumerate(lines) if line.startswith("Traceback")), None)
     return lines if start is None else lines[:start][-2:]

@@ -35,13 +35,18 @@ LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM",
 """Snakemake tells a job in these variables, with _THREADS behind, how many threads it has."""
 
 
-def start(workflow) -> None:
-    """Start the process if jobs of this run gain from it, and have Snakemake ask it."""
+def start(workflow, log: Path) -> None:
+    """Start the process if jobs of this run gain from it, and have Snakemake ask it.
+
+    `log` says in its last line what processor time the imports took.
+    """
     if _is_possible(workflow):
         scripts = scripts_of(workflow.dag.needrun_jobs())
         if len(scripts) >= FEW:
             name = f"pendula-{secrets.token_hex(16)}"
-            atexit.register(_end, _serve(name, imports_of(scripts), os.environ))
+            log.parent.mkdir(parents=True, exist_ok=True)
+            with open(log, "wb") as file:
+                atexit.register(_end, _serve(name, imports_of(scripts), os.environ, file))
             shell.prefix(_prefix(name).replace("{", "{{").replace("}", "}}"))
 
 
@@ -78,15 +83,15 @@ def _name(module: Path, base: Path) -> str:
     return ".".join(module.relative_to(base).with_suffix("").parts).removesuffix(".__init__")
 
 
-def _serve(name: str, modules: list[str], environment: Mapping[str, str]) -> subprocess.Popen:
+def _serve(name: str, modules: list[str], environment: Mapping[str, str], log) -> subprocess.Popen:
     with socket.socket(socket.AF_UNIX) as listener:
         listener.bind(f"\0{name}")
         listener.listen(socket.SOMAXCONN)
         process = subprocess.Popen(
             [sys.executable, str(PROCESS), str(listener.fileno())],
             stdin=subprocess.PIPE,  # open as long as Snakemake lives
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,  # what cannot be imported, a job will say
+            stdout=log,
+            stderr=log,  # what cannot be imported, a job will say on the screen
             env={**environment, **{f"{library}_THREADS": "1" for library in LIBRARIES}},
             pass_fds=[listener.fileno()],
         )

@@ -21,8 +21,10 @@ import secrets
 from collections.abc import Callable
 
 import numba
+from numba.core import event
 from numba.core.bytecode import FunctionIdentity
 
+from . import spent
 from .kernel_cache import KernelCache, kept_in
 
 
@@ -33,6 +35,19 @@ def _count_from_a_random_number() -> None:
 _count_from_a_random_number()
 if hasattr(os, "register_at_fork"):  # Windows has no forks
     os.register_at_fork(after_in_child=_count_from_a_random_number)
+
+
+class _Listener(event.Listener):
+    """Tells how long numba compiles."""
+
+    def on_start(self, event: event.Event) -> None:
+        spent.begin("compiling")
+
+    def on_end(self, event: event.Event) -> None:
+        spent.end("compiling")
+
+
+event.register("numba:compile", _Listener())
 
 
 def kernel(function: Callable) -> Callable:

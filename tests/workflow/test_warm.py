@@ -44,7 +44,7 @@ class Warm:
         self.scripts.mkdir(parents=True)
         self.name = f"pendula-test-{secrets.token_hex(8)}"
         self.environment = environment
-        self.process = warm._serve(self.name, list(modules), environment)
+        self.process = warm._serve(self.name, list(modules), environment, subprocess.DEVNULL)
 
     def start(self, body: str, asked=True, **changes) -> subprocess.Popen:
         script = self.scripts / f"{secrets.token_hex(4)}.job.py"
@@ -181,7 +181,7 @@ rule shell_job:
     output: "shell.txt"
     shell: "for word in a {{{{b,c}}}}; do echo $word; done > {{output}}"
 onstart:
-    warm.start(workflow)
+    warm.start(workflow, warm.Path("logs/imports.log"))
 """
 JOB = f"{FORKED.replace('print(', 'told = str(')}\nopen(snakemake.output[0], 'w').write(told)"
 
@@ -196,4 +196,6 @@ def test_snakemake_asks_for_forks_and_leaves_nothing(tmp_path):
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert [(folder / f"{n}.txt").read_text() for n in range(2)] == ["True", "True"]
+    spent = json.loads((folder / "logs/imports.log").read_text().removeprefix("spent: "))
+    assert spent.keys() == {"imports", "memory"} and all(value > 0 for value in spent.values())
     assert (folder / "shell.txt").read_text() == "a\nb\nc\n"

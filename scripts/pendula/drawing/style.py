@@ -1,5 +1,7 @@
 """One place for how figures look (sizes, text, colours of quantities) and how they are saved."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from pendula.datasets import complete_or_absent
 from pendula.datasets.digest import fingerprint
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
+from pendula.spent import spending
 
 from .description import as_text, describe
 from .thrift import thrifty
@@ -69,7 +72,14 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "figure.dpi": 300,
 }
 
-styled = matplotlib.rc_context(_RC)
+
+@contextmanager
+def _style() -> Iterator[None]:
+    with spending("drawing"), matplotlib.rc_context(_RC):
+        yield
+
+
+styled = _style()
 """Decorator: every `draw` runs under this style, and leaves the caller's untouched."""
 
 
