@@ -127,6 +127,7 @@ onstart:
     if workflow.local_exec:
         jobs, sizes = workflow.dag.needrun_jobs(), not workflow.overwrite_configfiles
         logger.info(what_it_takes(jobs, workflow.cores, sizes_are_accepted=sizes))
+        put_in_order(workflow.dag)
     warm.start(workflow, RESULTS / "logs/imports.log")
 
 

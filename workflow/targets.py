@@ -112,8 +112,8 @@ def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
     Each takes as long as it took in this folder, or else in the accepted run if it is of the same
     size as there.
     """
-    accepted = json.loads(ACCEPTED.read_text()) if sizes_are_accepted else {}
-    times = [_seconds(job.log[0], accepted) for job in jobs if job.log]
+    accepted = accepted_seconds() if sizes_are_accepted else {}
+    times = [seconds_of(job.log[0], accepted) for job in jobs if job.log]
     if not times or None in times:
         return ""
     seconds = max(sum(times) / cores, *times)
@@ -121,7 +121,13 @@ def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
     return f"Expect about {shown} on {cores} free cores, from how long these jobs took before."
 
 
-def _seconds(log: str, accepted: Mapping[str, float]) -> float | None:
+def accepted_seconds() -> dict[str, float]:
+    """Return the wall time of each job of the accepted full run, by its log."""
+    return json.loads(ACCEPTED.read_text(encoding="utf-8"))
+
+
+def seconds_of(log: str, accepted: Mapping[str, float]) -> float | None:
+    """Return the wall time of a job as its log, or else the accepted run, tells it."""
     last = _lines(log)[-1:]
     if last and last[0].startswith(TOOK):
         return float(last[0].removeprefix(TOOK).split()[0])

@@ -10,7 +10,6 @@ rule measure_lyapunov:
         data="results/checks/lyapunov.nc",
     log:
         "results/logs/checks/lyapunov.log",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -30,7 +29,6 @@ rule measure_symmetry:
         data="results/checks/symmetry.nc",
     log:
         "results/logs/checks/symmetry.log",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -52,7 +50,6 @@ rule measure_ensembles:
         "results/logs/checks/ensembles{kind}.log",
     wildcard_constraints:
         kind="|_uneven",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -73,7 +70,6 @@ rule measure_members:
         data="results/checks/members.nc",
     log:
         "results/logs/checks/members.log",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -93,7 +89,6 @@ rule measure_lifetimes:
         data="results/checks/lifetimes.nc",
     log:
         "results/logs/checks/lifetimes.log",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:

@@ -17,6 +17,7 @@ import file_times
 import warm
 from benchmarks.problems import REGIMES
 from code_records import code, committed, copies, kept, records, was_made, whole_project
+from order import put_in_order
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require

@@ -45,4 +45,3 @@ use rule reference_case as longest_reference_case with:
     wildcard_constraints:
         case=LONGEST,
         numbers=r"(\.double)?",
-    priority: 1

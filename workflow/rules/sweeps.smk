@@ -12,7 +12,6 @@ rule sweep:
         "results/logs/sweeps/{sweep}.log",
     wildcard_constraints:
         sweep=one_of(PAPER_SWEEPS),
-    priority: 10
     conda:
         "../envs/pinned.yaml"
     params:

@@ -10,7 +10,6 @@ rule check_equations:
         datasets=checks(*GROUPS["equations"]),
     log:
         "results/logs/checks/equations.log",
-    priority: 5
     conda:
         "../envs/pinned.yaml"
     params:
@@ -39,7 +38,6 @@ use rule check_equations as check_bounds with:
         datasets=checks(*GROUPS["bounds"]),
     log:
         "results/logs/checks/bounds.log",
-    priority: 6
     params:
         checks=SETTINGS.theory.arguments("bounds"),
     message:
@@ -52,7 +50,6 @@ use rule check_equations as check_wrong with:
         datasets=checks(*(f"wrong/{name}" for name in WRONG)),
     log:
         "results/logs/checks/wrong.log",
-    priority: 4
     params:
         checks=SETTINGS.theory.wrong_arguments(),
     message:

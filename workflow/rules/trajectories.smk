@@ -11,7 +11,6 @@ rule compile_solver:
         "results/logs/kernels/{solver}.log",
     wildcard_constraints:
         solver=one_of(ALL_SOLVERS),
-    priority: 20
     conda:
         "../envs/pinned.yaml"
     params:

@@ -25,7 +25,6 @@ rule spread:
         "results/logs/unbounded/{study}.log",
     wildcard_constraints:
         study=one_of(SETTINGS.unbounded.names),
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -60,7 +59,6 @@ rule map_windows:
         "results/logs/unbounded/map_{sweep}.log",
     wildcard_constraints:
         sweep=one_of(PAPER_SWEEPS),
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:
@@ -91,7 +89,6 @@ rule thermal:
         data="results/unbounded/thermal.nc",
     log:
         "results/logs/unbounded/thermal.log",
-    priority: 8
     conda:
         "../envs/pinned.yaml"
     params:

@@ -1,0 +1,58 @@
+"""Jobs begin in the order that ends the run soonest."""
+
+from collections import defaultdict
+
+import order
+import pytest
+
+
+class Job:
+    HIGHEST_PRIORITY = 1000
+
+    def __init__(self, name, dag):
+        self.name, self.dag = name, dag
+        self.log = [f"results/logs/{name}.log"] if name != "all" else []
+
+    @property
+    def priority(self):
+        return self.dag._priority[self]
+
+
+class Dag:
+    """Jobs a -> b -> all and c -> all, of which `done` needs nothing."""
+
+    def __init__(self):
+        self.jobs = {name: Job(name, self) for name in ("a", "b", "c", "done", "all")}
+        self._priority = dict.fromkeys(self.jobs.values(), 0)
+        later = {"a": "b", "b": "all", "c": "all", "done": "all"}
+        self.depending = defaultdict(dict)
+        for job, other in later.items():
+            self.depending[self.jobs[job]] = {self.jobs[other]: set()}
+
+    def needrun(self, job):
+        return job.name != "done"
+
+    def needrun_jobs(self):
+        return filter(self.needrun, self.jobs.values())
+
+
+@pytest.fixture
+def dag(monkeypatch):
+    monkeypatch.setattr(order, "accepted_seconds", lambda: {"a": 2.0, "b": 3.0, "c": 4.0})
+    return Dag()
+
+
+def priorities(dag):
+    order.put_in_order(dag)
+    return {job.name: job.priority for job in dag.jobs.values()}
+
+
+def test_the_longest_way_to_the_end_begins_first(dag):
+    assert priorities(dag) == {"a": 5.0, "b": 3.0, "c": 4.0, "done": 0, "all": 0.0}
+
+
+def test_what_never_ran_and_what_the_user_asks_for(dag, monkeypatch):
+    monkeypatch.setattr(order, "accepted_seconds", lambda: {"b": 3.0})
+    dag._priority[dag.jobs["c"]] = Job.HIGHEST_PRIORITY
+    found = priorities(dag)
+    assert found["a"] == order.UNKNOWN + 3.0 and found["c"] == Job.HIGHEST_PRIORITY
