@@ -122,8 +122,8 @@ def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
 
 
 def accepted_seconds() -> dict[str, float]:
-    """Return the wall time of each job of the accepted full run, by its log."""
-    return json.loads(ACCEPTED.read_text(encoding="utf-8"))
+    """Return the wall time of each job of the accepted full run, by its log, if it is there."""
+    return json.loads(ACCEPTED.read_text(encoding="utf-8")) if ACCEPTED.exists() else {}
 
 
 def seconds_of(log: str, accepted: Mapping[str, float]) -> float | None:
