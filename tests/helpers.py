@@ -13,6 +13,7 @@ from tempfile import NamedTemporaryFile
 from types import ModuleType
 from typing import NoReturn
 
+import machines
 import pytest
 import yaml
 from pendula.configuration.files import gather
@@ -31,6 +32,14 @@ WAY = "; to have it run: "
 def skip(reason: str, way: str) -> NoReturn:
     """Skip this test; `reason` says what is missing, `way` what to install or where to run it."""
     pytest.skip(f"{reason}{WAY}{way}", allow_module_level=True)
+
+
+def need_machine(name: str) -> None:
+    """Skip unless PENDULA_PLAYED asks to play other machines, and this one can play this one."""
+    if not os.environ.get("PENDULA_PLAYED"):
+        skip("what is compiled for other processors takes minutes", "run .ci/elsewhere bits")
+    if why := machines.why_not(name):
+        skip(why, machines.ELSEWHERE)
 
 
 def package(module: str, install: str) -> ModuleType:

@@ -5,7 +5,7 @@ from functools import cache
 
 import machines
 import pytest
-from helpers import skip
+from helpers import need_machine
 from machines import PLAYED, THIS_ONE
 
 found_on = cache(machines.found_on)
@@ -13,8 +13,7 @@ found_on = cache(machines.found_on)
 
 @pytest.mark.parametrize("name", PLAYED)
 def test_each_library_chooses_the_code_of_the_machine(name):
-    if why := machines.why_not(name):
-        skip(why, machines.ELSEWHERE)
+    need_machine(name)
     found, machine = found_on(name), PLAYED[name]
     assert set(found["numpy"]) == machine.numpy
     assert found["openblas"] == [machine.openblas]
@@ -23,8 +22,7 @@ def test_each_library_chooses_the_code_of_the_machine(name):
 
 @pytest.mark.parametrize("name", PLAYED)
 def test_the_c_library_has_other_bits_without_fused_operations_only(name):
-    if why := machines.why_not(name):
-        skip(why, machines.ELSEWHERE)
+    need_machine(name)
     assert (found_on(name)["libm"] == found_on(THIS_ONE)["libm"]) == PLAYED[name].fused
 
 

@@ -12,6 +12,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +22,8 @@ from pendula.archive.contents import code_files
 from snakemake.utils import update_config
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+HERE = Path(__file__).parent
+ASK, READY = HERE / "ask_ready.py", HERE.parent / "ready_snakemake.py"
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "speed", "quoted", "tolerances.yaml", "spreads.nc")
@@ -119,8 +123,23 @@ def _share_packages(venv: Path) -> None:
     (packages / "ours.pth").write_text("\n".join(ours) + "\n")
     program = venv / "bin/snakemake"
     program.parent.mkdir()
-    program.write_text(f"#!{venv}/bin/python\nfrom snakemake.cli import main\n\nmain()\n")
+    program.write_text(f"#!{venv}/bin/python -IS\n" + ASK.read_text(encoding="utf-8"))
     program.chmod(0o755)
+
+
+@contextmanager
+def ready_for(clone: Path) -> Iterator[None]:
+    """Keep the process ready that the program `snakemake` of a clone asks."""
+    with ExitStack() as opened:
+        ends = []
+        for name in ("asked", "answered"):
+            os.mkfifo(clone.parent / name)
+            ends.append(os.open(clone.parent / name, os.O_RDWR))
+            opened.callback(os.close, ends[-1])
+        process = subprocess.Popen([sys.executable, str(READY)], stdin=ends[0], stdout=ends[1])
+        opened.callback(process.wait)
+        opened.callback(process.terminate)
+        yield
 
 
 class Reader:

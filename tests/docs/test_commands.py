@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 import yaml
 from helpers import ROOT, snakemake
-from printed import KINDS, Block, Done, Reader, blocks, file_of, pages, prepare, shown
+from printed import KINDS, Block, Done, Reader, blocks, file_of, pages, prepare, ready_for, shown
 
 PAGES = pages(ROOT)
 PRINTED = {page: blocks(ROOT, page) for page in PAGES}
@@ -48,7 +48,8 @@ def played(made_once, full_run) -> dict[str, Done]:
         assert accepted.returncode == 0, accepted.stderr
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
         reader = Reader(clone)
-        run = {block.name: reader.play(block) for block in [*tried, ASKED]}
+        with ready_for(clone):
+            run = {block.name: reader.play(block) for block in [*tried, ASKED]}
         (folder / "played.json").write_text(json.dumps(run))
 
     found = json.loads((made_once("printed", make) / "played.json").read_text())
