@@ -2,11 +2,16 @@
 
 import os
 import shutil
+import subprocess
+import sys
+import threading
 import time
 from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
 
 import numba
 import pytest
+from helpers import skip
 from pendula import kernel_cache, sources
 from pendula.kernel_cache import UNUSED, VARIABLE, KernelCache, kept_in
 
@@ -31,7 +36,7 @@ def compile_anew(path, kept):
     for remembered in (sources.digest_of, sources.digest_of_modules, sources._imports_of):
         remembered.cache_clear()
     spec = spec_from_file_location("made", path)
-    made = module_from_spec(spec)
+    made = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
     spec.loader.exec_module(made)
     compiled = numba.njit(made.double)
     compiled._cache = KernelCache(made.double, kept)
@@ -130,3 +135,61 @@ def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
     module.write_text(large + MADE.replace("2 * x", "2 * x * TABLE[x]"))
     assert compile_anew(module, kept)(3) == 6.0
     assert not list(kept.rglob("*.kernel"))
+
+
+HELD = """
+import sys
+from pathlib import Path
+sys.path[:0] = sys.argv[1:3]
+from test_kernel_cache import compile_anew
+compiled = compile_anew(*map(Path, sys.argv[3:]))
+compile_now = compiled._compiler.compile
+def compile_when_told(*arguments):
+    print("compiling", flush=True)
+    sys.stdin.readline()
+    return compile_now(*arguments)
+compiled._compiler.compile = compile_when_told
+print(compiled(3))
+"""
+
+
+@pytest.fixture
+def other(module, kept):
+    """Return another process that compiles `double`, and goes on when it is told to."""
+    if kernel_cache.fcntl is None:
+        skip("this system has no locks on files", "run the tests on Linux or macOS")
+    folders = Path(__file__).parent, sources.SCRIPTS
+    command = [sys.executable, "-c", HELD, *map(str, (*folders, module, kept))]
+    with subprocess.Popen(command, stdin=-1, stdout=-1, text=True) as process:
+        assert process.stdout.readline() == "compiling\n"
+        yield process
+        process.kill()
+
+
+def test_two_processes_that_need_a_kernel_at_once_compile_it_once(other, module, kept, monkeypatch):
+    looked = threading.Event()
+
+    def tell_the_other_to_go_on(seconds):
+        if not looked.is_set():
+            looked.set()
+            other.stdin.write("\n")
+            other.stdin.flush()
+
+    monkeypatch.setattr(kernel_cache.time, "sleep", tell_the_other_to_go_on)
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 1
+    assert looked.is_set() and other.stdout.readline() == "6\n"
+    assert [path.suffix for path in kept.rglob("*.*")] == [".kernel"]
+
+
+def test_a_process_that_was_killed_while_it_compiled_keeps_nobody_waiting(other, module, kept):
+    other.kill()
+    other.wait()
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0
+
+
+def test_nobody_waits_for_ever(other, module, kept, monkeypatch):
+    monkeypatch.setattr(kernel_cache, "PATIENCE", 0.0)
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0

@@ -1,7 +1,9 @@
 """The decorators of every compiled function, and a cache that cannot be stale.
 
 A `kernel` is compiled for plain values and kept on disk. What it calls may be other kernels, or
-functions that are compiled into it: `uncached` ones, `inlined_by_numba` and `inlined_by_llvm`.
+functions that are not kept by themselves: `uncached` ones, `inlined_by_numba` and
+`inlined_by_llvm`. All of them become parts of the kernel, and none allocates memory (see
+`kernel_parts`).
 
 Cache. `kernel_cache` keeps machine code by its content, in one folder for all projects of a user.
 
@@ -19,13 +21,15 @@ import itertools
 import os
 import secrets
 from collections.abc import Callable
+from pathlib import Path
 
 import numba
 from numba.core import event
 from numba.core.bytecode import FunctionIdentity
 
 from . import spent
-from .kernel_cache import KernelCache, kept_in
+from .kernel_cache import kept_in
+from .kernel_parts import make_kernel
 
 
 def _count_from_a_random_number() -> None:
@@ -51,27 +55,32 @@ event.register("numba:compile", _Listener())
 
 
 def kernel(function: Callable) -> Callable:
-    """Compile a function of plain values and keep the machine code on disk."""
-    compiled = numba.njit(error_model="numpy", nogil=True)(function)
-    folder = kept_in()
-    if folder and not numba.config.DISABLE_JIT:
-        compiled._cache = KernelCache(function, folder)
-    return compiled
+    """Compile a function of plain values and keep its code on disk."""
+    return _compiled(function, root=kept_in())
 
 
-uncached = numba.njit(error_model="numpy", nogil=True)
-"""Compile a function that is built around given functions, such as a solver around its rates.
+def uncached(function: Callable) -> Callable:
+    """Compile a function that is built around given functions, such as a solver around its rates.
 
-Its machine code is kept with the kernel that calls it: numba cannot cache a closure by itself.
-"""
+    Its code is kept with the kernel that calls it: a closure cannot be named by its text.
+    """
+    return _compiled(function)
 
-inlined_by_numba = numba.njit(error_model="numpy", nogil=True, inline="always")
-"""Put a function's statements in place of its call before compilation, so that a closure that one
-kernel calls is not compiled a second time by itself."""
 
-inlined_by_llvm = numba.njit(error_model="numpy", nogil=True, forceinline=True)
-"""Put a function's instructions in place of its call after compilation: a call would spill vectors
-from their registers into memory."""
+def inlined_by_numba(function: Callable) -> Callable:
+    """Put a function's statements in place of its call before compilation, so that a closure that
+    one kernel calls is not compiled a second time by itself."""
+    return _compiled(function, inline="always")
+
+
+def inlined_by_llvm(function: Callable) -> Callable:
+    """Put a function's instructions in place of its call after compilation: a call would spill
+    vectors from their registers into memory."""
+    return _compiled(function, forceinline=True)
+
+
+def _compiled(function: Callable, root: Path | None = None, **options) -> Callable:
+    return function if numba.config.DISABLE_JIT else make_kernel(function, root, **options)
 
 
 @kernel

@@ -24,6 +24,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
+try:
+    import fcntl
+except ImportError:  # Windows has none: two processes then compile what both need
+    fcntl = None
+
 import llvmlite
 import numba
 import platformdirs
@@ -38,6 +43,8 @@ VARIABLE = "PENDULA_CACHE"
 OFF = "off"
 UNUSED = 30 * 86400.0
 """Seconds after which machine code of a text that nobody runs any more is removed."""
+PATIENCE, LOOK = 120.0, 0.02
+"""Seconds that a process waits for another that compiles what it needs, and between two looks."""
 DIGEST = hashlib.sha256().digest_size
 DIGITS = 16
 """Hexadecimal digits of a digest in the name of a folder or a file."""
@@ -52,13 +59,20 @@ def kept_in() -> Path | None:
 
 
 class KernelCache(_Cache):
-    """The machine code of one function, in the form that a dispatcher of numba asks for."""
+    """The machine code of one function, in the form that a dispatcher of numba asks for.
+
+    What several processes need at once is compiled by one of them, and the others wait for it: a
+    function that is not there is looked up under a lock, which its compiler holds until it is kept.
+    """
+
+    ENDING = ".kernel"
 
     def __init__(self, function: Callable, root: Path):
         """Keep the machine code of `function`, which is no closure, below the folder `root`."""
         module = Path(function.__code__.co_filename).resolve()
         self._name = function.__qualname__
         self._folder = root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
+        self._locks = {}
 
     @property
     def cache_path(self) -> str:
@@ -69,15 +83,30 @@ class KernelCache(_Cache):
     def load_overload(self, signature, target_context) -> CompileResult | None:
         """Return the machine code for these types of arguments, or None where there is none."""
         target_context.refresh()
+        file = self._file(signature, target_context.codegen())
+        payload = self._read(file)
+        if payload is None:
+            self._lock(file)
+            payload = self._read(file)
+        if payload is None:
+            return None
+        self.release()
+        return self.restore(target_context, payload)
+
+    @staticmethod
+    def restore(target_context, payload: bytes) -> CompileResult:
+        """Return what `save_overload` kept."""
+        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+
+    def _read(self, file: Path) -> bytes | None:
+        """Return what is kept in a file; None if there is none, or if it is damaged."""
         try:
-            content = self._file(signature, target_context.codegen()).read_bytes()
+            content = file.read_bytes()
             os.utime(self._folder)
         except OSError:
             return None
         kept, payload = content[:DIGEST], content[DIGEST:]
-        if kept != hashlib.sha256(payload).digest():
-            return None  # a damaged file is compiled and written again
-        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+        return payload if kept == hashlib.sha256(payload).digest() else None
 
     def save_overload(self, signature, data: CompileResult) -> None:
         """Keep machine code. Where that is impossible the run goes on, with a warning.
@@ -89,9 +118,7 @@ class KernelCache(_Cache):
         payload = dumps(data._reduce())
         file = self._file(signature, data.codegen)
         try:
-            if not self._folder.exists():
-                self._remove_unused()
-                self._folder.mkdir(parents=True, exist_ok=True)
+            self._make_folder()
             partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
             try:
                 partial.write_bytes(hashlib.sha256(payload).digest() + payload)
@@ -105,6 +132,34 @@ class KernelCache(_Cache):
                 f" `{VARIABLE}={OFF}`",
                 stacklevel=2,
             )
+        self.release()
+
+    def _lock(self, file: Path) -> None:
+        """Wait for another process that compiles the function of this file.
+
+        The system unlocks what a killed process locked. Whoever waits for too long, or finds no
+        locks in this folder, compiles too: that costs time, and both write the same.
+        """
+        if fcntl is None:
+            return
+        with suppress(OSError):
+            self._make_folder()
+            path = file.with_suffix(".lock")
+            self._locks[path] = lock = os.open(path, os.O_CREAT | os.O_RDWR)
+            give_up = time.monotonic() + PATIENCE
+            while time.monotonic() < give_up:
+                try:
+                    return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    time.sleep(LOOK)
+
+    def release(self) -> None:
+        """Let the processes go on that wait for this one, whether or not it compiled anything."""
+        while self._locks:
+            path, lock = self._locks.popitem()
+            with suppress(OSError):
+                path.unlink()
+            os.close(lock)
 
     def enable(self) -> None:
         """Do nothing: a kernel whose code shall not be kept has no such cache."""
@@ -116,7 +171,13 @@ class KernelCache(_Cache):
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _file(self, signature, codegen) -> Path:
-        return self._folder / f"{self._name}-{_digest(signature, codegen.magic_tuple())}.kernel"
+        digest = _digest(signature, codegen.magic_tuple())
+        return self._folder / f"{self._name}-{digest}{self.ENDING}"
+
+    def _make_folder(self) -> None:
+        if not self._folder.exists():
+            self._remove_unused()
+            self._folder.mkdir(parents=True, exist_ok=True)
 
     def _remove_unused(self) -> None:
         """Remove what was compiled from former texts of this module, unless it was used of late.
@@ -128,8 +189,9 @@ class KernelCache(_Cache):
         ours = f"{former}-{'[0-9a-f]' * DIGITS}"
         for folder in self._folder.parent.glob(ours):
             if time.time() - folder.stat().st_mtime > UNUSED:
-                for file in folder.glob("*.kernel"):
-                    file.unlink(missing_ok=True)
+                for ending in ("kernel", "part", "lock"):
+                    for file in folder.glob(f"*.{ending}"):
+                        file.unlink(missing_ok=True)
                 with suppress(OSError):  # something else lies in it
                     folder.rmdir()
 

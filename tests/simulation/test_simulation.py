@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
-from numba.core.runtime import _nrt_python, rtsys
 from oracle import BOUNDARIES, SOLVERS, boundaries, chains, constants, random_chain
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE, Reduction
@@ -173,19 +171,6 @@ def test_data_that_cannot_be_integrated_end_in_an_error(name, value):
     z[1, 3] = value
     with pytest.raises(IntegrationError, match=rf"^{name} stopped at tau = 0: the "):
         run(name, z)
-
-
-@given(st.sampled_from(sorted(SOLVERS)), st.sampled_from([1.0, 40.0]))
-@settings(max_examples=6)
-def test_no_memory_is_taken_per_step(name, end_time):
-    """Compiled code counts its allocations: a long run must make as few as a short one."""
-    _nrt_python.memsys_enable_stats()
-    counts = []
-    for end in (0.5, end_time):
-        before = rtsys.get_allocation_stats().alloc
-        run(name, random_chain(2), end_time=end, output_step=end / 2)
-        counts.append(rtsys.get_allocation_stats().alloc - before)
-    assert counts[0] == counts[1]
 
 
 @pytest.mark.parametrize("name", ["taylor", "dop853"])

@@ -48,8 +48,13 @@ from .dop853_coefficients import (
 )
 from .tiles import count_tiles, give, take, tile_length, tile_place
 
-WORK, TILE_WORK = 11, 27
-"""Work arrays of the size of a state, and those of the size of a tile."""
+TILE_WORK = 27
+"""Work arrays of the size of a tile."""
+WHOLE_WORK = 11
+"""Work arrays of the size of a state beside them."""
+WORK = WHOLE_WORK + TILE_WORK
+"""Work arrays in all. Tiles of a long chain are shorter than it and leave most of theirs untouched,
+so that the system gives no memory to it."""
 
 
 # --- The stages ---------------------------------------------------------------------------------
@@ -360,9 +365,12 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
         t, end = times[0], times[-1]
-        state, w, slope, new_slope, out, c = y, work[0], work[1], work[2], work[3], work[4:]
+        state, w, slope, new_slope, out = y, work[0], work[1], work[2], work[3]
+        c = work[4:WHOLE_WORK]
         count = count_tiles(y.shape[1] - 2) if can_be_tiled(system) else 1
-        part = np.zeros((TILE_WORK, y.shape[0], tile_length(y.shape[1] - 2, count) + 2))
+        columns = tile_length(y.shape[1] - 2, count) + 2
+        tiles = work[WHOLE_WORK:].reshape(-1)[: TILE_WORK * y.shape[0] * columns]
+        part = tiles.reshape((TILE_WORK, y.shape[0], columns))
         rates(system, y, slope)
         h = initial_step(system, y, slope, c, controls, end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew

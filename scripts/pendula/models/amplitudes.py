@@ -307,7 +307,6 @@ def energy_with_scratch(chain, y, scratch):
     return copies * (on_sites - chain.epsilon * on_bonds)
 
 
-@kernel
 def energy(chain, y):
     """Return H of equation (8) for the state `y`; see `energy_with_scratch`."""
     return energy_with_scratch(chain, y, np.empty((2, y.shape[1])))

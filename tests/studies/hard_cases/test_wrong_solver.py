@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-import numba
 import numpy as np
 import pytest
+from pendula.compiled import uncached
 from pendula.datasets.netcdf import read
 from pendula.integrators import dop853
 from pendula.models.amplitudes import rates
@@ -45,8 +45,8 @@ def wrong_dop853(monkeypatch):
     namespace = {**vars(dop853), "A13": tuple(weights)}
     plain = dop853.combine.py_func
     changed = type(plain)(plain.__code__, namespace)
-    monkeypatch.setattr(dop853, "combine", numba.njit(error_model="numpy")(changed))
-    wrong = numba.njit(error_model="numpy")(dop853.build(rates, observe).py_func)
+    monkeypatch.setattr(dop853, "combine", uncached(changed))
+    wrong = uncached(dop853.build(rates, observe).py_func)
     monkeypatch.setitem(simulation.SOLVERS, "dop853", solvers.SOLVERS["dop853"]._replace(run=wrong))
 
 

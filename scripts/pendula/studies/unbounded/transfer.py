@@ -76,9 +76,11 @@ def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Opera
 
 
 @kernel
-def pass_through(bond, values, result):
-    """Put the sum over j of bond[i, j] values[j, r] into result[r, i]: the first axis goes last."""
-    row = np.empty(values.shape[1])
+def pass_through(bond, values, row, result):
+    """Put the sum over j of bond[i, j] values[j, r] into result[r, i]: the first axis goes last.
+
+    `row` has room for a row of `values`.
+    """
     for i in range(bond.shape[0]):
         row[:] = 0.0
         for j in range(bond.shape[1]):
@@ -102,7 +104,8 @@ def smoothed(bonds: np.ndarray, values: np.ndarray, parity: tuple[int, ...] = EV
         for axis in range(4):
             bond = bonds[parity[axis] ^ odd, axis]
             result = np.empty((part.size // part.shape[0], len(bond)))
-            pass_through(bond, np.ascontiguousarray(part).reshape(len(part), -1), result)
+            flat = np.ascontiguousarray(part).reshape(len(part), -1)
+            pass_through(bond, flat, np.empty(flat.shape[1]), result)
             part = result.reshape(*part.shape[1:], len(bond))
         done.append(part)
     return np.array([done[0] + done[1], done[0] - done[1]])

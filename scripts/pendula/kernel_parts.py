@@ -1,0 +1,160 @@
+"""How kernels are compiled: a kernel as a whole, and the functions that it calls as its parts.
+
+numba compiles each function for itself: LLVM optimises its code together with that of all that it
+calls, and turns the result into machine code. So a function at the bottom is optimised again in
+each of its callers, and nobody runs the machine code of any but the outermost. Here a function that
+a kernel calls is a part. It is compiled to code that can be linked and no further, and the kernel
+is optimised once, together with all its parts. That takes half of the time.
+
+No kernel allocates memory, so none counts references to arrays. numba would count up and down for
+every row of an array that a kernel looks at, which took half of a run on a short chain. A kernel
+that asks for memory is refused when it is compiled ("Only accept returning of array passed ...").
+
+What it rests upon, all of it private to numba: a dispatcher compiles in `compile`, tells callers
+its types in `get_call_template` and the key of its code in `get_overload`, and keeps a result in
+`add_overload`; a `CodeLibrary` optimises in `_optimize_final_module` and makes machine code in
+`_finalize_final_module`; the flag `no_compile` asks for no machine code, and `_nrt` switches the
+counting of references. When numba is upgraded, run tests/test_kernel_parts.py first.
+"""
+
+import pickle
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+
+from llvmlite import binding
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler, CompileResult
+from numba.core.registry import CPUDispatcher
+
+from .kernel_cache import KernelCache
+
+OPTIONS = {
+    "nopython": True,
+    "error_model": "numpy",
+    "nogil": True,
+    "no_cfunc_wrapper": True,  # no C code calls a kernel
+    "_nrt": False,
+}
+"""What all compiled functions share. No function of another kind may call one that returns an
+array: it would count a reference down that was never counted up."""
+UNCALLED = {"no_cpython_wrapper": True}
+"""Leaves out the code by which Python would call a function."""
+
+
+class PartLibrary(JITCodeLibrary):
+    """Code that is linked into kernels, and is optimised there and not here."""
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._verify_declare_only_symbols()
+        self._finalized = True
+
+    def serialize_using_object_code(self) -> bytes:
+        """Return the code itself, as there is no machine code."""
+        return self._get_module_for_linking().as_bitcode()
+
+    @classmethod
+    def of(cls, codegen, code: bytes) -> "PartLibrary":
+        """Return the library that was kept as `code`."""
+        library = cls(codegen, "part")
+        library._final_module = binding.parse_bitcode(code)
+        library._finalize_final_module()
+        return library
+
+
+class PartCompiler(Compiler):
+    """The stages of numba up to code that can be linked."""
+
+    def __init__(self, typing_context, target_context, library, *others):
+        library = library or PartLibrary(target_context.codegen(), "part")
+        super().__init__(typing_context, target_context, library, *others)
+        self.state.flags.no_compile = True
+
+
+class PartCache(KernelCache):
+    """The code of a part, kept as that of a kernel is."""
+
+    ENDING = ".part"
+
+    @staticmethod
+    def restore(target_context, payload: bytes) -> CompileResult:
+        code, descriptor, environment, signature, *_ = pickle.loads(payload)
+        return CompileResult(
+            typing_context=target_context.typing_context,
+            target_context=target_context,
+            entry_point=None,
+            typing_error=None,
+            type_annotation=None,
+            signature=signature,
+            objectmode=False,
+            lifted=(),
+            fndesc=descriptor,
+            library=PartLibrary.of(target_context.codegen(), code),
+            call_helper=None,
+            environment=environment,
+            metadata=None,
+            reload_init=[],
+            referenced_envs=(),
+        )
+
+
+class Kept(CPUDispatcher):
+    """A compiled function whose code may be kept in a folder, in the way of `CACHE`."""
+
+    CACHE = KernelCache
+    root = None
+
+    def keep_in(self, root: Path) -> None:
+        """Keep code below the folder `root`, and take from it what is there."""
+        self.root, self._cache = root, self.CACHE(self.py_func, root)
+
+    def compile(self, sig):
+        try:
+            return super().compile(sig)
+        finally:  # also where it fails: other processes wait
+            if self.root:
+                self._cache.release()
+
+
+class Part(Kept):
+    """A function as kernels call it."""
+
+    CACHE = PartCache
+
+    def __init__(self, function: Callable, locals=None, options=None):
+        super().__init__(function, locals, {**options, **UNCALLED}, PartCompiler)
+
+    def add_overload(self, cres: CompileResult) -> None:
+        """Let callers find the code by a key of its own: it has no address."""
+        cres = cres._replace(entry_point=object())
+        self.targetctx.insert_user_function(cres.entry_point, cres.fndesc, [cres.library])
+        self.overloads[tuple(cres.signature.args)] = cres
+
+
+class Kernel(Kept):
+    """A function as Python calls it; kernels that call it compile it as a part of theirs."""
+
+    @cached_property
+    def part(self) -> Part:
+        part = Part(self.py_func, None, self.targetoptions)
+        if self.root:
+            part.keep_in(self.root)
+        return part
+
+    def get_call_template(self, args, kws):
+        return self.part.get_call_template(args, kws)
+
+    def get_overload(self, sig):
+        return self.part.get_overload(sig)
+
+
+def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
+    """Return the compiled function, whose code is kept below the folder `root` if there is one."""
+    made = Kernel(function, None, {**OPTIONS, **options})
+    if root:
+        made.keep_in(root)
+    return made
