@@ -29,7 +29,7 @@ for name in ("job", "figures", "trajectories"):
 def python(tmp_path_factory):
     """Return the interpreter of a new environment that sees the packages of this one."""
     folder = tmp_path_factory.mktemp("installed")
-    venv.create(folder, with_pip=True)
+    venv.create(folder)  # the pip of this environment can install into others
     home = folder / ("Scripts" if sys.platform == "win32" else "bin") / "python"
     paths = {"base": str(folder), "platbase": str(folder)}
     packages = Path(sysconfig.get_path("purelib", vars=paths))
@@ -44,7 +44,8 @@ def run(*command, **options):
 
 
 def test_an_editable_install_is_found_from_anywhere(python, tmp_path):
-    installed = run(python, "-m", "pip", "install", "--no-deps", "-e", ROOT)
+    pip = [sys.executable, "-m", "pip", "--python", python]
+    installed = run(*pip, "install", "--no-deps", "-e", ROOT)
     if "No matching distribution found for setuptools" in installed.stderr:
         skip("setuptools, which builds the package, cannot be fetched", "run it with a network")
     assert installed.returncode == 0, installed.stdout + installed.stderr
