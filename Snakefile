@@ -124,9 +124,14 @@ workflow.list_rules = lambda only_targets: print(list_targets(workflow.rules))
 
 
 onstart:
+    run_of_jobs = Run(
+        expected(workflow.dag.needrun_jobs(), not workflow.overwrite_configfiles),
+        workflow.cores if workflow.local_exec else None,
+    )
+    logger.info(what_it_takes(run_of_jobs))
+    if SCREEN:
+        SCREEN.begin(run_of_jobs)
     if workflow.local_exec:
-        jobs, sizes = workflow.dag.needrun_jobs(), not workflow.overwrite_configfiles
-        logger.info(what_it_takes(jobs, workflow.cores, sizes_are_accepted=sizes))
         put_in_order(workflow.dag)
     warm.start(workflow, RESULTS / "logs/imports.log")
 

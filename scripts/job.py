@@ -24,6 +24,9 @@ largest memory, in megabytes."""
 TOOK = "wall time: "
 """How the last line of a log begins."""
 
+OFTEN = 5.0
+"""A long job shows one of its steps on the screen in so many seconds."""
+
 INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""
 
@@ -51,8 +54,16 @@ class _Log:
 class _Tee:
     """Write to the screen and to the log at once."""
 
-    def __init__(self, *streams):
-        self.streams = streams
+    def __init__(self, screen, log):
+        self.streams = [screen, log]
+        self.shown = time.monotonic()
+
+    def step(self, text: str) -> None:
+        """Write to the log, and to the screen if it showed no step for a while."""
+        late = time.monotonic() - self.shown > OFTEN
+        if late:
+            self.shown = time.monotonic()
+        (self if late else self.streams[1]).write(text)
 
     def write(self, text: str) -> int:
         for stream in self.streams:
@@ -100,6 +111,14 @@ def run(function: Callable, snakemake) -> None:
         sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
         _took(log, start)
         log.close()
+
+
+def step(text: str) -> None:
+    """Say how far a long job is: all steps stand in its log, and some on the screen."""
+    if isinstance(sys.stdout, _Tee):
+        sys.stdout.step(f"{text}\n")
+    else:
+        print(text)
 
 
 def say(error: Exception) -> str:

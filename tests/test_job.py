@@ -1,5 +1,6 @@
 """A job says in a sentence why it failed or ended, and its log has the rest."""
 
+import io
 import json
 import os
 import re
@@ -8,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import job
 import pytest
 from helpers import ROOT, skip, wait_for
 
@@ -129,3 +131,19 @@ def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple(returns, calls, status):
     env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
     done = subprocess.run(command, capture_output=True, text=True, env=env)
     assert done.returncode == status, done.stderr
+
+
+def test_all_steps_of_a_long_job_stand_in_its_log_and_few_on_the_screen(monkeypatch, capsys):
+    log = io.StringIO()
+    tee = job._Tee(sys.stdout, log)
+    monkeypatch.setattr(sys, "stdout", tee)
+    for number in range(3):
+        job.step(f"step {number}")
+    tee.shown -= 2 * job.OFTEN
+    job.step("late")
+    job.step("soon after")
+    print("NOT AS EXPECTED")
+    assert log.getvalue().splitlines() == [
+        *("step 0", "step 1", "step 2", "late", "soon after", "NOT AS EXPECTED"),
+    ]
+    assert capsys.readouterr().out == "late\nNOT AS EXPECTED\n"

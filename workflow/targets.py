@@ -1,4 +1,4 @@
-"""What a person is told of targets: their list, a misspelt one, how long a run will take, its end.
+"""What a person is told of targets: their list, a misspelt one, how long a job takes, the end.
 
 `snakemake --list` shows every rule in one row, also those with wildcards, which nobody can call by
 name. `list_targets` is put in its place: the targets that can be called, in groups. Of a target
@@ -104,21 +104,6 @@ def _fault_of_target(word: str, rules: Mapping, own: Iterable[str]) -> str | Non
 def _nearest(word: str, known: Iterable[str], likeness: float) -> str:
     near = difflib.get_close_matches(word, sorted(known), 3, likeness)
     return f"; did you mean {' or '.join(near)}?" if near else "."
-
-
-def what_it_takes(jobs: Iterable, cores: int, sizes_are_accepted: bool) -> str:
-    """Return how long the jobs will take, or nothing where that is not known of one of them.
-
-    Each takes as long as it took in this folder, or else in the accepted run if it is of the same
-    size as there.
-    """
-    accepted = accepted_seconds() if sizes_are_accepted else {}
-    times = [seconds_of(job.log[0], accepted) for job in jobs if job.log]
-    if not times or None in times:
-        return ""
-    seconds = max(sum(times) / cores, *times)
-    shown = f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
-    return f"Expect about {shown} on {cores} free cores, from how long these jobs took before."
 
 
 def accepted_seconds() -> dict[str, float]:

@@ -1,5 +1,6 @@
 """Integrate one case on chains of many half-widths, by one solver or several."""
 
+from job import step
 from pendula.datasets.netcdf import write
 from pendula.datasets.trajectories import sweep_contents
 from pendula.problem import Problem
@@ -17,7 +18,7 @@ def sweep_case(
     """Sweep each of `problems` over `half_widths`; write maxima and means over `windows`."""
     for path, problem in zip(datasets, map(Problem.of, problems), strict=True):
         label = f"{name} ({problem.solver['name']})"
-        result = sweep(problem, half_widths, windows, lambda done, at=label: print(f"{at}: {done}"))
+        result = sweep(problem, half_widths, windows, lambda done, at=label: step(f"{at}: {done}"))
         write(path, *sweep_contents(name, problem, half_widths, windows, result))
 
 

@@ -3,6 +3,7 @@
 from functools import partial
 
 import numpy as np
+from job import step
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
 from pendula.studies.unbounded.long_runs import (
@@ -30,11 +31,16 @@ def map_windows(
     for number in range(members):
         started = whole.changed(initial=member(whole.initial, number))
         label = f"{name}, member {number + 1} of {members}"
-        tell = partial(print, f"{label}:")
+        tell = partial(tell_step, label)
         maps.append(window_map(started, rest, half_widths, ends, tell))
     title = f"Maxima of the norms over half-widths and time windows, case of {name}"
     about = attributes(title, name, [whole], rest, members)
     write(data, map_variables(maps, half_widths, ends, whole), about)
+
+
+def tell_step(label: str, done: str) -> None:
+    """Say how far one member is."""
+    step(f"{label}: {done}")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from job import step
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
 from pendula.studies.unbounded.active_sites import run_long
@@ -28,7 +29,7 @@ def spread_case(
             kept.append(Path(checkpoints, f"{name}-{variant}-{number}.npz"))
             started = problem.changed(initial=member(problem.initial, number))
             runs[-1].append(run_long(started, rest, kept[-1] if checkpoints else None))
-            print(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
+            step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
     title = f"Norms, front and final states of {name} on chains without ends"
     write(data, run_variables(varied, runs), attributes(title, name, varied, rest, members))
     for path in kept:

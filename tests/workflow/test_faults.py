@@ -39,6 +39,14 @@ def test_a_case_of_ones_own_needs_a_few_lines(tmp_path):
     assert result.returncode == 0, result.stderr
     last = result.stderr.rstrip().splitlines()[-1]
     assert last == "Done. Look at results/trajectories/mine.nc."
+    shown = [line for line in result.stderr.splitlines() if line.startswith("[")]
+    did = [" Compiling dop853", " Integrating mine by its own solver"]
+    assert [line.partition("]")[2] for line in shown] == did
+    assert shown[0].startswith("[1/2") and shown[1].startswith("[2/2")
+    (kept,) = tmp_path.glob(".snakemake/log/*.log")
+    noise = ["Select jobs", "Execute 1 jobs", "Finished jobid", "Using shell", "1 of 2 steps"]
+    assert not [words for words in noise if words in result.stderr]
+    assert not [words for words in noise if words not in kept.read_text()]
     import xarray as xr
 
     with xr.open_dataset(tmp_path / "results/trajectories/mine.nc") as data:

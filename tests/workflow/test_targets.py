@@ -138,15 +138,3 @@ def test_a_failed_run_names_log_and_cause(tmp_path):
     ]
     assert "    fig3 differs\n    fig4 differs\n" in targets.what_failed(differing)
     assert targets.what_failed([]).startswith("Stopped")
-
-
-def test_a_run_is_expected_to_take_what_its_jobs_took_here_or_in_the_accepted_run(tmp_path):
-    log = tmp_path / "one.log"
-    log.write_text("wall time: 30.0 s\n")
-    here, accepted = jobs(log=[str(log)]), jobs(log=["results/logs/checks/lyapunov.log"])
-    unknown = jobs(log=["results/logs/trajectories/mine.log"])
-    assert "about 30 s" in targets.what_it_takes(here, 2, True)  # no job is shared by two cores
-    assert "about 15 min" in targets.what_it_takes(60 * here, 2, True)
-    assert "about" in targets.what_it_takes(accepted, 2, True)
-    assert targets.what_it_takes(accepted, 2, False) == ""  # of another size
-    assert targets.what_it_takes(here + unknown, 2, True) == ""

@@ -25,15 +25,9 @@ from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import name_window
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
+from progress import Run, expected, take_the_screen, what_it_takes
 from stop import stop
-from targets import (
-    asked,
-    faults_of_targets,
-    list_targets,
-    what_failed,
-    what_it_takes,
-    where_to_look,
-)
+from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
 
 if not os.access(".", os.W_OK):
     stop(
@@ -55,6 +49,7 @@ LOOKS = {
 }
 LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
+SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 RESULTS = Path("results").absolute()
 FOLDERS = ["checks", "claims", "code", "figure_diff", "figures", "kernels", "kept", "logs", "own"]
 FOLDERS += ["archive", "speed", "sweeps", "tables", "trajectories", "truth", "unbounded"]
