@@ -85,7 +85,7 @@ def configured(configuration: dict, chaos_study: dict) -> dict:
     return {
         "own_rtol": number(given.taylor.rtol),
         "members": number(drawn["members"]),
-        "swept_members": number(drawn["swept_members"]),
+        "swept_members": number(drawn["sweeps"]["fig6_right"]["members"]),
         "size": number(drawn["size"]),
         "settled": number(chaos_study["chaos"]["lifetimes"]["settled"]),
     }
@@ -224,6 +224,7 @@ def ensembles(baseline: Baseline) -> dict:
     bands, moments = baseline["checks/ensemble_runs"], baseline["checks/ensembles"]
     members = baseline["checks/members"]
     swept = moments.sel(sweep="fig6_right", quantity="pair", statistic="max", window="[10, 70]")
+    swept = swept.dropna("half_width", subset=["l2_mean"])
     late = swept.where(swept["half_width"] >= LATE, drop=True)
     peak = swept.isel(half_width=int(swept["l2_mean"].values.argmax()))
     wide = swept.where(swept["half_width"] >= peak["half_width"], drop=True)

@@ -66,24 +66,33 @@ def chaos_sizes(given: dict) -> dict[str, str]:
     """Return how long, how many and how finely, by the parts of `chaos`."""
     lyapunov, swept, lives = given["lyapunov"], given["ensembles"], given["lifetimes"]
     spectrum = lyapunov["spectrum"]
-    chains = ", ".join(f"{number(m)}" for m in spectrum["lengths"])
-    times = ", ".join(number(lengths) for lengths in spectrum["lengths"].values())
+    chains, times = (_listed(one) for one in (spectrum["lengths"], spectrum["lengths"].values()))
     short = f"M = {chains} for {times} times the case, tolerance {number(spectrum['tolerance'])}"
-    least = min(spectrum["lengths"])
+    least, undriven = min(spectrum["lengths"]), spectrum["undriven_lengths"]
     return {
         "exponents": f"{number(lyapunov['lengths'])} times the case, tolerance"
         f" {number(lyapunov['tolerance'])}",
-        "divergence": "tolerances " + ", ".join(map(number, lyapunov["diverging_tolerances"])),
+        "divergence": f"tolerances {_listed(lyapunov['diverging_tolerances'])}",
         "spectra": short,
-        "undriven_spectra": f"the same, M = {number(least)} alone",
+        "undriven_spectra": f"M = {number(least)} for {number(undriven)} times the case",
         "evenness": f"{number(given['symmetry']['members'])} perturbed runs and one unperturbed,"
         f" tolerance {number(given['symmetry']['tolerance'])}",
-        "sweeps": f"{number(swept['swept_members'])} members of two kinds, one in"
-        f" {number(swept['every'])} half-widths, tolerance {number(swept['tolerance'])}",
+        "sweeps": f"{_members(swept['sweeps'])}, even in n, and {_members(swept['uneven'])},"
+        f" uneven, tolerance {number(swept['tolerance'])}",
         "members": _ensemble(given["members"], "members of two kinds"),
         "lives": _ensemble(lives, f"members from {len(lives['amplitudes'])} amplitudes"),
         "rates": f"the same from one amplitude, {len(lives['compared']['choices'])} choices",
     }
+
+
+def _listed(values) -> str:
+    return ", ".join(map(number, values))
+
+
+def _members(sweeps: dict[str, dict]) -> str:
+    """Return how many members each sweep has, and at how many half-widths."""
+    sizes = [f"{one['members']} × {len(one['half_widths'])}" for one in sweeps.values()]
+    return " and ".join(sizes)
 
 
 def _ensemble(given: dict, words: str) -> str:

@@ -102,9 +102,10 @@ def ensembles() -> xr.Dataset:
         **LABELS,
         l2=(("case", "quantile", "quantity", "tau"), np.array([bands, 2 * bands])),
         linf=(("case", "quantile", "quantity", "tau"), np.array([bands, bands])),
+        swept_members=("sweep", [2, 2]),
         l2_mean=(swept, mean),
         l2_deviation=(swept, mean / 10),
         linf_mean=(swept, mean / 2),
         linf_deviation=(swept, mean / 20),
     )  # fmt: skip
-    return made.assign_attrs(members=3, swept_members=2)
+    return made.assign_attrs(members=3)

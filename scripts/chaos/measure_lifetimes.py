@@ -21,7 +21,7 @@ def measure_lifetimes(
     """Follow `members` from each of `amplitudes`; then one amplitude with each of `choices`."""
     given, drawn = Problem.of(problem), (size, members, settled, seed)
     lives, attributes = measure_lives(given, amplitudes, ratio, *drawn)
-    numerics = compare_numerics(localised(given, compared, ratio), choices, *drawn)
+    numerics = compare_numerics(localised(given, compared, ratio), choices, *drawn, lives)
     write(data, lives | numerics, {**attributes, "ratio": ratio})
 
 

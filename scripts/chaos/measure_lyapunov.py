@@ -12,16 +12,19 @@ def measure_lyapunov(
     tolerances: list[float],
     short_problems: dict[str, dict],
     short_end_times: dict[int, float],
+    undriven_end: float,
+    seed: int,
     kernels: list[str] | tuple = (),
 ) -> None:
     """Follow `problems` to `end_time`; then all changes of `short_problems` on short chains.
 
-    `short_end_times` are by the half-width of these chains.
+    `short_end_times` are by the half-width of these chains, the shortest of which is followed
+    without a drive to `undriven_end`; `seed` draws the tangent vectors.
     """
     cases = by_name(problems)
-    growth, attributes = largest_exponents(cases, end_time)
+    growth, attributes = largest_exponents(cases, end_time, seed)
     times = divergence_times(cases, tolerances, growth)
-    short = spectra(by_name(short_problems), short_end_times)
+    short = spectra(by_name(short_problems), short_end_times, undriven_end, seed)
     write(data, growth | times | short, attributes)
 
 

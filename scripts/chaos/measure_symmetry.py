@@ -11,10 +11,11 @@ def measure_symmetry(
     size: float,
     members: int,
     seed: int,
+    step: float,
     kernels: list[str] | tuple = (),
 ) -> None:
-    """Follow the odd part of each case, alone and with perturbations of relative `size`."""
-    write(data, *odd_parts(by_name(problems), size, members, seed))
+    """Follow the odd part of each case at each `step`, alone and perturbed by relative `size`."""
+    write(data, *odd_parts(by_name(problems), size, members, seed, step))
 
 
 if __name__ == "__main__":

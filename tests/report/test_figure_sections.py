@@ -118,7 +118,7 @@ def samples(mean: float) -> dict[str, xr.Dataset]:
     drawn = {name: (("sweep", "half_width"), [[value]]) for name, value in numbers.items()}
     drawn |= {"swept_omega": ("sweep", [0.0]), "swept_initial": ("sweep", [made_up.SMALL])}
     coords = {"sweep": ["fig5_right"], "half_width": [160]}
-    members = xr.Dataset(attrs={"swept_members": 8})
+    members = xr.Dataset({"swept_members": ("sweep", [8])}, {"sweep": ["fig5_right"]})
     return {"checks/ensemble_runs": xr.Dataset(drawn, coords=coords), "checks/ensembles": members}
 
 

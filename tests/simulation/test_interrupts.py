@@ -15,7 +15,7 @@ from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.observables import blank_record
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain, simulate
 from pendula.simulation.solvers import SOLVERS
-from pendula.studies.chaos import symmetry, tangent_dynamics
+from pendula.studies.chaos import tangent_dynamics
 from pendula.studies.unbounded import active_sites
 from problems import constants_of, problem_of
 
@@ -37,7 +37,7 @@ def test_a_solver_ends_where_the_flag_is_up(name, monkeypatch):
 
 
 def odd_part(problem):
-    return symmetry.follow_odd_part(problem, problem.amplitudes)
+    return tangent_dynamics.follow_odd_part(problem, problem.amplitudes, 0.25, 1e-9)
 
 
 def tangent(problem):
@@ -51,7 +51,7 @@ def piece_without_ends(problem):
 
 @pytest.mark.parametrize(
     ("module", "run"),
-    [(symmetry, odd_part), (tangent_dynamics, tangent), (active_sites, piece_without_ends)],
+    [(tangent_dynamics, odd_part), (tangent_dynamics, tangent), (active_sites, piece_without_ends)],
 )
 def test_the_runs_that_studies_start_themselves_end_there_too(module, run, monkeypatch):
     problem = problem_of("fig2_small", solver=CONTROLS["dop853"], end_time=1.0)

@@ -5,7 +5,7 @@ rule measure_lyapunov:
     "Lyapunov exponents of every case, and when runs leave the solution"
     input:
         code=code("chaos/measure_lyapunov.py"),
-        kernels=kernels("dop853"),
+        kernels=kernels("dop853", "taylor"),
     output:
         data="results/checks/lyapunov.nc",
     log:

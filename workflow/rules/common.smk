@@ -96,7 +96,7 @@ if workflow.is_main_process:
 
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
 ENSEMBLE_CASES = SETTINGS.chaos.ensembles.cases
-ENSEMBLE_SWEEPS = SETTINGS.chaos.ensembles.sweeps
+ENSEMBLE_SWEEPS = list(SETTINGS.chaos.ensembles.sweeps)
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]

@@ -153,11 +153,12 @@ def in_any(sweeps, key):
     return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
 
 
-def swept(sweeps, tolerance):
-    cases = {name: SETTINGS.sweeps[name].case for name in sweeps}
-    end_time = max(end for _, end in in_any(sweeps, "windows"))
+def swept(drawn, tolerance):
+    """Return by sweep what its ensembles run, each to the end of the last window of any."""
+    end_time = max(end for _, end in in_any(drawn, "windows"))
+    cases = {name: SETTINGS.sweeps[name].case for name in drawn}
     problems = followed(cases.values(), tolerance, "taylor", end_time=end_time)
-    return {name: problems[case] for name, case in cases.items()}
+    return {name: {"problem": problems[cases[name]], **dict(one)} for name, one in drawn.items()}
 
 
 def lyapunov_params(given):
@@ -169,6 +170,8 @@ def lyapunov_params(given):
         "tolerances": given.diverging_tolerances,
         "short_problems": followed(short.cases, short.tolerance),
         "short_end_times": {m: times * longest_short for m, times in short.lengths.items()},
+        "undriven_end": short.undriven_lengths * longest_short,
+        "seed": given.seed,
     }
 
 
@@ -179,6 +182,7 @@ def symmetry_params(given):
         "size": given.size,
         "members": given.members,
         "seed": given.seed,
+        "step": given.output_step,
     }
 
 
@@ -189,14 +193,15 @@ def ensembles_of(*names):
 
 
 def ensemble_params(given):
+    """Return what both kinds of ensembles run; the bands of cases are those of even ones."""
     end_time = longest(given.cases)
+    cases = followed(given.cases, given.tolerance, "taylor", end_time=end_time)
+    sweeps, uneven = (swept(one, given.tolerance) for one in (given.sweeps, given.uneven))
     return {
-        "problems": followed(given.cases, given.tolerance, "taylor", end_time=end_time),
+        "problems": lambda wildcards: {} if wildcards.kind else cases,
         "members": given.members,
-        "swept_problems": swept(given.sweeps, given.tolerance),
-        "half_widths": in_any(given.sweeps, "half_widths")[:: given.every],
+        "swept": lambda wildcards: uneven if wildcards.kind else sweeps,
         "windows": in_any(given.sweeps, "windows"),
-        "swept_members": given.swept_members,
         "size": given.size,
         "seed": given.seed,
     }

@@ -80,13 +80,14 @@ def swept() -> xr.Dataset:
             "linf_error": (dims, np.full(shape, 0.1)),
             "l2": (("case", "quantile", "quantity", "tau"), np.full((1, 1, 1, 2), np.sqrt(26.0))),
             "omega": ("case", [-4.0]),
+            "swept_members": ("sweep", [8, 8]),
         },
         {
             "sweep": ["fig5_right", "fig6_right"], "half_width": HALF_WIDTHS,
             "quantity": ["pair"], "statistic": ["max"], "window": windows,
             "case": ["fig3_large"], "quantile": [0.5], "tau": [0.0, 1.0],
         },
-        {"swept_members": 8, "perturbation": 1e-7, "epsilon": 1.0, "gamma": 1.0},
+        {"perturbation": 1e-7, "epsilon": 1.0, "gamma": 1.0},
     )  # fmt: skip
 
 

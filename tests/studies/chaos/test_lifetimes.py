@@ -68,10 +68,23 @@ def test_the_dataset_has_every_amplitude_and_every_choice():
     contents = lifetimes.measure_lives(given, [2.0, 7.0], 0.2, 1e-7, 3, 10.0, 1)
     choices = [(1e-6, "even"), (1e-6, "uneven")]
     numerics = lifetimes.compare_numerics(
-        lifetimes.localised(given, 7.0, 0.2), choices, 1e-7, 3, 10.0, 1
+        lifetimes.localised(given, 7.0, 0.2), choices, 1e-7, 3, 10.0, 1, contents[0]
     )
     data = as_xarray(contents[0] | numerics, contents[1])
     assert data["life"].shape == (2, 3) and np.isfinite(data["life"][0]).all()
     assert data["median"][0] < data["median"][1]
     assert data["choice_kind"].values.tolist() == ["even", "uneven"]
     assert data["compared_amplitude"] == 7.0
+
+
+def test_an_ensemble_that_is_known_is_not_run_again(monkeypatch):
+    given, drawn = problem(end_time=12.0), (1e-7, 3, 10.0, 1)
+    lives, _ = lifetimes.measure_lives(given, [2.0, 7.0], 0.2, *drawn)
+    compared, own = lifetimes.localised(given, 7.0, 0.2), [(1e-8, "even")]
+    again = lifetimes.compare_numerics(lifetimes.localised(given, 7.0, 0.2), own, *drawn, {
+        **lives, "start_amplitude": lives["start_amplitude"]._replace(values=[2.0, 8.0])
+    })  # fmt: skip
+    monkeypatch.delattr(lifetimes, "follow_members")
+    known = lifetimes.compare_numerics(compared, own, *drawn, lives)
+    for name, one in again.items():
+        np.testing.assert_array_equal(known[name].values, one.values)

@@ -2,16 +2,19 @@
 
 import numpy as np
 import pytest
+from pendula.measures.confidence import Limits
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.studies.chaos import lyapunov
 from pendula.studies.chaos.tangent_dynamics import grow
 from pendula.studies.chaos.tangents import PARITIES, random_tangent
 from problems import problem_of
 
+SEED = 20170817
+
 
 @pytest.fixture(scope="module")
 def whole_spectrum():
-    return lyapunov.follow_all(problem_of("fig3_large", half_width=1), 200.0)
+    return lyapunov.follow_many(problem_of("fig3_large", half_width=1), 12, 200.0, SEED)
 
 
 def test_the_sum_of_all_exponents_is_zero_at_every_time(whole_spectrum):
@@ -31,14 +34,14 @@ def test_two_exponents_vanish(whole_spectrum):
 
 @pytest.mark.parametrize("parity", PARITIES)
 def test_the_chain_is_chaotic_at_omega_zero(parity):
-    growth = lyapunov.follow_parity(problem_of("fig4_small", half_width=15), parity, 60.0)
+    growth = lyapunov.follow_parity(problem_of("fig4_small", half_width=15), parity, 60.0, SEED)
     assert mean_rate(growth.tau, growth.log_growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
     assert is_chaotic(growth.tau, growth.log_growth[0], growth.size)
 
 
 @pytest.mark.parametrize("parity", PARITIES)
 def test_small_data_at_omega_minus_4_are_regular(parity):
-    growth = lyapunov.follow_parity(problem_of("fig3_small", half_width=15), parity, 60.0)
+    growth = lyapunov.follow_parity(problem_of("fig3_small", half_width=15), parity, 60.0, SEED)
     assert abs(mean_rate(growth.tau, growth.log_growth, 20.0)[0]) < 0.02
     assert not is_chaotic(growth.tau, growth.log_growth[0], growth.size)
 
@@ -46,7 +49,7 @@ def test_small_data_at_omega_minus_4_are_regular(parity):
 def test_data_that_are_not_even_have_no_parities():
     lopsided = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
     with pytest.raises(ValueError, match="even in n"):
-        lyapunov.follow_parity(lopsided, "odd", 1.0)
+        lyapunov.follow_parity(lopsided, "odd", 1.0, SEED)
 
 
 def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
@@ -59,14 +62,16 @@ def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spe
 
 def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_without_a_drive():
     cases = {name: problem_of(name) for name in ("fig3_large", "fig3_small")}
-    found = {name: one.values for name, one in lyapunov.spectra(cases, {1: 20.0, 2: 8.0}).items()}
+    made = lyapunov.spectra(cases, {1: 20.0, 2: 8.0}, 12.0, SEED)
+    found = {name: one.values for name, one in made.items()}
     assert found["spectrum_case"] == list(cases) and found["spectrum_half_width"] == [1, 2]
     assert found["spectrum_end_time"] == [20.0, 8.0]
     np.testing.assert_array_equal(found["index"], np.arange(1, 21))
     for i, problem in enumerate(cases.values()):
-        for j, (half_width, end, gamma) in enumerate(((1, 20.0, 1.0), (2, 8.0, 1.0), (1, 20.0, 0))):
+        for j, (half_width, end, gamma) in enumerate(((1, 20.0, 1.0), (2, 8.0, 1.0), (1, 12.0, 0))):
             short = problem.changed(half_width=half_width, gamma=float(gamma))
-            one = lyapunov.spectrum_of(lyapunov.follow_all(short, end, tolerance=1e-12), end / 4)
+            half = lyapunov.follow_many(short, 2 * short.sites, end, SEED, tolerance=1e-12)
+            one = lyapunov.in_pairs(lyapunov.spectrum_of(half, end / 4))
             rest = np.full(20 - len(one.value), np.nan)
             key, at = ("", (i, j)) if gamma else ("_undriven", i)
             told = found[f"exponents{key}"][at], found[f"exponents_error{key}"][at]
@@ -79,14 +84,29 @@ def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_wit
 @pytest.mark.parametrize("parity", PARITIES)
 def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity):
     problem, place = problem_of("fig4_small", half_width=2), PARITIES.index(parity)
-    vector = random_tangent(5, parity, np.random.default_rng([20170817, place]))
+    vector = random_tangent(5, parity, np.random.default_rng([SEED, place]))
     known = grow(problem, vector[None], 1.0, even=parity == "even")
-    found = lyapunov.follow_parity(problem, parity, 1.0)
+    found = lyapunov.follow_parity(problem, parity, 1.0, SEED)
     np.testing.assert_array_equal(found.log_growth, known.log_growth)
 
 
-def test_a_basis_has_four_vectors_a_site_drawn_in_turn_by_one_seed():
-    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(20170817)
+def test_half_of_the_exponents_are_those_of_the_whole_spectrum(whole_spectrum):
+    problem = problem_of("fig3_large", half_width=1)
+    half = lyapunov.follow_many(problem, 6, 4.0, SEED, tolerance=1e-13)
+    whole = lyapunov.follow_many(problem, 12, 4.0, SEED, tolerance=1e-13)
+    np.testing.assert_allclose(half.log_growth, whole.log_growth[:6], atol=1e-8)
+
+
+def test_the_lower_half_of_a_spectrum_has_the_opposite_signs():
+    upper = Limits(np.array([2.0, 0.5]), np.array([1.5, -0.1]), np.array([2.5, 1.1]))
+    found = lyapunov.in_pairs(upper)
+    np.testing.assert_array_equal(found.value, [2.0, 0.5, -0.5, -2.0])
+    np.testing.assert_array_equal(found.low, [1.5, -0.1, -1.1, -2.5])
+    np.testing.assert_array_equal(found.high, [2.5, 1.1, 0.1, -1.5])
+
+
+def test_a_basis_is_drawn_in_turn_by_one_seed():
+    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(SEED)
     basis = np.array([random_tangent(3, None, rng) for _ in range(12)])
-    found = lyapunov.follow_all(problem, 1.0)
+    found = lyapunov.follow_many(problem, 12, 1.0, SEED)
     np.testing.assert_array_equal(found.log_growth, grow(problem, basis, 1.0).log_growth)

@@ -140,7 +140,7 @@ def swept(l2, dims=("half_width", "quantity", "statistic", "window")):
 def test_a_sweep_is_held_to_its_ensemble_point_by_point():
     sweep = swept(10.0 + np.arange(8.0))
     moments = {"l2_mean": sweep["l2"], "l2_deviation": 0.1 * sweep["l2"]}
-    ensemble = xr.Dataset(moments).expand_dims(sweep=["fig6_right"]).assign_attrs(swept_members=8)
+    ensemble = xr.Dataset(moments).assign(swept_members=8).expand_dims(sweep=["fig6_right"])
     alike = claims.swept_draws("fig6_right", sweep, ensemble)
     assert alike["text"] == [1.0] * 8 and alike["off"] == [0.0]
     other = swept(10.0 + np.arange(8.0) + 9.0 * (np.arange(8) == 3))

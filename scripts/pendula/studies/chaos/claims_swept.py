@@ -68,11 +68,14 @@ class Means(NamedTuple):
 
 def maxima(ensembles, sweep: str, norm: str, window: str) -> Means:
     """Return the means of the maxima of the pair's norm over a window."""
-    if ensembles.sizes["half_width"] < FEWEST or window not in ensembles["window"].values:
-        text = f"the ensemble has fewer than {FEWEST} half-widths, or not the window"
+    text = f"the ensemble has fewer than {FEWEST} half-widths, or not the window"
+    if window not in ensembles["window"].values:
         raise UndecidableError(text)
     chosen = {"sweep": sweep, "quantity": "pair", "statistic": "max", "window": window}
-    kept, members = ensembles.sel(chosen), int(ensembles.attrs["swept_members"])
+    kept = ensembles.sel(chosen).dropna("half_width", subset=[f"{norm}_mean"])
+    if kept.sizes["half_width"] < FEWEST:
+        raise UndecidableError(text)
+    members = int(kept["swept_members"])
     values = (kept[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))
     return Means(*values, members)
 

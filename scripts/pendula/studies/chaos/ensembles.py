@@ -5,6 +5,7 @@ draw as well is the distribution.
 """
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -22,6 +23,7 @@ from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf,
 
 NORMS = ("l2", "linf")
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+TITLE = "Ensembles of the chaotic cases and sweeps, from almost equal data"
 
 
 def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
@@ -111,35 +113,48 @@ def case_bands(
     for name, norms in zip(NORMS, zip(*results, strict=True), strict=True):
         values = np.array([bands(norm, QUANTILES) for norm in norms])
         variables[name] = Variable(grid, values, f"{NAMES[name]}, quantiles over the ensemble")
-    title = "Ensembles of the chaotic cases and sweeps, from almost equal data"
-    return variables, {"title": title, **shared}
+    return variables, {"title": TITLE, **shared}
+
+
+class Swept(NamedTuple):
+    """The ensembles of a sweep: so many members of a problem on chains of each half-width."""
+
+    problem: Problem
+    half_widths: list[int]
+    members: int
 
 
 def sweep_moments(
-    problems: dict[str, Problem],
-    half_widths,
-    windows,
-    size: float,
-    members: int,
-    seed: int,
-    kind: str = "even",
+    drawn: dict[str, Swept], windows, size: float, seed: int, kind: str = "even"
 ) -> dict[str, Variable]:
-    """Return mean, deviation and standard error of every swept norm of each sweep by name."""
+    """Return mean, deviation and standard error of every swept norm of each sweep by name.
+
+    They are NaN at the half-widths that another sweep has alone.
+    """
     results = [
-        sweep_members(problem, half_widths, windows, size, members, seed, kind)
-        for problem in problems.values()
+        sweep_members(one.problem, one.half_widths, windows, size, one.members, seed, kind)
+        for one in drawn.values()
     ]
+    half_widths = sorted({width for one in drawn.values() for width in one.half_widths})
+    rows = [np.searchsorted(half_widths, one.half_widths) for one in drawn.values()]
     variables = {
-        "sweep": Variable(("sweep",), list(problems)),
+        "sweep": Variable(("sweep",), list(drawn)),
         "half_width": Variable(("half_width",), np.array(half_widths)),
+        "quantity": Variable(("quantity",), list(QUANTITIES)),
         "statistic": Variable(("statistic",), list(STATISTICS)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
+        "swept_members": Variable(
+            ("sweep",), [one.members for one in drawn.values()], "members at each half-width"
+        ),
     }
     grid = ("sweep", "half_width", "quantity", "statistic", "window")
     for name, norms in zip(NORMS, zip(*results, strict=True), strict=True):
         reduced = [moments(norm) for norm in norms]
         for key, words in MOMENTS.items():
-            values = np.array([one[key] for one in reduced])
+            shape = (len(drawn), len(half_widths), *norms[0].shape[2:])
+            values = np.full(shape, np.nan)
+            for i, (row, one) in enumerate(zip(rows, reduced, strict=True)):
+                values[i, row] = one[key]
             variables[f"{name}_{key}"] = Variable(grid, values, f"{words} of the {NAMES[name]}")
     return variables
 

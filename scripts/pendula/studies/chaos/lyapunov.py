@@ -23,10 +23,8 @@ from pendula.simulation.simulate import Trajectory, simulate
 from .tangent_dynamics import Growth, grow
 from .tangents import PARITIES, random_tangent
 
-SEED = 20170817
 
-
-def follow_parity(problem: Problem, parity: str, end_time: float, **controls) -> Growth:
+def follow_parity(problem: Problem, parity: str, end_time: float, seed: int, **controls) -> Growth:
     """Carry one random tangent vector of this parity along a case whose data are even.
 
     The kernels keep the parity to the last bit, so that the vector turns to the fastest direction
@@ -34,15 +32,18 @@ def follow_parity(problem: Problem, parity: str, end_time: float, **controls) ->
     """
     if not find_reduction(problem.amplitudes).even:
         raise ValueError("tangent vectors keep their parity only along data that are even in n")
-    rng = np.random.default_rng([SEED, PARITIES.index(parity)])
+    rng = np.random.default_rng([seed, PARITIES.index(parity)])
     tangent = random_tangent(problem.sites, parity, rng)
     return grow(problem, tangent[None], end_time, parity == "even", **controls)
 
 
-def follow_all(problem: Problem, end_time: float, **controls) -> Growth:
-    """Carry a full basis of 4 N tangent vectors along a case, for the whole spectrum."""
-    rng = np.random.default_rng(SEED)
-    count = 4 * problem.sites
+def follow_many(problem: Problem, count: int, end_time: float, seed: int, **controls) -> Growth:
+    """Carry `count` tangent vectors along a case, which has 4 N of them, for the largest exponents.
+
+    Each vector loses its components along those before it, so that a larger `count` changes none
+    but by the steps that the solver takes.
+    """
+    rng = np.random.default_rng(seed)
     basis = np.array([random_tangent(problem.sites, None, rng) for _ in range(count)])
     return grow(problem, basis, end_time, **controls)
 
@@ -82,8 +83,8 @@ class Divergence(NamedTuple):
 
 
 def measure_divergence(problem: Problem, tolerances: list[float]) -> Divergence:
-    """Follow a case by dop853 at each tolerance and at FINEST."""
-    finest = _run(problem, FINEST)
+    """Follow a case by dop853 at each tolerance, and by another method at FINEST."""
+    finest = _run(problem, FINEST, "taylor")
     first = early_index(finest.tau)
     rows = []
     for tolerance in tolerances:
@@ -98,22 +99,25 @@ def early_index(tau: np.ndarray) -> int:
     return int(np.argmin(np.abs(tau - EARLY)))
 
 
-def _run(problem: Problem, tolerance: float) -> Trajectory:
-    solver = {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+def _run(problem: Problem, tolerance: float, solver: str = "dop853") -> Trajectory:
+    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
     return simulate(problem.changed(solver=solver, snapshot_every=0))
 
 
 # --- Datasets -------------------------------------------------------------------------------------
 
 
-def largest_exponents(problems: dict[str, Problem], end_time: float) -> Contents:
+def largest_exponents(problems: dict[str, Problem], end_time: float, seed: int) -> Contents:
     """Return the growth of an even and of an odd tangent vector of each case, and its mean rate.
 
     `problems` are given by case, and integrated at the tolerance of their solver; rates are over
     the second half of time.
     """
     runs = [
-        [follow_parity(p, parity, end_time, tolerance=p.solver["rtol"]) for parity in PARITIES]
+        [
+            follow_parity(p, parity, end_time, seed, tolerance=p.solver["rtol"])
+            for parity in PARITIES
+        ]
         for p in problems.values()
     ]
     tau, middle = runs[0][0].tau, end_time / 2
@@ -141,7 +145,7 @@ def largest_exponents(problems: dict[str, Problem], end_time: float) -> Contents
         "chaotic": Variable(("case",), chaotic, "one where tangent vectors grow exponentially"),
     }
     title = "Lyapunov exponents of the cases, and when runs leave the solution"
-    return variables, {"title": title, **shared, "end_time": end_time, "seed": SEED}
+    return variables, {"title": title, **shared, "end_time": end_time, "seed": seed}
 
 
 def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
@@ -173,12 +177,15 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     }
 
 
-def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[str, Variable]:
+def spectra(
+    problems: dict[str, Problem], end_times: dict[int, float], undriven_end: float, seed: int
+) -> dict[str, Variable]:
     """Return all exponents of the cases on chains of each half-width in `end_times`.
 
-    Rates are over the last three quarters of time, their errors from parts of that time. Shorter
+    Rates are over the last three quarters of time, their errors from parts of that time. Half of
+    the exponents are measured: the others are the same with the opposite sign. Shorter
     chains have fewer exponents, so that their rows end in NaN. The shortest chain is followed
-    without a drive too, where the l2 norm is a second integral.
+    without a drive to `undriven_end` too, where the l2 norm is a second integral.
     """
     most = 4 * (2 * max(end_times) + 1)
     shape = (len(problems), len(end_times), most)
@@ -186,7 +193,7 @@ def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[s
     vanishing = np.zeros(shape[:2], int)
     for i, problem in enumerate(problems.values()):
         for j, (half_width, end_time) in enumerate(end_times.items()):
-            found = _short_spectrum(problem, end_time, half_width=half_width)
+            found = _short_spectrum(problem, end_time, seed, half_width=half_width)
             count = len(found.value)
             rates[i, j, :count], errors[i, j, :count] = found.value, found.half
             vanishing[i, j] = ((found.low <= 0.0) & (found.high >= 0.0)).sum()
@@ -202,20 +209,22 @@ def spectra(problems: dict[str, Problem], end_times: dict[int, float]) -> dict[s
         "exponents": Variable(along, rates, words),
         "exponents_error": Variable(along, errors, f"{words}: half of the confidence interval"),
         "vanishing": Variable(along[:2], vanishing, "exponents that cannot be told from zero"),
-        **_undriven_spectra(problems.values(), end_times, most),
+        **_undriven_spectra(problems.values(), min(end_times), undriven_end, most, seed),
     }
 
 
-def _short_spectrum(problem: Problem, end_time: float, **changes) -> Limits:
-    run = follow_all(problem.changed(**changes), end_time, tolerance=problem.solver["rtol"])
-    return spectrum_of(run, end_time / 4)
+def _short_spectrum(problem: Problem, end_time: float, seed: int, **changes) -> Limits:
+    short, tolerance = problem.changed(**changes), problem.solver["rtol"]
+    run = follow_many(short, 2 * short.sites, end_time, seed, tolerance=tolerance)
+    return in_pairs(spectrum_of(run, end_time / 4))
 
 
-def _undriven_spectra(problems, end_times: dict[int, float], most: int) -> dict[str, Variable]:
+def _undriven_spectra(
+    problems, half_width: int, end_time: float, most: int, seed: int
+) -> dict[str, Variable]:
     """Return all exponents of the cases on the shortest chain at gamma = 0, and their errors."""
-    half_width = min(end_times)
     alone = {"half_width": half_width, "gamma": 0.0}
-    found = [_short_spectrum(problem, end_times[half_width], **alone) for problem in problems]
+    found = [_short_spectrum(problem, end_time, seed, **alone) for problem in problems]
     along, words = ("spectrum_case", "index"), "all Lyapunov exponents of the shortest chain"
     rates, errors = np.full((len(found), most), np.nan), np.full((len(found), most), np.nan)
     for i, one in enumerate(found):
@@ -234,3 +243,13 @@ def spectrum_of(run: Growth, start: float) -> Limits:
     rates = mean_rate(run.tau, run.log_growth, start)
     off = student(PARTS - 1) * mean_rate_error(run.tau, run.log_growth, start)
     return Limits(rates, rates - off, rates + off)
+
+
+def in_pairs(upper: Limits) -> Limits:
+    """Return all exponents, in order, from the upper half: those of a Hamiltonian flow are pairs.
+
+    The lower half has the opposite signs, since the flow keeps the symplectic product of any two
+    tangent vectors.
+    """
+    lower = Limits(*(-values[::-1] for values in (upper.value, upper.high, upper.low)))
+    return Limits(*map(np.concatenate, zip(upper, lower, strict=True)))

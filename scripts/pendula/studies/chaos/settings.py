@@ -15,10 +15,14 @@ Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
 
 
 class Spectrum(Model):
-    """All Lyapunov exponents, on short chains; `lengths` are by half-width."""
+    """All Lyapunov exponents, on short chains; `lengths` are by half-width.
+
+    The shortest chain is followed without a drive too, for `undriven_lengths`.
+    """
 
     cases: Names
     tolerance: Tolerance
+    undriven_lengths: Positive
     lengths: Annotated[dict[Annotated[Whole, Field(ge=0)], Positive], Field(min_length=1)]
 
 
@@ -29,27 +33,35 @@ class Lyapunov(Model):
     tolerance: Tolerance
     diverging_tolerances: Annotated[list[Tolerance], Field(min_length=1), Distinct]
     spectrum: Spectrum
+    seed: Seed
 
 
 class Symmetry(Model):
     """How even data lose their evenness."""
 
     tolerance: Tolerance
+    output_step: Positive
     size: Positive
     members: Count
     seed: Seed
+
+
+class Swept(Model):
+    """The ensembles of a sweep: so many members on chains of each half-width."""
+
+    half_widths: Annotated[list[Count], Field(min_length=1), Distinct]
+    members: Annotated[Whole, Field(ge=2)]
 
 
 class Ensembles(Model):
     """Cases and sweeps from data that differ in their last digits."""
 
     cases: Names
-    sweeps: Names
+    sweeps: Annotated[dict[Name, Swept], Field(min_length=1)]
+    uneven: Annotated[dict[Name, Swept], Field(min_length=1)]
     tolerance: Tolerance
     size: Positive
     members: Count
-    swept_members: Annotated[Whole, Field(ge=2)]
-    every: Count
     seed: Seed
 
 
@@ -102,7 +114,8 @@ class Settings(Model):
         absent = [
             *settings.absent("cases", "lyapunov.spectrum.cases", self.lyapunov.spectrum.cases),
             *settings.absent("cases", "ensembles.cases", self.ensembles.cases),
-            *settings.absent("sweeps", "ensembles.sweeps", self.ensembles.sweeps),
+            *settings.absent("sweeps", "ensembles.sweeps", list(self.ensembles.sweeps)),
+            *settings.absent("sweeps", "ensembles.uneven", list(self.ensembles.uneven)),
             *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
         ]
         yield from absent
@@ -121,12 +134,14 @@ class Settings(Model):
         longest = max((settings.cases[case].end_time for case in paper), default=1.0)
         runs = [estimate(settings.problem(case, end_time=longest)) for case in paper]
         drawn = [estimate(settings.problem(case)) for case in self.ensembles.cases]
-        swept = [settings.cost_of_sweep(sweep) for sweep in self.ensembles.sweeps]
         yield from settings.excess("lyapunov.lengths", runs, 2.0 * self.lyapunov.lengths)
         yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
         yield from settings.excess("symmetry.members", runs, 2.0 * self.symmetry.members)
         yield from settings.excess("ensembles.members", drawn, self.ensembles.members)
-        yield from settings.excess("ensembles.swept_members", swept, self.ensembles.swept_members)
+        for kind in ("sweeps", "uneven"):
+            for name, drawn in getattr(self.ensembles, kind).items():
+                one = [settings.cost_of_sweep(name)]
+                yield from settings.excess(f"ensembles.{kind}.{name}.members", one, drawn.members)
         yield from settings.excess("members.members", runs, 2.0 * self.members.members)
         given = self.lifetimes
         times = {"end_time": given.end_time, "output_step": given.output_step}
@@ -138,10 +153,11 @@ class Settings(Model):
         yield from settings.excess(f"lifetimes.{key}", lives, given.members)
 
     def _spectra(self, settings: Configuration) -> list[Cost]:
-        """Return what all exponents of short chains take: as many tangent vectors as numbers."""
+        """Return what exponents of short chains take: half as many tangent vectors as numbers."""
         spectrum, found = self.lyapunov.spectrum, []
+        runs = [*spectrum.lengths.items(), (min(spectrum.lengths), spectrum.undriven_lengths)]
         for case in spectrum.cases:
-            for half_width, lengths in spectrum.lengths.items():
+            for half_width, lengths in runs:
                 one = estimate(settings.problem(case, half_width=half_width))
-                found.append(Cost(lengths * 4 * (2 * half_width + 1) * one.seconds, one.memory))
+                found.append(Cost(lengths * 2 * (2 * half_width + 1) * one.seconds, one.memory))
         return found

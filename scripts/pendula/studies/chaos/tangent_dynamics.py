@@ -12,13 +12,15 @@ import numpy as np
 
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
-from pendula.models.amplitudes import MIRROR
+from pendula.models.amplitudes import MIRROR, Chain
 from pendula.models.tangent import ROWS, bundle_rates
 from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
 from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, pack
+from pendula.simulation.lattice import WHOLE, Reduction, pack
 from pendula.simulation.simulate import IntegrationError, aligned, make_chain
+
+from .lopsided import lopsided_rates, odd_part
 
 
 @kernel
@@ -83,26 +85,48 @@ class Growth(NamedTuple):
     size: np.ndarray  # (time,), l2 norm of the solution itself
 
 
+class Motion(NamedTuple):
+    """What is integrated: a solution and its tangent vectors, or a solution in lopsided sums.
+
+    The two share one solver, since a second one would take as long to compile.
+    """
+
+    chain: Chain
+    lopsided: bool
+
+
 @kernel
-def observe_nothing(chain, bundle, i, record):
+def motion_rates(motion, bundle, slopes):
+    """Write the rates of a bundle, or those of a solution alone in an arithmetic that is uneven."""
+    if motion.lopsided:
+        lopsided_rates(motion.chain, bundle, slopes)
+    else:
+        bundle_rates(motion.chain, bundle, slopes)
+
+
+@kernel
+def observe_nothing(motion, bundle, i, record):
     """Keep nothing: the bundle at the end of each span of time has all that is wanted."""
 
 
-solve = dop853.build(bundle_rates, observe_nothing)
+solve = dop853.build(motion_rates, observe_nothing)
 
 
 @kernel
-def carry(chain, bundle, span, controls, work, record, lengths, sizes, stop):
+def carry(motion, bundle, span, controls, work, record, lengths, sizes, odd, stop):
     """Carry the bundle over as many spans of time as `lengths` (span, vector) has rows.
 
-    Return the status of the solver.
+    Write `sizes` and, in lopsided sums, the `odd` parts of the solution; return the status of the
+    solver.
     """
     for i in range(lengths.shape[0]):
-        outcome = solve(chain, bundle, span, controls, work, record, stop)
+        outcome = solve(motion, bundle, span, controls, work, record, stop)
         if outcome.status != DONE:
             return outcome.status
-        orthonormalise(chain, bundle, lengths[i])
-        sizes[i] = sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
+        orthonormalise(motion.chain, bundle, lengths[i])
+        sizes[i] = sqrt(inner(motion.chain, bundle[:ROWS], bundle[:ROWS]))
+        if motion.lopsided:
+            odd[i] = odd_part(bundle)
     return DONE
 
 
@@ -120,17 +144,37 @@ def grow(
     Raises IntegrationError where dop853 gives up.
     """
     reduction = Reduction(even, synchronised=False)
-    chain = make_chain(problem.constants, problem.boundary, reduction)
+    motion = Motion(make_chain(problem.constants, problem.boundary, reduction), lopsided=False)
     bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *tangents)])
     tau = output_times(end_time, step)
     lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
-    orthonormalise(chain, bundle, lengths[0])
+    orthonormalise(motion.chain, bundle, lengths[0])
     lengths[0] = 1.0
-    sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
-    span, record, controls = tau[:2], np.empty(0), (tolerance, tolerance)
-    work = aligned((dop853.WORK, *bundle.shape))
-    grown = lengths[1:], sizes[1:]
-    status = interruptible(carry, chain, bundle, span, controls, work, record, *grown)
-    if status != DONE:
-        raise IntegrationError(f"the tangent vectors could not be followed: {FAULTS[status]}")
+    sizes[0] = np.sqrt(inner(motion.chain, bundle[:ROWS], bundle[:ROWS]))
+    _carry(motion, bundle, tau, tolerance, lengths, sizes, np.empty(tau.size))
     return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)
+
+
+def follow_odd_part(
+    problem: Problem, amplitudes: np.ndarray, step: float, tolerance: float
+) -> np.ndarray:
+    """Return the relative size of the odd part at steps of time, (time,), from data (2, N).
+
+    Sums over neighbours are lopsided. Raises IntegrationError where dop853 gives up.
+    """
+    motion = Motion(make_chain(problem.constants, problem.boundary, WHOLE), lopsided=True)
+    tau, y = output_times(problem.end_time, step), pack(amplitudes, WHOLE)
+    odd = np.empty(tau.size)
+    odd[0] = odd_part(y)
+    _carry(motion, y, tau, tolerance, np.empty((tau.size, 0)), np.empty(tau.size), odd)
+    return odd
+
+
+def _carry(motion: Motion, bundle, tau, tolerance: float, lengths, sizes, odd) -> None:
+    """Carry a bundle to each later time, and write what `carry` says behind the first entries."""
+    record, controls = np.empty(0), (tolerance, tolerance)
+    work = aligned((dop853.WORK, *bundle.shape))
+    later = lengths[1:], sizes[1:], odd[1:]
+    status = interruptible(carry, motion, bundle, tau[:2], controls, work, record, *later)
+    if status != DONE:
+        raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")

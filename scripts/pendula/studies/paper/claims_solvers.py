@@ -272,11 +272,12 @@ def swept_chances(second, drawn, norms) -> list[float]:
     `second` and `drawn` are a sweep and its ensemble at one quantity, statistic and window. The
     chance of a run is that of the least of its norms and half-widths, by Bonferroni's bound.
     """
+    drawn = drawn.dropna("half_width", subset=["l2_mean"])
     shared = np.intersect1d(second["half_width"], drawn["half_width"])
     if len(shared) < FEWEST:
         raise UndecidableError(f"sweep and ensemble share fewer than {FEWEST} half-widths")
     second, drawn = second.sel(half_width=shared), drawn.sel(half_width=shared)
-    members = int(drawn.attrs["swept_members"])
+    members = int(drawn["swept_members"])
     chances = [
         chance_of_draw(
             second[norm].values,
@@ -319,7 +320,8 @@ def coverage(name: str, second, ensembles) -> str:
     """
     window, _ = TEXT[name[:4]]
     at = {"quantity": "pair", "statistic": "max", "window": window}
-    run, drawn = second["l2"].sel(at), ensembles["l2_mean"].sel(sweep=name, **at)
+    run = second["l2"].sel(at)
+    drawn = ensembles["l2_mean"].sel(sweep=name, **at).dropna("half_width")
     widths, known = run["half_width"].values, drawn["half_width"].values
     said = f"{np.isin(widths, known).sum()} of {len(widths)} half-widths of {name}"
     between = [w for w in widths if w not in known and known[0] < w < known[-1]]

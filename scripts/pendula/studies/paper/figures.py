@@ -13,6 +13,7 @@ from pendula.measures.difference import at_times, difference, divergence_time, i
 SIZES = ["small", "large"]
 BAND = [0.05, 0.5, 0.95]
 """The quantiles of an ensemble that are drawn: the ends of its band, and its middle."""
+MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
 
 
@@ -44,7 +45,7 @@ def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
 
 def _bands(run: xr.Dataset, ensembles: xr.Dataset) -> xr.Dataset:
     """Return the bands of a case, NaN where it has no ensemble, and the number of their runs."""
-    drawn = xr.Dataset({"members": _members(ensembles, "members")})
+    drawn = xr.Dataset({"members": xr.Variable((), ensembles.attrs["members"], MEMBERS)})
     every = ensembles.sel(quantity=run["component"].values, quantile=BAND)
     every = every.rename(quantity="component").reindex(case=[run.attrs["case"]]).isel(case=0)
     for name in NORMS:
@@ -140,20 +141,17 @@ def gather_sweeps(
     sweeps = {"left": left, "right": right}
     data = panels.join_sweeps(sweeps, text_window, caption_window, list(norms))
     if ensembles is not None:
-        data["members"] = _members(ensembles, "swept_members")
+        names = [sweep.attrs["case"] for sweep in sweeps.values()]
+        counts = ensembles["swept_members"].where(ensembles["sweep"].isin(names))
+        data["members"] = counts.max().assign_attrs(MEMBERS)
         moments = [f"{name}_{moment}" for name in norms for moment in ("mean", "deviation")]
         every = ensembles.sel(quantity="pair", drop=True).reindex(half_width=data["half_width"])
-        every = every[moments].reindex(sweep=[sweep.attrs["case"] for sweep in sweeps.values()])
+        every = every[moments].reindex(sweep=names)
         read = every.sel(statistic=data["statistic"], window=data["window"])
         for name in moments:
             values = read[name].transpose("sweep", "reading", "half_width").values
             data[name] = ("panel", "reading", "half_width"), values, every[name].attrs
     return data
-
-
-def _members(ensembles: xr.Dataset, of: str) -> xr.Variable:
-    about = {"long_name": "number of runs in the ensemble", "units": "1"}
-    return xr.Variable((), ensembles.attrs[of], about)
 
 
 @style.styled

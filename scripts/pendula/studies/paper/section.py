@@ -248,7 +248,7 @@ def _samples(results: Results, which: int) -> list[dict[str, Any]]:
 
 
 def _sample(results: Results, name: str, last) -> dict[str, Any]:
-    off, members = float(last["deviations"]), results[ENSEMBLES].attrs["swept_members"]
+    off, members = float(last["deviations"]), results[ENSEMBLES]["swept_members"].sel(sweep=name)
     return {
         "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
         "solver": SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
