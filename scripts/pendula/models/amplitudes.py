@@ -313,8 +313,7 @@ def energy(chain, y):
 
 
 @kernel
-def energies(chain, states, out):
-    """Write H of each of `states` (count, row, 1 + site) into `out` (count,)."""
-    scratch = np.empty((2, states.shape[2]))
+def energies(chain, states, scratch, out):
+    """Write H of each of `states` (count, row, column) to `out`; `scratch` is (2, column)."""
     for i in range(len(states)):
         out[i] = energy_with_scratch(chain, states[i], scratch)
