@@ -11,8 +11,7 @@ the whole.
 From top to bottom: the stages, the error, the interpolant, the first step; then `build` with one
 step, which may go tile by tile (see `tiles`), and the loop over the steps. In all kernels `y` is
 the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]` the slope of
-stage s. The stages and sums are written out term by term: each is one pass over the state, in which
-LLVM keeps every coefficient in a register, and the order of its operations is fixed.
+stage s. Stages, error estimates and the interpolant are sums of slopes with the weights of a table.
 """
 
 from math import sqrt
@@ -23,30 +22,9 @@ from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_magnitude
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .dop853_coefficients import (
-    A2,
-    A3,
-    A4,
-    A5,
-    A6,
-    A7,
-    A8,
-    A9,
-    A10,
-    A11,
-    A12,
-    A13,
-    A14,
-    A15,
-    A16,
-    D4,
-    D5,
-    D6,
-    D7,
-    E3,
-    E5,
-)
+from .dop853_coefficients import D4, D5, D6, D7, E3, E5, STAGES
 from .tiles import count_tiles, give, take, tile_length, tile_place
+from .weighted_sums import table, write_sum
 
 TILE_WORK = 27
 """Work arrays of the size of a tile."""
@@ -59,6 +37,13 @@ so that the system gives no memory to it."""
 
 # --- The stages ---------------------------------------------------------------------------------
 
+# plain numbers would be types of their own and compile `write_sum` anew
+FIFTH, THIRD, CURVE = np.int64(17), np.int64(18), 19
+"""Rows of the weights of both error estimates, and the first of those of the interpolant."""
+ROWS = table(
+    {**STAGES, FIFTH: E5, THIRD: E3, **dict(enumerate((D4, D5, D6, D7), CURVE))}, CURVE + 4
+)
+
 
 @kernel
 def combine(stage, y, h, k, w):
@@ -66,82 +51,7 @@ def combine(stage, y, h, k, w):
 
     `y` and `w` are flat, `k[stage - 1]` holds the slopes found so far.
     """
-    k1, k2, k3, k4, k5, k6, k7, k8 = k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]
-    k9, k10, k11, k12, k13, k14, k15 = k[8], k[9], k[10], k[11], k[12], k[13], k[14]
-    size = y.size
-    if stage == 2:
-        for i in range(size):
-            w[i] = y[i] + h * (A2[0] * k1[i])
-    elif stage == 3:
-        for i in range(size):
-            w[i] = y[i] + h * (A3[0] * k1[i] + A3[1] * k2[i])
-    elif stage == 4:
-        for i in range(size):
-            w[i] = y[i] + h * (A4[0] * k1[i] + A4[1] * k3[i])
-    elif stage == 5:
-        for i in range(size):
-            w[i] = y[i] + h * (A5[0] * k1[i] + A5[1] * k3[i] + A5[2] * k4[i])
-    elif stage == 6:
-        for i in range(size):
-            w[i] = y[i] + h * (A6[0] * k1[i] + A6[1] * k4[i] + A6[2] * k5[i])
-    elif stage == 7:
-        for i in range(size):
-            w[i] = y[i] + h * (A7[0] * k1[i] + A7[1] * k4[i] + A7[2] * k5[i] + A7[3] * k6[i])
-    elif stage == 8:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A8[0] * k1[i] + A8[1] * k4[i] + A8[2] * k5[i] + A8[3] * k6[i]
-                + A8[4] * k7[i]
-            )  # fmt: skip
-    elif stage == 9:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A9[0] * k1[i] + A9[1] * k4[i] + A9[2] * k5[i] + A9[3] * k6[i]
-                + A9[4] * k7[i] + A9[5] * k8[i]
-            )  # fmt: skip
-    elif stage == 10:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A10[0] * k1[i] + A10[1] * k4[i] + A10[2] * k5[i] + A10[3] * k6[i]
-                + A10[4] * k7[i] + A10[5] * k8[i] + A10[6] * k9[i]
-            )  # fmt: skip
-    elif stage == 11:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A11[0] * k1[i] + A11[1] * k4[i] + A11[2] * k5[i] + A11[3] * k6[i]
-                + A11[4] * k7[i] + A11[5] * k8[i] + A11[6] * k9[i] + A11[7] * k10[i]
-            )  # fmt: skip
-    elif stage == 12:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A12[0] * k1[i] + A12[1] * k4[i] + A12[2] * k5[i] + A12[3] * k6[i]
-                + A12[4] * k7[i] + A12[5] * k8[i] + A12[6] * k9[i] + A12[7] * k10[i]
-                + A12[8] * k11[i]
-            )  # fmt: skip
-    elif stage == 13:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A13[0] * k1[i] + A13[1] * k6[i] + A13[2] * k7[i] + A13[3] * k8[i]
-                + A13[4] * k9[i] + A13[5] * k10[i] + A13[6] * k11[i] + A13[7] * k12[i]
-            )  # fmt: skip
-    elif stage == 14:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A14[0] * k1[i] + A14[1] * k7[i] + A14[2] * k8[i] + A14[3] * k9[i]
-                + A14[4] * k10[i] + A14[5] * k11[i] + A14[6] * k12[i] + A14[7] * k13[i]
-            )  # fmt: skip
-    elif stage == 15:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A15[0] * k1[i] + A15[1] * k6[i] + A15[2] * k7[i] + A15[3] * k8[i]
-                + A15[4] * k11[i] + A15[5] * k12[i] + A15[6] * k13[i] + A15[7] * k14[i]
-            )  # fmt: skip
-    elif stage == 16:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                A16[0] * k1[i] + A16[1] * k6[i] + A16[2] * k7[i] + A16[3] * k8[i]
-                + A16[4] * k9[i] + A16[5] * k13[i] + A16[6] * k14[i] + A16[7] * k15[i]
-            )  # fmt: skip
+    write_sum(ROWS, stage, y, h, k, w)
 
 
 # --- The error of a step: by its largest component, in units of the tolerance ---------------------
@@ -169,23 +79,18 @@ def weighted_norm(v, y, w, spare, tolerances, columns):
 
 
 @kernel
-def weigh_slopes(k, e, out):
-    """Write the combination of stages 1 and 6 to 12 that an error estimate is made of (flat)."""
-    k1, k6, k7, k8, k9, k10, k11, k12 = k[0], k[5], k[6], k[7], k[8], k[9], k[10], k[11]
-    for i in range(out.size):
-        out[i] = (
-            e[0] * k1[i] + e[1] * k6[i] + e[2] * k7[i] + e[3] * k8[i]
-            + e[4] * k9[i] + e[5] * k10[i] + e[6] * k11[i] + e[7] * k12[i]
-        )  # fmt: skip
+def weigh_slopes(k, row, out):
+    """Write the combination of stages that an error estimate is made of (flat)."""
+    write_sum(ROWS, row, out[:0], 1.0, k, out)
 
 
 @kernel
 def error_estimates(y, w, k, scratch, spare, tolerances, columns):
     """Return the estimates of orders five and three of the error on `columns` (first, stop)."""
     k_flat, flat = k.reshape(16, -1), scratch.reshape(-1)
-    weigh_slopes(k_flat, E5, flat)
+    weigh_slopes(k_flat, FIFTH, flat)
     fifth = weighted_norm(scratch, y, w, spare, tolerances, columns)
-    weigh_slopes(k_flat, E3, flat)
+    weigh_slopes(k_flat, THIRD, flat)
     return fifth, weighted_norm(scratch, y, w, spare, tolerances, columns)
 
 
@@ -213,19 +118,6 @@ def worse(one, other):
 
 
 @kernel
-def combine_for_interpolant(k, d, h, out):
-    """Write h times the combination of stages 1 and 6 to 16 with the weights `d` (flat)."""
-    k1, k6, k7, k8, k9, k10 = k[0], k[5], k[6], k[7], k[8], k[9]
-    k11, k12, k13, k14, k15, k16 = k[10], k[11], k[12], k[13], k[14], k[15]
-    for i in range(out.size):
-        out[i] = h * (
-            d[0] * k1[i] + d[1] * k6[i] + d[2] * k7[i] + d[3] * k8[i]
-            + d[4] * k9[i] + d[5] * k10[i] + d[6] * k11[i] + d[7] * k12[i]
-            + d[8] * k13[i] + d[9] * k14[i] + d[10] * k15[i] + d[11] * k16[i]
-        )  # fmt: skip
-
-
-@kernel
 def prepare_interpolant(y, w, h, k, c):
     """Write the coefficients c[0..6] of the interpolant over the step from `y` to `w`.
 
@@ -238,10 +130,9 @@ def prepare_interpolant(y, w, h, k, c):
             c[1, row, j] = h * k[0, row, j] - difference
             c[2, row, j] = 2.0 * difference - h * (k[12, row, j] + k[0, row, j])
     k_flat = k.reshape(16, -1)
-    combine_for_interpolant(k_flat, D4, h, c[3].reshape(-1))
-    combine_for_interpolant(k_flat, D5, h, c[4].reshape(-1))
-    combine_for_interpolant(k_flat, D6, h, c[5].reshape(-1))
-    combine_for_interpolant(k_flat, D7, h, c[6].reshape(-1))
+    for m in range(4):
+        out = c[3 + m].reshape(-1)
+        write_sum(ROWS, CURVE + m, out[:0], h, k_flat, out)
 
 
 @kernel

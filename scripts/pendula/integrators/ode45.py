@@ -10,8 +10,7 @@ the step control follow Shampine and Reichelt, The MATLAB ODE Suite, SIAM J. Sci
 
 From top to bottom: the stages, the error, the interpolant, the choice of the first step, and the
 loop. `y` is the state before a step, `w` the state after it or the argument of a stage, `k[s - 1]`
-the slope of stage s; the slope of the last stage is the first of the next step. The sums are
-written out term by term, each one pass over the state in a fixed order of operations.
+the slope of stage s; the slope of the last stage is the first of the next step.
 
 MATLAB takes powers of 1/5 from the C library. Their last bits differ between machines, and a
 chaotic run takes another path for it. Here fifth roots are made of + - * / and are the same
@@ -27,6 +26,7 @@ from pendula.numerics import elementary
 from pendula.simd import largest_in_rows
 
 from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from .weighted_sums import table, write_sum
 
 WORK = 9
 """Work arrays of the size of a state."""
@@ -35,41 +35,27 @@ fifth_root = uncached(elementary.fifth_root)
 E1, E3, E4, E5, E6, E7 = 71 / 57600, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40
 
 
+ROWS = table(
+    {
+        2: {1: 1 / 5},
+        3: {1: 3 / 40, 2: 9 / 40},
+        4: {1: 44 / 45, 2: -56 / 15, 3: 32 / 9},
+        5: {1: 19372 / 6561, 2: -25360 / 2187, 3: 64448 / 6561, 4: -212 / 729},
+        6: {1: 9017 / 3168, 2: -355 / 33, 3: 46732 / 5247, 4: 49 / 176, 5: -5103 / 18656},
+        7: {1: 35 / 384, 3: 500 / 1113, 4: 125 / 192, 5: -2187 / 6784, 6: 11 / 84},
+    },
+    8,
+)
+"""The weights of the arguments of stages 2 to 7, by the stages that they multiply."""
+
+
 @kernel
 def combine(stage, y, h, k, w):
     """Write the argument of stage 2 to 7 into `w`; that of stage 7 is the fifth-order solution.
 
     `y` and `w` are flat, `k[stage - 1]` holds the slopes found so far.
     """
-    k1, k2, k3, k4, k5, k6 = k[0], k[1], k[2], k[3], k[4], k[5]
-    size = y.size
-    if stage == 2:
-        for i in range(size):
-            w[i] = y[i] + h * (1 / 5 * k1[i])
-    elif stage == 3:
-        for i in range(size):
-            w[i] = y[i] + h * (3 / 40 * k1[i] + 9 / 40 * k2[i])
-    elif stage == 4:
-        for i in range(size):
-            w[i] = y[i] + h * (44 / 45 * k1[i] - 56 / 15 * k2[i] + 32 / 9 * k3[i])
-    elif stage == 5:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                19372 / 6561 * k1[i] - 25360 / 2187 * k2[i]
-                + 64448 / 6561 * k3[i] - 212 / 729 * k4[i]
-            )  # fmt: skip
-    elif stage == 6:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                9017 / 3168 * k1[i] - 355 / 33 * k2[i] + 46732 / 5247 * k3[i]
-                + 49 / 176 * k4[i] - 5103 / 18656 * k5[i]
-            )  # fmt: skip
-    else:
-        for i in range(size):
-            w[i] = y[i] + h * (
-                35 / 384 * k1[i] + 500 / 1113 * k3[i] + 125 / 192 * k4[i]
-                - 2187 / 6784 * k5[i] + 11 / 84 * k6[i]
-            )  # fmt: skip
+    write_sum(ROWS, stage, y, h, k, w)
 
 
 @kernel
