@@ -133,7 +133,7 @@ onstart:
         SCREEN.begin(run_of_jobs)
     if workflow.local_exec:
         put_in_order(workflow.dag)
-    warm.start(workflow, RESULTS / "logs/imports.log")
+    warm.use(IMPORTED, workflow, RESULTS / "logs/imports.log")
 
 
 # Said when Snakemake has ended, below its own last lines

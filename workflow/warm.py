@@ -22,6 +22,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from pendula.sources import OURS, SCRIPTS, modules_of
@@ -31,35 +32,44 @@ HERE = Path(__file__).resolve().parent
 PROCESS, CLIENT = HERE / "warm_process.py", HERE / "ask_warm.py"
 FEW = 2
 """With fewer jobs, importing everything beforehand saves nothing."""
+PACKAGES = (
+    *("snakemake.logging", "snakemake.iocontainers", "numpy", "numba", "netCDF4", "xarray"),
+    *("matplotlib.figure", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
+)
+"""What jobs import of other people's modules; our own are known when it is known which jobs run."""
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
 """Snakemake tells a job in these variables, with _THREADS behind, how many threads it has."""
 
 
-def start(workflow, log: Path) -> None:
-    """Start the process if jobs of this run gain from it, and have Snakemake ask it.
+def begin() -> subprocess.Popen | None:
+    """Start the process, which imports while Snakemake finds out what to do.
+
+    It ends with Snakemake. Where the system cannot have it, return None.
+    """
+    if (
+        sys.platform != "linux"
+        or Path(shell.get_executable() or "").name != "bash"
+        or shlex.quote(sys.executable) != sys.executable
+    ):
+        return None
+    process = _serve(f"pendula-{secrets.token_hex(16)}", os.environ)
+    atexit.register(end, process)
+    return process
+
+
+def use(process: subprocess.Popen | None, workflow, log: Path) -> None:
+    """Have Snakemake ask the process for its jobs, or end it where they gain nothing from it.
 
     `log` says in its last line what processor time the imports took.
     """
-    if _is_possible(workflow):
-        scripts = scripts_of(workflow.dag.needrun_jobs())
-        if len(scripts) >= FEW:
-            name = f"pendula-{secrets.token_hex(16)}"
-            log.parent.mkdir(parents=True, exist_ok=True)
-            with open(log, "wb") as file:
-                atexit.register(_end, _serve(name, imports_of(scripts), os.environ, file))
-            shell.prefix(_prefix(name).replace("{", "{{").replace("}", "}}"))
-
-
-def _is_possible(workflow) -> bool:
-    """Return whether jobs run in the environment of this process, on a system that can do it."""
-    return (
-        sys.platform == "linux"
-        and workflow.local_exec
-        and not workflow.deployment_settings.deployment_method
-        and not workflow.touch
-        and Path(shell.get_executable() or "").name == "bash"
-        and shlex.quote(sys.executable) == sys.executable
-    )
+    scripts = scripts_of(workflow.dag.needrun_jobs())
+    here = workflow.local_exec and not workflow.deployment_settings.deployment_method
+    if process and here and not workflow.touch and len(scripts) >= FEW:
+        log.parent.mkdir(parents=True, exist_ok=True)
+        _tell(process, imports_of(scripts), log)
+        shell.prefix(_prefix(process.args[-1]).replace("{", "{{").replace("}", "}}"))
+    elif process:
+        end(process)
 
 
 def scripts_of(jobs: Iterable) -> list[Path]:
@@ -83,21 +93,25 @@ def _name(module: Path, base: Path) -> str:
     return ".".join(module.relative_to(base).with_suffix("").parts).removesuffix(".__init__")
 
 
-def _serve(name: str, modules: list[str], environment: Mapping[str, str], log) -> subprocess.Popen:
+def _serve(name: str, environment: Mapping[str, str], packages=PACKAGES) -> subprocess.Popen:
+    """Start the process for jobs that ask at the abstract socket `name`."""
     with socket.socket(socket.AF_UNIX) as listener:
         listener.bind(f"\0{name}")
         listener.listen(socket.SOMAXCONN)
-        process = subprocess.Popen(
-            [sys.executable, str(PROCESS), str(listener.fileno())],
+        return subprocess.Popen(
+            [sys.executable, str(PROCESS), str(listener.fileno()), *packages, name],
             stdin=subprocess.PIPE,  # open as long as Snakemake lives
-            stdout=log,
-            stderr=log,  # what cannot be imported, a job will say on the screen
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
             env={**environment, **{f"{library}_THREADS": "1" for library in LIBRARIES}},
             pass_fds=[listener.fileno()],
         )
-    process.stdin.write(json.dumps(modules).encode() + b"\n")
-    process.stdin.flush()
-    return process
+
+
+def _tell(process: subprocess.Popen, modules: list[str], log: Path) -> None:
+    with suppress(BrokenPipeError):  # it failed to import: jobs start by themselves
+        process.stdin.write(json.dumps([modules, str(log)]).encode() + b"\n")
+        process.stdin.flush()
 
 
 def _prefix(name: str) -> str:
@@ -107,7 +121,9 @@ def _prefix(name: str) -> str:
     return f"set -euo pipefail; {sys.executable}() {{ {asking}; }};"
 
 
-def _end(process: subprocess.Popen) -> None:
-    process.stdin.close()
+def end(process: subprocess.Popen) -> None:
+    """End the process and its jobs."""
+    with suppress(BrokenPipeError):
+        process.stdin.close()
     process.terminate()  # while it still imports, it does not look at its input
     process.wait()

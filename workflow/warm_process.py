@@ -49,8 +49,7 @@ class Request(NamedTuple):
 
 def prepare(modules: list[str]) -> None:
     """Import everything, and do what each process that imported it would do at its first use."""
-    gc.disable()
-    for name in ["snakemake.logging", "snakemake.iocontainers", *modules]:
+    for name in modules:
         importlib.import_module(name)
     if "numba" in sys.modules:
         from numba.core.registry import cpu_target
@@ -260,12 +259,22 @@ def _tell() -> None:
     print(f"spent: {json.dumps({'imports': taken, 'memory': round(usage.ru_maxrss * 1024 / 1e6)})}")
 
 
-def main(listener: int) -> None:
+def main(listener: int, packages: list[str]) -> None:
     """Import, serve, and in each child do a job."""
     handlers = {number: signal.getsignal(number) for number in (*KEPT, signal.SIGCHLD)}
     signal.pthread_sigmask(signal.SIG_BLOCK, set(KEPT) - {signal.SIGTERM})
     environment, path = dict(os.environb), list(sys.path)
-    prepare(json.loads(sys.stdin.readline()))
+    gc.disable()
+    for name in packages:
+        importlib.import_module(name)
+    line = sys.stdin.readline()
+    if not line:
+        os._exit(0)  # there is nothing to do
+    modules, log = json.loads(line)
+    with open(log, "wb") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+    prepare(modules)
     signal.pthread_sigmask(signal.SIG_BLOCK, KEPT)
     request = Server(socket.socket(fileno=listener), handlers, environment).serve()
     sys.path[:] = path
@@ -275,4 +284,4 @@ def main(listener: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2:-1])

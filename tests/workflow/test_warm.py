@@ -44,7 +44,8 @@ class Warm:
         self.scripts.mkdir(parents=True)
         self.name = f"pendula-test-{secrets.token_hex(8)}"
         self.environment = environment
-        self.process = warm._serve(self.name, list(modules), environment, subprocess.DEVNULL)
+        self.process = warm._serve(self.name, environment, ["json"])
+        warm._tell(self.process, list(modules), folder / "imports.log")
 
     def start(self, body: str, asked=True, **changes) -> subprocess.Popen:
         script = self.scripts / f"{secrets.token_hex(4)}.job.py"
@@ -71,7 +72,7 @@ class Warm:
 def warm_one(tmp_path_factory):
     one = Warm(tmp_path_factory.mktemp("warm"))
     yield one
-    warm._end(one.process)
+    warm.end(one.process)
 
 
 def test_a_job_finds_what_its_command_would_have_given_it(warm_one):
@@ -115,7 +116,7 @@ def test_a_process_with_two_threads_forks_nothing(tmp_path):
     try:
         assert one.run(FORKED)[:2] == (0, "False\n")
     finally:
-        warm._end(one.process)
+        warm.end(one.process)
 
 
 def test_what_jobs_import_leaves_one_thread(tmp_path):
@@ -126,7 +127,7 @@ def test_what_jobs_import_leaves_one_thread(tmp_path):
         forked = f"{FORKED}; import sys; print('xarray' in sys.modules)"
         assert one.run(forked)[1] == "True\nTrue\n"
     finally:
-        warm._end(one.process)
+        warm.end(one.process)
 
 
 WAIT = "import os, threading; print(os.getpid(), flush=True); threading.Event().wait()"
@@ -156,7 +157,7 @@ def test_no_job_outlives_who_waits_for_it(tmp_path, end):
         one.process.kill()
     wait_for(lambda: all(map(is_gone, pids)))
     assert all(job.wait() for job in jobs)
-    warm._end(one.process)
+    warm.end(one.process)
 
 
 def test_ctrl_c_that_only_the_client_hears_reaches_the_job(warm_one):
@@ -180,8 +181,9 @@ rule one:
 rule shell_job:
     output: "shell.txt"
     shell: "for word in a {{{{b,c}}}}; do echo $word; done > {{output}}"
+process = warm.begin()
 onstart:
-    warm.start(workflow, warm.Path("logs/imports.log"))
+    warm.use(process, workflow, warm.Path("logs/imports.log"))
 """
 JOB = f"{FORKED.replace('print(', 'told = str(')}\nopen(snakemake.output[0], 'w').write(told)"
 

@@ -61,7 +61,8 @@ for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
     if path.exists() and not os.access(path, os.W_OK) and not code_records.only_looks:
         stop(f"{path} is read-only: make it writable, or name another folder by --directory")
 file_times.restore(RESULTS)
-if not code_records.only_looks and workflow.exec_mode.name == "DEFAULT":
+RUNS = not code_records.only_looks and workflow.exec_mode.name == "DEFAULT"
+if RUNS:
     atexit.register(file_times.keep, RESULTS)
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
@@ -71,6 +72,7 @@ os.environ.update(
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",
 )
+IMPORTED = warm.begin() if RUNS else None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
