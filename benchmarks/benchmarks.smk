@@ -93,11 +93,12 @@ rule speed_figures:
 
 
 rule reproduction:
-    "How long the whole reproduction takes, from nothing and with compiled kernels"
+    "Where the time of the whole reproduction goes, from nothing and with compiled kernels"
     input:
         program=code("benchmarks/reproduction.py"),
         code=code("trajectories/simulate_case.py"),
     output:
+        data="results/speed/reproduction.json",
         table="results/speed/reproduction.md",
     log:
         "results/logs/speed/reproduction.log",
@@ -109,5 +110,5 @@ rule reproduction:
     message:
         "Running the whole reproduction twice, in a copy of the project"
     shell:
-        "{params.python:q} -m benchmarks.reproduction > {output.table:q} 2> {log:q} &&"
+        "{params.python:q} -m benchmarks.reproduction {output.data:q} > {output.table:q} 2> {log:q} &&"
         " cat {output.table:q}"

@@ -1,19 +1,23 @@
-"""How long the whole reproduction takes: from nothing, warm, and with nothing to do.
+"""Where the time of a whole reproduction goes: from nothing, with compiled kernels, without work.
 
-Run as `python -m benchmarks.reproduction` in the project's folder; it works on a copy of the
-project in a temporary folder and prints two tables.
+Run as `python -m benchmarks.reproduction DATA` in the project's folder. It works on a copy of the
+project in a temporary folder, with a cache of kernels of its own, writes what was measured as JSON
+to DATA, and prints it as tables. What is measured is processor time: jobs tell theirs in their logs
+(see scripts/job.py), and the rest of all that a run takes is that of Snakemake.
 """
 
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections import defaultdict
 from pathlib import Path
 
+import job
 from pendula.report.words import markdown
+from pendula.sources import describe_machine
 
 from .timing import timed
 
@@ -21,48 +25,114 @@ ROOT = Path(__file__).resolve().parents[1]
 LEFT_OUT = shutil.ignore_patterns(
     "results", ".snakemake", "__pycache__", ".git", ".venv", ".*_cache", ".hypothesis"
 )
+RUNS = {
+    "cold": "nothing compiled before",
+    "nothing": "nothing to do",
+    "warm": "kernels compiled before",
+}
+KINDS = ("start-up", "imports", "compiling", "computing", "drawing", "writing")
+"""What processor time is spent on. Jobs are forks of a process that imported for all of them; the
+start-up of a job that is none holds its imports too."""
+SNAKEMAKE = "Snakemake"
+"""The row of all that no job took."""
 
 
-def run(project: Path) -> float:
-    """Run snakemake in `project` and return the wall time in seconds."""
+def run(project: Path) -> dict:
+    """Run snakemake in `project`; return wall time, processor time, and those of its jobs."""
+    environment = {**os.environ, "PENDULA_CACHE": str(project.with_name("kernels"))}
     command = [sys.executable, "-m", "snakemake"]
-    environment = {k: v for k, v in os.environ.items() if k != "PENDULA_CACHE"}
+    before = _processor_time()
     _, seconds = timed(
         lambda: subprocess.run(
             command, cwd=project, env=environment, check=True, capture_output=True
         )
     )
-    return seconds
+    return {"wall": round(seconds, 2), "processor": round(_processor_time() - before, 2)}
 
 
-def rule_times(project: Path) -> dict[str, list[float]]:
-    """Return the wall times of the jobs of each rule, from Snakemake's own records."""
-    jobs = {}  # each output has a record; those of one job have the same times
-    for record in (project / ".snakemake" / "metadata").iterdir():
-        data = json.loads(record.read_text())
-        if data.get("starttime") and data.get("rule"):
-            jobs[data["rule"], data["starttime"]] = data["endtime"] - data["starttime"]
-    times = defaultdict(list)
-    for (rule, _), seconds in jobs.items():
-        times[rule].append(seconds)
-    return times
+def _processor_time() -> float:
+    """Return the processor time of all that this process started, at any depth."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
-def main() -> None:
-    """Measure in a copy of the project, and print what was measured."""
+def jobs_of(logs: Path) -> dict[str, dict[str, float]]:
+    """Return what each job told of itself, by the name of its log below `logs`."""
+    jobs = {}
+    for log in sorted(logs.rglob("*.log")):
+        told = {}
+        for line in log.read_text(encoding="utf-8").splitlines():
+            if line.startswith(job.SPENT):
+                told |= json.loads(line.removeprefix(job.SPENT))
+            elif line.startswith(job.TOOK):
+                told["wall"] = float(line.removeprefix(job.TOOK).split()[0])
+        if "memory" in told:
+            jobs[log.relative_to(logs).with_suffix("").as_posix()] = told
+    return jobs
+
+
+def spent(told: dict[str, float]) -> float:
+    """Return the whole processor time of a job."""
+    return sum(told.get(kind, 0.0) for kind in KINDS)
+
+
+def rest(measured: dict) -> float:
+    """Return the processor time of a run that none of its jobs took."""
+    return measured["processor"] - sum(map(spent, measured["jobs"].values()))
+
+
+def memory(measured: dict) -> float:
+    """Return the largest memory of any job of a run, in megabytes."""
+    return max(told["memory"] for told in measured["jobs"].values())
+
+
+def table(measured: dict) -> str:
+    """Return the jobs of a run, the costliest first, in seconds and megabytes."""
+    rows = [(name, told) for name, told in measured["jobs"].items()]
+    rows.append((SNAKEMAKE, {"start-up": rest(measured)}))
+    totals = {kind: sum(told.get(kind, 0.0) for _, told in rows) for kind in KINDS}
+    rows = [("all", totals), *sorted(rows, key=lambda row: -spent(row[1]))]
+    return markdown(
+        ["job", *KINDS, "sum", "memory"],
+        [
+            (name, *(_shown(told.get(kind, 0.0)) for kind in KINDS), f"{spent(told):.2f}", largest)
+            for name, told in rows
+            for largest in [f"{told['memory']:.0f}" if "memory" in told else ""]
+        ],
+    )
+
+
+def _shown(seconds: float) -> str:
+    return f"{seconds:.2f}" if seconds >= 0.005 else ""
+
+
+def measure(project: Path) -> dict:
+    """Run everything twice in `project`, and once more with nothing to do."""
+    runs = {}
+    for name in RUNS:
+        if name == "warm":
+            shutil.rmtree(project / "results")
+            shutil.rmtree(project / ".snakemake")
+        runs[name] = run(project)
+        runs[name]["jobs"] = {} if name == "nothing" else jobs_of(project / "results/logs")
+    return {"machine": {**describe_machine(), "cores": os.cpu_count()}, "runs": runs}
+
+
+def main(data: Path) -> None:
+    """Measure in a copy of the project, write and print what was measured."""
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder) / "project"
         shutil.copytree(ROOT, project, ignore=LEFT_OUT)
-        runs = [("everything, nothing compiled yet", run(project))]
-        runs.append(("nothing to do", run(project)))
-        shutil.rmtree(project / "results")
-        shutil.rmtree(project / ".snakemake")
-        runs.append(("everything, kernels compiled before", run(project)))
-        rules = sorted(rule_times(project).items(), key=lambda item: -max(item[1]))
-    print(markdown(["run", "wall time, s"], [(name, f"{seconds:.1f}") for name, seconds in runs]))
-    rows = [(rule, len(times), f"{max(times):.1f}") for rule, times in rules]
-    print("\n" + markdown(["rule", "jobs", "longest, s"], rows))
+        measured = measure(project)
+    data.write_text(json.dumps(measured, indent=1) + "\n", encoding="utf-8")
+    runs = measured["runs"].items()
+    rows = [(RUNS[name], f"{one['wall']:.1f}", f"{one['processor']:.1f}") for name, one in runs]
+    print(markdown(["run", "wall time, s", "processor time, s"], rows))
+    for name, one in runs:
+        if one["jobs"]:
+            print(f"\nSeconds of processor time, and megabytes: {RUNS[name]}\n")
+            print(table(one))
 
 
 if __name__ == "__main__":
-    main()
+    main(Path(sys.argv[1]))

@@ -16,6 +16,8 @@ from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.report.words import case_of, number, percent, span, symbols, with_error
 
+from benchmarks import reproduction
+
 GROWN = 2.0
 """A norm grows if it grows by this factor, as the ledger has it."""
 
@@ -53,6 +55,11 @@ class Baseline:
         """Return the rows of the ledger of the last full run that was accepted."""
         return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
 
+    def reproduction(self) -> dict | None:
+        """Return where the time of the whole reproduction went that was measured last, if any."""
+        kept = self.folder / "quoted/reproduction.json"
+        return json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else None
+
     def mutation(self) -> dict:
         """Return the score of the last trial of mutants that was kept."""
         return json.loads((self.folder / "quoted/mutation.json").read_text(encoding="utf-8"))
@@ -71,7 +78,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         theory,
         references,
     )
-    topics += (speed, hard_cases, mutation)
+    topics += (speed, full_run, hard_cases, mutation)
     return {
         **{topic.__name__: topic(baseline) for topic in topics},
         **study_errors.facts(baseline),
@@ -447,7 +454,7 @@ def references(baseline: Baseline) -> dict:
 
 
 def speed(baseline: Baseline) -> dict:
-    """Return times at equal error, the growth of the cost, and the times of the jobs of a run."""
+    """Return times at equal error, and the growth of the cost."""
     measured, cost = baseline["speed/work_precision"], baseline["speed/cost"]["seconds"]
     titles = measured["title"].to_series()
     ratios = measured["mean_ratio"].dropna("peer").to_series()
@@ -476,8 +483,52 @@ def speed(baseline: Baseline) -> dict:
             {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
         ],
         "long_over_short": {"sites": f"{COMPARED[1]} over {COMPARED[0]}", **_growth(long / short)},
-        "jobs": _jobs(baseline["quoted/job_times"]),
-        "jobs_total": number(baseline["quoted/job_times"]["seconds"].sum()),
+    }
+
+
+MANY = 12
+"""So many jobs of a full run are shown, the costliest."""
+
+
+def full_run(baseline: Baseline) -> dict:
+    """Return what the time of a full run went to, with and without kernels compiled before."""
+    if not (measured := baseline.reproduction()):
+        return {}
+    full = {name: one for name, one in measured["runs"].items() if one["jobs"]}
+    shares = {
+        kind: [sum(told.get(kind, 0.0) for told in one["jobs"].values()) for one in full.values()]
+        for kind in reproduction.KINDS
+    }
+    shares[reproduction.SNAKEMAKE] = [reproduction.rest(one) for one in full.values()]
+    jobs = full["warm"]["jobs"]
+    costliest = sorted(jobs, key=lambda name: -reproduction.spent(jobs[name]))[:MANY]
+    return {
+        "processor": measured["machine"]["processor"],
+        "cores": str(measured["machine"]["cores"]),
+        "runs": [
+            {
+                "run": reproduction.RUNS[name],
+                **{key: number(one[key], 2) for key in ("wall", "processor")},
+            }
+            for name, one in measured["runs"].items()
+        ],
+        "columns": [reproduction.RUNS[name] for name in full],
+        "kinds": [
+            {"kind": kind, "seconds": [f"{value:.1f}" for value in values]}
+            for kind, values in shares.items()
+        ],
+        "jobs": [
+            {
+                "job": name,
+                **{kind: f"{jobs[name].get(kind, 0.0):.1f}" for kind in reproduction.KINDS},
+                "sum": f"{reproduction.spent(jobs[name]):.1f}",
+            }
+            for name in costliest
+        ],
+        "number": str(len(jobs) - ("imports" in jobs)),
+        "memory": number(
+            max(told["memory"] for one in full.values() for told in one["jobs"].values())
+        ),
     }
 
 
@@ -506,12 +557,6 @@ def _fastest_below(measured: xr.Dataset, solver: str) -> float:
             break
         below = error
     return below
-
-
-def _jobs(times: xr.Dataset) -> list[dict]:
-    """Return the part that each topic has of the wall times of all jobs, the largest first."""
-    part = (times["seconds"] / times["seconds"].sum()).to_series().sort_values(ascending=False)
-    return [{"topic": topic, "part": percent(value)} for topic, value in part.items()]
 
 
 def hard_cases(baseline: Baseline) -> dict:

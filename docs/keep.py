@@ -1,9 +1,10 @@
 """Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
 
-Run as `python docs/keep.py results` after a full run, and again after `snakemake unbounded` if the
-long study was made anew. It reduces both to the few numbers that are quoted and writes these to
-tests/baseline/quoted: the ledger, the hard cases, the wall times of the jobs (by which `snakemake`
-says how long a run will take), and the long study of the chain without ends.
+Run as `python docs/keep.py results` after a full run, after `snakemake reproduction` on a quiet
+machine, and after `snakemake unbounded` if the long study was made anew. It reduces them to what is
+quoted and writes this to tests/baseline/quoted: the ledger, the hard cases, where the time of a
+reproduction goes (by which `snakemake` says how long a run will take), and the long study of the
+chain without ends.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -12,7 +13,6 @@ it keeps what they say as the configuration that the claims are about.
 import json
 import shutil
 import sys
-from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,6 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts")]
 
-import job  # noqa: E402
 from pendula import __version__  # noqa: E402
 from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
@@ -44,7 +43,7 @@ QUOTED = ROOT / "tests/baseline/quoted"
 
 
 def keep_full_run(results: Path, folder: Path) -> None:
-    """Keep the ledger, the outcome of every hard case, and the wall times of the jobs."""
+    """Keep the ledger and the outcome of every hard case."""
     shutil.copyfile(results / "claims.json", folder / "claims.json")
     cases = read(results / "checks/hard_cases.nc")
     kept = {
@@ -52,29 +51,11 @@ def keep_full_run(results: Path, folder: Path) -> None:
         for name, values in cases.variables.items()
     }
     _write(folder / "hard_cases.nc", "Hard cases for the solvers", kept)
-    seconds = job_times(results / "logs")
-    text = json.dumps(seconds, indent=1)
-    (folder / "job_seconds.json").write_text(f"{text}\n", encoding="utf-8")
-    times = defaultdict(float)
-    for log, taken in seconds.items():
-        times[log.partition("/")[0]] += taken
-    kept = {
-        "topic": Variable(("topic",), list(times), "topic of the jobs, the folder of their logs"),
-        "seconds": Variable(("topic",), list(times.values()), "wall times, added up", "s"),
-    }
-    title = "Wall times of the jobs of a full run, two at a time on two shared cores"
-    _write(folder / "job_times.nc", title, kept)
 
 
-def job_times(logs: Path) -> dict[str, float]:
-    """Return the wall time of each job by the name of its log below `logs`, without the ending."""
-    times = {}
-    for log in sorted(logs.rglob("*.log")):
-        place = log.relative_to(logs).with_suffix("")
-        last = log.read_text(encoding="utf-8").rstrip().rpartition("\n")[2]
-        if "long" not in place.parts and last.startswith(job.TOOK):
-            times[place.as_posix()] = float(last.removeprefix(job.TOOK).split()[0])
-    return times
+def keep_reproduction(results: Path, folder: Path) -> None:
+    """Keep where the time of a whole reproduction went."""
+    shutil.copyfile(results / "speed/reproduction.json", folder / "reproduction.json")
 
 
 def keep_long_study(results: Path, folder: Path) -> None:
@@ -272,6 +253,7 @@ def main(results: Path, folder: Path = QUOTED) -> None:
     folder.mkdir(exist_ok=True)
     for needed, keep in {
         "claims.json": keep_full_run,
+        "speed/reproduction.json": keep_reproduction,
         "unbounded/long/tolerances.nc": keep_long_study,
     }.items():
         if (results / needed).exists():

@@ -13,7 +13,7 @@ import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs")]
+sys.path[:0] = [str(ROOT / name) for name in ("scripts", "docs", "")]
 
 import facts  # noqa: E402
 

@@ -1,51 +1,57 @@
-"""What the benchmark of a whole run reads from Snakemake's records, and how it starts a run."""
+"""What the benchmark of a whole run reads from the logs of jobs, and how it starts a run."""
 
 import json
 import subprocess
 
+import pytest
+
 from benchmarks import reproduction
 
-
-def record(folder, output, rule, start, end):
-    """Write the record of an output as Snakemake does: the file is named after the output."""
-    data = {"rule": rule, "starttime": start, "endtime": end}
-    (folder / output.replace("/", "@")).write_text(json.dumps(data))
+DRAWN = {"start-up": 0.03, "compiling": 0.0, "drawing": 1.5, "writing": 0.1, "computing": 0.37}
 
 
-def test_a_job_with_several_outputs_counts_once(tmp_path):
-    folder = tmp_path / ".snakemake/metadata"
-    folder.mkdir(parents=True)
-    record(folder, "results/figures/fig5.png", "fig5", 10.0, 12.0)
-    record(folder, "results/figures/fig5.pdf", "fig5", 10.0, 12.0)
-    record(folder, "results/sweeps/a.nc", "sweep", 1.0, 4.0)
-    record(folder, "results/sweeps/b.nc", "sweep", 2.0, 7.0)
-    record(folder, "results/raw.txt", None, 0.0, 0.0)
-    times = reproduction.rule_times(tmp_path)
-    assert {rule: sorted(seconds) for rule, seconds in times.items()} == {
-        "fig5": [2.0],
-        "sweep": [3.0, 5.0],
-    }
+def write_logs(folder):
+    (folder / "figures").mkdir(parents=True)
+    told = f"drawn\nspent: {json.dumps({**DRAWN, 'memory': 250})}\nwall time: 4.0 s\n"
+    (folder / "figures/fig5.log").write_text(told)
+    (folder / "imports.log").write_text('a warning\nspent: {"imports": 2.0, "memory": 270}\n')
+    (folder / "killed.log").write_text("half of a")
+
+
+def test_jobs_are_read_from_their_logs(tmp_path):
+    write_logs(tmp_path / "logs")
+    jobs = reproduction.jobs_of(tmp_path / "logs")
+    assert jobs.keys() == {"figures/fig5", "imports"}
+    assert jobs["figures/fig5"] == {**DRAWN, "memory": 250, "wall": 4.0}
+    assert reproduction.spent(jobs["figures/fig5"]) == pytest.approx(2.0)
 
 
 def test_a_run_finds_no_kernels_but_its_own(tmp_path, monkeypatch):
     started = {}
     monkeypatch.setenv("PENDULA_CACHE", "/elsewhere")
     monkeypatch.setattr(subprocess, "run", lambda command, **options: started.update(options))
-    assert 0.0 <= reproduction.run(tmp_path) < 1.0
-    assert started["cwd"] == tmp_path and started["check"]
-    assert "PENDULA_CACHE" not in started["env"]
+    measured = reproduction.run(tmp_path / "project")
+    assert measured["wall"] >= 0.0 and measured["processor"] == 0.0
+    assert started["cwd"] == tmp_path / "project" and started["check"]
+    assert started["env"]["PENDULA_CACHE"] == str(tmp_path / "kernels")
 
 
-def test_three_runs_and_the_jobs_of_the_last_are_told(monkeypatch, capsys):
+def test_three_runs_are_told_and_what_no_job_took_is_that_of_snakemake(
+    tmp_path, monkeypatch, capsys
+):
     def run(project):
-        folder = project / ".snakemake/metadata"
-        folder.mkdir(parents=True, exist_ok=True)
-        (project / "results").mkdir(exist_ok=True)
-        record(folder, "results/fig5.png", "fig5", 10.0, 12.0)
-        return 7.0
+        (project / ".snakemake").mkdir(parents=True, exist_ok=True)
+        if not (project / "results").exists():
+            write_logs(project / "results/logs")
+        return {"wall": 7.0, "processor": 9.0}
 
     monkeypatch.setattr(reproduction.shutil, "copytree", lambda *_, **__: None)
     monkeypatch.setattr(reproduction, "run", run)
-    reproduction.main()
+    reproduction.main(tmp_path / "data.json")
     said = capsys.readouterr().out
-    assert said.count("| 7.0 |") == 3 and "| fig5 | 1 | 2.0 |" in said
+    assert said.count("| 7.0 | 9.0 |") == 3
+    assert said.count("| Snakemake | 5.00 |") == 2
+    assert said.count("| figures/fig5 | 0.03 |  |  | 0.37 | 1.50 | 0.10 | 2.00 | 250 |") == 2
+    kept = json.loads((tmp_path / "data.json").read_text())
+    assert kept["runs"]["warm"]["jobs"]["figures/fig5"]["drawing"] == 1.5
+    assert kept["runs"]["nothing"]["jobs"] == {} and kept["machine"]["cores"] > 0

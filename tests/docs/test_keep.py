@@ -56,21 +56,15 @@ def test_the_long_study_is_reduced_to_its_numbers(results, tmp_path):
 def test_the_full_run_is_reduced_to_what_is_quoted(tmp_path):
     results = tmp_path / "results"
     (results / "checks").mkdir(parents=True)
-    (results / "logs/figures").mkdir(parents=True)
     (results / "claims.json").write_text(json.dumps([{"name": "a"}]))
     cases = xr.Dataset({"error": ("row", [1.0])})
     for variable in cases.variables.values():
         variable.attrs = {"long_name": "made up", "units": "1"}
     cases.to_netcdf(results / "checks/hard_cases.nc")
-    for name, seconds in {"fig1": 1.5, "fig2": 2.0}.items():
-        (results / f"logs/figures/{name}.log").write_text(f"drawn\nwall time: {seconds} s\n")
-    (results / "logs/report.log").write_text("wall time: 3.0 s\n")
+    (results / "speed").mkdir()
+    (results / "speed/reproduction.json").write_text("measured")
     keep.main(results, tmp_path / "quoted")
     with xr.open_dataset(tmp_path / "quoted/hard_cases.nc") as kept:
         assert kept["error"].values.tolist() == [1.0]
-    with xr.open_dataset(tmp_path / "quoted/job_times.nc") as kept:
-        times = dict(zip(kept["topic"].values, kept["seconds"].values, strict=True))
-    assert times == {"figures": 3.5, "report": 3.0}
-    seconds = json.loads((tmp_path / "quoted/job_seconds.json").read_text())
-    assert seconds == {"figures/fig1": 1.5, "figures/fig2": 2.0, "report": 3.0}
+    assert (tmp_path / "quoted/reproduction.json").read_text() == "measured"
     assert json.loads((tmp_path / "quoted/claims.json").read_text()) == [{"name": "a"}]

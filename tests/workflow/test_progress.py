@@ -1,11 +1,13 @@
 """What the screen shows while a run goes on, from records as Snakemake makes them."""
 
 import io
+import json
 import logging
 from types import SimpleNamespace
 
 import progress
 import pytest
+import targets
 from snakemake.logging import ColorizingTextHandler, DefaultFilter, DefaultFormatter
 from snakemake.settings.enums import Quietness
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -132,12 +134,15 @@ def jobs(log):
     return [SimpleNamespace(log=[str(log)] if log else [], jobid=1)]
 
 
-def test_a_job_is_expected_to_take_what_it_took_here_or_in_the_accepted_run(tmp_path):
+def test_a_job_is_expected_to_take_what_it_took_here_or_in_the_accepted_run(tmp_path, monkeypatch):
+    kept = {"warm": {"jobs": {"checks/lyapunov": {"wall": 7.0}, "imports": {"memory": 250}}}}
+    (tmp_path / "kept.json").write_text(json.dumps({"runs": kept}))
+    monkeypatch.setattr(targets, "ACCEPTED", tmp_path / "kept.json")
     log = tmp_path / "one.log"
     log.write_text("wall time: 30.0 s\n")
     of_chaos = "results/logs/checks/lyapunov.log"
     assert progress.expected(jobs(log), True) == {1: 30.0}
-    assert progress.expected(jobs(of_chaos), True)[1] > 0
+    assert progress.expected(jobs(of_chaos), True) == {1: 7.0}
     assert progress.expected(jobs(of_chaos), False) == {1: None}  # of another size
     assert progress.expected(jobs("results/logs/trajectories/mine.log"), True) == {1: None}
     assert progress.expected(jobs(None), True) == {1: 0.0}  # it only collects what others make
