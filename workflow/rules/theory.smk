@@ -20,6 +20,18 @@ rule check_equations:
         "../../scripts/theory/run_checks.py"
 
 
+use rule check_equations as check_not_shown with:
+    "Section 5: the sweep for small data at Omega = 8, which the paper mentions and does not show"
+    output:
+        datasets=checks(*GROUPS["not_shown"]),
+    log:
+        "results/logs/checks/not_shown.log",
+    params:
+        checks=SETTINGS.theory.arguments("not_shown"),
+    message:
+        "Sweeping the half-width where the paper shows no figure"
+
+
 use rule check_equations as check_stability with:
     "Lemma 1: dispersion, thresholds, and measured growth rates of the chain at rest"
     output:

@@ -7,6 +7,8 @@ follows: the dispersion relation (15), the threshold gamma_0 (12), and those of 
 Rates are per unit of tau. On the infinite chain lambda covers [0, 4], on N sites it takes N values.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from pendula.numerics import elementary
@@ -14,19 +16,21 @@ from pendula.numerics.elementary import complex_of
 from pendula.numerics.matrices import times
 
 
+@lru_cache(maxsize=16)
 def curvatures(sites: int, boundary: str) -> np.ndarray:
-    """Return lambda_k = 4 sin^2(theta_k / 2) of every mode of the chain, shape (sites,)."""
+    """Return, to be read only, lambda_k = 4 sin^2(theta_k / 2) of every mode, shape (sites,)."""
     k = np.arange(sites)
     half_angle = {
         "dirichlet": np.pi * (k + 1) / (2 * (sites + 1)),
         "free": np.pi * k / (2 * sites),
         "periodic": np.pi * k / sites,
     }[boundary]
-    return 4.0 * elementary.sin(half_angle) ** 2
+    return _read_only(4.0 * elementary.sin(half_angle) ** 2)
 
 
+@lru_cache(maxsize=16)
 def modes(sites: int, boundary: str) -> np.ndarray:
-    """Return the real orthonormal modes of the lattice Laplacian, shape (mode, site).
+    """Return, to be read only, the real orthonormal modes of the lattice Laplacian, (mode, site).
 
     Angles are reduced to one turn in whole numbers, so that long chains lose no digits. On a ring,
     cos + sin serves both waves of a pair.
@@ -34,14 +38,20 @@ def modes(sites: int, boundary: str) -> np.ndarray:
     k, j = np.arange(sites)[:, None], np.arange(sites)
     if boundary == "dirichlet":
         turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
-        return np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns)
+        return _read_only(np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns))
     if boundary == "free":
         turns = k * (2 * j + 1) % (4 * sites) / (4 * sites)
         weights = np.where(k == 0, np.sqrt(1 / sites), np.sqrt(2 / sites))
-        return weights * elementary.cos(2 * np.pi * turns)
+        return _read_only(weights * elementary.cos(2 * np.pi * turns))
     turns = k * j % sites / sites
     sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
-    return np.sqrt(1 / sites) * (cosine + sine)
+    return _read_only(np.sqrt(1 / sites) * (cosine + sine))
+
+
+def _read_only(values: np.ndarray) -> np.ndarray:
+    """Return the array, which all callers share, so that none can write to it."""
+    values.flags.writeable = False
+    return values
 
 
 def driven(kappa, gamma: float, tau: float):

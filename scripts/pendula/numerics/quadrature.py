@@ -1,6 +1,7 @@
 """Weights of integrals of polynomials, with the same bits on every machine."""
 
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 
@@ -28,7 +29,12 @@ def integration_matrix(nodes: np.ndarray) -> np.ndarray:
 
     Rational arithmetic makes them exact, so that nothing hangs on how a matrix is inverted.
     """
-    exact, columns = [Fraction(float(node)) for node in nodes], []
+    return _integration_matrix(tuple(map(float, nodes))).copy()
+
+
+@cache
+def _integration_matrix(nodes: tuple[float, ...]) -> np.ndarray:
+    exact, columns = [Fraction(node) for node in nodes], []
     for own in exact:
         coefficients = [Fraction(1)]  # of the polynomial, from the constant on
         for other in exact:

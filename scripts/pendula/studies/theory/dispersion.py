@@ -21,7 +21,7 @@ from pendula.problem import Constants
 from pendula.simulation.lattice import WHOLE, pack
 from pendula.simulation.simulate import make_chain
 
-from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_side, run
+from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_sides, run
 
 TINY = 2.0**-200
 """A power of two so small that the cubic terms vanish below rounding: scaling by it is exact."""
@@ -171,7 +171,7 @@ def is_stable(constants: Constants, sites: int) -> bool:
     states = np.zeros((2 * sites, 2, sites), complex)
     states[range(sites), :, range(sites)] = (TINY, -TINY)
     states[range(sites, 2 * sites), :, range(sites)] = (1j * TINY, -1j * TINY)
-    found = np.array([right_hand_side(constants, "dirichlet", z)[0] for z in states]) / TINY
+    found = right_hand_sides(constants, "dirichlet", states)[:, 0] / TINY
     from_real, from_imaginary = found[:sites].imag, -found[sites:].real
     sign = 1.0 if constants.omega < 0.0 else -1.0
     return all(

@@ -75,6 +75,23 @@ def right_hand_side(constants: Constants, boundary: str, amplitudes: np.ndarray)
     return unpack(dy, WHOLE)
 
 
+def right_hand_sides(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
+    """Return the same of each of `amplitudes` (count, 2, N)."""
+    states, chain = _pack(amplitudes), make_chain(constants, boundary, WHOLE)
+    found = np.zeros_like(states)
+    for y, dy in zip(states, found, strict=True):
+        rates(chain, y, dy)
+    return found[:, 0::2, 1:-1] + 1j * found[:, 1::2, 1:-1]
+
+
+def _pack(amplitudes: np.ndarray) -> np.ndarray:
+    """Return the states of whole chains, (count, 4, N + 2), of `amplitudes` (count, 2, N)."""
+    count, _, sites = amplitudes.shape
+    states = np.zeros((count, 4, sites + 2))
+    states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = amplitudes.real, amplitudes.imag
+    return states
+
+
 def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) -> float:
     """Return H of equation (8) for amplitudes (2, N), as the library computes it."""
     return float(energy(make_chain(constants, boundary, WHOLE), pack(amplitudes, WHOLE)))
@@ -82,10 +99,8 @@ def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) ->
 
 def total_energies(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
     """Return H of each of `amplitudes` (count, 2, N), as `total_energy` gives it."""
-    count, _, sites = amplitudes.shape
-    states, found = np.zeros((count, 4, sites + 2)), np.empty(count)
-    states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = amplitudes.real, amplitudes.imag
-    scratch = np.empty((2, sites + 2))  # kernels allocate nothing
+    states, found = _pack(amplitudes), np.empty(len(amplitudes))
+    scratch = np.empty((2, states.shape[2]))  # kernels allocate nothing
     energies(make_chain(constants, boundary, WHOLE), states, scratch, found)
     return found
 
