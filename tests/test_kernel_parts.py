@@ -108,3 +108,16 @@ def test_a_kernel_has_a_cache_and_an_uncached_function_has_none(monkeypatch, tmp
     assert isinstance(kernel(wrong)._cache, KernelCache)
     assert isinstance(kernel(wrong).part._cache, KernelCache)
     assert not isinstance(uncached(wrong)._cache, KernelCache)
+
+
+def test_one_part_serves_all_values_of_an_argument():
+    @uncached
+    def sum_up(pair, factor, follows):
+        return (pair[0] + pair[1]) * factor if follows else 0
+
+    @uncached
+    def caller(x):
+        return sum_up((1, x), 2, True) + sum_up((x, 3), 5, False) + sum_up((x, x), x, x > 0)
+
+    assert caller(4) == 42
+    assert len(sum_up.part.overloads) == 1

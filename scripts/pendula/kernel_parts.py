@@ -23,6 +23,7 @@ from functools import cached_property
 from pathlib import Path
 
 from llvmlite import binding
+from numba import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, CompileResult
 from numba.core.registry import CPUDispatcher
@@ -146,7 +147,8 @@ class Kernel(Kept):
         return part
 
     def get_call_template(self, args, kws):
-        return self.part.get_call_template(args, kws)
+        """Let one part serve all values of its arguments: numba compiles one for each constant."""
+        return self.part.get_call_template([*map(types.unliteral, args)], kws)
 
     def get_overload(self, sig):
         return self.part.get_overload(sig)
