@@ -38,6 +38,7 @@ PEERS: dict[str, Peer] = {
     "numbalsoda_dop853_half": peers_in_python.NUMBALSODA_HALF,
     "cpp_taylor": peers_as_programs.TAYLOR_SEPARATE,
     "cpp_taylor_contracted": peers_as_programs.TAYLOR_FUSED,
+    "cpp_taylor_eight": peers_as_programs.TAYLOR_EIGHT,
 }
 
 

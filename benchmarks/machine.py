@@ -7,11 +7,14 @@ a step are counted from the formulae; what stays in a cache is not transferred, 
 limit is for chains that are longer than the caches.
 """
 
+import os
+
 import numpy as np
 from pendula.compiled import kernel
 from pendula.datasets.netcdf import Variable
 from pendula.integrators import dop853
 from pendula.integrators.dop853_coefficients import E3, E5
+from pendula.sources import describe_machine
 
 from .timing import clocked, repeat
 
@@ -43,6 +46,12 @@ def churn(x, scale, shift):
 def triad(a, b, c, s):
     for i in range(a.size):
         a[i] = b[i] + s * c[i]
+
+
+def describe() -> dict[str, str]:
+    """Return the machine, and the processor that the code is made for where it is another one."""
+    played = os.environ.get("NUMBA_CPU_NAME")
+    return describe_machine() | ({"code_for": played} if played else {})
 
 
 def measure() -> dict[str, Variable]:

@@ -10,18 +10,18 @@ from .peer import Solve
 from .problems import error_of
 from .timing import Run, Times, TooLongError, in_turns, limit, repeat
 
-PATIENCE = 3.0
+PATIENCE = 1.0
 """Seconds: a contestant that took longer is not asked for more accuracy."""
-LIMIT = 12.0
+LIMIT = 5.0
 """Seconds after which a run is broken off."""
-ENOUGH = 0.2
+ENOUGH = 0.1
 """Seconds of repetitions after which a median is taken."""
 LEAST, MOST = 3, 15
 """Repetitions of a run, as its length allows."""
 
 PAIRS, FEW_PAIRS = 7, 3
-LONG = 1.0
-"""Seconds: of a peer that takes longer, few pairs are enough."""
+LONG = 0.3
+"""Seconds: a run that takes longer is not repeated by itself, and few pairs are enough."""
 BLOCK = 0.02
 """Seconds that one side of a pair takes at least: short runs are repeated."""
 
@@ -59,7 +59,7 @@ def measure_points(
         try:
             with limit(LIMIT):
                 final, seconds = solve(accuracy)
-                if not points and seconds > PATIENCE:  # the very first may have compiled
+                if not points and seconds > LONG:  # the very first may have compiled
                     final, seconds = solve(accuracy)
         except TooLongError:
             break
@@ -75,8 +75,8 @@ def measure_points(
 
 
 def _times(solve: Solve, accuracy: float, first: float) -> Times:
-    """Return the times of repeated runs; a very long first run is not repeated."""
-    if first > PATIENCE:
+    """Return the times of repeated runs; a long first run is not repeated."""
+    if first > LONG:
         return Times(first, first, first)
     return repeat(_run(solve, accuracy), LEAST, MOST, ENOUGH, warm=True)
 

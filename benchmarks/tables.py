@@ -30,11 +30,17 @@ def _explain(measured: xr.Dataset) -> str:
         for name, regime in REGIMES.items()
     )
     return (
-        f"Measured on {measured.attrs.get('processor', 'a processor without a name')}. One core, "
+        f"Measured on {measured.attrs.get('processor', 'a processor without a name')}"
+        f"{_code_for(measured)}. One core, "
         "after warm-up, runs without outputs. Errors are those of the largest component against "
         f"the multiprecision reference. Compared at an error of {targets}; ratios are medians of "
         "runs in turns, with the least and the largest."
     )
+
+
+def _code_for(measured: xr.Dataset) -> str:
+    name = measured.attrs.get("code_for")
+    return f", with code for the processor {name}" if name else ""
 
 
 def _peers(measured: xr.Dataset) -> str:

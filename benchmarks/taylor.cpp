@@ -1,6 +1,6 @@
 // The Taylor method of integrators/taylor.py and models/amplitudes_series.py on half a chain, by hand.
 //
-// The sites 0..M go in blocks of four, and all that a block holds lies together, so that every
+// The sites 0..M go in blocks of LANES, which the compiler is told (4 or 8), and all that a block holds lies together, so that every
 // coefficient is at a distance from the block's start that the compiler knows. Orders go in pairs:
 // one pass over a block sums the Cauchy products of an even order in registers, and those of the
 // odd order above it but for the terms that hold its own coefficients: each load serves twice.
@@ -9,11 +9,17 @@
 #include <utility>
 #include <vector>
 
-constexpr int ORDER = 16, LANES = 4;
+constexpr int ORDER = 16;
 constexpr double SMALLEST_PART = 1e-14;
 typedef double Vec __attribute__((vector_size(8 * LANES)));
 typedef long long Mask __attribute__((vector_size(8 * LANES)));
-constexpr Vec ZERO = {0.0, 0.0, 0.0, 0.0};
+constexpr Vec ZERO = {};
+#if LANES == 8
+constexpr Mask TO_RIGHT = {1, 2, 3, 4, 5, 6, 7, 8}, TO_LEFT = {7, 8, 9, 10, 11, 12, 13, 14};
+constexpr Mask MIRRORED = {1, 0, 1, 2, 3, 4, 5, 6};
+#else
+constexpr Mask TO_RIGHT = {1, 2, 3, 4}, TO_LEFT = {3, 4, 5, 6}, MIRRORED = {1, 0, 1, 2};
+#endif
 
 struct Block {
     Vec c[ORDER + 2][4];        // coefficients of Re A, Im A, Re B, Im B; the last is work space
@@ -33,7 +39,7 @@ struct Chain {
 // Load into a register once: left alone, GCC loads anew for each product.
 static inline Vec load(const Vec &source) {
     Vec value = source;
-    asm("" : "+x"(value));
+    asm("" : "+v"(value));
     return value;
 }
 
@@ -43,9 +49,9 @@ static inline Vec next(const Chain &s, const Block *b, int k, int of, double dri
     const double aside = factor * s.epsilon, coupling = factor * drive, half = 0.5 * factor;
     const double own = factor * (s.omega - 2.0 * s.epsilon - drive);
     Vec here = load(b->c[k][of]), partner = b->c[k][(of + 2) % 4];
-    Vec right = __builtin_shuffle(here, b[1].c[k][of], (Mask){1, 2, 3, 4});
-    Vec left = b == s.first() ? __builtin_shuffle(here, (Mask){1, 0, 1, 2})
-                              : __builtin_shuffle(b[-1].c[k][of], here, (Mask){3, 4, 5, 6});
+    Vec right = __builtin_shuffle(here, b[1].c[k][of], TO_RIGHT);
+    Vec left = b == s.first() ? __builtin_shuffle(here, MIRRORED)
+                              : __builtin_shuffle(b[-1].c[k][of], here, TO_LEFT);
     Vec result = (aside * (right + left) + own * here) + (coupling * partner + half * cubic);
     return b + 1 == s.end() ? (Vec)((Mask)result & s.inside) : result;
 }

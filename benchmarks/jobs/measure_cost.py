@@ -2,15 +2,15 @@
 
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
-from pendula.sources import describe_machine
 
+from benchmarks import machine
 from benchmarks.cost import measure
 
 
 def measure_cost(problem: dict, data: str, kernels: list[str] | tuple = ()) -> None:
     """Write the measurements; `problem` is the case that is run for long."""
     variables = measure(Problem.of(problem))
-    write(data, variables, {"title": "How the cost of a run grows", **describe_machine()})
+    write(data, variables, {"title": "How the cost of a run grows", **machine.describe()})
 
 
 if __name__ == "__main__":

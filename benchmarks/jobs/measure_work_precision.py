@@ -2,8 +2,8 @@
 
 from pendula.datasets.netcdf import read, write
 from pendula.problem import by_name
-from pendula.sources import describe_machine
 
+from benchmarks import machine
 from benchmarks.contestants import find_peers
 from benchmarks.problems import REGIME_OF, REGIMES, read_reference, until
 from benchmarks.work_precision import measure
@@ -22,7 +22,7 @@ def measure_work_precision(
         print(f"not measured: {reason}")
     variables = measure(cases, exact, peers, lambda text: print(text, flush=True))
     title = {"title": "Speed against error", "absent": "; ".join(absent.values())}
-    write(data, variables, {**title, **describe_machine()})
+    write(data, variables, {**title, **machine.describe()})
 
 
 if __name__ == "__main__":

@@ -31,6 +31,7 @@ CASES = {  # a peer's tolerance, and the largest error of an amplitude that it m
     "numbalsoda_dop853_half": (1e-11, 1e-8),
     "cpp_taylor": (1e-12, 1e-10),
     "cpp_taylor_contracted": (1e-12, 1e-10),
+    "cpp_taylor_eight": (1e-12, 1e-10),
 }
 
 
@@ -67,7 +68,7 @@ def test_peers_agree_with_ours(name):
 
 
 @pytest.mark.parametrize("half_width", [3, 4, 5, 6])
-@pytest.mark.parametrize("name", ["cpp_taylor", "cpp_taylor_contracted"])
+@pytest.mark.parametrize("name", ["cpp_taylor", "cpp_taylor_contracted", "cpp_taylor_eight"])
 def test_the_taylor_method_in_cpp_is_ours_to_rounding(name, half_width):
     if reason := PEERS[name].why_absent():
         skip(reason, WAY)

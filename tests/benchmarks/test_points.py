@@ -28,7 +28,7 @@ def test_each_point_holds_the_time_and_the_error(problem, exact, contestant):
 
 
 def test_the_time_is_the_median_of_several_runs_after_the_first(problem, exact, contestant):
-    times = iter([1.0, 0.1, 0.3, 0.2])
+    times = iter([0.25, 0.1, 0.3, 0.2])
     made, calls = contestant(lambda accuracy: next(times), accuracies=(1e-4,))
     assert measure_points(made, problem, exact)[0][1:4] == (0.2, 0.1, 0.3)
     assert len(calls) == 4
@@ -95,8 +95,8 @@ def with_points(problem, exact):
 
 
 def test_the_ratio_is_theirs_over_ours_below_the_target(problem, with_points, contestant):
-    slow, _ = contestant(lambda accuracy: 0.5)
-    fast, _ = contestant(lambda accuracy: 0.1)
+    slow, _ = contestant(lambda accuracy: 0.25)
+    fast, _ = contestant(lambda accuracy: 0.05)
     found = compare(problem, TARGET, with_points(slow), {"fast": with_points(fast)})
     assert found.ours == "fast"
     assert len(found.ratios) == PAIRS
