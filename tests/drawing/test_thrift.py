@@ -2,24 +2,31 @@
 
 import re
 import zlib
+from collections import Counter
 from contextlib import nullcontext
 from io import BytesIO
 
 import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
+from matplotlib._mathtext import Parser
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
+from matplotlib.font_manager import FontProperties
+from matplotlib.mathtext import MathTextParser
 from pendula.drawing import style, thrift
 
+FORMULAS = [r"$\tau$", r"$10^{-3}$", r"$(A_{0}, B_{0}) = (1, 0.1)$", r"$\ell^\infty$, $\sqrt{2}$"]
 
-def draw():
+
+def draw(formulas=True):
     """Return a figure with shared axes, aligned labels, a colour bar, and titles below ticks."""
     figure = style.new_figure(4, 3)
     grid = figure.subplots(2, 2, sharex=True, sharey="col")
     for row, (left, right) in enumerate(grid):
-        left.semilogy(np.arange(1.0, 9.0) ** 5, label="$x^5$")
-        left.set_ylabel(r"$10^{9}$ and more" if row else r"$\tau$")
+        left.plot(np.arange(1.0, 9.0) ** 5, label="$x^5$" if formulas else "power")
+        left.set_yscale("log" if formulas else "linear")
+        left.set_ylabel(r"$10^{9}$ and more" if row and formulas else "more")
         image = right.imshow(np.eye(3), extent=(0, 7, -0.5, 0.5), aspect="auto")
         right.set_title(f"row {row}", loc="left")
         right.xaxis.tick_top()
@@ -30,9 +37,9 @@ def draw():
 
 
 @style.styled
-def save(thrifty):
+def save(thrifty, formulas=True):
     """Return the pixels of a figure and its PDF."""
-    figure = draw()
+    figure = draw(formulas)
     with thrifty(), BytesIO() as pdf:
         figure.canvas.draw()
         pixels = np.array(figure.canvas.buffer_rgba())
@@ -60,12 +67,40 @@ def test_the_pixels_are_those_of_matplotlib_alone(saved):
     assert np.array_equal(saved["thrifty"][0], saved["plain"][0])
 
 
-def test_the_pdf_is_that_of_matplotlib_alone_but_for_its_fonts(saved):
+def test_a_pdf_without_formulas_is_that_of_matplotlib_alone_but_for_its_fonts():
     thrifty, plain = (
-        [one for one in streams(saved[name][1]) if one[:4] != b"\0\1\0\0"]
-        for name in ("thrifty", "plain")
+        [one for one in streams(save(how, formulas=False)[1]) if one[:4] != b"\0\1\0\0"]
+        for how in (thrift.thrifty, nullcontext)
     )
     assert thrifty == plain and len(plain) > 3
+
+
+@pytest.mark.parametrize("formula", FORMULAS)
+def test_letters_of_formulas_stand_where_matplotlib_puts_them_to_two_points(formula):
+    plain = MathTextParser("path").parse(formula, 72, FontProperties(size=8))
+    with thrift.thrifty():
+        fine = MathTextParser("path").parse(formula, 72, FontProperties(size=8))
+    np.testing.assert_allclose(fine[:3], plain[:3], atol=2.0)  # height and depth are rounded up
+    assert [glyph[2:4] for glyph in fine.glyphs] == [glyph[2:4] for glyph in plain.glyphs]
+    sizes = [[glyph[1] for glyph in one.glyphs] for one in (fine, plain)]
+    np.testing.assert_allclose(*sizes, rtol=1e-2)
+    places = [np.array([glyph[4:] for glyph in one.glyphs]) for one in (fine, plain)]
+    np.testing.assert_allclose(*places, atol=2.0)
+    if plain.rects:
+        np.testing.assert_allclose(fine.rects, plain.rects, atol=2.0)
+
+
+def test_each_formula_is_read_once_for_both_pictures(monkeypatch):
+    read, parse = Counter(), Parser.parse
+
+    def count(parser, text, *given):
+        read[text] += 1
+        return parse(parser, text, *given)
+
+    thrift._placed_once.cache_clear()
+    monkeypatch.setattr(Parser, "parse", count)
+    save(thrift.thrifty)
+    assert len(read) > 3 and set(read.values()) == {1}
 
 
 def test_fonts_hold_the_outlines_of_matplotlib_alone_and_nothing_to_set_text_with(saved):

@@ -20,7 +20,7 @@ from pendula.problem import read_initial
 from pendula.spent import spending
 
 from .description import as_text, describe
-from .thrift import thrifty
+from .thrift import DPI, thrifty
 
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
@@ -69,7 +69,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "legend.frameon": False,
     "legend.handlelength": 2,
     "pdf.fonttype": 42,
-    "figure.dpi": 300,
+    "figure.dpi": DPI,
 }
 
 

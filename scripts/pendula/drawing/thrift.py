@@ -5,6 +5,10 @@ the ticks of every axis anew, and several times: for the title above it, for the
 its own, for its own label. Together this takes half of the time of a drawing, while the pictures
 are the same to the last bit. The functions below stand in the place of those of matplotlib, whose
 version is pinned, and call them when there is something new to find.
+
+The letters of a formula are placed at the resolution of the PNG, and their places are scaled for
+the PDF. Otherwise each formula would be read twice, and the sizes of formulas would be rounded to
+whole points in the PDF, so that they would stand a little elsewhere than in the PNG.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,22 +19,30 @@ from unittest.mock import patch
 from fontTools import subset
 from fontTools.ttLib import TTFont
 from matplotlib.axis import Axis
-from matplotlib.mathtext import MathTextParser
+from matplotlib.font_manager import FontProperties
+from matplotlib.ft2font import LoadFlags
+from matplotlib.mathtext import MathTextParser, VectorParse
 
 TABLES = {"glyf", "head", "hhea", "hmtx", "loca", "maxp", "cvt ", "fpgm", "prep"}
 """What a PDF takes from a font (ISO 32000-2, 9.9.2). Other tables join letters or name them, and
 it takes most of the time of embedding a font to reduce those to the letters of a figure."""
 
 
+DPI = 300
+"""The resolution of the PNG, in pixels per inch."""
+
+_FORMULAS = MathTextParser("path")
+_read = MathTextParser._parse_cached.__wrapped__
+
+
 @contextmanager
 def thrifty() -> Iterator[None]:
     """Save a figure below this without doing anything twice; the figure must stay as it is."""
-    parse = lru_cache(maxsize=None)(MathTextParser._parse_cached.__wrapped__)
     with ExitStack() as stack:
         for owner, name, new in (
             (Axis, "_update_ticks", _once(Axis._update_ticks)),
             (Axis, "_get_ticklabel_bboxes", _once(Axis._get_ticklabel_bboxes)),
-            (MathTextParser, "_parse_cached", parse),
+            (MathTextParser, "_parse_cached", _placed),
             (subset, "load_font", _load_font(subset.load_font)),
         ):
             stack.enter_context(patch.object(owner, name, new))
@@ -57,6 +69,27 @@ def _state(axis: Axis) -> dict:
     """Return what ticks depend on: limits and place in pixels, also of an axis that it shares."""
     owners = {axis, axis.get_major_locator().axis, axis.get_minor_locator().axis}
     return {one: (*one.get_view_interval(), *one.axes.bbox.bounds) for one in owners}
+
+
+def _placed(
+    parser: MathTextParser, text: str, dpi: float, look: FontProperties, *flags
+) -> VectorParse:
+    """Return the places of the letters of a formula at any resolution."""
+    if parser._output_type != "vector":
+        return _read(parser, text, dpi, look, *flags)
+    found, scale = _placed_once(text, look, *flags), dpi / DPI
+    if scale == 1:
+        return found
+    glyphs = [(*letter, x * scale, y * scale) for *letter, x, y in found.glyphs]
+    rects = [tuple(length * scale for length in rect) for rect in found.rects]
+    return VectorParse(*(length * scale for length in found[:3]), glyphs, rects)
+
+
+@lru_cache(maxsize=1000)
+def _placed_once(
+    text: str, look: FontProperties, antialiased: bool, flags: LoadFlags
+) -> VectorParse:
+    return _read(_FORMULAS, text, DPI, look, antialiased, flags)
 
 
 def _load_font(load: Callable) -> Callable:
