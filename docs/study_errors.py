@@ -99,7 +99,38 @@ def _ensemble(given: dict, words: str) -> str:
     return f"{number(given['members'])} {words}, tolerance {number(given['tolerance'])}"
 
 
-STUDIES: dict[str, tuple[Callable, Callable]] = {"chaos": (chaos, chaos_sizes)}
+def theory(baseline) -> dict[str, float]:
+    """Return the errors of searches, thresholds and exponents."""
+    growth = baseline["checks/chain_growth"]
+    high, low = (growth[f"power_exponent_{end}"] for end in ("high", "low"))
+    return {
+        "searches": _most(baseline["checks/worst"]["last_rise"]),
+        "thresholds": _most(baseline["checks/sharp_threshold"]["threshold_error"]),
+        "spreading": _most(baseline["checks/threshold"]["spreading_error"]),
+        "chain_growth": _most(0.5 * (high - low)),
+    }
+
+
+def theory_sizes(given: dict) -> dict[str, str]:
+    """Return how many and how long, by the parts of `theory`."""
+    worst, growth = given["worst"], given["chain_growth"]
+    return {
+        "searches": f"{worst['starts']} searches, {worst['generations']} generations of"
+        f" {worst['population']}",
+        "thresholds": "chains of " + _listed(given["sharp_threshold"]["sizes"]) + " sites",
+        "spreading": "to τ = " + number(given["threshold"]["long_times"][-1]),
+        "chain_growth": f"{growth['members']} members on " + _listed(growth["sizes"]) + " sites",
+    }
+
+
+def _listed(sizes: list) -> str:
+    return ", ".join(map(number, sizes))
+
+
+STUDIES: dict[str, tuple[Callable, Callable]] = {
+    "chaos": (chaos, chaos_sizes),
+    "theory": (theory, theory_sizes),
+}
 """The study by its name in the configuration: how its errors are read, and what its parts take."""
 
 

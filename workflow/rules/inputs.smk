@@ -288,6 +288,10 @@ CLAIMS_OF = {
 }
 
 
+CLAIMED_RUNS = ["fig2_large", "fig3_small", "fig3_large", "fig4_small"]
+CLAIMED_RUNS += ["omegas", "amplitudes", "thermal"]  # of chains without ends
+
+
 def claims_need():
     """Return by part of the ledger the rule that makes each of the datasets that it reads.
 
@@ -310,8 +314,8 @@ def claims_need():
             *checks("trust", *CHAOS_CHECKS),
         ],
         "unbounded": [
-            *expand("results/unbounded/{name}.nc", name=SETTINGS.unbounded.names),
-            *expand("results/unbounded/{name}.nc", name=[*map_names(), "thermal"]),
+            *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
+            *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),
         ],
     }
     made_by = makers()

@@ -169,6 +169,10 @@ OBSERVED = ("cases", "sweeps")
 """The checks of the paper's own trajectories and sweeps, which need their datasets."""
 
 
+NEEDS = ("searches", "thresholds", "spreading", "chain_growth")
+"""The parts whose error is decided by a size."""
+
+
 class Section(Model):
     """Section `theory` of the configuration."""
 
@@ -194,6 +198,7 @@ class Section(Model):
 Settings = create_model(
     "Settings",
     __base__=Section,
+    needs=(create_model("Needs", __base__=Model, **dict.fromkeys(NEEDS, (Positive, ...))), ...),
     wrong=(create_model("Wrong", __base__=Model, **dict.fromkeys(WRONG, (Changes, ...))), ...),
     **{name: (model, ...) for checks in CHECKS.values() for name, model in checks.items()},
 )
