@@ -13,6 +13,7 @@ import xarray as xr
 import yaml
 from pendula.measures.confidence import difference_limits
 from pendula.report.words import number
+from pendula.studies.unbounded.claims import OF_A_SHORT_BULK, exponent_of, stays
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 
@@ -127,9 +128,68 @@ def _listed(sizes: list) -> str:
     return ", ".join(map(number, sizes))
 
 
+def unbounded(baseline) -> dict[str, float]:
+    """Return the errors of the chains without ends, of their solver, and of the thermal states."""
+    growth, front = baseline["unbounded/growth"], baseline["unbounded/front"]
+    thermal, runs = baseline["unbounded/thermal"], [baseline[f"unbounded/{n}"] for n in CHAOTIC]
+    regular = [baseline[f"unbounded/{name}"] for name in ("fig3_small", "fig2_large")]
+    errors = [(thermal[f"{kind}power_error"] / thermal[f"{kind}power"]) for kind in ("", "warm_")]
+    return {
+        "slope": _most((growth["rate_limits"] / growth["law"]).isel(span=-1)),
+        "band": _most(front["slope_power_error"] / front["expected_power"]),
+        "front": _most(front["corrected_speed_error"]),
+        "large": exponent_of(baseline["unbounded/fig3_large"], octaves=OF_A_SHORT_BULK).half,
+        "regular": max(stays(run).measured["growth_at_most"] for run in regular),
+        "maps": _mean_error(baseline["unbounded/map_fig5_right"]["l2"].isel(end=-1)),
+        "energy": max(_lost_energy(run) for run in runs),
+        "thermal": max(map(_most, errors)),
+    }
+
+
+CHAOTIC = ("fig4_small", "fig3_large", "omegas", "amplitudes")
+
+
+def _mean_error(values: xr.DataArray) -> float:
+    """Return the largest standard error of a mean over the members, relative to it."""
+    scatter = values.std("member", ddof=1) / values.sizes["member"] ** 0.5
+    return _most(scatter / values.mean("member"))
+
+
+def _lost_energy(run: xr.Dataset) -> float:
+    """Return by how much the energy changed by the end, over the sites in motion."""
+    lost = abs(run["energy"].isel(tau=-1) - run["energy"].isel(tau=0))
+    return _most(lost / (2.0 * run["front"].isel(piece_tau=-1, front_power=0).clip(min=1.0)))
+
+
+def unbounded_sizes(given: dict) -> dict[str, str]:
+    """Return how long and how many, by the parts of `unbounded`."""
+    size, thermal = given["short"], given["thermal"]
+    runs, maps, solver = size["runs"], size["maps"], size["solver"]
+
+    def of(name: str, more: str = "") -> str:
+        return (
+            f"{number(runs[name]['members'])} members to τ = {number(runs[name]['end_time'])}{more}"
+        )
+
+    omegas = f", {number(len(given['varied']['omegas']['values']))} values of Ω"
+    return {
+        "slope": of("fig4_small"),
+        "band": of("omegas", omegas),
+        "front": of("omegas", omegas),
+        "large": of("fig3_large"),
+        "regular": of("fig3_small"),
+        "maps": f"{number(len(maps['half_widths']))} half-widths, τ to {number(maps['end_time'])},"
+        f" {number(max(maps['members'].values()))} members at most",
+        "energy": f"{solver['name']}, tolerance {number(solver['rtol'])}",
+        "thermal": f"{number(thermal['nodes'])} half-nodes a coordinate,"
+        f" {number(thermal['density_nodes'])} for densities",
+    }
+
+
 STUDIES: dict[str, tuple[Callable, Callable]] = {
     "chaos": (chaos, chaos_sizes),
     "theory": (theory, theory_sizes),
+    "unbounded": (unbounded, unbounded_sizes),
 }
 """The study by its name in the configuration: how its errors are read, and what its parts take."""
 

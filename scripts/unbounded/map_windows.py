@@ -1,13 +1,12 @@
 """Maxima of the norms over [10, T] on chains of half-width M: the map over (M, T)."""
 
-from functools import partial
-
 import numpy as np
 from job import step
 from pendula.datasets.netcdf import write
 from pendula.problem import Problem
 from pendula.studies.unbounded.long_runs import (
     START,
+    Ensemble,
     attributes,
     map_variables,
     member,
@@ -22,25 +21,21 @@ def map_windows(
     rest: float,
     half_widths: list[int],
     members: int,
+    perturbation: float,
+    seed: int,
     kernels: list[str] | tuple = (),
 ) -> None:
     """Write the maxima of an ensemble for every T between 10 and the end of the runs."""
     whole = Problem.of(problem)
     ends = np.arange(START + 2.0, whole.end_time + 1.0, 2.0)
-    maps = []
+    maps, ensemble = [], Ensemble(members, perturbation, seed)
     for number in range(members):
-        started = whole.changed(initial=member(whole.initial, number))
-        label = f"{name}, member {number + 1} of {members}"
-        tell = partial(tell_step, label)
-        maps.append(window_map(started, rest, half_widths, ends, tell))
+        started = whole.changed(initial=member(whole.initial, ensemble, number))
+        maps.append(window_map(started, rest, half_widths, ends))
+        step(f"{name}: member {number + 1} of {members} done")
     title = f"Maxima of the norms over half-widths and time windows, case of {name}"
-    about = attributes(title, name, [whole], rest, members)
+    about = attributes(title, name, [whole], rest, ensemble)
     write(data, map_variables(maps, half_widths, ends, whole), about)
-
-
-def tell_step(label: str, done: str) -> None:
-    """Say how far one member is."""
-    step(f"{label}: {done}")
 
 
 if __name__ == "__main__":

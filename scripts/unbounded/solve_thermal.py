@@ -13,6 +13,7 @@ def solve_thermal(
     warm_omega: float,
     energies: list[float],
     nodes: int,
+    density_nodes: int,
 ) -> None:
     """Write the states without energy at all `omegas`, and those of `energies` at `warm_omega`."""
 
@@ -25,8 +26,9 @@ def solve_thermal(
     attributes = {
         "title": "Thermal states of the infinite chain, by its transfer operator",
         "epsilon": epsilon, "gamma": gamma, "warm_omega": warm_omega, "nodes": 2 * nodes,
+        "density_nodes": 2 * density_nodes,
     }  # fmt: skip
-    write(data, thermal_variables(states, warm), attributes)
+    write(data, thermal_variables(states, warm, density_nodes), attributes)
 
 
 if __name__ == "__main__":

@@ -94,24 +94,28 @@ def map_names():
 
 
 def run_params(size):
-    given, extents = SETTINGS.unbounded, size.runs
+    given = SETTINGS.unbounded
 
     def problems(wildcards):
         case = SETTINGS.problem(given.case_of(wildcards.study))
-        return given.problems(case, wildcards.study, extents[wildcards.study].end_time)
+        return given.problems(case, wildcards.study, size)
 
     return {
         "name": "{study}",
         "problems": problems,
         "rest": size.rest,
-        "members": lambda wildcards: extents[wildcards.study].members,
+        "members": lambda wildcards: size.runs[wildcards.study].members,
+        "perturbation": given.perturbation,
+        "seed": given.seed,
     }
 
 
-def map_params(maps):
+def map_params(size):
+    maps = size.maps
+
     def problem(wildcards):
         case = SETTINGS.problem(SETTINGS.sweeps[wildcards.sweep].case)
-        return SETTINGS.unbounded.problem(case, maps.end_time, maps.output_step)
+        return SETTINGS.unbounded.map_problem(case, size)
 
     return {
         "name": "{sweep}",
@@ -119,6 +123,8 @@ def map_params(maps):
         "rest": maps.rest,
         "half_widths": maps.half_widths,
         "members": lambda wildcards: maps.members[wildcards.sweep],
+        "perturbation": SETTINGS.unbounded.perturbation,
+        "seed": SETTINGS.unbounded.seed,
     }
 
 

@@ -18,7 +18,7 @@ rule spread:
     "An ensemble on the chain without ends: results/unbounded/{study}.nc"
     input:
         code=code("unbounded/spread_case.py"),
-        kernels=kernels("dop853"),
+        kernels=kernels(SETTINGS.unbounded.short.solver.name),
     output:
         data="results/unbounded/{study}.nc",
     log:
@@ -37,6 +37,9 @@ rule spread:
 
 use rule spread as long_spread with:
     "The same for longer times: results/unbounded/long/{study}.nc"
+    input:
+        code=code("unbounded/spread_case.py"),
+        kernels=kernels(SETTINGS.unbounded.long.solver.name),
     output:
         data=f"{LONG}/{{study}}.nc",
     log:
@@ -52,7 +55,7 @@ rule map_windows:
     "Maxima over half-widths and windows, for a sweep: results/unbounded/map_{sweep}.nc"
     input:
         code=code("unbounded/map_windows.py"),
-        kernels=kernels("dop853"),
+        kernels=kernels(SETTINGS.unbounded.short.solver.name),
     output:
         data="results/unbounded/map_{sweep}.nc",
     log:
@@ -62,7 +65,7 @@ rule map_windows:
     conda:
         "../envs/pinned.yaml"
     params:
-        **map_params(SETTINGS.unbounded.short.maps),
+        **map_params(SETTINGS.unbounded.short),
     message:
         "Maxima over half-widths and windows: {wildcards.sweep}"
     script:
@@ -71,12 +74,15 @@ rule map_windows:
 
 use rule map_windows as long_map_windows with:
     "The same for longer times: results/unbounded/long/map_{sweep}.nc"
+    input:
+        code=code("unbounded/map_windows.py"),
+        kernels=kernels(SETTINGS.unbounded.long.solver.name),
     output:
         data=f"{LONG}/map_{{sweep}}.nc",
     log:
         "results/logs/unbounded/long/map_{sweep}.log",
     params:
-        **map_params(SETTINGS.unbounded.long.maps),
+        **map_params(SETTINGS.unbounded.long),
     message:
         "Maxima over many half-widths and long windows: {wildcards.sweep}"
 
@@ -98,6 +104,7 @@ rule thermal:
         warm_omega=SETTINGS.cases[SETTINGS.unbounded.thermal.warm.case].omega,
         energies=SETTINGS.unbounded.thermal.warm.energies,
         nodes=SETTINGS.unbounded.thermal.nodes,
+        density_nodes=SETTINGS.unbounded.thermal.density_nodes,
     message:
         "Solving the thermal states that the bulk is compared with"
     script:

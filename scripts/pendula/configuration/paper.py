@@ -167,7 +167,8 @@ def _swept(name: str) -> tuple[str, ...]:
 
 def _unbounded(name: str) -> tuple[str, ...]:
     given = paper()["unbounded"]
-    whole = tuple(f"unbounded.{key}" for key in ("tolerance", "output_step"))
+    shared = ("output_step", "perturbation", "short.solver")
+    whole = tuple(f"unbounded.{key}" for key in shared)
     if name == "thermal":
         return ("unbounded.thermal", *_keys(given["thermal"]["warm"]["case"], *EQUATION))
     if name in ("growth", "front"):

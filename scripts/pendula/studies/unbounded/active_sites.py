@@ -133,13 +133,12 @@ def run_long(
     `keep_every` pieces, and left.
     """
     description = describe_run(problem, rest)
-    outputs = round(PIECE / problem.output_step)
     count = round(problem.end_time / PIECE)
     kept = recall_checkpoint(keep_at, description) if keep_at else None
     series, state = _start(problem) if kept is None else _continue(kept)
     for piece in range(len(series["piece_tau"]), count):
         state = widen(state, problem.half_width, rest)
-        times = problem.output_step * np.arange(piece * outputs, (piece + 1) * outputs + 1)
+        times = _times(problem, piece, piece + 1)
         done = advance(problem.constants, state, times, problem.solver)
         _add(series, times, done, first=piece == 0)
         means = bulk_means(done.state, problem.constants, series["front"][-1])
@@ -149,22 +148,92 @@ def run_long(
     return LongRun(**_joined(series), state=state)
 
 
+# --- One chain of many half-widths ----------------------------------------------------------------
+
+
+class Norms(NamedTuple):
+    """The norms of the pair (A, B) at every output of a run."""
+
+    tau: np.ndarray  # (time,)
+    l2: np.ndarray  # (time,)
+    linf: np.ndarray  # (time,)
+
+
+def run_chains(problem: Problem, rest: float, half_widths: list[int]) -> list[Norms]:
+    """Return the norms on the chain of `problem` for each of rising `half_widths`.
+
+    As long as nothing moves near its end, a chain does what all longer ones do. So the longest one
+    is run from the start, and each shorter one goes its own way when its sites have become too few;
+    a chain whose end the front never reached has the norms of the longest one.
+    """
+    longest = half_widths[-1]
+    state, pieces = begin(problem.initial, longest), []
+    own = {m: (0, begin(problem.initial, m)) for m in half_widths if m + 3 < state.shape[1]}
+    for piece in range(round(problem.end_time / PIECE)):
+        wider = widen(state, longest, rest)
+        for half_width in half_widths:
+            if half_width not in own and half_width + 3 < wider.shape[1]:
+                own[half_width] = piece, state.copy()
+        state = wider
+        times = _times(problem, piece, piece + 1)
+        pieces.append(_norms(times, advance(problem.constants, state, times, problem.solver)))
+    found = []
+    for half_width in half_widths:
+        piece, state = own.get(half_width, (len(pieces), state))
+        found.append(
+            _joined_norms([*pieces[:piece], *_alone(problem, rest, half_width, piece, state)])
+        )
+    return found
+
+
+def _alone(problem: Problem, rest: float, half_width: int, piece: int, state: np.ndarray):
+    """Yield the norms of a chain from a piece on, the last ones at once when it cannot grow."""
+    count = round(problem.end_time / PIECE)
+    while piece < count:
+        state = widen(state, half_width, rest)
+        last = count if state.shape[1] == half_width + 3 else piece + 1
+        times = _times(problem, piece, last)
+        yield _norms(times, advance(problem.constants, state, times, problem.solver))
+        piece = last
+
+
+def _times(problem: Problem, piece: int, last: int) -> np.ndarray:
+    """Return the outputs from the start of a piece to that of another, both included."""
+    outputs = round(PIECE / problem.output_step)
+    return problem.output_step * np.arange(piece * outputs, last * outputs + 1)
+
+
+def _norms(times: np.ndarray, done: Piece) -> Norms:
+    copies = 3 - len(done.record.l2)  # A = B: the one component counts twice
+    l2 = np.sqrt(copies * (done.record.l2**2).sum(axis=0))
+    return Norms(times, l2, done.record.linf.max(axis=0))
+
+
+def _joined_norms(pieces: list[Norms]) -> Norms:
+    """Return the norms of consecutive pieces, each of which begins with the last output before."""
+    return Norms(
+        *(np.concatenate([v[0][:1], *(one[1:] for one in v)]) for v in zip(*pieces, strict=True))
+    )
+
+
+# --- The front ------------------------------------------------------------------------------------
+
+
 def find_front(state: np.ndarray) -> np.ndarray:
     """Return the site where the power falls below each of LEVELS for good, -1 if none is above.
 
     Between two sites the logarithm of the power tells. It is rounded to a thousandth of a site,
     since its last bits differ between machines.
     """
-    power = site_powers(state)
-    return np.array([_outermost(power, level) for level in LEVELS])
-
-
-def _outermost(power: np.ndarray, level: float) -> float:
-    site = int(np.flatnonzero(power > level).max(initial=-1))
-    if site < 0 or site + 1 == power.size or power[site + 1] == 0.0:
-        return float(site)
-    beyond = log(power[site] / level) / log(power[site] / power[site + 1])
-    return site + round(float(beyond), DIGITS)
+    power = np.append(site_powers(state), 0.0)  # the last site has nothing behind it
+    above = power > LEVELS[:, None]
+    site = np.where(above.any(axis=1), power.size - 1 - above[:, ::-1].argmax(axis=1), -1)
+    here, beyond = power[site], power[site + 1]
+    between = (site >= 0) & (beyond > 0.0)
+    sizes = np.where(between, [here, LEVELS, beyond], [[2.0], [2.0], [1.0]])
+    start, level, end = log(sizes)
+    parts = ((start - level) / (start - end)).tolist()
+    return site + np.array([round(part, DIGITS) for part in parts])
 
 
 def _start(problem: Problem) -> tuple[dict, np.ndarray]:
@@ -178,10 +247,8 @@ def _continue(kept: dict) -> tuple[dict, np.ndarray]:
 def _add(series: dict, times: np.ndarray, done: Piece, first: bool) -> None:
     """Append a piece; its first output is the last of the piece before."""
     new = slice(0 if first else 1, None)
-    copies = 3 - len(done.record.l2)  # A = B: the one component counts twice
-    series["tau"].extend(times[new])
-    series["l2"].extend(np.sqrt(copies * (done.record.l2[:, new] ** 2).sum(axis=0)))
-    series["linf"].extend(done.record.linf[:, new].max(axis=0))
+    for name, values in _norms(times, done)._asdict().items():
+        series[name].extend(values[new])
     series["energy"].extend(done.record.energy[new])
     series["piece_tau"].append(times[-1])
     series["front"].append(find_front(done.state))

@@ -9,7 +9,6 @@ integral, and the front leaves none behind, which fixes beta. Nothing is fitted.
 `thermal` solves these states.
 """
 
-from dataclasses import astuple
 from itertools import pairwise
 
 import numpy as np
@@ -31,20 +30,37 @@ POWER = "mean power P = |A_n|^2 + |B_n|^2 of a site"
 
 
 def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
-    """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site."""
-    epsilon, gamma, omega = astuple(constants)
-    a, b = complex_pair(state)
-    squares = np.array([square_modulus(a), square_modulus(b)])
-    difference = a - b
-    bonds = square_modulus(np.diff(np.pad([a, b], ((0, 0), (0, 1))), axis=1))
+    """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site.
+
+    Beyond the last site is rest, whatever the ghost there holds.
+    """
+    sites = state[:, 1:-1]
+    steps = np.diff(sites, axis=1, append=0.0)
+    a, b = _of_pair(sites * sites)
+    bonds = sum(_of_pair(steps * steps))
+    drive = _drive(sites)
     return np.array(
         [
-            0.25 * (squares**2).sum(axis=0),
-            omega * squares.sum(axis=0),
-            -gamma * (difference.real**2 - difference.imag**2),
-            -epsilon * bonds.sum(axis=0),
+            0.25 * (a * a + b * b),
+            constants.omega * (a + b),
+            -constants.gamma * drive,
+            -constants.epsilon * bonds,
         ]
     )
+
+
+def _of_pair(squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return |A_n|^2 and |B_n|^2 from the squares of the rows; A = B where there are only two."""
+    a = squares[0] + squares[1]
+    return a, (squares[2] + squares[3] if len(squares) == 4 else a)
+
+
+def _drive(sites: np.ndarray) -> np.ndarray:
+    """Return Re (A_n - B_n)^2."""
+    if len(sites) == 2:
+        return np.zeros(sites.shape[1])
+    real, imaginary = sites[0] - sites[2], sites[1] - sites[3]
+    return real * real - imaginary * imaginary
 
 
 def complex_pair(state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -66,7 +82,7 @@ def bulk_of(state: np.ndarray, front: int) -> slice:
 
 def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> np.ndarray:
     """Return the means of P and of the terms of (8) over the bulk behind each front, (front, 5)."""
-    power = sum(square_modulus(z) for z in complex_pair(state))
+    power = sum(_of_pair(state[:, 1:-1] * state[:, 1:-1]))
     values = np.array([power, *energy_terms(state, constants)])
     return np.array([values[:, bulk_of(state, front)].mean(axis=1) for front in fronts])
 

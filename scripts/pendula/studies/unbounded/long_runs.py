@@ -4,7 +4,7 @@ Where the chain at rest is unstable, a front moves at the speed v of linear spre
 thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v P tau)^(1/2).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -20,7 +20,7 @@ from pendula.numerics.draws import normal
 from pendula.numerics.elementary import geometric, interpolated, log, modulus
 from pendula.problem import Problem
 
-from .active_sites import LEVELS, LongRun, run_long
+from .active_sites import LEVELS, LongRun, run_chains
 from .bulk import FIRST_OF_LINE, POWER, TERMS, thermal_powers
 from .front import (
     DELAY,
@@ -33,28 +33,36 @@ from .front import (
     linear_front,
 )
 
-SIZE, SEED = 1e-6, 2017
-"""Relative size of the differences: grown to order one within some ten units of tau by chaos."""
+
+class Ensemble(NamedTuple):
+    """How the members of an ensemble are made."""
+
+    members: int
+    perturbation: float
+    """Relative size of the differences: chaos makes them of order one in some ten units of tau."""
+    seed: int
 
 
-def member(initial: np.ndarray, number: int) -> np.ndarray:
+def member(initial: np.ndarray, ensemble: Ensemble, number: int) -> np.ndarray:
     """Return the initial data of an ensemble's member; number 0 has the data as they are.
 
     All sites of a component share a factor, so that even data stay even.
     """
     if number == 0:
         return initial
-    factors = 1.0 + SIZE * normal(np.random.default_rng([SEED, number]), 2)
+    draws = normal(np.random.default_rng([ensemble.seed, number]), 2)
+    factors = 1.0 + ensemble.perturbation * draws
     return initial * factors[:, None]
 
 
-def attributes(title: str, name: str, problems: list[Problem], rest: float, members: int) -> dict:
+def attributes(
+    title: str, name: str, problems: list[Problem], rest: float, ensemble: Ensemble
+) -> dict:
     """Return what all of `problems` have in common: of varied parameters there is no one value."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
-    ensemble = {"members": members, "perturbation": SIZE, "seed": SEED}
     ends = {"boundary": "none: sites are added as the front moves", "rest": rest}
-    return {"title": title, **shared, **ends, **ensemble}
+    return {"title": title, **shared, **ends, **ensemble._asdict()}
 
 
 def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[str, Variable]:
@@ -75,7 +83,7 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "front_power": Variable(("front_power",), LEVELS, "power P at which the front is found"),
         "omega": of_variants([p.constants.omega for p in problems]),
         "central_modulus": of_variants([_central(p) for p in problems], "initial |A_0|"),
-        "tolerance": of_variants([p.solver["rtol"] for p in problems], "tolerance of dop853"),
+        "tolerance": of_variants([p.solver["rtol"] for p in problems], "tolerance of the solver"),
         "l2": series("l2", ("tau",), f"{NAMES['l2']}, of A and B together"),
         "linf": series("linf", ("tau",), f"{NAMES['linf']}, of A and B together"),
         "energy": series("energy", ("tau",)),
@@ -131,7 +139,11 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
     holds the mean power of the thermal states over Omega. All values are dimensionless.
     """
     first = [run.isel(variant=0) for run in runs.values()]
-    series = {name: [_series(run, name) for run in first] for name in ("l2", "linf")}
+    times = [geometric(1.0, float(run["tau"][-1]), POINTS) for run in first]
+    series = {
+        name: [_series(run, name, at) for run, at in zip(first, times, strict=True)]
+        for name in ("l2", "linf")
+    }
     local = [_exponents(run) for run in first]
     case, point, octave = ("case",), ("case", "point"), ("case", "octave")
     variables = {
@@ -139,7 +151,7 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
         "omega": Variable(case, [float(run["omega"]) for run in first]),
         "initial": Variable(case, [str(run.attrs["initial"]) for run in first]),
         "band": Variable(("band",), list(BAND), "value over the members of the ensemble"),
-        "tau": Variable(point, [_times(run) for run in first]),
+        "tau": Variable(point, times),
         **{
             name: Variable(("case", "band", "point"), values, f"{NAMES[name]}, of A and B together")
             for name, values in series.items()
@@ -157,14 +169,10 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
     return as_xarray(variables, {**shared, "title": "Growth of the norms on chains without ends"})
 
 
-def _times(run: xr.Dataset) -> np.ndarray:
-    return geometric(1.0, float(run["tau"][-1]), POINTS)
-
-
-def _series(run: xr.Dataset, name: str) -> list[np.ndarray]:
-    """Return a norm at POINTS times, its BAND over the members."""
+def _series(run: xr.Dataset, name: str, times: np.ndarray) -> list[np.ndarray]:
+    """Return a norm at `times`, its BAND over the members."""
     values = run[name].transpose("member", "tau").values
-    drawn = np.array([interpolated(_times(run), run["tau"].values, series) for series in values])
+    drawn = np.array([interpolated(times, run["tau"].values, series) for series in values])
     return [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
 
 
@@ -217,9 +225,10 @@ def _rate(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, np.ndarray]:
     spans = [(tau >= a) & (tau <= b) for a, b in pairwise(edges)]
     means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans])
     passed = tau - _delay(run) * log(np.maximum(tau, 1.0))
-    law = [_law(run, thermal) * (passed[span] / tau[span]).mean() for span in spans]
+    rate = _law(run, thermal)
+    law = [rate * (passed[span] / tau[span]).mean() for span in spans]
     late = tau >= FIRST_OF_LINE * tau[-1]
-    offset = (squares.mean(axis=0) - _law(run, thermal) * passed)[late].mean()
+    offset = (squares.mean(axis=0) - rate * passed)[late].mean()
     limits = mean_limits(means.T).half
     return {
         "tau": np.sqrt(edges[:-1] * edges[1:]),
@@ -255,26 +264,17 @@ class WindowMap(NamedTuple):
 
 
 def window_map(
-    problem: Problem,
-    rest: float,
-    half_widths: list[int],
-    ends: np.ndarray,
-    progress: Callable[[str], None] = lambda message: None,
+    problem: Problem, rest: float, half_widths: list[int], ends: np.ndarray
 ) -> WindowMap:
-    """Return the maxima for each of the rising `half_widths` (see `run_long` for `rest`).
+    """Return the maxima for each of the rising `half_widths`, for all `ends` of windows.
 
-    One run of a chain gives the maxima for all `ends`. A chain whose front never reached its end
-    is a chain without ends: all longer ones have the same numbers.
+    See `active_sites` for `rest`.
     """
-    l2, linf, free = [], [], False
-    for half_width in half_widths:
-        if not free:
-            run = run_long(problem.changed(half_width=half_width), rest)
-            free = run.width[-1] < half_width
-            progress(f"half-width {half_width}: {'no end reached' if free else 'done'}")
-        l2.append(maxima(run.tau, run.l2, ends))
-        linf.append(maxima(run.tau, run.linf, ends))
-    return WindowMap(np.array(l2), np.array(linf))
+    runs = run_chains(problem, rest, half_widths)
+    return WindowMap(
+        np.array([maxima(run.tau, run.l2, ends) for run in runs]),
+        np.array([maxima(run.tau, run.linf, ends) for run in runs]),
+    )
 
 
 def maxima(tau: np.ndarray, series: np.ndarray, ends: np.ndarray) -> np.ndarray:

@@ -12,10 +12,11 @@ from pydantic import Field
 from pendula.configuration.cases import is_multiple
 from pendula.configuration.cost import Cost, estimate
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Number, Positive, Whole
+from pendula.configuration.solvers import Dop853, Taylor
+from pendula.configuration.values import Distinct, Model, Name, Needs, Number, Positive, Whole
 
 Count = Annotated[Whole, Field(ge=1)]
-
+Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
@@ -47,8 +48,9 @@ class Maps(Model):
 
 
 class Size(Model):
-    """How far everything is run."""
+    """How far everything is run, and by which solver."""
 
+    solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
     rest: Positive
     runs: dict[Name, Extent]
     maps: Maps
@@ -64,7 +66,8 @@ class Warm(Model):
 class Thermal(Model):
     """The thermal states that the bulk is compared with: at each Omega without energy, and warm."""
 
-    nodes: Annotated[Whole, Field(ge=8, le=100)]
+    nodes: Nodes
+    density_nodes: Nodes
     omegas: Annotated[list[Number], Field(min_length=1), Distinct]
     warm: Warm
 
@@ -72,13 +75,15 @@ class Thermal(Model):
 class Settings(Model):
     """Section `unbounded` of the configuration."""
 
-    tolerance: Annotated[Positive, Field(ge=1e-15, lt=1)]
     output_step: Positive
+    perturbation: Positive
+    seed: Annotated[Whole, Field(ge=0)]
     cases: Annotated[list[Name], Field(min_length=1), Distinct]
     varied: dict[Name, Varied]
     thermal: Thermal
     short: Size
     long: Size
+    needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""
@@ -112,20 +117,20 @@ class Settings(Model):
             if name not in self.names:
                 continue
             many = len(self.varied[name].values) if name in self.varied else 1
-            cost = self._cost(settings.problem(self.case_of(name)), one.end_time)
+            case = settings.problem(self.case_of(name))
+            cost = self._cost(self.problem(case, size, one.end_time))
             key = "end_time" if cost.seconds * many > one.members else "members"
             yield from settings.excess(f"{label}.runs.{name}.{key}", [cost], many * one.members)
         longest = max(size.maps.half_widths)
         for name, members in size.maps.members.items():
             case = settings.problem(settings.sweeps[name].case)
-            cost = self._cost(case, size.maps.end_time, longest)
+            cost = self._cost(self.map_problem(case, size), longest)
             key = "end_time" if cost.seconds > members else f"members.{name}"
             yield from settings.excess(f"{label}.maps.{key}", [cost], members)
 
-    def _cost(self, case: Mapping[str, Any], end_time: float, most: float = inf) -> Cost:
+    def _cost(self, problem: dict, most: float = inf) -> Cost:
         """Return what one run takes: the front moves at SPEED, half of its reach is the mean."""
-        reach = min(most, 0.5 * SPEED * abs(case["epsilon"]) * end_time)
-        problem = self.problem(case, end_time, self.output_step)
+        reach = min(most, 0.5 * SPEED * abs(problem["epsilon"]) * problem["end_time"])
         return estimate({**problem, "half_width": max(1.0, reach), "snapshot_every": 0})
 
     @property
@@ -137,18 +142,22 @@ class Settings(Model):
         """Return the case of the paper that an ensemble starts from."""
         return self.varied[name].case if name in self.varied else name
 
-    def problems(self, case: Mapping[str, Any], name: str, end_time: float) -> list[dict]:
+    def problems(self, case: Mapping[str, Any], name: str, size: Size) -> list[dict]:
         """Return the problems of an ensemble as plain values, one for each value that is varied.
 
         `case` is the case that it starts from, as plain values of a Problem.
         """
-        base = self.problem(case, end_time, self.output_step)
+        base = self.problem(case, size, size.runs[name].end_time)
         if name not in self.varied:
             return [base]
         varied = self.varied[name]
-        return [base | _change(varied.parameter, value) for value in varied.values]
+        return [base | _change(varied.parameter, value, size) for value in varied.values]
 
-    def problem(self, case: Mapping[str, Any], end_time: float, output_step: float) -> dict:
+    def map_problem(self, case: Mapping[str, Any], size: Size) -> dict:
+        """Return the case of a map over half-widths on a chain without ends."""
+        return self.problem(case, size, size.maps.end_time) | {"output_step": size.maps.output_step}
+
+    def problem(self, case: Mapping[str, Any], size: Size, end_time: float) -> dict:
         """Return a case on a chain without ends."""
         kept = {key: case[key] for key in ("epsilon", "gamma", "omega", "initial")}
         return {
@@ -156,18 +165,14 @@ class Settings(Model):
             "half_width": None,
             "boundary": "dirichlet",
             "end_time": end_time,
-            "output_step": output_step,
-            "solver": _dop853(self.tolerance),
+            "output_step": self.output_step,
+            "solver": size.solver.model_dump(),
         }
 
 
-def _change(parameter: str, value: float) -> dict:
+def _change(parameter: str, value: float, size: Size) -> dict:
     if parameter == "omega":
         return {"omega": value}
     if parameter == "amplitude":
         return {"initial": {0: (value, value / 5.0)}}
-    return {"solver": _dop853(value)}
-
-
-def _dop853(tolerance: float) -> dict:
-    return {"name": "dop853", "rtol": tolerance, "atol": tolerance}
+    return {"solver": {**size.solver.model_dump(), "rtol": value, "atol": value}}

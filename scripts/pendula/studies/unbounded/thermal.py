@@ -42,7 +42,7 @@ HOT, COLD = 1e-3, 1e5
 REACH = 25.0
 """The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
 
-DIGITS, DECIMALS = 7, 8
+DIGITS, DECIMALS = 7, 6
 LAST_DIGIT = float(f"1e-{DIGITS}")
 """Significant digits of what is published, and the decimals of densities."""
 
@@ -104,7 +104,7 @@ def _excess(constants, beta, grid, energy, vector=None) -> tuple[float, Operator
     return beta * (energy + quartic) - 2.0, operator, vector
 
 
-def _bisected(function: Callable[[float], float], halvings: int = 14) -> float:
+def _bisected(function: Callable[[float], float], halvings: int = 7) -> float:
     hot, cold = HOT, COLD
     if function(hot) > 0.0 or function(cold) < 0.0:
         raise ValueError("no thermal state between these temperatures has this energy")
@@ -121,7 +121,7 @@ def _refined(constants, beta, grid, energy, steps: int = 12):
     for _ in range(steps):
         before = excess
         excess, operator, vector = _excess(constants, beta, grid, energy, vector)
-        if abs(excess) < 1e-10:
+        if abs(excess) < 1e-8:
             return beta, operator, vector
         slope = (excess - before) / log(beta / old)
         old, beta = beta, beta * float(exp(np.clip(-excess / slope, -0.5, 0.5)))
@@ -238,11 +238,19 @@ def _characteristic(nodes: np.ndarray, chances: np.ndarray, k: np.ndarray) -> np
 HIGHEST_MODULUS, CELLS = 12.0, 80
 
 
-def thermal_variables(states: list[ThermalState], warm: list[ThermalState]) -> dict[str, Variable]:
-    """Return the states of zero energy, one for each Omega, and the `warm` ones over the energy."""
+def thermal_variables(
+    states: list[ThermalState], warm: list[ThermalState], density_nodes: int
+) -> dict[str, Variable]:
+    """Return the states of zero energy, one for each Omega, and the `warm` ones over the energy.
+
+    `density_nodes` are the half-nodes a coordinate from which densities are summed.
+    """
     cells, omega, energy = np.linspace(0.0, HIGHEST_MODULUS, CELLS + 1), "omega", "site_energy"
     # of 0 and -0 processors take either for the larger one, and a sum with zero has no sign
-    densities = [np.maximum(0.0, density_of(one, cells).round(DECIMALS)) + 0.0 for one in states]
+    densities = [
+        np.maximum(0.0, density_of(one, cells, density_nodes).round(DECIMALS)) + 0.0
+        for one in states
+    ]
     products = [products_of(state, LENGTH) for state in states]
     spectra = [rounded(spectrum_of(one), DIGITS - 1) for one in products]
     lengths = [correlation_length(one) for one in products]

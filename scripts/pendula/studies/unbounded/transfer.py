@@ -27,7 +27,7 @@ from pendula.problem import Constants
 TAIL = 1e-9
 """A grid ends where the density of a coordinate falls below this part of its largest value."""
 
-SETTLED = 1e-11
+SETTLED = 1e-9
 """The power iteration ends when the mean quartic energy changes by less than this part of it."""
 
 
