@@ -493,7 +493,7 @@ MANY = 12
 def full_run(baseline: Baseline) -> dict:
     """Return what the time of a full run went to, with and without kernels compiled before."""
     if not (measured := baseline.reproduction()):
-        return {}
+        return {"runs": []}
     full = {name: one for name, one in measured["runs"].items() if one["jobs"]}
     shares = {
         kind: [sum(told.get(kind, 0.0) for told in one["jobs"].values()) for one in full.values()]
@@ -508,19 +508,23 @@ def full_run(baseline: Baseline) -> dict:
         "runs": [
             {
                 "run": reproduction.RUNS[name],
-                **{key: number(one[key], 2) for key in ("wall", "processor")},
+                **{key: f"{one[key]:.0f}" for key in ("wall", "processor")},
             }
             for name, one in measured["runs"].items()
         ],
-        "columns": [reproduction.RUNS[name] for name in full],
+        "columns": [{"run": reproduction.RUNS[name]} for name in full],
         "kinds": [
-            {"kind": kind, "seconds": [f"{value:.1f}" for value in values]}
+            {"kind": kind, "in_runs": [{"seconds": f"{value:.1f}"} for value in values]}
             for kind, values in shares.items()
         ],
         "jobs": [
             {
                 "job": name,
-                **{kind: f"{jobs[name].get(kind, 0.0):.1f}" for kind in reproduction.KINDS},
+                **{
+                    kind.replace("-", "_"): f"{jobs[name].get(kind, 0.0):.1f}"
+                    for kind in reproduction.KINDS
+                    if kind != "imports"
+                },
                 "sum": f"{reproduction.spent(jobs[name]):.1f}",
             }
             for name in costliest
