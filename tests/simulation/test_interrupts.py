@@ -11,9 +11,9 @@ from oracle import SOLVERS as CONTROLS
 from pendula.integrators import INTERRUPTED
 from pendula.simulation import simulate as simulation
 from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE, pack
+from pendula.simulation.lattice import WHOLE, aligned, pack
 from pendula.simulation.observables import blank_record
-from pendula.simulation.simulate import IntegrationError, aligned, make_chain, simulate
+from pendula.simulation.simulate import IntegrationError, make_chain, simulate
 from pendula.simulation.solvers import SOLVERS
 from pendula.studies.chaos import tangent_dynamics
 from pendula.studies.unbounded import active_sites

@@ -31,8 +31,13 @@ TILE_WORK = 27
 WHOLE_WORK = 11
 """Work arrays of the size of a state beside them."""
 WORK = WHOLE_WORK + TILE_WORK
-"""Work arrays in all. Tiles of a long chain are shorter than it and leave most of theirs untouched,
-so that the system gives no memory to it."""
+"""Work arrays in all, where a state is its own only tile."""
+
+
+def work_arrays(sites: int) -> int:
+    """Return how many work arrays a state of so many sites needs if it may go in tiles."""
+    columns = tile_length.py_func(sites, count_tiles.py_func(sites)) + 2
+    return WHOLE_WORK + -(-TILE_WORK * columns // (sites + 2))
 
 
 # --- The stages ---------------------------------------------------------------------------------

@@ -10,6 +10,9 @@ import numpy as np
 
 from pendula.models.amplitudes import ENDS, FREE, MIRROR, PERIODIC
 
+CACHE_LINE = 64
+"""Bytes of a line of the cache."""
+
 
 class Reduction(NamedTuple):
     """What is integrated: half of the chain if `even`, one component if `synchronised`."""
@@ -60,3 +63,11 @@ def unfold(values: np.ndarray, reduction: Reduction) -> np.ndarray:
 def unpack(y: np.ndarray, reduction: Reduction) -> np.ndarray:
     """Return the complex amplitudes (2, N) of a state."""
     return unfold(y[0::2, 1:-1] + 1j * y[1::2, 1:-1], reduction)
+
+
+def aligned(shape: tuple[int, ...]) -> np.ndarray:
+    """Return zeros that start on a cache line: loads that cross lines cost a quarter more."""
+    count = int(np.prod(shape))
+    memory = np.zeros(count + CACHE_LINE // 8)
+    first = -memory.ctypes.data % CACHE_LINE // 8
+    return memory[first : first + count].reshape(shape)

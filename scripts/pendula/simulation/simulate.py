@@ -19,9 +19,6 @@ from .solvers import SOLVERS
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
 
-CACHE_LINE = 64
-"""Bytes of a line of the cache."""
-
 
 class IntegrationError(RuntimeError):
     """A run that could not reach its end time with the digits that were asked for."""
@@ -73,7 +70,7 @@ def integrate(
     record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
     controls = tuple(float(problem.solver[name]) for name in method.controls)
     chain = make_chain(problem.constants, problem.boundary, reduction)
-    work = aligned((method.work, *y.shape))
+    work = method.room_for(chain, y)
     outcome = call(method.run, chain, y, times, controls, work, record)
     if outcome.status != DONE:
         raise _stopped(problem, outcome.time, FAULTS[outcome.status])
@@ -87,14 +84,6 @@ def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Cha
     """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
     ends = choose_ends(boundary, reduction)
     return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
-
-
-def aligned(shape: tuple[int, ...]) -> np.ndarray:
-    """Return zeros that start on a cache line: loads that cross lines cost a quarter more."""
-    count = int(np.prod(shape))
-    memory = np.zeros(count + CACHE_LINE // 8)
-    first = -memory.ctypes.data % CACHE_LINE // 8
-    return memory[first : first + count].reshape(shape)
 
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:

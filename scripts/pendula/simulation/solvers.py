@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 from pendula.compiled import kernel
 from pendula.integrators import (
     crank_nicolson,
@@ -23,6 +25,7 @@ from pendula.models.amplitudes import (
 )
 from pendula.models.amplitudes_series import continue_series
 
+from .lattice import aligned
 from .observables import observe
 
 solve_ode45 = ode45.build(rates, observe)
@@ -70,11 +73,21 @@ def run_splitting(chain, y, times, controls, work, record, stop):
 
 
 class Solver(NamedTuple):
-    """A compiled run, the names of its controls in their order, and the number of work arrays."""
+    """A compiled run, the names of its controls in their order, and the number of work arrays.
+
+    `tiled` gives the smaller number of a chain of so many sites that may go in tiles.
+    """
 
     run: Callable
     controls: tuple[str, ...]
     work: int
+    tiled: Callable[[int], int] | None = None
+
+    def room_for(self, chain, y: np.ndarray) -> np.ndarray:
+        """Return the work arrays for a state (row, 1 + site) of `chain`."""
+        tiled = self.tiled and can_be_tiled.py_func(chain)
+        count = self.tiled(y.shape[1] - 2) if tiled else self.work
+        return aligned((count, *y.shape))
 
 
 ITERATED = "step", "tolerance", "iterations"
@@ -85,7 +98,7 @@ SOLVERS = {
     "crank_nicolson": Solver(run_crank_nicolson, ITERATED, crank_nicolson.WORK),
     "implicit_midpoint": Solver(run_implicit_midpoint, ITERATED, crank_nicolson.WORK),
     "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, delfour_fortin_payre.WORK),
-    "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK),
+    "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
     "splitting": Solver(run_splitting, ("step",), splitting.WORK),
 }

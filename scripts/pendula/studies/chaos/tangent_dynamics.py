@@ -17,8 +17,8 @@ from pendula.models.tangent import ROWS, bundle_rates
 from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
 from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE, Reduction, pack
-from pendula.simulation.simulate import IntegrationError, aligned, make_chain
+from pendula.simulation.lattice import WHOLE, Reduction, aligned, pack
+from pendula.simulation.simulate import IntegrationError, make_chain
 
 from .lopsided import lopsided_rates, odd_part
 

@@ -27,7 +27,7 @@ from pendula.problem import Constants, Problem, place
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, find_reduction, pack
 from pendula.simulation.observables import Record, blank_record
-from pendula.simulation.simulate import IntegrationError, aligned, make_chain
+from pendula.simulation.simulate import IntegrationError, make_chain
 from pendula.simulation.solvers import SOLVERS
 from pendula.sources import digest_of_modules
 
@@ -85,8 +85,8 @@ def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: 
     method = SOLVERS[solver["name"]]
     record = blank_record(state.shape[0] // 2, state.shape[1] - 2, len(times), 0)
     controls = tuple(float(solver[name]) for name in method.controls)
-    work = aligned((method.work, *state.shape))
     chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
+    work = method.room_for(chain, state)
     outcome = interruptible(method.run, chain, state, times, controls, work, record)
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]
