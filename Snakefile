@@ -32,6 +32,8 @@ FIGURES = [
     # Theorems 1 to 3: observed norms against their bounds
     "bounds",
     *CHAOS_FIGURES,
+    # What stays at one pair, which data reach it, and which spread
+    *("breathers", "sensitivity", "fates"),
     # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
     *("growth_law", "front", "window_map"),
 ]
@@ -104,6 +106,7 @@ include: "workflow/rules/unbounded.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/chaos.smk"
+include: "workflow/rules/breathers.smk"
 include: "workflow/rules/ledger.smk"
 include: "benchmarks/benchmarks.smk"
 include: "workflow/rules/baseline.smk"

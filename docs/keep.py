@@ -260,17 +260,18 @@ def main(results: Path, folder: Path = QUOTED) -> None:
             keep(results, folder)
 
 
-SECTIONS = ("cases", "sweeps", "solvers", "chaos", "theory", "unbounded")
+SECTIONS = ("cases", "sweeps", "solvers", "chaos", "theory", "breathers", "unbounded")
 """The sections of the configuration that claims rest on."""
 
 
 def configuration() -> dict:
-    """Return what config/*.yaml say of SECTIONS, but for the long study, which no claim reads."""
+    """Return what config/*.yaml say of SECTIONS, but for long studies, which no claim reads."""
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
-    del kept["unbounded"]["long"]
+    for long in (kept["unbounded"], kept["breathers"]["sensitivity"], kept["breathers"]["fates"]):
+        del long["long"]
     return kept
 
 

@@ -51,8 +51,18 @@ LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 RESULTS = Path("results").absolute()
-FOLDERS = ["checks", "claims", "code", "figure_diff", "figures", "kernels", "kept", "logs", "own"]
-FOLDERS += ["archive", "speed", "sweeps", "tables", "trajectories", "truth", "unbounded"]
+FOLDERS = ["archive", "breathers", "checks", "claims", "code", "figure_diff", "figures", "kernels"]
+FOLDERS += [
+    "kept",
+    "logs",
+    "own",
+    "speed",
+    "sweeps",
+    "tables",
+    "trajectories",
+    "truth",
+    "unbounded",
+]
 for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
     if path.is_file():
         stop(f"{path} is a file, and results need a folder of this name: move the file away")

@@ -61,6 +61,11 @@ def makers():
         "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
         "thermal": ["results/unbounded/thermal.nc"],
         "measure_growth": ["results/unbounded/growth.nc", "results/unbounded/front.nc"],
+        "steady_breathers": ["results/breathers/steady.nc"],
+        "periodic_breathers": ["results/breathers/periodic.nc"],
+        "growth_by_drive": ["results/breathers/growth.nc"],
+        "measure_sensitivity": ["results/breathers/sensitivity.nc"],
+        "map_fates": ["results/breathers/fates.nc"],
     }
     return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
 
@@ -237,6 +242,74 @@ def lifetime_params(given):
     }
 
 
+# Breathers.
+BREATHERS = ["steady", "periodic", "growth", "sensitivity"]
+
+
+def steady_params(given):
+    steady = given.steady
+    return {
+        "epsilon": given.epsilon,
+        "gamma": given.gamma,
+        "omegas": steady.omegas,
+        "half_width": steady.half_width,
+        "searched": steady.stability.between,
+        "distance": steady.stability.to,
+    }
+
+
+def periodic_params(given):
+    plain = given.periodic.model_dump()
+    return {"epsilon": given.epsilon, "gamma": given.gamma, **plain}
+
+
+def drive_params(given):
+    plain = given.growth.model_dump()
+    return {"epsilon": given.epsilon, **plain, "frequencies": given.growth.frequencies.values}
+
+
+def sensitivity_params(given, size):
+    (problem,) = followed([given.case], given.tolerance, "taylor", end_time=given.end_time).values()
+    size = given if size == "full" else given.long
+    return {
+        "name": given.case,
+        "problem": problem,
+        "sizes": given.sizes,
+        "members": size.members,
+        "seed": given.seed,
+        "amplitudes": size.scan.values,
+    }
+
+
+def data_of_cases():
+    """Return (A_0, B_0) of the paper's cases that have real data on one pair, by their Omega."""
+    found = {}
+    for case in PAPER_CASES:
+        problem = SETTINGS.problem(case)
+        (site, pair), *others = problem["initial"].items()
+        if not (others or site) and not any(complex(one).imag for one in pair):
+            found.setdefault(problem["omega"], []).append([complex(one).real for one in pair])
+    return found
+
+
+def long_breathers_figure(name):
+    kinds = {**FIGURE_KINDS, "data": "figure.nc"}
+    return {key: f"results/breathers/long/{name}.{kind}" for key, kind in kinds.items()}
+
+
+def fate_params(given, size):
+    like = {
+        "half_width": given.half_width,
+        "end_time": given.end_time,
+        "output_step": given.end_time,
+    }
+    (problem,) = followed(["fig4_small"], given.tolerance, "taylor", **like).values()
+    return {
+        "problems": {omega: {**problem, "omega": omega} for omega in given.omegas},
+        "amplitudes": given.amplitudes((given if size == "full" else given.long).points),
+    }
+
+
 # The report.
 # The code that makes the numbers; the report shows the hashes of their records.
 NUMBERS_BY = [
@@ -248,6 +321,9 @@ NUMBERS_BY = [
     "paper/measure_second_solver.py",
     *("unbounded/spread_case.py", "unbounded/map_windows.py", "unbounded/solve_thermal.py"),
     "unbounded/measure_growth.py",
+    *("breathers/find_steady.py", "breathers/find_periodic.py"),
+    *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
+    "breathers/map_fates.py",
 ]
 
 
@@ -290,7 +366,7 @@ def settings_in_words():
 CLAIMS_OF = {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],
     "solvers": ["paper/claims_regular", "paper/claims_solvers"],
-    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "unbounded")},
+    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "breathers", "unbounded")},
 }
 
 
@@ -319,6 +395,7 @@ def claims_need():
             *below(["sweeps/fig5_left", "sweeps/fig6_left"]),
             *checks("trust", *CHAOS_CHECKS),
         ],
+        "breathers": below(f"breathers/{name}" for name in BREATHERS),
         "unbounded": [
             *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
             *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),

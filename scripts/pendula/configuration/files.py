@@ -29,7 +29,7 @@ SURPRISES = {
 """Numbers that YAML reads otherwise than people do."""
 PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The tags of YAML that a configuration may have; others would make objects of programs."""
-WHOLE = ("initial", "lengths")
+WHOLE = ("initial", "lengths", "end_times", "between")
 """Keys of mappings that are one value: a later file replaces them, and adds nothing to them."""
 
 
@@ -186,7 +186,7 @@ def merge(below: Mapping, above: Mapping) -> dict:
     """Return one configuration laid over another: keys are added, values replaced.
 
     Mappings are merged key by key, but not those that are one value: initial data, lengths by
-    half-width, and the controls of another solver.
+    half-width, end times by gamma, intervals by family, and the controls of another solver.
     """
     found = dict(below)
     for key, value in above.items():

@@ -144,6 +144,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         return (*_keys(stem, *FINITE, "end_time"), *_solver(stem, solver))
     if folder == "sweeps":
         return _sweep(stem, solver)
+    if folder == "breathers":
+        return _breathers(rest)
     return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
 
 
@@ -183,6 +185,14 @@ def _unbounded(name: str) -> tuple[str, ...]:
     own = (f"unbounded.varied.{name}",) if varied else ()
     extent = ("unbounded.short.rest", f"unbounded.short.runs.{name}")
     return (*whole, *own, *extent, *_keys(varied["case"] if varied else name, *DATA))
+
+
+def _breathers(name: str) -> tuple[str, ...]:
+    """Return what a part of the study of breathers rests on, but for its longer variant."""
+    given = paper()["breathers"]
+    own = tuple(f"breathers.{name}.{key}" for key in given[name] if key != "long")
+    case = given[name].get("case")
+    return ("breathers.epsilon", "breathers.gamma", *own, *(_keys(case, *FINITE) if case else ()))
 
 
 def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:

@@ -15,52 +15,14 @@ from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
-from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import modulus, product
 from pendula.problem import Problem, name_window
+from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
 
 NORMS = ("l2", "linf")
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 TITLE = "Ensembles of the chaotic cases and sweeps, from almost equal data"
-
-
-def perturb(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (2, 2r + 1), each amplitude times 1 + size (x + iy) of Gaussian x and y.
-
-    Sites n and -n take the same factors, so that even data stay even.
-    """
-    reach = initial.shape[1] // 2
-    drawn = (reach + 1, 2)
-    factors = 1.0 + size * complex_normal(rng, drawn)
-    return product(initial, factors[np.abs(np.arange(-reach, reach + 1))].T)
-
-
-def perturb_unevenly(initial: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
-    """Return data (2, 2r + 3): each amplitude times 1 + size (x + iy), and neighbours not at rest.
-
-    Sites n and -n are perturbed independently. What is at rest, out to the sites beside the data,
-    gets size (x + iy) times the largest amplitude.
-    """
-    # ASSUME: what breaks evenness in an ordinary solver is the rounding of its first steps, when
-    # the excited site and its neighbours move and the rest of the chain is exactly at rest.
-    wider = np.pad(initial, ((0, 0), (1, 1)))
-    scale = np.where(wider == 0, modulus(initial).max(), modulus(wider))
-    return wider + size * scale * complex_normal(rng, wider.shape)
-
-
-PERTURBATIONS = {"even": perturb, "uneven": perturb_unevenly}
-"""The kinds of ensembles. The solution of even data is even, and its ensemble is that of even runs;
-an ordinary solver loses evenness by rounding, and what it draws is one of the uneven runs."""
-
-
-def draw_members(
-    problem: Problem, size: float, members: int, seed: int | list[int], kind: str = "even"
-) -> list[Problem]:
-    """Return as many copies of `problem` with perturbed data; `seed` is that of NumPy."""
-    rng, perturbed = np.random.default_rng(seed), PERTURBATIONS[kind]
-    return [problem.changed(initial=perturbed(problem.initial, size, rng)) for _ in range(members)]
 
 
 def run_members(

@@ -1,0 +1,1 @@
+"""Breathers: localised states that stay, and what they say of the paper's large case."""

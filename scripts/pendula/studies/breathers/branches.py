@@ -1,0 +1,117 @@
+"""Where families of steady states are born, turn and change their stability, as Omega changes.
+
+A family is followed along its own arc (pseudo-arclength continuation, H. B. Keller, in P. H.
+Rabinowitz (ed.), Applications of Bifurcation Theory (Academic Press, 1977), 359): the unknowns are
+the state and Omega, and the added equation keeps the step along the tangent. So a turning point in
+Omega is nothing special. An asymmetric family turns where it is born: beyond the pitchfork the
+same curve goes back with a and b exchanged. The pitchfork itself is found to all digits as the
+root of an eigenvalue on the symmetric family: that of exchange-odd perturbations, for which
+K of `steady` is epsilon D + Omega - 2 s + 3 u^2 / 2 from a = b, and of exchange-even ones, for
+which it is epsilon D + Omega + 3 u^2 / 2, from a = -b.
+"""
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .pairs import Family
+from .steady import (
+    ITERATIONS,
+    Chain,
+    NotFoundError,
+    continued,
+    growth,
+    operators,
+    residual,
+    second_difference,
+    squared_exponents,
+)
+
+ARC = 0.05
+"""Length of a step along a branch, in the largest norm of state and Omega."""
+ARC_STEPS = 400
+
+
+def follow(chain: Chain, s: float, state: np.ndarray, direction: float, stop: float) -> list:
+    """Return the points (Omega, state) of a branch from `state` on, until Omega is below `stop`.
+
+    The first step changes Omega to the side of `direction`.
+    """
+    points = [(chain.omega, state)]
+    slope = operators(chain, s, state, even=True)[1]
+    tangent = np.append(-np.linalg.solve(slope, state.ravel()), 1.0) * direction
+    for _ in range(ARC_STEPS):
+        tangent /= np.abs(tangent).max()
+        omega, state = _step(chain, s, *points[-1], tangent)
+        points.append((omega, state))
+        if omega < stop:
+            return points
+        last = points[-2]
+        tangent = np.append((state - last[1]).ravel(), omega - last[0])
+    raise NotFoundError(f"the branch does not end within {ARC_STEPS} steps from {chain}")
+
+
+def _step(chain: Chain, s: float, omega: float, state: np.ndarray, tangent: np.ndarray) -> tuple:
+    """Return the point of the branch one step along the tangent, by Newton's method."""
+    start = np.append(state.ravel(), omega)
+    point = start + ARC * tangent
+    for _ in range(ITERATIONS):
+        here = chain._replace(omega=float(point[-1]))
+        at = point[:-1].reshape(state.shape)
+        miss = np.append(residual(here, s, at).ravel(), tangent @ (point - start - ARC * tangent))
+        slope = np.block([
+            [operators(here, s, at, even=True)[1], at.reshape(-1, 1)],
+            [tangent[None, :-1], tangent[None, -1:]],
+        ])  # fmt: skip
+        change = np.linalg.solve(slope, miss)
+        point = point - change
+        if np.abs(change).max() <= 1e-12 * np.abs(point).max():
+            return float(point[-1]), point[:-1].reshape(state.shape)
+    raise NotFoundError(f"the branch is lost at {chain}")
+
+
+def turning_point(points: list) -> float:
+    """Return the largest Omega on a branch, by the parabola through the three highest points."""
+    omegas = np.array([omega for omega, _ in points])
+    top = int(np.clip(omegas.argmax(), 1, len(omegas) - 2))
+    before, at, after = omegas[top - 1 : top + 2]
+    return float(at + (after - before) ** 2 / (8.0 * (2.0 * at - before - after)))
+
+
+def exchange_eigenvalue(chain: Chain, parent: Family) -> float:
+    """Return the largest eigenvalue of K on the perturbations that break the parent's symmetry."""
+    s = parent.drive(chain.gamma)
+    state = continued(chain, parent)[0]
+    shift = -2.0 * s if parent.kind == "equal" else 0.0
+    linear = chain.epsilon * second_difference(len(state))
+    matrix = linear + np.diag(chain.omega + shift + 1.5 * state**2)
+    return float(np.linalg.eigvals(matrix).real.max())
+
+
+def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
+    """Return the Omega between `low` and `high` where an asymmetric family leaves its parent."""
+    return brentq(
+        lambda omega: exchange_eigenvalue(chain._replace(omega=omega), parent),
+        low,
+        high,
+        xtol=1e-13,
+    )
+
+
+def is_stable(chain: Chain, family: Family) -> bool:
+    """Return whether no perturbation of the family's state grows, even or odd."""
+    state, s = continued(chain, family), family.drive(chain.gamma)
+    return not any(growth(squared_exponents(chain, s, state, even)) for even in (True, False))
+
+
+def stable_below(chain: Chain, family: Family, low: float, high: float, digits: float) -> float:
+    """Return the Omega below which a family is stable, between `low` (stable) and `high`."""
+    if not is_stable(chain._replace(omega=low), family):
+        raise NotFoundError(f"{family.name} is not stable at {low:g}")
+    if is_stable(chain._replace(omega=high), family):
+        raise NotFoundError(f"{family.name} is stable at {high:g}")
+    while high - low > digits:
+        middle = 0.5 * (low + high)
+        low, high = (
+            (middle, high) if is_stable(chain._replace(omega=middle), family) else (low, middle)
+        )
+    return 0.5 * (low + high)

@@ -1,0 +1,208 @@
+"""What breathers say of the paper's conclusion and of its large case at Omega = -4."""
+
+import numpy as np
+
+from pendula.ledger.claim import FACTOR, Control, claim
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    UndecidableError,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+
+SECTION = 7
+PLACE = "Section 6, breathers"
+
+STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
+GROWTH, SENSITIVITY = "breathers/growth", "breathers/sensitivity"
+
+OF_PAPER = -4.0
+"""Omega of the paper's Fig 3."""
+DATA_POWER = 26.0
+"""P of the paper's large data, A_0 = 5 and B_0 = 1."""
+MAJORITY = Cutoff(0.5, '"most": more than half')
+FIRST_ORDER = Cutoff(0.1, "a law of first order holds up to a tenth where gamma is a tenth")
+
+
+def at_omega(dataset, omega: float):
+    """Return a dataset at one detuning, or say that it has no such one."""
+    if omega not in dataset["omega"].values:
+        raise UndecidableError(f"no breather was looked for at Omega = {omega:g}")
+    return dataset.sel(omega=omega)
+
+
+def with_rates_of(omega: float):
+    """Return what gives a dataset at the paper's Omega the rates of growth at another one."""
+
+    def changed(dataset):
+        here = dataset["omega"] == OF_PAPER
+        for name in ("growth", "growth_half"):
+            if name in dataset:
+                other = at_omega(dataset, omega)[name]
+                dataset = dataset.assign({name: dataset[name].where(~here, other)})
+        return dataset
+
+    return changed
+
+
+@claim(
+    PLACE,
+    "At the detuning of Fig 3 no steady state that is localised at one pair is stable.",
+    (STEADY,),
+    (Control("the rates of growth at Omega = -13", {STEADY: with_rates_of(-13.0)}),),
+)
+def steady_unstable(steady) -> Finding:
+    """Ask for a growing perturbation of each family, on a chain and on twice its half-width."""
+    here = at_omega(steady, OF_PAPER)
+    measured = {
+        "families": np.isfinite(here["power"]).sum(),
+        "largest_residual": here["residual"].max(),
+        "least_growth": here["growth"].min(),
+        "least_growth_half": here["growth_half"].min(),
+    }
+    criterion = AllOf(
+        AtLeast(1, "families"),
+        Above(0.0, "least_growth", "least_growth_half", says="least rate of growth on two chains"),
+    )
+    return judge(measured, criterion)
+
+
+def of_family(name: str):
+    """Return what puts another family in the place of the one with A alone."""
+    return lambda periodic: periodic.assign_coords(
+        family=[{"A only": name, name: "A only"}.get(str(one), str(one))
+                for one in periodic["family"].values]
+    )  # fmt: skip
+
+
+@claim(
+    PLACE,
+    "At the detuning of Fig 3 there are stable breathers, above the frequencies of linear waves.",
+    (PERIODIC,),
+    (Control("breathers with A = B in place of A alone", {PERIODIC: of_family("A = B")}),),
+)
+def periodic_stable(periodic) -> Finding:
+    """Ask it of the family in which A swings and B follows by the drive."""
+    here = at_omega(periodic, OF_PAPER).sel(family="A only")
+    power = here["power"].sum("component", skipna=False)
+    found = np.isfinite(power)
+    measured = {
+        "breathers": found.sum(),
+        "lowest_frequency": here["frequency"].where(found).min(),
+        "highest_frequency": here["frequency"].where(found).max(),
+        "largest_growth": here["growth"].max(),
+        "least_power": power.min(),
+    }
+    criterion = AllOf(AtLeast(1, "breathers"), AtMost(0.0, "largest_growth"))
+    return judge(measured, criterion, f"at {int(found.sum())} frequencies")
+
+
+@claim(
+    PLACE,
+    "The large data at Omega = -4 have less P than any breather of this family there.",
+    (PERIODIC,),
+    (Control("breathers at Omega = 8", {PERIODIC: lambda periodic: at_eight(periodic)}),),
+)
+def data_below_breathers(periodic) -> Finding:
+    """So they cannot end as one unless the drive feeds them."""
+    here = at_omega(periodic, OF_PAPER).sel(family="A only")
+    power = here["power"].sum("component", skipna=False)
+    measured = {"least_power": power.min(), "data": DATA_POWER}
+    return judge(measured, Above(DATA_POWER, "least_power", says="least P of a breather"))
+
+
+def at_eight(periodic):
+    """Return breathers at Omega = 8 under the name of the paper's Fig 3."""
+    return at_omega(periodic, 8.0).expand_dims(omega=[OF_PAPER])
+
+
+def with_slower_law(growth):
+    """Return the runs beside a law of half the rate."""
+    return growth.assign(predicted=0.5 * growth["predicted"])
+
+
+@claim(
+    PLACE,
+    "A localised motion in the band feeds on the drive by the law of weak drives, until it leaves.",
+    (GROWTH,),
+    (
+        Control("a law of half the rate", {GROWTH: with_slower_law}),
+        Control("runs and laws of exchanged drives", {GROWTH: lambda growth: exchanged(growth)}),
+    ),
+)
+def grows_by_drive(growth) -> Finding:
+    """Compare what runs with gamma of a tenth or less gain with the law, while it predicts gain."""
+    weak = growth.sel(gamma=growth["gamma"] <= 0.1)
+    if not weak.sizes["gamma"]:
+        raise UndecidableError("no drive of the runs is weak")
+    most = float(weak["predicted"].max())
+    middle = (weak["predicted"] > 0.25 * most) & (weak["predicted"] < 0.75 * most)
+    off = abs(weak["gained"] - weak["predicted"]).where(middle) / most
+    strong = growth.sel(gamma=growth["gamma"].max())
+    measured = {
+        "largest_difference": off.max(),
+        "drives": weak.sizes["gamma"],
+        "ends_at": (weak["gained"].isel(output=-1) / most).max(),
+        "strongest": growth["gamma"].max(),
+        "passed_by": float(strong["time"].where(strong["gained"] > most).min()),
+    }
+    criterion = AllOf(
+        Below(FIRST_ORDER, "largest_difference", says="largest difference over the whole gain"),
+        Below(FACTOR, "ends_at", says="gain at the end over that of the law"),
+    )
+    return judge(measured, criterion)
+
+
+def exchanged(growth):
+    """Return the runs with the laws of the drives in reverse order."""
+    return growth.assign(predicted=(growth["predicted"].dims, growth["predicted"].values[::-1]))
+
+
+def shuffled(sensitivity):
+    """Return the shares under sizes in reverse order."""
+    names = ("share", "share_low", "share_high")
+    return sensitivity.assign({name: (("size",), sensitivity[name].values[::-1]) for name in names})
+
+
+@claim(
+    "Section 5, Fig 3 lower and Fig 6 right",
+    "That the large data at Omega = -4 spread is an accident of their digits.",
+    (SENSITIVITY,),
+    (
+        Control("the shares of the sizes in reverse order", {SENSITIVITY: shuffled}),
+        Control(
+            "runs that spread whatever the change",
+            {SENSITIVITY: lambda given: given.assign(
+                {name: given[name] * 0.0 + 1.0 for name in ("share", "share_low", "share_high")}
+            )},
+        ),
+    ),
+    on=("fig3_large",),
+)  # fmt: skip
+def spreading_is_an_accident(sensitivity) -> Finding:
+    """Ask whether most runs spread from data within 1e-6, and most do not from data off by 1e-2."""
+    sizes = sensitivity["size"].values
+    small, large = sizes <= 1e-6, sizes >= 1e-2
+    if not (small.any() and large.any()):
+        raise UndecidableError("the changes of the data are not both below 1e-6 and above 1e-2")
+    measured = {
+        "small_at_least": sensitivity["share_low"].values[small].min(),
+        "large_at_most": sensitivity["share_high"].values[large].max(),
+        "scanned": sensitivity.sizes["initial"],
+        "of_the_scan": sensitivity["spread"].mean(),
+        "members": float(sensitivity.attrs["members"]),
+    }
+    criterion = AllOf(
+        Above(
+            MAJORITY, "small_at_least", says="lower limit of the share that spreads, small changes"
+        ),
+        Below(
+            MAJORITY, "large_at_most", says="upper limit of the share that spreads, large changes"
+        ),
+    )
+    return judge(measured, criterion)

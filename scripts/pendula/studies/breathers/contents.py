@@ -1,0 +1,285 @@
+"""The datasets of the study: what each variable holds, rounded where LAPACK decides last bits."""
+
+from collections.abc import Mapping, Sequence
+from math import log
+
+import numpy as np
+
+from pendula.datasets.checks import rounded
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
+from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, energy
+from pendula.problem import Constants, Problem, output_times
+
+from . import branches, driven_growth, fates, periodic, sensitivity, steady
+from .pairs import FAMILIES, pair
+
+PARTS = Variable(("part",), ["re", "im"])
+DIGITS, GROWTH_DIGITS = 11, 7
+"""Significant digits of states and of rates: rates come from roots of eigenvalues."""
+HAS_DECAYED = 1e-14
+"""How small the tail of a periodic breather must be at the end of its chain."""
+
+
+def energy_of(constants: Constants, state: np.ndarray) -> float:
+    """Return H of equation (8) of an even complex state, (component, site 0..M)."""
+    y = np.zeros((4, state.shape[1] + 2))
+    y[::2, 1:-1], y[1::2, 1:-1] = state.real, state.imag
+    chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
+    return float(energy(chain, y))
+
+
+def _kept(dimensions: tuple[str, ...], values, words: str, digits: int = DIGITS) -> Variable:
+    about = {"significant_digits": digits}
+    return Variable(dimensions, rounded(values, digits), words, attributes=about)
+
+
+# --- Steady states --------------------------------------------------------------------------------
+
+
+def steady_contents(
+    epsilon: float, gamma: float, omegas: Sequence[float], half_width: int,
+    searched: Mapping[str, Sequence[float]], digits: float,
+) -> Contents:  # fmt: skip
+    """Return all families at each Omega, where they are born, and where they are stable.
+
+    `searched` gives for a family the interval of Omega where its stability changes.
+    """
+    shape = (len(FAMILIES), len(omegas))
+    amplitude = np.full((2, 2, *shape), np.nan)
+    power, energies, rates, doubled, left = (np.full(shape, np.nan) for _ in range(5))
+    for i, family in enumerate(FAMILIES):
+        for j, omega in enumerate(omegas):
+            if pair(family, gamma, omega) is None:
+                continue
+            for half, found in ((half_width, rates), (2 * half_width, doubled)):
+                chain = steady.Chain(epsilon, gamma, omega, half)
+                s, state = family.drive(gamma), steady.continued(chain, family)
+                found[i, j] = max(
+                    steady.growth(steady.squared_exponents(chain, s, state, even))
+                    for even in (True, False)
+                )
+            turned = state * (1j if family.imaginary else 1.0)
+            amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
+            power[i, j] = steady.power(state).sum()
+            energies[i, j] = energy_of(Constants(epsilon=epsilon, gamma=gamma, omega=omega), turned)
+            left[i, j] = np.abs(steady.residual(chain, s, state)).max()
+    over = ("family", "omega")
+    variables = {
+        "part": PARTS,
+        "component": COMPONENTS,
+        "family": Variable(("family",), [one.name for one in FAMILIES], "family of steady states"),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "amplitude": _kept(("part", "component", *over), amplitude, "amplitude on site 0"),
+        "power": _kept(over, power, "P, the sum of |A|^2 + |B|^2"),
+        "energy": _kept(over, energies, "conserved energy H of equation (8)"),
+        "growth": _kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
+        "growth_half": _kept(
+            over, rates, "largest rate of growth on half of the half-width", GROWTH_DIGITS
+        ),
+        "residual": _kept(over, left, "largest residual of the equations of a steady state", 1),
+        **_births(epsilon, gamma, half_width),
+        **_thresholds(epsilon, gamma, half_width, searched, digits),
+    }
+    about = {"epsilon": epsilon, "gamma": gamma, "half_width": 2 * half_width}
+    return variables, {"title": "Steady states localised at one pair", **about}
+
+
+def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable]:
+    """Return the Omega of the two pitchforks, by the eigenvalue, and by the arc of the daughter."""
+    found, arcs, names = [], [], []
+    for daughter, parent in ((FAMILIES[2], FAMILIES[1]), (FAMILIES[4], FAMILIES[3])):
+        highest = -gamma if parent.kind == "equal" else -3.0 * gamma
+        chain = steady.Chain(epsilon, gamma, highest - gamma, half_width)
+        # coupling moves the pitchfork from that of one pair towards the end of the parent
+        found.append(branches.pitchfork(chain, parent, highest, highest + 0.9 * gamma))
+        s, state = daughter.drive(gamma), steady.continued(chain, daughter)
+        points = branches.follow(chain, s, state, 1.0, stop=highest - gamma)
+        arcs.append(branches.turning_point(points))
+        names.append(daughter.name)
+    return {
+        "born_family": Variable(("born_family",), names, "family born in a pitchfork"),
+        "pitchfork": _kept(("born_family",), found, "Omega of the pitchfork", 8),
+        "turning_point": _kept(
+            ("born_family",), arcs, "Omega where the family turns, from its arc", 6
+        ),
+    }
+
+
+def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Variable]:
+    """Return the Omega below which families are stable, on the chain and on twice as long a one."""
+    named = {family.name: family for family in FAMILIES}
+    found = [
+        [
+            branches.stable_below(
+                steady.Chain(epsilon, gamma, 0.0, half), named[name], *ends, digits
+            )
+            for half in (half_width, 2 * half_width)
+        ]
+        for name, ends in searched.items()
+    ]
+    kept = max(1, int(-log(digits, 10)) + 2)
+    return {
+        "stable_family": Variable(("stable_family",), list(searched), "family that can be stable"),
+        "chain_half_width": Variable(
+            ("chain_half_width",), [half_width, 2 * half_width], "half-width"
+        ),
+        "stable_below": _kept(
+            ("stable_family", "chain_half_width"),
+            found,
+            "Omega below which a family is stable",
+            kept,
+        ),
+    }
+
+
+# --- Periodic breathers ---------------------------------------------------------------------------
+
+
+def periodic_contents(
+    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
+    half_widths: Mapping[str, int],
+) -> Contents:  # fmt: skip
+    """Return the three families at each Omega and frequency; NaN where a family does not exist.
+
+    `half_widths` has the least and the most that a chain may have.
+    """
+    families, shape = periodic.FAMILIES, (len(periodic.FAMILIES), len(omegas), len(frequencies))
+    amplitude, power = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
+    energies, away = np.full(shape, np.nan), np.full(shape[1:], np.nan)
+    rates, nearest = np.full((2, *shape), np.nan), np.full((2, *shape), np.nan)
+    for j, omega in enumerate(omegas):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        away[j] = [periodic.distance_from_bands(constants, one) for one in frequencies]
+        for i, family in enumerate(families):
+            for breather in periodic.family_of(constants, family, frequencies, half_widths):
+                k = list(frequencies).index(breather.frequency)
+                amplitude[0, :, i, j, k], amplitude[1, :, i, j, k] = breather.data[:, 0], 0.0
+                power[:, i, j, k] = steady.power(breather.data)
+                energies[i, j, k] = energy_of(constants, breather.data.astype(complex))
+                for p, traces in enumerate(periodic.half_traces(breather).values()):
+                    rates[p, i, j, k] = periodic.growth(breather.frequency, traces)
+                    nearest[p, i, j, k] = np.abs(traces).max()
+    over = ("family", "omega", "frequency")
+    variables = {
+        "part": PARTS,
+        "component": COMPONENTS,
+        "parity": Variable(("parity",), ["even", "odd"], "parity of the perturbation in n"),
+        "family": Variable(("family",), list(families), "family of periodic breathers"),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "frequency": Variable(
+            ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
+        ),
+        "amplitude": _kept(
+            ("part", "component", *over), amplitude, "amplitude on site 0 when both are real"
+        ),
+        "power": _kept(("component", *over), power, "sum of the squared moduli when both are real"),
+        "energy": _kept(over, energies, "conserved energy H of equation (8)"),
+        "growth": _kept(
+            over, rates.max(axis=0), "largest rate of growth of a perturbation", GROWTH_DIGITS
+        ),
+        "parity_growth": _kept(
+            ("parity", *over), rates, "largest rate of growth by parity", GROWTH_DIGITS
+        ),
+        "distance": Variable(
+            ("omega", "frequency"), away, "distance of the odd multiples of lambda from the bands"
+        ),
+    }
+    about = {"epsilon": epsilon, "gamma": gamma}
+    return variables, {"title": "Periodic breathers localised at one pair", **about}
+
+
+# --- Sensitivity, fates and growth ----------------------------------------------------------------
+
+
+def sensitivity_contents(
+    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
+    amplitudes: np.ndarray, ratio: float,
+) -> Contents:  # fmt: skip
+    """Return the share that spreads by the size of a change, and what each A_0 leads to."""
+    share = sensitivity.shares(problem, sizes, members, seed)
+    largest, spread = sensitivity.scan(problem, amplitudes, ratio)
+    said = "share of runs that spread"
+    variables = {
+        "size": Variable(
+            ("size",), np.array(sizes), "relative size of a random change of the data"
+        ),
+        "share": Variable(("size",), share.value, said),
+        "share_low": Variable(("size",), share.low, f"{said}, lower confidence limit"),
+        "share_high": Variable(("size",), share.high, f"{said}, upper confidence limit"),
+        "initial": Variable(("initial",), amplitudes, "initial amplitude A_0 of the centre"),
+        "largest_l2": Variable(("initial",), largest, "largest l2 norm of A and B together"),
+        "spread": Variable(
+            ("initial",), spread.astype(np.int8), "1 if the run has spread at its end"
+        ),
+    }
+    described = describe_run(name, problem, problem.solver)
+    about = {"members": members, "seed": seed, "ratio": ratio}
+    return variables, {"title": f"Which data close to those of {name} spread", **described, **about}
+
+
+def fates_contents(problems: Mapping[float, Problem], amplitudes: np.ndarray) -> Contents:
+    """Return the fate of each (A_0, B_0) at each detuning."""
+    found = [fates.map_of_fates(problem, amplitudes) for problem in problems.values()]
+    variables = {
+        "omega": Variable(("omega",), np.array(list(problems))),
+        "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
+        "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
+        "fate": Variable(
+            ("omega", "a0", "b0"), np.array(found), "fate of the data",
+            attributes={"flag_values": np.arange(len(fates.FATES), dtype=np.int8),
+                        "flag_meanings": " ".join(fates.FATES)},
+        ),
+    }  # fmt: skip
+    (one, *_) = problems.values()
+    described = describe_run("pairs", one, one.solver)
+    about = {
+        key: value for key, value in described.items() if key not in ("omega", "initial", "case")
+    }
+    return variables, {"title": "What becomes of data on one pair", **about}
+
+
+def growth_contents(
+    epsilon: float, omega: float, end_times: Mapping[float, float], frequencies: Sequence[float],
+    start: float, half_widths: Mapping[str, int], outputs: int, tolerance: float,
+) -> Contents:  # fmt: skip
+    """Return what a free breather gains from each drive, by runs and by the law of weak drives.
+
+    `end_times` is by gamma; `half_widths` those of the `profile` and the `chain`.
+    """
+    free = Constants(epsilon=epsilon, gamma=1.0, omega=omega)
+    family = driven_growth.free_breathers(free, frequencies, half_widths["profile"])
+    first = int(np.argmin([abs(one.frequency - start) for one in family]))
+    times, found, predicted = [], [], []
+    for gamma, end in end_times.items():
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        tau = output_times(end, end / outputs)
+        times.append(tau)
+        found.append(
+            driven_growth.gained(constants, family[first], half_widths["chain"], tau, tolerance)
+        )
+        law = driven_growth.predicted(constants, family, first, tau)
+        predicted.append(law - law[0])
+    grid, over = ("gamma", "output"), ("frequency",)
+    variables = {
+        "gamma": Variable(("gamma",), np.array(list(end_times))),
+        "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
+        "gained": Variable(grid, np.array(found), "sum of |B|^2, which the breather gains as well"),
+        "predicted": _kept(grid, predicted, "the same by the law of weak drives", 9),
+        "frequency": Variable(over, [one.frequency for one in family], "frequency lambda"),
+        "free_power": _kept(over, [one.power for one in family], "P of the breather without drive"),
+        "rate": _kept(
+            over,
+            [driven_growth.rate(free, one) for one in family],
+            "rate of growth of P by the law, over gamma^2",
+            9,
+        ),
+        "own_rate": _kept(
+            over,
+            [driven_growth.own_radiation(free, one) for one in family],
+            "rate at which A radiates its own image, over gamma^2",
+            9,
+        ),
+    }
+    about = {"epsilon": epsilon, "omega": omega, "start_frequency": start, "tolerance": tolerance}
+    return variables, {"title": "How the drive feeds a localised motion", **about}

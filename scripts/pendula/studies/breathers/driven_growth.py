@@ -1,0 +1,121 @@
+"""How a localised motion feeds on the drive: the law of weak drives, and where it stops.
+
+Let A_n = a_n exp(-i lambda tau), B = 0 be a breather of the chain without drive, real and even in
+n. To first order in gamma the drive acts on B by gamma conj A, at the frequency -lambda. B_n = b_n
+exp(i lambda tau) obeys
+
+    epsilon (b_{n+1} - 2 b_n + b_{n-1}) + (Omega + lambda) b_n = -gamma a_n.
+
+If lambda + Omega = 4 epsilon sin^2(k / 2) with 0 < k < pi, -lambda is the frequency of a linear
+wave of wave number k, and B is radiated: outgoing waves have the amplitude
+
+    |b| = gamma |sum_n a_n cos(k n)| / (2 epsilon sin k)
+
+on both sides and travel at 2 epsilon sin k, so that
+
+    dP_B / dtau = gamma^2 (sum_n a_n cos(k n))^2 / (epsilon sin k).                          (G)
+
+P_A gains as much: the term of the drive that joins A and B changes P_A and P_B alike, by
+2 gamma Im sum conj A_n conj B_n, since it makes quanta in pairs, one at lambda and one at -lambda.
+The breather grows, lambda rises with P_A, and this ends where lambda leaves the band, at |Omega| +
+4 epsilon for Omega < 0. A's own image radiates too, but |a_0|^2 keeps it away from the centre: its
+rate is that of `own_radiation`, less than a hundredth of (G).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.numerics.elementary import cos, sin
+from pendula.problem import Constants, Problem
+from pendula.simulation.simulate import simulate
+
+from .periodic import shoot, single_site
+from .steady import power, second_difference
+
+
+class FreeBreather(NamedTuple):
+    """A breather of A alone without drive: its frequency, profile on the sites 0..M, and P."""
+
+    frequency: float
+    profile: np.ndarray
+    power: float
+
+
+def free_breathers(constants: Constants, frequencies, half_width: int) -> list[FreeBreather]:
+    """Return the breathers of A alone for gamma = 0 at rising frequencies."""
+    free = Constants(epsilon=constants.epsilon, gamma=0.0, omega=constants.omega)
+    found, data = [], None
+    for frequency in sorted(frequencies, reverse=True):
+        if data is None:
+            data = single_site(free, frequency, "A only", half_width)
+            data[1] = 0.0
+        data = shoot(free, frequency, data).data
+        found.append(FreeBreather(frequency, data[0], float(power(data).sum())))
+    return found[::-1]
+
+
+def wave_number(constants: Constants, frequency: float) -> float | None:
+    """Return k of the linear wave at the frequency -lambda, or None where there is none."""
+    share = (frequency + constants.omega) / (4.0 * constants.epsilon)
+    return float(2.0 * np.arcsin(np.sqrt(share))) if 0.0 < share < 1.0 else None
+
+
+def rate(constants: Constants, breather: FreeBreather) -> float:
+    """Return the right side of (G); zero outside the band."""
+    k = wave_number(constants, breather.frequency)
+    if k is None:
+        return 0.0
+    n = np.arange(breather.profile.size)
+    source = 2.0 * np.sum(breather.profile * cos(k * n)) - breather.profile[0]
+    return float(constants.gamma**2 * source**2 / (constants.epsilon * sin(k)))
+
+
+def own_radiation(constants: Constants, breather: FreeBreather) -> float:
+    """Return the rate at which A radiates its own image, in the potential of the breather."""
+    k = wave_number(constants, breather.frequency)
+    if k is None:
+        return 0.0
+    a = breather.profile
+    matrix = constants.epsilon * second_difference(a.size).astype(complex)
+    matrix += np.diag(constants.omega + breather.frequency + a * a)
+    matrix[-1, -1] += constants.epsilon * np.exp(-1j * k)  # outgoing beyond the last site
+    wave = np.linalg.solve(matrix, constants.gamma * a.astype(complex))[-1]
+    return float(4.0 * constants.epsilon * np.sin(k) * abs(wave) ** 2)
+
+
+def predicted(
+    constants: Constants, family: list[FreeBreather], start: int, times: np.ndarray
+) -> np.ndarray:
+    """Return P of the breather by the law (G) at `times`, from the member `start` of a family.
+
+    The frequency follows from P along the free family. Since dtau = dP / rate(P), time is a sum
+    over the family; beyond the last member P stays.
+    """
+    powers = np.array([one.power for one in family[start:]])
+    rates = np.array([rate(constants, one) for one in family[start:]])
+    slow = np.flatnonzero(rates <= 0.0)
+    powers, rates = (one[: slow[0] if slow.size else None] for one in (powers, rates))
+    spans = np.diff(powers) * 0.5 * (1.0 / rates[1:] + 1.0 / rates[:-1])
+    return np.interp(times, np.append(0.0, np.cumsum(spans)), powers)
+
+
+def gained(
+    constants: Constants, breather: FreeBreather, half_width: int, times: np.ndarray,
+    tolerance: float,
+) -> np.ndarray:  # fmt: skip
+    """Return the sum of |B_n|^2 at equally spaced `times`, (time,).
+
+    The drive is switched on at tau = 0 on a breather of the chain without drive, whose B is zero.
+    """
+    a = breather.profile
+    data = np.zeros((2, 2 * a.size - 1), complex)
+    data[0] = np.concatenate([a[:0:-1], a])
+    run = simulate(
+        Problem(
+            constants=constants, half_width=half_width, boundary="dirichlet", initial=data,
+            end_time=float(times[-1]), output_step=float(times[1]),
+            solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
+        )
+    )  # fmt: skip
+    return run.l2[1] ** 2

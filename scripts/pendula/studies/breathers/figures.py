@@ -1,0 +1,179 @@
+"""Breathers in pictures: families and their growth, sensitivity to data, the map of fates."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pendula.drawing import style
+
+FAMILY_LOOKS = {
+    "A only": (style.RED, "o", "A alone, B driven"),
+    "A = -B": (style.BLUE, "s", "A = \N{MINUS SIGN}B"),
+    "A = B": ("#16876b", "^", "A = B"),
+}
+FATE_LOOKS = {
+    "disperses": ("#d9d9d9", "disperses"),
+    "breather": (style.BLUE, "stays as a breather"),
+    "moves": ("#e0a100", "moves away"),
+    "spreads": (style.RED, "spreads"),
+}
+DRIVES = ("#a9bbe0", "#e0a100", "#16876b", style.BLUE, style.RED)
+
+
+# --- Families -------------------------------------------------------------------------------------
+
+
+def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset, bands: list[float]) -> xr.Dataset:
+    """Return P and growth of periodic breathers, and what the drive feeds, as they are drawn.
+
+    `bands` are the highest frequencies of linear waves, one for each Omega.
+    """
+    drawn = xr.Dataset(
+        {
+            "total_power": periodic["power"].sum("component", skipna=False),
+            "unstable": (periodic["growth"] > 0).astype(np.int8),
+            "highest_wave": ("omega", bands),
+            **{name: growth[name] for name in ("time", "gained", "predicted")},
+        }
+    )
+    described = {
+        "total_power": "P of the breather",
+        "unstable": "1 if a perturbation grows",
+        "highest_wave": "highest frequency of linear waves",
+    }
+    for name, words in described.items():
+        drawn[name].attrs = {"long_name": words, "units": "1"}
+    return drawn
+
+
+@style.styled
+def draw_breathers(data: xr.Dataset) -> Figure:
+    """Draw P against the frequency for each family and Omega; beside it, growth by the drive."""
+    figure = style.new_figure(style.DOUBLE, 2.6)
+    panels = figure.subplots(1, data.sizes["omega"] + 1)
+    for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
+        _draw_families(axes, data.sel(omega=omega))
+        axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
+    _draw_growth(panels[-1], data)
+    panels[-1].set_title(f"({'abcdef'[len(panels) - 1]}) growth by the drive", loc="left")
+    shown = [
+        Line2D([], [], color=colour, marker=marker, markersize=4, label=words)
+        for colour, marker, words in FAMILY_LOOKS.values()
+    ]
+    shown.append(
+        Line2D([], [], color="0.3", marker="o", markerfacecolor="white", ls=":", markersize=4,
+               label="unstable")
+    )  # fmt: skip
+    figure.legend(handles=shown, loc="outside upper center", ncols=4)
+    return figure
+
+
+def _draw_families(axes: Axes, data: xr.Dataset) -> None:
+    frequency, edge = data["frequency"].values, float(data["highest_wave"])
+    for family, (colour, marker, _) in FAMILY_LOOKS.items():
+        power = data["total_power"].sel(family=family).values
+        grows = data["unstable"].sel(family=family).values == 1
+        axes.plot(frequency, power, color=colour, lw=0.8, ls=":" if grows.all() else "-")
+        for some, face in ((grows, "white"), (~grows, colour)):
+            axes.plot(
+                frequency[some], power[some], color=colour, marker=marker, markersize=3.5,
+                linestyle="none", markerfacecolor=face,
+            )  # fmt: skip
+    axes.axvspan(0.0, edge, color="0.88", lw=0)
+    axes.set_xlim(edge - 1.5, 1.03 * frequency.max())
+    axes.set_ylim(0, None)
+    axes.text(edge - 0.3, 0.5, "linear waves", rotation=90, ha="right", va="bottom",
+              transform=axes.get_xaxis_transform(), fontsize=6.5, color="0.35")  # fmt: skip
+    axes.set_xlabel(r"frequency $\lambda$")
+    axes.set_ylabel("$P$")
+
+
+def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
+    for colour, gamma in zip(DRIVES, data["gamma"].values, strict=False):
+        run = data.sel(gamma=gamma).isel(output=slice(1, None))
+        look = {"color": colour, "lw": 0.9}
+        axes.plot(run["time"], run["gained"], label=rf"$\gamma = {gamma:g}$", **look)
+        axes.plot(run["time"], run["predicted"], ls="--", **look)
+    most = float(data["predicted"].max())
+    axes.plot([], [], color="0.3", lw=0.9, ls="--", label="law")
+    axes.set_xscale("log")
+    axes.set_ylim(0, 2.8 * most)
+    axes.set_xlabel(r"$\tau$")
+    axes.set_ylabel(r"$\|B\|^2$, gained by $A$ too")
+    axes.legend(fontsize=6.5, loc="upper left", ncols=2, handlelength=1.4, columnspacing=0.8)
+
+
+# --- Sensitivity ----------------------------------------------------------------------------------
+
+SENSITIVITY = ("share", "share_low", "share_high", "largest_l2", "spread")
+
+
+def gather_sensitivity(sensitivity: xr.Dataset) -> xr.Dataset:
+    """Return the shares that spread, and the scan of amplitudes, as they are drawn."""
+    return sensitivity[list(SENSITIVITY)]
+
+
+@style.styled
+def draw_sensitivity(data: xr.Dataset) -> Figure:
+    """Draw the share that spreads against the size of a change, and the largest norm by A_0."""
+    figure = style.new_figure(style.DOUBLE, 2.5)
+    shares, scan = figure.subplots(1, 2, width_ratios=(1, 1.4))
+    value = data["share"].values
+    bars = [value - data["share_low"].values, data["share_high"].values - value]
+    shares.errorbar(data["size"].values, value, bars, color=style.BLUE, marker="o", markersize=3.5,
+                    elinewidth=0.8, capsize=2)  # fmt: skip
+    shares.set_xscale("log")
+    shares.set_ylim(-0.03, 1.05)
+    shares.set_xlabel("relative change of the data")
+    shares.set_ylabel("share of runs that spread")
+    shares.set_title("(a) random changes", loc="left")
+    for spread, colour, label in ((0, style.BLUE, "stays"), (1, style.RED, "spreads")):
+        some = data["spread"].values == spread
+        scan.plot(
+            data["initial"].values[some], data["largest_l2"].values[some], color=colour,
+            marker="o^"[spread], markersize=3, linestyle="none", label=label,
+        )  # fmt: skip
+    scan.set_xlabel("initial amplitude $A_0$")
+    scan.set_ylabel(r"largest $l^2$ norm of $A$ and $B$")
+    scan.set_ylim(0, None)
+    scan.set_title("(b) a scan of amplitudes", loc="left")
+    scan.legend(loc="upper right")
+    return figure
+
+
+# --- Fates ----------------------------------------------------------------------------------------
+
+
+def gather_fates(fates: xr.Dataset) -> xr.Dataset:
+    """Return the map of fates as it is drawn."""
+    return fates[["fate"]]
+
+
+@style.styled
+def draw_fates(data: xr.Dataset, marked: dict[float, list[tuple[float, float]]]) -> Figure:
+    """Draw the fate of each (A_0, B_0), a panel for each Omega; `marked` has the paper's data."""
+    figure = style.new_figure(style.DOUBLE, 3.1)
+    colours = ListedColormap([colour for colour, _ in FATE_LOOKS.values()])
+    panels = figure.subplots(1, data.sizes["omega"], sharey=True, squeeze=False)[0]
+    for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
+        fate = data["fate"].sel(omega=omega)
+        axes.pcolormesh(
+            data["a0"].values, data["b0"].values, fate.transpose("b0", "a0").values,
+            cmap=colours, vmin=-0.5, vmax=len(FATE_LOOKS) - 0.5, shading="nearest",
+            rasterized=True,
+        )  # fmt: skip
+        for a, b in marked.get(float(omega), []):
+            axes.plot(a, b, marker="o", markersize=5, markerfacecolor="white", color="black")
+        axes.set(box_aspect=1, xlim=(0, data["a0"][-1]), ylim=(0, data["b0"][-1]))
+        axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
+        axes.set_xlabel("$A_0$")
+    panels[0].set_ylabel("$B_0$")
+    shown = [Patch(color=colour, label=words) for colour, words in FATE_LOOKS.values()]
+    paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
+                   color="black", label="the paper's data")  # fmt: skip
+    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5)
+    return figure

@@ -1,0 +1,72 @@
+"""The flow of (4) and of its small perturbations over a quarter of a period, by fixed steps.
+
+The steps are those of the method of order eight in `integrators.dop853`. A fixed number of them
+makes the map from data to end a smooth function, as Newton's method wants it: a controlled step
+would change with the data.
+"""
+
+import numpy as np
+
+from pendula.compiled import copy, kernel
+from pendula.integrators.dop853 import combine
+from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, close, rates
+from pendula.models.tangent import ROWS, write_tangent_rates
+from pendula.problem import Constants
+from pendula.simulation.simulate import aligned
+
+STEP = 0.006
+"""Units of tau of one step. With half of it the results of the study stay the same to 1e-12."""
+STAGES, SLOPES = 13, 16
+
+
+@kernel
+def parity_rates(chain, bundle, even, slopes):
+    """Write the rates of a solution, of `even` even perturbations and of odd ones behind them.
+
+    All live on the sites 0..M. The neighbour of site 0 on the other half is the mirror image of
+    site 1: with its own sign in an even state, with the other in an odd one, which stays zero at 0.
+    """
+    y = bundle[:ROWS]
+    rates(chain, y, slopes[:ROWS])
+    for first in range(ROWS, bundle.shape[0], ROWS):
+        w = bundle[first : first + ROWS]
+        close(chain, w)
+        if first > ROWS * even:
+            for row in range(ROWS):
+                w[row, 0] = -w[row, 2]
+        write_tangent_rates(chain, (y, w), slopes[first : first + ROWS])
+
+
+@kernel
+def carry(chain, bundle, even, duration, steps, work):
+    """Carry a bundle over `duration` in equal steps; `work` holds SLOPES + 1 bundles."""
+    h = duration / steps
+    y, k, w = bundle.reshape(-1), work[:SLOPES].reshape(SLOPES, -1), work[SLOPES]
+    for _ in range(steps):
+        parity_rates(chain, bundle, even, work[0])
+        for stage in range(2, STAGES + 1):
+            combine(stage, y, h, k, w.reshape(-1))
+            if stage < STAGES:
+                parity_rates(chain, w, even, work[stage - 1])
+        copy(w, bundle)
+
+
+def flow(
+    constants: Constants, state: np.ndarray, evens: np.ndarray, odds: np.ndarray, duration: float
+) -> np.ndarray:
+    """Return where data and their perturbations are after `duration`.
+
+    `state` is (4, M + 1): Re A, Im A, Re B, Im B on the sites 0..M of an even chain at rest beyond
+    its ends; `evens` and `odds` are (vector, 4, M + 1), the latter zero at site 0. The result
+    has all of them in this order, (1 + vectors, 4, M + 1).
+    """
+    parts = np.concatenate([state[None], evens, odds])
+    bundle = aligned((ROWS * len(parts), state.shape[1] + 2))
+    bundle[:] = 0.0
+    bundle[:, 1:-1] = parts.reshape(-1, state.shape[1])
+    chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
+    steps = max(1, int(np.ceil(duration / STEP)))
+    work = aligned((SLOPES + 1, *bundle.shape))
+    work[:] = 0.0
+    carry(chain, bundle, len(evens), duration, steps, work)
+    return bundle[:, 1:-1].reshape(parts.shape).copy()

@@ -1,0 +1,147 @@
+"""The report's part on breathers: families, growth by the drive, sensitivity, and fates."""
+
+from typing import Any
+
+import numpy as np
+
+from pendula.ledger.section import Ledger
+from pendula.report.page import Picture
+from pendula.report.results import Results, Section
+from pendula.report.words import number, percent, span, symbols
+
+from .fates import FATES, SPREADS
+
+STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
+GROWTH, SENSITIVITY, MAP = "breathers/growth", "breathers/sensitivity", "breathers/fates"
+
+
+def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return the families as tables, and what runs show, in words."""
+    return {
+        "steady_head": ["family", *(f"Ω = {omega:g}" for omega in _omegas(results))],
+        "steady": [_steady_row(results, str(name)) for name in results[STEADY]["family"].values],
+        "born": [_birth(results, i) for i in range(results[STEADY].sizes["born_family"])],
+        "thresholds": [
+            _threshold(results, str(name)) for name in results[STEADY]["stable_family"].values
+        ],
+        "families": [_family(results, float(omega), str(family))
+                     for omega in results[PERIODIC]["omega"].values
+                     for family in results[PERIODIC]["family"].values],
+        "families_head": ["Ω", "family", "P at the lowest frequency", "least P", "unstable at"],
+        "frequencies": results.say(PERIODIC, _span(results[PERIODIC]["frequency"].values)),
+        "growth": _growth(results),
+        "sensitivity": _sensitivity(results),
+        "fates_head": ["Ω", *FATES],
+        "fates": [_fates(results, float(omega)) for omega in results[MAP]["omega"].values],
+        "points": results.quote(MAP, results[MAP]["fate"][0].size, 6),
+        "pictures": _pictures(results),
+    }  # fmt: skip
+
+
+def _omegas(results: Results) -> list[float]:
+    return [float(omega) for omega in results[STEADY]["omega"].values]
+
+
+def _span(values: np.ndarray) -> str:
+    return f"{number(float(values.min()))} to {number(float(values.max()))}"
+
+
+def _steady_row(results: Results, family: str) -> list:
+    """Return the rates of growth of a family; "stable" where none is positive."""
+    rates = results[STEADY]["growth"].sel(family=family).values
+    cells = ["none" if np.isnan(r) else number(float(r)) if r else "stable" for r in rates]
+    return [symbols(family), *(results.say(STEADY, cell) for cell in cells)]
+
+
+def _birth(results: Results, index: int) -> dict[str, Any]:
+    one = results[STEADY].isel(born_family=index)
+    return {
+        "family": str(one["born_family"].item()),
+        "omega": results.quote(STEADY, float(one["pitchfork"]), 6),
+    }
+
+
+def _threshold(results: Results, family: str) -> dict[str, Any]:
+    below = results[STEADY]["stable_below"].sel(stable_family=family).values
+    return {"family": symbols(family), "omega": results.quote(STEADY, float(below[-1]), 4)}
+
+
+def _family(results: Results, omega: float, family: str) -> list:
+    one = results[PERIODIC].sel(omega=omega, family=family)
+    power, frequency = one["power"].sum("component", skipna=False).values, one["frequency"].values
+    found = np.flatnonzero(np.isfinite(power))
+    if not found.size:
+        return [number(omega), symbols(family), "none", "none", "none"]
+    lowest = found[frequency[found].argmin()]
+    unstable = frequency[one["growth"].values > 0]
+    said = "no frequency" if not unstable.size else f"λ of {_span(unstable)}"
+    return [
+        number(omega),
+        symbols(family),
+        results.quote(PERIODIC, float(power[lowest])),
+        results.quote(PERIODIC, float(np.nanmin(power))),
+        results.say(PERIODIC, said),
+    ]
+
+
+def _growth(results: Results) -> dict[str, Any]:
+    growth = results[GROWTH]
+    law = float(growth["predicted"].max())
+    strong = growth.sel(gamma=growth["gamma"].max())
+    passed = strong["time"].where(strong["gained"] > law).min()
+    return {
+        "start": results.quote(GROWTH, growth.attrs["start_frequency"]),
+        "drives": results.say(GROWTH, span(growth["gamma"].values, 2)),
+        "law": results.quote(GROWTH, law),
+        "strongest": results.quote(GROWTH, float(strong["gamma"])),
+        "passed": results.quote_time(GROWTH, float(passed)),
+    }
+
+
+def _sensitivity(results: Results) -> dict[str, Any]:
+    data = results[SENSITIVITY]
+    rows = [
+        [
+            number(float(size)),
+            *(
+                results.say(SENSITIVITY, percent(float(data[f"share{end}"].sel(size=size))))
+                for end in ("", "_low", "_high")
+            ),
+        ]
+        for size in data["size"].values
+    ]
+    return {
+        "rows": rows,
+        "head": ["relative change of the data", "share that spreads", "at least", "at most"],
+        "members": results.quote(SENSITIVITY, float(data.attrs["members"])),
+        "scanned": results.quote(SENSITIVITY, data.sizes["initial"]),
+        "spread": results.quote(SENSITIVITY, int(data["spread"].sum())),
+        "range": results.say(SENSITIVITY, _span(data["initial"].values)),
+        "paper": not results.apart("breathers/sensitivity"),
+    }
+
+
+def _fates(results: Results, omega: float) -> list:
+    fate = results[MAP]["fate"].sel(omega=omega).values
+    shares = (percent(float((fate == kind).mean())) for kind in range(len(FATES)))
+    return [number(omega), *(results.say(MAP, share) for share in shares)]
+
+
+def _pictures(results: Results) -> dict[str, Picture]:
+    power = results[PERIODIC]["power"].sum("component", skipna=False)
+    spread = (results[MAP]["fate"] == SPREADS).mean(("a0", "b0"))
+    said = "; ".join(
+        f"Ω = {float(omega):g}: {percent(float(spread.sel(omega=omega)))} spread"
+        for omega in spread["omega"].values
+    )
+    described = {
+        "breathers": f"P against the frequency for {power.sizes['family']} families, and what a "
+        "localised motion gains from the drive beside the law of weak drives.",
+        "sensitivity": "The share of runs that spread against the size of a random change of the "
+        "data, and the largest norm against the initial amplitude.",
+        "fates": f"What becomes of data on one pair, by their amplitudes. {said}.",
+    }
+    return {name: results.picture(name, alt) for name, alt in described.items()}
+
+
+SECTIONS = (Section("breathers", "Breathers, and why some data spread", gather),)

@@ -1,0 +1,166 @@
+"""What the configuration says of breathers: constants, grids, members, seeds."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from pendula.configuration.cost import estimate
+from pendula.configuration.schema import Configuration, Faults
+from pendula.configuration.values import Distinct, Model, Name, Positive, Whole
+
+from .pairs import FAMILIES
+
+Count = Annotated[Whole, Field(ge=1)]
+Seed = Annotated[Whole, Field(ge=0)]
+Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
+Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
+
+
+class Steps(Model):
+    """Equally spaced values, both ends included."""
+
+    first: Positive
+    last: Positive
+    step: Positive
+
+    @property
+    def values(self) -> list[float]:
+        """The values, each rounded to twelve digits."""
+        count = round((self.last - self.first) / self.step)
+        return [float(f"{self.first + i * self.step:.12g}") for i in range(count + 1)]
+
+
+class Stability(Model):
+    """Where families of steady states turn stable: the interval searched, and to what distance."""
+
+    between: dict[str, tuple[Number, Number]]
+    to: Positive
+
+
+class Steady(Model):
+    """Steady states."""
+
+    omegas: Numbers
+    half_width: Annotated[Whole, Field(ge=4)]
+    stability: Stability
+
+
+class HalfWidths(Model):
+    """The least and the largest half-width of the chain of a periodic breather."""
+
+    least: Annotated[Whole, Field(ge=2)]
+    most: Count
+
+
+class Periodic(Model):
+    """Periodic breathers."""
+
+    omegas: Numbers
+    frequencies: Positives
+    half_widths: HalfWidths
+
+
+class GrowthWidths(Model):
+    """Half-widths of the free breather and of the driven chain."""
+
+    profile: Annotated[Whole, Field(ge=2)]
+    chain: Count
+
+
+class Growth(Model):
+    """How the drive feeds a localised motion."""
+
+    omega: Number
+    start: Positive
+    frequencies: Steps
+    end_times: Annotated[dict[Positive, Positive], Field(min_length=1)]
+    half_widths: GrowthWidths
+    outputs: Annotated[Whole, Field(ge=2)]
+    tolerance: Tolerance
+
+
+class LongSensitivity(Model):
+    """Its longer study."""
+
+    members: Count
+    scan: Steps
+
+
+class Sensitivity(Model):
+    """Which of almost equal data spread."""
+
+    case: Name
+    end_time: Positive
+    sizes: Positives
+    members: Count
+    scan: Steps
+    long: LongSensitivity
+    tolerance: Tolerance
+    seed: Seed
+
+
+class LongFates(Model):
+    """Its longer study."""
+
+    points: Count
+
+
+class Fates(Model):
+    """What becomes of data on one pair."""
+
+    omegas: Numbers
+    half_width: Count
+    end_time: Positive
+    largest: Positive
+    points: Count
+    long: LongFates
+    tolerance: Tolerance
+
+    def amplitudes(self, points: int) -> list[float]:
+        """Return so many equally spaced amplitudes up to the largest; zero is none of them."""
+        return [float(f"{one:.12g}") for one in self.largest * np.arange(1, points + 1) / points]
+
+
+class Settings(Model):
+    """Section `breathers` of the configuration."""
+
+    epsilon: Positive
+    gamma: Positive
+    steady: Steady
+    periodic: Periodic
+    growth: Growth
+    sensitivity: Sensitivity
+    fates: Fates
+
+    def faults(self, settings: Configuration) -> Faults:
+        """Yield what does not fit the families and cases, or takes too long."""
+        names = [family.name for family in FAMILIES]
+        for name, (low, high) in self.steady.stability.between.items():
+            if name not in names:
+                yield f"steady.stability.between.{name}", f"is none of {', '.join(names)}"
+            elif not low < high:
+                yield (
+                    f"steady.stability.between.{name}",
+                    f"[{low:g}, {high:g}] does not run forward",
+                )
+        if self.periodic.half_widths.least > self.periodic.half_widths.most:
+            yield "periodic.half_widths.least", "is larger than `most`"
+        for key, steps in (
+            ("growth.frequencies", self.growth.frequencies),
+            ("sensitivity.scan", self.sensitivity.scan),
+            ("sensitivity.long.scan", self.sensitivity.long.scan),
+        ):
+            if not steps.first < steps.last:
+                yield key, f"does not run forward from {steps.first:g} to {steps.last:g}"
+        absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
+        yield from absent
+        if not absent:
+            given = self.sensitivity
+            one = [estimate(settings.problem(given.case, end_time=given.end_time))]
+            runs = given.members * len(given.sizes)
+            yield from settings.excess("sensitivity.members", one, runs)
+            runs = len(self.fates.omegas) * self.fates.points**2
+            yield from settings.excess("fates.points", one, runs)

@@ -1,0 +1,69 @@
+"""The law of weak drives against runs, and where it ends."""
+
+import numpy as np
+import pytest
+from pendula.problem import Constants
+from pendula.studies.breathers.driven_growth import (
+    free_breathers,
+    gained,
+    own_radiation,
+    predicted,
+    rate,
+    wave_number,
+)
+
+FREE = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
+
+
+@pytest.fixture(scope="module")
+def family():
+    return free_breathers(FREE, np.arange(5.0, 8.3, 0.1), 20)
+
+
+def test_free_breathers_have_no_b_and_more_power_at_higher_frequency(family):
+    powers = [one.power for one in family]
+    assert np.all(np.diff(powers) > 0.0)
+    # far from the neighbours |a_0|^2 / 2 = lambda - Omega + 2 epsilon
+    assert family[-1].profile[0] ** 2 == pytest.approx(2.0 * (family[-1].frequency + 6.0), rel=0.02)
+
+
+@pytest.mark.parametrize(("frequency", "k"), [(4.0, None), (6.0, np.pi / 2.0), (8.0, None)])
+def test_the_image_is_a_wave_within_the_band(frequency, k):
+    assert wave_number(FREE, frequency) == (None if k is None else pytest.approx(k))
+
+
+def test_the_rate_of_one_site_is_that_of_the_closed_form(family):
+    """A profile on one site radiates gamma^2 a^2 / (epsilon sin k)."""
+    one = family[10]._replace(profile=np.append(2.0, np.zeros(20)))
+    strong = Constants(epsilon=1.0, gamma=0.3, omega=-4.0)
+    k = wave_number(FREE, one.frequency)
+    assert rate(strong, one) == pytest.approx(0.09 * 4.0 / np.sin(k))
+
+
+def test_beyond_the_band_nothing_is_radiated(family):
+    assert family[-1].frequency > 8.0
+    assert rate(FREE, family[-1]) == own_radiation(FREE, family[-1]) == 0.0
+
+
+def test_the_own_image_of_a_is_shut_out(family):
+    assert 0.0 < own_radiation(FREE, family[0]) < 0.01 * rate(FREE, family[0])
+
+
+def test_a_weak_drive_feeds_by_the_law(family):
+    """The error falls with gamma: the law is of first order."""
+    off = []
+    for gamma in (0.2, 0.1):
+        driven = Constants(epsilon=1.0, gamma=gamma, omega=-4.0)
+        times = np.linspace(0.0, 0.16 / gamma**2, 41)
+        law = predicted(driven, family, 0, times)
+        run = gained(driven, family[0], 80, times, 1e-10)
+        off.append(np.abs(run - (law - law[0])).max() / (law[-1] - law[0]))
+    assert off[1] < 0.04
+    assert off[1] < 0.75 * off[0]
+
+
+def test_the_law_ends_at_the_edge_of_the_band(family):
+    law = predicted(FREE, family, 0, np.array([0.0, 0.05, 1.0, 2.0]))
+    inside = [one.power for one in family if one.frequency < 8.0]
+    assert law[0] == family[0].power
+    assert law[0] < law[1] < law[2] == law[3] == inside[-1]

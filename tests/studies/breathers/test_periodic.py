@@ -1,0 +1,173 @@
+"""Periodic breathers: periods by an independent solver, multipliers, laws, and what has none."""
+
+import numpy as np
+import pytest
+from pendula.problem import Constants, Problem
+from pendula.simulation.simulate import simulate
+from pendula.studies.breathers.periodic import (
+    FAMILIES,
+    Breather,
+    bands,
+    distance_from_bands,
+    growth,
+    half_traces,
+    shoot,
+    single_site,
+)
+from pendula.studies.breathers.steady import NotFoundError
+
+BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
+ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
+M = 20
+
+
+@pytest.fixture(scope="module")
+def found():
+    """Return a breather of each family at the frequency 12, by detuning and family."""
+    return {
+        (constants.omega, family): shoot(constants, 12.0, single_site(constants, 12.0, family, M))
+        for constants in (BELOW, ABOVE)
+        for family in FAMILIES
+    }
+
+
+def problem_of(breather: Breather, end_time: float, change=0.0) -> Problem:
+    half = breather.data + change
+    whole = np.concatenate([half[:, :0:-1], half], axis=1).astype(complex)
+    solver = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}
+    return Problem(
+        constants=breather.constants, half_width=M, boundary="dirichlet", initial=whole,
+        end_time=end_time, output_step=end_time, solver=solver,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("omega", [-4.0, 8.0])
+def test_the_period_closes_by_the_taylor_method(found, omega, family):
+    breather = found[omega, family]
+    period = 4.0 * breather.quarter
+    run = simulate(problem_of(breather, period))
+    start = np.concatenate([breather.data[:, :0:-1], breather.data], axis=1)
+    assert np.abs(run.final - start).max() < 1e-11
+
+
+def test_half_a_period_turns_the_sign(found):
+    breather = found[-4.0, "A only"]
+    run = simulate(problem_of(breather, 2.0 * breather.quarter))
+    assert np.abs(run.final[:, M:] + breather.data).max() < 1e-11
+
+
+@pytest.mark.parametrize("omega", [-4.0, 8.0])
+def test_families_keep_their_symmetries(found, omega):
+    for family, sign in (("A = B", 1.0), ("A = -B", -1.0)):
+        a, b = found[omega, family].data
+        assert np.abs(a - sign * b).max() < 1e-12
+    a, b = found[omega, "A only"].data
+    assert 0.0 < np.abs(b).max() < 0.3 * np.abs(a).max()
+
+
+def test_equal_amplitudes_do_not_feel_the_drive(found):
+    free = Constants(epsilon=1.0, gamma=0.0, omega=-4.0)
+    alone = shoot(free, 12.0, single_site(free, 12.0, "A = B", M))
+    assert np.abs(alone.data - found[-4.0, "A = B"].data).max() < 1e-12
+
+
+def test_one_pair_without_drive_has_the_closed_form():
+    pair = Constants(epsilon=0.0, gamma=0.0, omega=-4.0)
+    data = shoot(pair, 12.0, single_site(pair, 12.0, "A = B", 2)).data
+    assert data[:, 0] == pytest.approx(np.sqrt(2.0 * 16.0), abs=1e-12)
+
+
+def multipliers_by_differences(breather: Breather, size=1e-6) -> np.ndarray:
+    """Return the multipliers over a period from runs with changed data: even perturbations."""
+    sites = breather.data.shape[1]
+    columns = []
+    for index in range(4 * sites):
+        ends = []
+        for sign in (1.0, -1.0):
+            change = np.zeros((2, 2, sites))
+            change.reshape(-1)[index] = sign * size
+            run = simulate(problem_of(breather, 4.0 * breather.quarter, change[0] + 1j * change[1]))
+            ends.append(run.final[:, M:])
+        moved = (ends[0] - ends[1]) / (2.0 * size)
+        columns.append(np.stack([moved.real, moved.imag]).ravel())
+    return np.linalg.eigvals(np.array(columns).T)
+
+
+def test_multipliers_are_those_of_the_flow():
+    """All even multipliers of an unstable breather, from differences of the nonlinear flow."""
+    short = Constants(epsilon=0.3, gamma=1.0, omega=8.0)
+    breather = shoot(short, 10.0, single_site(short, 10.0, "A = B", M))
+    rate = growth(10.0, half_traces(breather)["even"])
+    slow = np.abs(multipliers_by_differences(breather)).max()
+    assert rate > 0.3
+    assert np.log(slow) / (4.0 * breather.quarter) == pytest.approx(rate, rel=1e-6)
+
+
+def test_a_growing_perturbation_grows_in_the_nonlinear_flow_at_the_rate_of_floquet(found):
+    breather = found[-4.0, "A = B"]
+    rate = growth(12.0, half_traces(breather)["even"])
+    change = np.zeros((2, M + 1))
+    change[:, 0] = (1e-9, -1e-9)  # out of A = B, where the drive acts
+    sizes = []
+    for periods in (8, 16):
+        run = simulate(problem_of(breather, periods * 4.0 * breather.quarter, change))
+        sizes.append(np.abs(run.final[0] - run.final[1]).max())
+    measured = np.log(sizes[1] / sizes[0]) / (8 * 4.0 * breather.quarter)
+    assert measured == pytest.approx(rate, rel=1e-3)
+
+
+@pytest.mark.parametrize("family", ["A only", "A = -B"])
+def test_a_stable_breather_stays(found, family):
+    breather = found[-4.0, family]
+    traces = half_traces(breather)
+    assert growth(12.0, traces["even"]) == growth(12.0, traces["odd"]) == 0.0
+    periods = 100
+    start = np.concatenate([breather.data[:, :0:-1], breather.data], axis=1)
+    run = simulate(problem_of(breather, periods * 4.0 * breather.quarter, 1e-6))
+    # the phase drifts in proportion to time, so that moduli are compared
+    assert np.abs(np.abs(run.final) - np.abs(start)).max() < 1e-3
+
+
+def test_the_shift_in_time_has_the_multiplier_one(found):
+    for breather in found.values():
+        nearest = np.abs(half_traces(breather)["even"] - 1.0).min()
+        assert nearest == 0.0
+
+
+def test_growth_of_traces():
+    assert growth(2.0, np.array([0.3 + 0j, -1.0, 1.0])) == 0.0
+    # mu = -e^x over half a period pi / 2
+    assert growth(2.0, np.array([-np.cosh(0.2) + 0j])) == pytest.approx(0.4 / np.pi)
+    # a quartet e^(x + i y)
+    assert growth(2.0, np.array([np.cosh(0.2 + 0.7j)])) == pytest.approx(0.4 / np.pi)
+
+
+@pytest.mark.parametrize(
+    ("constants", "expected"),
+    [
+        (BELOW, [(4.0, 8.0), (12.0**0.5, 60.0**0.5)]),
+        (ABOVE, [(4.0, 8.0), (12.0**0.5, 60.0**0.5)]),
+        (Constants(epsilon=1.0, gamma=1.0, omega=1.0), [(0.0, 3.0), (0.0, 5.0**0.5)]),
+    ],
+)
+def test_bands_of_linear_waves(constants, expected):
+    assert np.array(bands(constants)) == pytest.approx(np.array(expected))
+
+
+@pytest.mark.parametrize(("frequency", "distance"), [
+    (8.5, 0.5), (12.0, 4.0), (5.0, 0.0), (2.0, 0.0), (2.8, 0.4), (1.0, 0.0),
+])  # fmt: skip
+def test_odd_multiples_may_meet_a_band(frequency, distance):
+    """2.8 lies below the band, 8.4 above it; 3 times 2 lies within, as does 5 times 1."""
+    assert distance_from_bands(BELOW, frequency) == pytest.approx(distance)
+
+
+def test_a_frequency_below_the_chain_has_no_single_site():
+    with pytest.raises(NotFoundError):
+        single_site(ABOVE, 5.0, "A only", M)
+
+
+def test_shooting_from_nowhere_is_refused():
+    with pytest.raises(NotFoundError):
+        shoot(BELOW, 12.0, np.full((2, M + 1), 30.0))
