@@ -112,6 +112,8 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
 
+LARGEST_RATIO = 1.5
+"""Of a frequency and the next one, between which Newton's method does not lose a family."""
 DECAY = 34.0
 """A tail falls by this exponent before the chain ends: to 2e-15 of the centre."""
 
@@ -127,17 +129,24 @@ def family_of(constants: Constants, family: str, frequencies, half_widths: Mappi
 
     Each starts from the one before. A frequency whose odd multiples meet a band has no breather.
     """
-    data = None
-    for frequency in sorted(frequencies, reverse=True):
-        if distance_from_bands(constants, frequency) == 0.0:
-            return
-        half_width = half_width_for(constants, frequency, **half_widths)
-        if data is None:
-            data = single_site(constants, frequency, family, half_width)
-        data = np.pad(data, ((0, 0), (0, max(0, half_width + 1 - data.shape[1]))))
-        breather = shoot(constants, frequency, data)
-        data = breather.data
+    wanted = sorted(frequencies, reverse=True)
+    half_width = half_width_for(constants, wanted[0], **half_widths)
+    data = single_site(constants, wanted[0], family, half_width)
+    for before, frequency in zip([wanted[0], *wanted], wanted, strict=False):
+        for step in _between(before, frequency):
+            if distance_from_bands(constants, step) == 0.0:
+                return
+            half_width = half_width_for(constants, step, **half_widths)
+            data = np.pad(data, ((0, 0), (0, max(0, half_width + 1 - data.shape[1]))))
+            breather = shoot(constants, step, data)
+            data = breather.data
         yield breather
+
+
+def _between(start: float, end: float) -> list[float]:
+    """Return frequencies after `start` down to `end`, so close that each leads to the next."""
+    count = max(1, int(np.ceil(np.log(start / end) / np.log(LARGEST_RATIO))))
+    return [start + (end - start) * k / count for k in range(1, count)] + [end]
 
 
 def half_traces(breather: Breather) -> dict[str, np.ndarray]:
