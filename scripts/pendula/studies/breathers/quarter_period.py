@@ -12,7 +12,7 @@ from pendula.integrators.dop853 import combine
 from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, close, rates
 from pendula.models.tangent import ROWS, write_tangent_rates
 from pendula.problem import Constants
-from pendula.simulation.simulate import aligned
+from pendula.simulation.lattice import aligned
 
 STEP = 0.006
 """Units of tau of one step. With half of it the results of the study stay the same to 1e-12."""
