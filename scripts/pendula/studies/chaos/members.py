@@ -15,10 +15,9 @@ from pendula.measures.confidence import student
 from pendula.measures.levels import correlation
 from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem, name_window
+from pendula.simulation.ensembles import PERTURBATIONS, draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, pair_l2, pair_linf
-
-from .ensembles import PERTURBATIONS, draw_members
 
 REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
