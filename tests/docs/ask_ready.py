@@ -9,7 +9,7 @@ import os
 import sys
 from pathlib import Path
 
-BESIDE = Path(__file__).absolute().parents[3]
+BESIDE = Path(__file__).resolve().parents[3]
 """The folder of the clone, which is beside the two pipes."""
 
 if __name__ == "__main__":

@@ -17,6 +17,9 @@ NAME = f"pendula-{__version__}"
 ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     "bounds",
+    "breathers",
+    "draw_fates",
+    "draw_sensitivity",
     "chaos_figures",
     "ensembles",
     "lifetimes",

@@ -45,7 +45,7 @@ def test_a_new_omega_reaches_the_sweep_of_its_case(finished, clone):
 
 
 def test_the_plot_style_reruns_plots_only(finished, clone):
-    edit(clone / "scripts/pendula/drawing/style.py", '"figure.dpi": 300', '"figure.dpi": 200')
+    edit(clone / "scripts/pendula/drawing/style.py", '"font.size": 8', '"font.size": 9')
     jobs = planned(clone, finished)
     assert set(jobs) & SIMULATIONS == set() and jobs.keys() >= PLOTS
 
