@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import yaml
 from pendula.archive.contents import code_files
-from snakemake.utils import update_config
+from pendula.configuration.files import merge
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 HERE = Path(__file__).parent
@@ -110,8 +110,8 @@ def _take_quick_configuration(folder: Path) -> None:
     for path in sorted(folder.glob("*.yaml")):
         settings = yaml.safe_load(path.read_text())
         if path.name != "quick.yaml":
-            update_config(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
-            path.write_text(yaml.safe_dump(settings, sort_keys=False))
+            merged = merge(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
+            path.write_text(yaml.safe_dump(merged, sort_keys=False))
 
 
 def _share_packages(venv: Path) -> None:

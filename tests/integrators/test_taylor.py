@@ -16,7 +16,7 @@ TIGHT = {"name": "taylor", "rtol": 1e-13, "atol": 1e-13}
 
 
 def describe(y, work):
-    """Return the series of states like `y`, made by Python: a kernel returns no view of an array."""
+    """Return the series of states like `y`, laid out by Python: no kernel returns a view."""
     return lay_out.py_func(work, y)
 
 

@@ -44,7 +44,10 @@ class Warm:
         self.scripts.mkdir(parents=True)
         self.name = f"pendula-test-{secrets.token_hex(8)}"
         self.environment = environment
+        # as its jobs below: a shell lets what it starts in the background ignore Ctrl-C
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.process = warm._serve(self.name, environment, ["json"])
+        signal.signal(signal.SIGINT, before)
         warm._tell(self.process, list(modules), folder / "imports.log")
 
     def start(self, body: str, asked=True, **changes) -> subprocess.Popen:
