@@ -75,7 +75,7 @@ def test_a_fault_is_named_with_its_place_and_the_nearest_key(place, value, words
 
 def test_every_check_of_the_theory_has_arguments_and_a_group():
     names = [name for group in GROUPS.values() for name in group]
-    assert sorted([*names, "wrong"]) == sorted(type(chosen("theory")).model_fields)
+    assert sorted([*names, "needs", "wrong"]) == sorted(type(chosen("theory")).model_fields)
 
 
 def test_what_the_chains_without_ends_run_is_said_for_the_full_run_and_the_long_study():

@@ -14,7 +14,8 @@ if OPTIONS["bits"] not in (None, "any"):
 def everything():
     """Return each file that a full run makes or needs and whose content is settled by its inputs.
 
-    The report is left out, which holds the times of the run, and so are logs and records of code.
+    The report is left out, which holds the times of the run, and so are logs, records of code, and
+    the parts of the ledger, which claims.json joins.
     """
     made = {
         *rules.all.input,
