@@ -74,6 +74,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         chaos,
         ensembles,
         lifetimes,
+        breathers,
         unbounded,
         theory,
         references,
@@ -298,6 +299,38 @@ def lifetimes(baseline: Baseline) -> dict:
         "coarse_drift": number(coarse["choice_drift"], 1),
         "coarse_rate": number(coarse["choice_rate"], 2),
         "compared": number(lives["compared_amplitude"]),
+    }
+
+
+def breathers(baseline: Baseline) -> dict:
+    """Return what the claims on breathers measured, and the shares of runs that spread."""
+    rows = {row["name"]: row["measured"] for row in baseline.claims()}
+    growth, spread = baseline["breathers/growth"], baseline["breathers/sensitivity"]
+    law, scanned = rows["grows_by_drive"], spread["initial"].values
+    return {
+        "omega": number(spread.attrs["omega"]),
+        "least_power": number(rows["data_below_breathers"]["least_power"]),
+        "weak": number(growth["gamma"].min()),
+        "off": percent(law["largest_difference"]),
+        "strong": number(law["strongest"]),
+        "passed": number(law["passed_by"]),
+        "scanned": str(len(scanned)),
+        "spread": str(int(spread["spread"].sum())),
+        "first": number(scanned.min()),
+        "last": number(scanned.max()),
+        "step": number(scanned[1] - scanned[0]),
+        "end": number(spread.attrs["end_time"]),
+        "members": str(int(spread.attrs["members"])),
+        "rows": [
+            {
+                "size": number(size),
+                "share": percent(spread["share"].sel(size=size)),
+                "limits": " to ".join(
+                    percent(spread[f"share_{end}"].sel(size=size)) for end in ("low", "high")
+                ),
+            }
+            for size in spread["size"].values
+        ],
     }
 
 

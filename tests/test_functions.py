@@ -26,6 +26,28 @@ ALLOWED = {
     ("measures/confidence.py", "scipy.special"): "quantiles and chances are rounded to six digits",
     ("studies/unbounded/thermal.py", "scipy.special"): "the density is rounded to its digits",
     ("studies/unbounded/thermal.py", "@"): "the density is rounded to its digits",
+    (
+        "studies/breathers/steady.py",
+        "numpy.linalg",
+    ): "states and rates are rounded before they are stored",
+    ("studies/breathers/steady.py", "@"): "rates are rounded before they are stored",
+    (
+        "studies/breathers/branches.py",
+        "numpy.linalg",
+    ): "what is found is rounded before it is stored",
+    (
+        "studies/breathers/branches.py",
+        "scipy.optimize",
+    ): "what is found is rounded before it is stored",
+    (
+        "studies/breathers/periodic.py",
+        "numpy.linalg",
+    ): "states and rates are rounded before they are stored",
+    ("studies/breathers/periodic.py", "@"): "rates are rounded before they are stored",
+    (
+        "studies/breathers/driven_growth.py",
+        "numpy.linalg",
+    ): "the rate is rounded before it is stored",
     ("configuration/cost.py", "**"): "what a run will take is an estimate that is told to people",
     ("numerics/elementary.py", "**"): "powers of Decimal, by its own arithmetic",
     ("numerics/quadrature.py", "**"): "powers of Fraction, which are exact",

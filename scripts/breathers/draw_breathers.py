@@ -4,7 +4,7 @@ from pendula.datasets.netcdf import read
 from pendula.drawing.style import save
 from pendula.problem import Constants
 from pendula.studies.breathers.figures import draw_breathers, gather_breathers
-from pendula.studies.breathers.periodic import bands
+from pendula.studies.breathers.waves import bands
 
 
 def draw(periodic: str, growth: str, png: str, pdf: str, data: str, description: str) -> None:

@@ -114,7 +114,7 @@ use rule map_fates as map_long_fates with:
         **fate_params(SETTINGS.breathers.fates, "long"),
 
 
-rule breathers:
+rule draw_breathers:
     "Periodic breathers against their frequency, and how the drive feeds a localised motion"
     input:
         code=code("breathers/draw_breathers.py"),
@@ -188,6 +188,15 @@ use rule draw_fates as draw_long_fates with:
         **long_breathers_figure("fates"),
     log:
         "results/logs/figures/long_fates.log",
+
+
+rule breathers:
+    "States that stay at one pair, which data reach them, and which spread: datasets and figures"
+    input:
+        expand("results/breathers/{name}.nc", name=[*BREATHERS, "fates"]),
+        expand("results/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
+    message:
+        "The breathers and their figures are there"
 
 
 rule sensitivity:

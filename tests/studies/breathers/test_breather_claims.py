@@ -15,10 +15,11 @@ def sources():
     over = ("family", "omega")
     steady = xr.Dataset(
         {
-            "power": (over, np.ones((2, 3))), "residual": (over, np.full((2, 3), 1e-15)),
+            "power": (over, np.ones((2, 3))),
             "growth": (over, rates), "growth_half": (over, rates),
         },
         {"family": families, "omega": omegas},
+        {"residual": 1e-13},
     )  # fmt: skip
     power = np.zeros((2, 2, 3, 2)) + np.array([9.0, 20.0, 3.0])[:, None]
     growth = np.zeros((2, 3, 2))
@@ -37,7 +38,7 @@ def sources():
         {
             "time": (("gamma", "output"), scaled / drives[:, None] ** 2),
             "gained": (("gamma", "output"), 1.02 * law + np.array([[0], [0], [3.0]])),
-            "predicted": (("gamma", "output"), law),
+            "predicted_gain": (("gamma", "output"), law),
         },
         {"gamma": drives},
     )

@@ -7,8 +7,6 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.periodic import (
     FAMILIES,
     Breather,
-    bands,
-    distance_from_bands,
     family_of,
     growth,
     half_traces,
@@ -16,6 +14,7 @@ from pendula.studies.breathers.periodic import (
     single_site,
 )
 from pendula.studies.breathers.steady import NotFoundError
+from pendula.studies.breathers.waves import bands, distance_from_bands
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)

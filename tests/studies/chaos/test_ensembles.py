@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from pendula.problem import on_sites
+from pendula.simulation import ensembles
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import pair_l2
-from pendula.studies.chaos import ensembles
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}

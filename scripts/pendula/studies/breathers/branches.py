@@ -57,7 +57,9 @@ def _step(chain: Chain, s: float, omega: float, state: np.ndarray, tangent: np.n
     for _ in range(ITERATIONS):
         here = chain._replace(omega=float(point[-1]))
         at = point[:-1].reshape(state.shape)
-        miss = np.append(residual(here, s, at).ravel(), tangent @ (point - start - ARC * tangent))
+        miss = np.append(
+            residual(here, s, at).ravel(), np.sum(tangent * (point - start - ARC * tangent))
+        )
         slope = np.block([
             [operators(here, s, at, even=True)[1], at.reshape(-1, 1)],
             [tangent[None, :-1], tangent[None, -1:]],

@@ -1,12 +1,12 @@
 """The datasets of the study: what each variable holds, rounded where LAPACK decides last bits."""
 
 from collections.abc import Mapping, Sequence
-from math import log
 
 import numpy as np
 
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
 from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, energy
 from pendula.problem import Constants, Problem, output_times
@@ -15,10 +15,8 @@ from . import branches, driven_growth, fates, periodic, sensitivity, steady
 from .pairs import FAMILIES, pair
 
 PARTS = Variable(("part",), ["re", "im"])
-DIGITS, GROWTH_DIGITS = 11, 7
+DIGITS, GROWTH_DIGITS = 10, 7
 """Significant digits of states and of rates: rates come from roots of eigenvalues."""
-HAS_DECAYED = 1e-14
-"""How small the tail of a periodic breather must be at the end of its chain."""
 
 
 def energy_of(constants: Constants, state: np.ndarray) -> float:
@@ -47,7 +45,7 @@ def steady_contents(
     """
     shape = (len(FAMILIES), len(omegas))
     amplitude = np.full((2, 2, *shape), np.nan)
-    power, energies, rates, doubled, left = (np.full(shape, np.nan) for _ in range(5))
+    power, energies, rates, doubled = (np.full(shape, np.nan) for _ in range(4))
     for i, family in enumerate(FAMILIES):
         for j, omega in enumerate(omegas):
             if pair(family, gamma, omega) is None:
@@ -63,7 +61,6 @@ def steady_contents(
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
             power[i, j] = steady.power(state).sum()
             energies[i, j] = energy_of(Constants(epsilon=epsilon, gamma=gamma, omega=omega), turned)
-            left[i, j] = np.abs(steady.residual(chain, s, state)).max()
     over = ("family", "omega")
     variables = {
         "part": PARTS,
@@ -77,11 +74,11 @@ def steady_contents(
         "growth_half": _kept(
             over, rates, "largest rate of growth on half of the half-width", GROWTH_DIGITS
         ),
-        "residual": _kept(over, left, "largest residual of the equations of a steady state", 1),
         **_births(epsilon, gamma, half_width),
         **_thresholds(epsilon, gamma, half_width, searched, digits),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "half_width": 2 * half_width}
+    about["residual"] = steady.TOLERANCE
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
@@ -118,7 +115,6 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
         ]
         for name, ends in searched.items()
     ]
-    kept = max(1, int(-log(digits, 10)) + 2)
     return {
         "stable_family": Variable(("stable_family",), list(searched), "family that can be stable"),
         "chain_half_width": Variable(
@@ -128,7 +124,7 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
             ("stable_family", "chain_half_width"),
             found,
             "Omega below which a family is stable",
-            kept,
+            4,
         ),
     }
 
@@ -147,7 +143,7 @@ def periodic_contents(
     families, shape = periodic.FAMILIES, (len(periodic.FAMILIES), len(omegas), len(frequencies))
     amplitude, power = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
     energies, away = np.full(shape, np.nan), np.full(shape[1:], np.nan)
-    rates, nearest = np.full((2, *shape), np.nan), np.full((2, *shape), np.nan)
+    rates = np.full((2, *shape), np.nan)
     for j, omega in enumerate(omegas):
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         away[j] = [periodic.distance_from_bands(constants, one) for one in frequencies]
@@ -159,7 +155,6 @@ def periodic_contents(
                 energies[i, j, k] = energy_of(constants, breather.data.astype(complex))
                 for p, traces in enumerate(periodic.half_traces(breather).values()):
                     rates[p, i, j, k] = periodic.growth(breather.frequency, traces)
-                    nearest[p, i, j, k] = np.abs(traces).max()
     over = ("family", "omega", "frequency")
     variables = {
         "part": PARTS,
@@ -207,7 +202,7 @@ def sensitivity_contents(
         "share": Variable(("size",), share.value, said),
         "share_low": Variable(("size",), share.low, f"{said}, lower confidence limit"),
         "share_high": Variable(("size",), share.high, f"{said}, upper confidence limit"),
-        "initial": Variable(("initial",), amplitudes, "initial amplitude A_0 of the centre"),
+        "initial": Variable(("initial",), amplitudes, f"{NAMES['initial']}, given by A_0 alone"),
         "largest_l2": Variable(("initial",), largest, "largest l2 norm of A and B together"),
         "spread": Variable(
             ("initial",), spread.astype(np.int8), "1 if the run has spread at its end"
@@ -265,7 +260,7 @@ def growth_contents(
         "gamma": Variable(("gamma",), np.array(list(end_times))),
         "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
         "gained": Variable(grid, np.array(found), "sum of |B|^2, which the breather gains as well"),
-        "predicted": _kept(grid, predicted, "the same by the law of weak drives", 9),
+        "predicted_gain": _kept(grid, predicted, "the same by the law of weak drives", 9),
         "frequency": Variable(over, [one.frequency for one in family], "frequency lambda"),
         "free_power": _kept(over, [one.power for one in family], "P of the breather without drive"),
         "rate": _kept(

@@ -26,12 +26,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.numerics.elementary import cos, sin
+from pendula.numerics.elementary import complex_of, interpolated
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
 
 from .periodic import shoot, single_site
 from .steady import power, second_difference
+
+DECIMALS = 9
+"""Of a breather without drive. LAPACK finds it, whose last bits differ between processors; what
+starts from the rounded one has the same bits on all."""
 
 
 class FreeBreather(NamedTuple):
@@ -51,37 +55,44 @@ def free_breathers(constants: Constants, frequencies, half_width: int) -> list[F
             data = single_site(free, frequency, "A only", half_width)
             data[1] = 0.0
         data = shoot(free, frequency, data).data
-        found.append(FreeBreather(frequency, data[0], float(power(data).sum())))
+        kept = np.round(data, DECIMALS)
+        found.append(FreeBreather(frequency, kept[0], float(power(kept).sum())))
     return found[::-1]
 
 
-def wave_number(constants: Constants, frequency: float) -> float | None:
-    """Return k of the linear wave at the frequency -lambda, or None where there is none."""
-    share = (frequency + constants.omega) / (4.0 * constants.epsilon)
-    return float(2.0 * np.arcsin(np.sqrt(share))) if 0.0 < share < 1.0 else None
+def wave(constants: Constants, frequency: float) -> tuple[float, float] | None:
+    """Return cos k and sin k of the linear wave at -lambda, or None where there is none."""
+    share = (frequency + constants.omega) / (4.0 * constants.epsilon)  # the square of sin(k / 2)
+    if not 0.0 < share < 1.0:
+        return None
+    return 1.0 - 2.0 * share, 2.0 * float(np.sqrt(share * (1.0 - share)))
 
 
 def rate(constants: Constants, breather: FreeBreather) -> float:
     """Return the right side of (G); zero outside the band."""
-    k = wave_number(constants, breather.frequency)
-    if k is None:
+    found = wave(constants, breather.frequency)
+    if found is None:
         return 0.0
-    n = np.arange(breather.profile.size)
-    source = 2.0 * np.sum(breather.profile * cos(k * n)) - breather.profile[0]
-    return float(constants.gamma**2 * source**2 / (constants.epsilon * sin(k)))
+    cosine, sine = found
+    source, before, here = breather.profile[0], cosine, 1.0  # cos(-k) and cos(0)
+    for amplitude in breather.profile[1:]:
+        before, here = here, 2.0 * cosine * here - before
+        source += 2.0 * amplitude * here
+    return float(constants.gamma**2 * source**2 / (constants.epsilon * sine))
 
 
 def own_radiation(constants: Constants, breather: FreeBreather) -> float:
     """Return the rate at which A radiates its own image, in the potential of the breather."""
-    k = wave_number(constants, breather.frequency)
-    if k is None:
+    found = wave(constants, breather.frequency)
+    if found is None:
         return 0.0
+    cosine, sine = found
     a = breather.profile
     matrix = constants.epsilon * second_difference(a.size).astype(complex)
     matrix += np.diag(constants.omega + breather.frequency + a * a)
-    matrix[-1, -1] += constants.epsilon * np.exp(-1j * k)  # outgoing beyond the last site
-    wave = np.linalg.solve(matrix, constants.gamma * a.astype(complex))[-1]
-    return float(4.0 * constants.epsilon * np.sin(k) * abs(wave) ** 2)
+    matrix[-1, -1] += constants.epsilon * complex_of(cosine, -sine)  # outgoing at the last site
+    last = np.linalg.solve(matrix, constants.gamma * a.astype(complex))[-1]
+    return float(4.0 * constants.epsilon * sine * (last.real**2 + last.imag**2))
 
 
 def predicted(
@@ -97,7 +108,7 @@ def predicted(
     slow = np.flatnonzero(rates <= 0.0)
     powers, rates = (one[: slow[0] if slow.size else None] for one in (powers, rates))
     spans = np.diff(powers) * 0.5 * (1.0 / rates[1:] + 1.0 / rates[:-1])
-    return np.interp(times, np.append(0.0, np.cumsum(spans)), powers)
+    return interpolated(times, np.append(0.0, np.cumsum(spans)), powers)
 
 
 def gained(

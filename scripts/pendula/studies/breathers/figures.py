@@ -37,7 +37,7 @@ def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset, bands: list[float
             "total_power": periodic["power"].sum("component", skipna=False),
             "unstable": (periodic["growth"] > 0).astype(np.int8),
             "highest_wave": ("omega", bands),
-            **{name: growth[name] for name in ("time", "gained", "predicted")},
+            **{name: growth[name] for name in ("time", "gained", "predicted_gain")},
         }
     )
     described = {
@@ -97,8 +97,8 @@ def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
         run = data.sel(gamma=gamma).isel(output=slice(1, None))
         look = {"color": colour, "lw": 0.9}
         axes.plot(run["time"], run["gained"], label=rf"$\gamma = {gamma:g}$", **look)
-        axes.plot(run["time"], run["predicted"], ls="--", **look)
-    most = float(data["predicted"].max())
+        axes.plot(run["time"], run["predicted_gain"], ls="--", **look)
+    most = float(data["predicted_gain"].max())
     axes.plot([], [], color="0.3", lw=0.9, ls="--", label="law")
     axes.set_xscale("log")
     axes.set_ylim(0, 2.8 * most)

@@ -36,10 +36,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
 from .quarter_period import flow
 from .steady import NotFoundError
+from .waves import distance_from_bands
 
 FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
@@ -59,25 +61,6 @@ class Breather(NamedTuple):
     def quarter(self) -> float:
         """A quarter of the period."""
         return 0.5 * np.pi / self.frequency
-
-
-def bands(constants: Constants) -> list[tuple[float, float]]:
-    """Return the intervals of positive frequencies of linear waves, of A + B and of A - B.
-
-    Where kappa^2 < 4 gamma^2 a wave of A - B grows and has no frequency: the band starts at 0.
-    """
-    ends = np.abs([constants.omega - 4.0 * constants.epsilon, constants.omega])
-    least = 0.0 if constants.omega * (constants.omega - 4.0 * constants.epsilon) < 0 else ends.min()
-    squares = np.maximum(0.0, np.array([least, ends.max()]) ** 2 - 4.0 * constants.gamma**2)
-    return [(float(least), float(ends.max())), (float(squares[0] ** 0.5), float(squares[1] ** 0.5))]
-
-
-def distance_from_bands(constants: Constants, frequency: float) -> float:
-    """Return how far the odd multiples of a frequency stay away from the bands; 0 within one."""
-    highest = max(end for _, end in bands(constants))
-    multiples = np.arange(1, 3 + 2 * int(highest / frequency), 2) * frequency
-    away = [np.maximum(low - multiples, multiples - high) for low, high in bands(constants)]
-    return float(max(0.0, np.min(away)))
 
 
 def single_site(constants: Constants, frequency: float, family: str, half_width: int) -> np.ndarray:
@@ -121,7 +104,10 @@ DECAY = 34.0
 def half_width_for(constants: Constants, frequency: float, least: int, most: int) -> int:
     """Return the half-width that the tails need, from their decay beside the nearest band."""
     away = distance_from_bands(constants, frequency) / (2.0 * constants.epsilon)
-    return int(np.clip(np.ceil(DECAY / np.arccosh(1.0 + away)) if away else most, least, most))
+    if not away:
+        return most
+    decay = log(1.0 + away + np.sqrt(away * (2.0 + away)))  # the inverse of cosh at 1 + away
+    return int(np.clip(np.ceil(DECAY / decay), least, most))
 
 
 def family_of(constants: Constants, family: str, frequencies, half_widths: Mapping[str, int]):
@@ -145,7 +131,7 @@ def family_of(constants: Constants, family: str, frequencies, half_widths: Mappi
 
 def _between(start: float, end: float) -> list[float]:
     """Return frequencies after `start` down to `end`, so close that each leads to the next."""
-    count = max(1, int(np.ceil(np.log(start / end) / np.log(LARGEST_RATIO))))
+    count = max(1, int(np.ceil(log(start / end) / log(LARGEST_RATIO))))
     return [start + (end - start) * k / count for k in range(1, count)] + [end]
 
 
@@ -189,5 +175,5 @@ def growth(frequency: float, traces: np.ndarray) -> float:
     """Return the rate at which the worst perturbation grows per unit of tau; 0 if none does."""
     root = np.sqrt(traces**2 - 1.0)
     largest = float(np.maximum(np.abs(traces + root), np.abs(traces - root)).max())
-    rate = np.log(largest) * frequency / np.pi
+    rate = float(log(largest)) * frequency / np.pi
     return rate if rate > NOISE else 0.0

@@ -20,6 +20,8 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         "steady_head": ["family", *(f"Ω = {omega:g}" for omega in _omegas(results))],
         "steady": [_steady_row(results, str(name)) for name in results[STEADY]["family"].values],
+        "large": results.quote(SENSITIVITY, float(results[SENSITIVITY].attrs["omega"])),
+        "forbidden": results.quote(STEADY, _forbidden(results)),
         "born": [_birth(results, i) for i in range(results[STEADY].sizes["born_family"])],
         "thresholds": [
             _threshold(results, str(name)) for name in results[STEADY]["stable_family"].values
@@ -36,6 +38,12 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "points": results.quote(MAP, results[MAP]["fate"][0].size, 6),
         "pictures": _pictures(results),
     }  # fmt: skip
+
+
+def _forbidden(results: Results) -> float:
+    """Return the Omega from which on the form of `steady` is definite."""
+    about = results[STEADY].attrs
+    return 4.0 * float(about["epsilon"]) + 2.0 * float(about["gamma"])
 
 
 def _omegas(results: Results) -> list[float]:
@@ -86,7 +94,7 @@ def _family(results: Results, omega: float, family: str) -> list:
 
 def _growth(results: Results) -> dict[str, Any]:
     growth = results[GROWTH]
-    law = float(growth["predicted"].max())
+    law = float(growth["predicted_gain"].max())
     strong = growth.sel(gamma=growth["gamma"].max())
     passed = strong["time"].where(strong["gained"] > law).min()
     return {

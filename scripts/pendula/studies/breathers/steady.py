@@ -89,7 +89,7 @@ def residual(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
     right = np.concatenate([state[:, 1:], np.zeros((2, 1))], axis=1)
     left = np.concatenate([state[:, 1:2], state[:, :-1]], axis=1)
     coupling = chain.epsilon * ((right + left) - 2.0 * state)
-    return coupling + chain.omega * state + s * (state[::-1] - state) + 0.5 * state**3
+    return coupling + chain.omega * state + s * (state[::-1] - state) + 0.5 * state * state * state
 
 
 def newton(chain: Chain, s: float, start: np.ndarray) -> np.ndarray:
@@ -103,7 +103,8 @@ def newton(chain: Chain, s: float, start: np.ndarray) -> np.ndarray:
         sign = one if np.array_equal(start[0], one * start[1]) else sign
     largest = np.inf
     for _ in range(ITERATIONS):
-        miss, cubic = residual(chain, s, state), 0.5 * np.abs(state).max() ** 3
+        miss, largest_modulus = residual(chain, s, state), np.abs(state).max()
+        cubic = largest_modulus * largest_modulus * largest_modulus / 2.0
         if not 0.0 < cubic < np.inf:
             break
         last, largest = largest, np.abs(miss).max() / cubic
