@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from pendula.problem import on_sites
-from pendula.simulation import ensembles
+from pendula.simulation.ensembles import perturb, perturb_unevenly
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import pair_l2
+from pendula.studies.chaos import ensembles
 from problems import problem_of
 
 SOLVER = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
@@ -14,14 +15,14 @@ PROBLEM = problem_of("fig4_small", half_width=6, end_time=3.0, output_step=0.5, 
 
 def test_even_data_stay_even():
     initial = on_sites({0: (1, 2), 2: (3, 4j), -2: (3, 4j)})
-    drawn = ensembles.perturb(initial, 1e-3, np.random.default_rng(0))
+    drawn = perturb(initial, 1e-3, np.random.default_rng(0))
     np.testing.assert_array_equal(drawn, drawn[:, ::-1])
     assert (drawn[:, [0, 2]] != initial[:, [0, 2]]).all() and (drawn[:, 1] == 0).all()
 
 
 def test_the_perturbation_has_the_relative_size_asked_for():
     initial = np.repeat([[5.0], [0.2j]], 999, axis=1)
-    drawn = ensembles.perturb(initial, 1e-4, np.random.default_rng(0))
+    drawn = perturb(initial, 1e-4, np.random.default_rng(0))
     relative = (drawn / initial - 1)[:, 499:] / 1e-4
     assert np.std(np.real(relative)) == pytest.approx(1, abs=0.1)
     assert np.std(np.imag(relative)) == pytest.approx(1, abs=0.1)
@@ -48,7 +49,7 @@ def test_a_swept_ensemble_has_the_shape_of_a_sweep_for_each_member():
 
 def test_uneven_data_are_not_even_and_their_neighbours_move_a_little():
     initial = on_sites({0: (5, 1)})
-    drawn = ensembles.perturb_unevenly(initial, 1e-6, np.random.default_rng(0))
+    drawn = perturb_unevenly(initial, 1e-6, np.random.default_rng(0))
     assert drawn.shape == (2, 3)
     np.testing.assert_allclose(drawn[:, 1], initial[:, 0], rtol=1e-5)
     beside = np.abs(drawn[:, [0, 2]])
