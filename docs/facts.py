@@ -315,7 +315,7 @@ def breathers(baseline: Baseline) -> dict:
         "strong": number(law["strongest"]),
         "passed": number(law["passed_by"]),
         "scanned": str(len(scanned)),
-        "spread": str(int(spread["spread"].sum())),
+        "spread": percent(rows["spreading_is_an_accident"]["of_the_scan"]),
         "first": number(scanned.min()),
         "last": number(scanned.max()),
         "step": number(scanned[1] - scanned[0]),

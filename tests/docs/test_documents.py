@@ -216,6 +216,7 @@ def test_every_fact_follows_its_dataset():
     named = re.compile(
         r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$|"
+        r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
         r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
     )
     left = {
