@@ -80,7 +80,10 @@ def inlined_by_llvm(function: Callable) -> Callable:
 
 
 def _compiled(function: Callable, root: Path | None = None, **options) -> Callable:
-    return function if numba.config.DISABLE_JIT else make_kernel(function, root, **options)
+    if numba.config.DISABLE_JIT:
+        function.py_func = function  # by which name a compiled function has it too
+        return function
+    return make_kernel(function, root, **options)
 
 
 @kernel
