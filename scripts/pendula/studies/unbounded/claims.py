@@ -49,8 +49,8 @@ SHORTEST = 100.0
 OCTAVES = 2
 OF_A_SHORT_BULK = 3
 """Octaves of time whose exponent is asked for: more where the bulk is short, and members differ.
-At Omega = -4 the exponents of members over two octaves scatter by 0.2 to 0.4, and eight members
-tell the mean from that of diffusion in 14 of 20 draws of them; over three they scatter by 0.2."""
+At Omega = -4 the exponents of 20 members scatter by 0.41 over two octaves and by 0.32 over three.
+Of 500 draws of twelve members all then tell the mean from that of diffusion, of seven 9 in 10."""
 
 
 def times_of(run) -> np.ndarray:

@@ -96,13 +96,16 @@ def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
     _unstable(axes, data)
     axes.axhline(0.0, color="black", lw=0.8)
     series = (("speed", "as it is", RINGS, -ASIDE), ("corrected_speed", "corrected", DOTS, ASIDE))
+    ends = []
     for name, label, look, aside in series:
         off = MILLI * (data[name] - data["predicted_speed"])
         limits = MILLI * data[f"{name}_error"]
         axes.errorbar(data["omega"] + aside, off, limits, label=label, **look)
-    axes.set_ylim(-42, 22)
+        ends += [float((off - limits).min()), float((off + limits).max())]
+    low, high = min(ends), max(ends)
+    axes.set_ylim(low - 0.05 * (high - low), high + 0.25 * (high - low))  # the legend is above
     axes.set_ylabel(r"$10^3$ (speed $- v^*)$")
-    axes.legend(loc="lower center", ncols=2, handlelength=1.2, columnspacing=1.0)
+    axes.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1.0)
 
 
 def _draw_way(axes: Axes, data: xr.Dataset) -> None:
