@@ -18,6 +18,16 @@ settings.register_profile("project", deadline=None, derandomize=True, database=N
 settings.load_profile("project")
 
 
+LONGEST = ("docs/test_commands.py", "workflow/test_figure_diff.py", "workflow/test_interrupted.py")
+"""Files that begin first: at the end, the other workers would wait for one of their tests."""
+
+
+def pytest_collection_modifyitems(items):
+    """Put the tests of the longest files before all others."""
+    first = [ROOT / "tests" / name for name in LONGEST]
+    items.sort(key=lambda item: item.path not in first)
+
+
 def pytest_terminal_summary(terminalreporter):
     """List each test that was skipped, with the reason and the way to have it run."""
     lines = skips_in_words(terminalreporter.stats.get("skipped", ()))
