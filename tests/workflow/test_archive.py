@@ -17,7 +17,7 @@ NAME = f"pendula-{__version__}"
 ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     "bounds",
-    "breathers",
+    "draw_breathers",
     "draw_fates",
     "draw_sensitivity",
     "chaos_figures",

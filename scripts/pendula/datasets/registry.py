@@ -50,6 +50,13 @@ NAMES = {
     "l2": "l2 norm over the chain",
     "energy": "conserved energy H of equation (8)",
     "modulus": "modulus of the amplitude on a site",
+    "amplitude": "amplitude on a site",
+    # what several studies have of their own
+    "family": "family",
+    "frequency": "frequency lambda",
+    "power": "power P",
+    "share": "share of",
+    "size": "size of",
     "final": "amplitude at the end time",
 }
 """Long names of variables that several datasets share; all of them have the units "1"."""

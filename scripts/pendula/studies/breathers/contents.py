@@ -67,8 +67,8 @@ def steady_contents(
         "component": COMPONENTS,
         "family": Variable(("family",), [one.name for one in FAMILIES], "family of steady states"),
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
-        "amplitude": _kept(("part", "component", *over), amplitude, "amplitude on site 0"),
-        "power": _kept(over, power, "P, the sum of |A|^2 + |B|^2"),
+        "amplitude": _kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
+        "power": _kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
         "energy": _kept(over, energies, "conserved energy H of equation (8)"),
         "growth": _kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
         "growth_half": _kept(
@@ -159,16 +159,20 @@ def periodic_contents(
     variables = {
         "part": PARTS,
         "component": COMPONENTS,
-        "parity": Variable(("parity",), ["even", "odd"], "parity of the perturbation in n"),
+        "parity": Variable(("parity",), ["even", "odd"], "parity of the tangent vector in n"),
         "family": Variable(("family",), list(families), "family of periodic breathers"),
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
         "frequency": Variable(
             ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
         ),
         "amplitude": _kept(
-            ("part", "component", *over), amplitude, "amplitude on site 0 when both are real"
+            ("part", "component", *over),
+            amplitude,
+            "amplitude on a site, site 0, when both are real",
         ),
-        "power": _kept(("component", *over), power, "sum of the squared moduli when both are real"),
+        "power": _kept(
+            ("component", *over), power, "power P of each component, when both are real"
+        ),
         "energy": _kept(over, energies, "conserved energy H of equation (8)"),
         "growth": _kept(
             over, rates.max(axis=0), "largest rate of growth of a perturbation", GROWTH_DIGITS
@@ -176,7 +180,7 @@ def periodic_contents(
         "parity_growth": _kept(
             ("parity", *over), rates, "largest rate of growth by parity", GROWTH_DIGITS
         ),
-        "distance": Variable(
+        "band_distance": Variable(
             ("omega", "frequency"), away, "distance of the odd multiples of lambda from the bands"
         ),
     }
@@ -197,7 +201,7 @@ def sensitivity_contents(
     said = "share of runs that spread"
     variables = {
         "size": Variable(
-            ("size",), np.array(sizes), "relative size of a random change of the data"
+            ("size",), np.array(sizes), "size of a random change of the data, relative"
         ),
         "share": Variable(("size",), share.value, said),
         "share_low": Variable(("size",), share.low, f"{said}, lower confidence limit"),
@@ -261,9 +265,11 @@ def growth_contents(
         "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
         "gained": Variable(grid, np.array(found), "sum of |B|^2, which the breather gains as well"),
         "predicted_gain": _kept(grid, predicted, "the same by the law of weak drives", 9),
-        "frequency": Variable(over, [one.frequency for one in family], "frequency lambda"),
+        "frequency": Variable(
+            over, [one.frequency for one in family], "frequency lambda of the breather"
+        ),
         "free_power": _kept(over, [one.power for one in family], "P of the breather without drive"),
-        "rate": _kept(
+        "law_rate": _kept(
             over,
             [driven_growth.rate(free, one) for one in family],
             "rate of growth of P by the law, over gamma^2",

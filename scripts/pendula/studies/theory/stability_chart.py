@@ -161,7 +161,7 @@ def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:
         rows,
         {
             "count": ("number of windows of stability", None),
-            "share": ("stable share of [0, 4 epsilon]", None),
+            "share": ("share of [0, 4 epsilon] that is stable", None),
         },
         largest_gamma=variable(largest, ("half_width",), "drive at which the last window closes"),
     )

@@ -26,7 +26,7 @@ SHARE = 0.9
 LENGTH = 64
 """Sites of the pieces that a spectrum is averaged over."""
 
-POWER = "mean power P = |A_n|^2 + |B_n|^2 of a site"
+POWER = "power P = |A_n|^2 + |B_n|^2 of a site, its mean"
 
 
 def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
