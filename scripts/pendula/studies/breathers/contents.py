@@ -269,7 +269,7 @@ def growth_contents(
             over, [one.frequency for one in family], "frequency lambda of the breather"
         ),
         "free_power": _kept(over, [one.power for one in family], "P of the breather without drive"),
-        "law_rate": _kept(
+        "predicted_rate": _kept(
             over,
             [driven_growth.rate(free, one) for one in family],
             "rate of growth of P by the law, over gamma^2",
