@@ -18,8 +18,8 @@ def measure_lyapunov(
 ) -> None:
     """Follow `problems` to `end_time`; then all changes of `short_problems` on short chains.
 
-    `short_end_times` are by the half-width of these chains, the shortest of which is followed
-    without a drive to `undriven_end`; `seed` draws the tangent vectors.
+    `short_end_times` gives the end time for each half-width. The shortest chain is also followed
+    without a drive, to `undriven_end`. `seed` draws the tangent vectors.
     """
     cases = by_name(problems)
     growth, attributes = largest_exponents(cases, end_time, seed)

@@ -19,7 +19,7 @@ class Job:
 
 
 class Dag:
-    """Jobs a -> b -> all and c -> all, of which `done` needs nothing."""
+    """Jobs a -> b -> all, c -> all and done -> all; `done` need not run again."""
 
     def __init__(self):
         self.jobs = {name: Job(name, self) for name in ("a", "b", "c", "done", "all")}

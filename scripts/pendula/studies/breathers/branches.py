@@ -19,11 +19,10 @@ from .steady import (
     Chain,
     NotFoundError,
     continued,
-    growth,
+    fastest_growth,
     operators,
     residual,
     second_difference,
-    squared_exponents,
 )
 
 ARC = 0.05
@@ -101,8 +100,7 @@ def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
 
 def is_stable(chain: Chain, family: Family) -> bool:
     """Return whether no perturbation of the family's state grows, even or odd."""
-    state, s = continued(chain, family), family.drive(chain.gamma)
-    return not any(growth(squared_exponents(chain, s, state, even)) for even in (True, False))
+    return not fastest_growth(chain, family, continued(chain, family))
 
 
 def stable_below(chain: Chain, family: Family, low: float, high: float, digits: float) -> float:

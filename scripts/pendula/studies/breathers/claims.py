@@ -102,11 +102,16 @@ def periodic_stable(periodic) -> Finding:
     return judge(measured, criterion, f"at {int(found.sum())} frequencies")
 
 
+def at_eight(periodic):
+    """Return breathers at Omega = 8 under the name of the paper's Fig 3."""
+    return at_omega(periodic, 8.0).expand_dims(omega=[OF_PAPER])
+
+
 @claim(
     PLACE,
     "The large data at Omega = -4 have less P than any breather of this family there.",
     (PERIODIC,),
-    (Control("breathers at Omega = 8", {PERIODIC: lambda periodic: at_eight(periodic)}),),
+    (Control("breathers at Omega = 8", {PERIODIC: at_eight}),),
 )
 def data_below_breathers(periodic) -> Finding:
     """So they cannot end as one unless the drive feeds them."""
@@ -116,14 +121,16 @@ def data_below_breathers(periodic) -> Finding:
     return judge(measured, Above(DATA_POWER, "least_power", says="least P of a breather"))
 
 
-def at_eight(periodic):
-    """Return breathers at Omega = 8 under the name of the paper's Fig 3."""
-    return at_omega(periodic, 8.0).expand_dims(omega=[OF_PAPER])
-
-
 def with_slower_law(growth):
     """Return the runs beside a law of half the rate."""
     return growth.assign(predicted_gain=0.5 * growth["predicted_gain"])
+
+
+def exchanged(growth):
+    """Return the runs with the laws of the drives in reverse order."""
+    return growth.assign(
+        predicted_gain=(growth["predicted_gain"].dims, growth["predicted_gain"].values[::-1])
+    )
 
 
 @claim(
@@ -132,7 +139,7 @@ def with_slower_law(growth):
     (GROWTH,),
     (
         Control("a law of half the rate", {GROWTH: with_slower_law}),
-        Control("runs and laws of exchanged drives", {GROWTH: lambda growth: exchanged(growth)}),
+        Control("runs and laws of exchanged drives", {GROWTH: exchanged}),
     ),
 )
 def grows_by_drive(growth) -> Finding:
@@ -156,13 +163,6 @@ def grows_by_drive(growth) -> Finding:
         Below(FACTOR, "ends_at", says="gain at the end over that of the law"),
     )
     return judge(measured, criterion)
-
-
-def exchanged(growth):
-    """Return the runs with the laws of the drives in reverse order."""
-    return growth.assign(
-        predicted_gain=(growth["predicted_gain"].dims, growth["predicted_gain"].values[::-1])
-    )
 
 
 def shuffled(sensitivity):

@@ -52,11 +52,8 @@ def steady_contents(
                 continue
             for half, found in ((half_width, rates), (2 * half_width, doubled)):
                 chain = steady.Chain(epsilon, gamma, omega, half)
-                s, state = family.drive(gamma), steady.continued(chain, family)
-                found[i, j] = max(
-                    steady.growth(steady.squared_exponents(chain, s, state, even))
-                    for even in (True, False)
-                )
+                state = steady.continued(chain, family)
+                found[i, j] = steady.fastest_growth(chain, family, state)
             turned = state * (1j if family.imaginary else 1.0)
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
             power[i, j] = steady.power(state).sum()

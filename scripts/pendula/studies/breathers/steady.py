@@ -167,6 +167,12 @@ def growth(squares: np.ndarray) -> float:
     return float(np.abs(np.sqrt(unstable).real).max(initial=0.0))
 
 
+def fastest_growth(chain: Chain, family: Family, state: np.ndarray) -> float:
+    """Return the rate at which the worst perturbation of a state grows, even or odd."""
+    s = family.drive(chain.gamma)
+    return max(growth(squared_exponents(chain, s, state, even)) for even in (True, False))
+
+
 def power(state: np.ndarray) -> np.ndarray:
     """Return the sum of squares over the whole chain of each component, (component,)."""
     return 2.0 * np.sum(state**2, axis=1) - state[:, 0] ** 2

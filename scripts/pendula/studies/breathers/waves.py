@@ -1,4 +1,8 @@
-"""Frequencies of linear waves, equation (15), and how far from them a motion swings."""
+"""Frequencies of linear waves, equation (15), and how far from them a motion swings.
+
+They stand apart from `periodic`, since a picture shows them and must not be drawn anew where an
+integrator changes.
+"""
 
 import numpy as np
 

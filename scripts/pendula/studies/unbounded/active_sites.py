@@ -210,7 +210,7 @@ def _norms(times: np.ndarray, done: Piece) -> Norms:
 
 
 def _joined_norms(pieces: list[Norms]) -> Norms:
-    """Return the norms of consecutive pieces, each of which begins with the last output before."""
+    """Return the norms of pieces in a row; each begins with the last output of the one before."""
     return Norms(
         *(np.concatenate([v[0][:1], *(one[1:] for one in v)]) for v in zip(*pieces, strict=True))
     )
