@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pendula.models.amplitudes import DIRICHLET, MIRROR, rates
 from pendula.models.amplitudes import Chain as Ends
+from pendula.models.pairs import FAMILIES, pair
 from pendula.models.tangent import tangent_rates
-from pendula.studies.breathers.pairs import FAMILIES, pair
 from pendula.studies.breathers.steady import (
     Chain,
     NotFoundError,

@@ -13,7 +13,8 @@ which it is epsilon D + Omega + 3 u^2 / 2, from a = -b.
 import numpy as np
 from scipy.optimize import brentq
 
-from .pairs import Family
+from pendula.models.pairs import Family
+
 from .steady import (
     ITERATIONS,
     Chain,

@@ -9,10 +9,10 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
 from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, energy
+from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants, Problem, output_times
 
 from . import branches, driven_growth, fates, periodic, sensitivity, steady
-from .pairs import FAMILIES, pair
 
 PARTS = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7

@@ -8,8 +8,7 @@ from pydantic import Field
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import Configuration, Faults
 from pendula.configuration.values import Distinct, Model, Name, Positive, Whole
-
-from .pairs import FAMILIES
+from pendula.models.pairs import FAMILIES
 
 Count = Annotated[Whole, Field(ge=1)]
 Seed = Annotated[Whole, Field(ge=0)]

@@ -6,8 +6,8 @@ A steady state of (4), steady in the rotating frame of (3), obeys
         + |A_n|^2 A_n / 2 = 0                                                                (S)
 
 and the same with A and B exchanged. Here A = a, B = b or A = i a, B = i b with real a and b, as in
-the families of one pair (see `pairs`), which are continued from epsilon = 0 (R. S. MacKay and
-S. Aubry, Nonlinearity 7 (1994) 1623).
+the families of one pair (see `models.pairs`), which are continued from epsilon = 0 (R. S. MacKay
+and S. Aubry, Nonlinearity 7 (1994) 1623).
 
 Where there is none. Multiply (S) by conj A and its partner by conj B, sum over the chain and take
 the real part:
@@ -36,7 +36,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .pairs import Family, pair
+from pendula.models.pairs import Family, pair
 
 TOLERANCE = 1e-13
 """Largest residual of (S), relative to the largest of its terms."""
