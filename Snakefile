@@ -34,6 +34,8 @@ FIGURES = [
     *CHAOS_FIGURES,
     # What stays at one pair, which data reach it, and which spread
     *("breathers", "sensitivity", "fates"),
+    # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula
+    "pendula_threshold",
     # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
     *("growth_law", "front", "window_map"),
 ]
@@ -107,6 +109,7 @@ include: "workflow/rules/theory.smk"
 include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/chaos.smk"
 include: "workflow/rules/breathers.smk"
+include: "workflow/rules/pendula.smk"
 include: "workflow/rules/ledger.smk"
 include: "benchmarks/benchmarks.smk"
 include: "workflow/rules/baseline.smk"

@@ -260,7 +260,7 @@ def main(results: Path, folder: Path = QUOTED) -> None:
             keep(results, folder)
 
 
-SECTIONS = ("cases", "sweeps", "solvers", "chaos", "theory", "breathers", "unbounded")
+SECTIONS = ("cases", "sweeps", "solvers", "chaos", "theory", "breathers", "pendula", "unbounded")
 """The sections of the configuration that claims rest on."""
 
 

@@ -103,7 +103,7 @@ def test_both_panels_of_a_figure_show_the_same_windows():
         **paper()["sweeps"]["fig5_left"], "windows": [[10, 60]], "draw": None,
     })  # fmt: skip
     needs = list(whole["cases"]), list(whole["sweeps"]), []
-    settings = load(whole | {"unbounded": None, "breathers": None})
+    settings = load(whole | {"unbounded": None, "breathers": None, "pendula": None})
     with pytest.raises(ConfigurationError, match=r"fig5_right\.draw: has other windows"):
         require(settings, *needs)
 

@@ -17,7 +17,8 @@ CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_wrong", "check_ob
 PARTS = {
     "figures": ("paper/claims_norms", "paper/claims_sweeps"),
     "solvers": ("paper/claims_regular", "paper/claims_solvers"),
-    **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "unbounded")},
+    **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "pendula")},
+    "unbounded": ("unbounded/claims",),
 }
 FIGURES = {"stability_chart", "growth_rates", "bounds"}
 FIGURE_RULES = {"stability_figures", "bounds"}

@@ -56,6 +56,7 @@ FOLDERS += [
     "kept",
     "logs",
     "own",
+    "pendula",
     "speed",
     "sweeps",
     "tables",

@@ -66,6 +66,7 @@ def makers():
         "growth_by_drive": ["results/breathers/growth.nc"],
         "measure_sensitivity": ["results/breathers/sensitivity.nc"],
         "map_fates": ["results/breathers/fates.nc"],
+        "find_threshold": ["results/pendula/threshold.nc"],
     }
     return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
 
@@ -310,6 +311,20 @@ def fate_params(given, size):
     }
 
 
+# The pendula.
+PENDULA = ["threshold"]
+
+
+def threshold_params(given):
+    plain = given.model_dump(exclude={"growth", "curve"})
+    return {
+        **plain,
+        "growth_omegas": given.growth.omegas,
+        "gammas": given.growth.gammas.values,
+        "curve_omegas": given.curve.values,
+    }
+
+
 # The report.
 # The code that makes the numbers; the report shows the hashes of their records.
 NUMBERS_BY = [
@@ -324,6 +339,7 @@ NUMBERS_BY = [
     *("breathers/find_steady.py", "breathers/find_periodic.py"),
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
+    "newton/find_threshold.py",
 ]
 
 
@@ -366,7 +382,8 @@ def settings_in_words():
 CLAIMS_OF = {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],
     "solvers": ["paper/claims_regular", "paper/claims_solvers"],
-    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "breathers", "unbounded")},
+    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "breathers", "pendula")},
+    "unbounded": ["unbounded/claims"],
 }
 
 
@@ -396,6 +413,7 @@ def claims_need():
             *checks("trust", *CHAOS_CHECKS),
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
+        "pendula": below(f"pendula/{name}" for name in PENDULA),
         "unbounded": [
             *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
             *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),

@@ -146,6 +146,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         return _sweep(stem, solver)
     if folder == "breathers":
         return _breathers(rest)
+    if folder == "pendula":
+        return tuple(f"pendula.{rest}.{key}" for key in paper()["pendula"][rest])
     return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
 
 

@@ -43,6 +43,7 @@ NAMES = {
     "omega": "detuning Omega",
     "gamma": "strength of the drive, gamma",
     "epsilon": "coupling of neighbours, epsilon",
+    "mu": "small parameter mu",
     "initial": "initial {site: [A, B]}",
     "sites": "number of sites N",
     # the solution

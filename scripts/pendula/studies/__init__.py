@@ -6,7 +6,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 
-STUDIES = ("paper", "theory", "chaos", "breathers", "unbounded", "hard_cases", "reference")
+STUDIES = (
+    *("paper", "theory", "chaos", "breathers", "pendula", "unbounded", "hard_cases", "reference"),
+)
 """The studies whose claims, sections and settings are collected, in the order in which they are
 told. A study with a module `settings` has its choices in config/<name>.yaml."""
 

@@ -1,0 +1,211 @@
+"""Lemma 1 for the pendula: its limit in mu, its correction, its rates, and its sentence."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from pendula.ledger.claim import Control, claim
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Near,
+    UndecidableError,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+from pendula.numerics.elementary import log
+
+SECTION = 7
+PLACE = "Section 3, Lemma 1, for the pendula (1)"
+THRESHOLD = "pendula/threshold"
+
+FIRST_DIGITS = Cutoff(1e-3, "a limit that agrees in its first three digits is the same number")
+ORDER = Cutoff(0.5, "an order is nearer to a whole number than to its neighbours")
+FEWEST = 3
+"""So many mu at least: through two points any two numbers make a line."""
+
+
+def smallest_mus(dataset):
+    """Return the dataset by falling mu; it must hold enough of them."""
+    if dataset.sizes["mu"] < FEWEST:
+        raise UndecidableError(f"a limit in mu takes {FEWEST} values of it")
+    return dataset.sortby("mu", ascending=False)
+
+
+def outside(dataset):
+    """Return the detunings outside the band at which each mu has a threshold above zero."""
+    some = (dataset["gamma_0_lemma"] > 0) & (dataset["gamma_0"] > 0).all("mu")
+    if not some.any():
+        raise UndecidableError("no detuning lies outside the band")
+    return dataset.sel(omega=some.values)
+
+
+def continued(values, mus):
+    """Return `values` at mu = 0, by the polynomial in mu^2 through all of them (Neville)."""
+    row, squares = [values.sel(mu=mu) for mu in mus], [mu * mu for mu in mus]
+    for k in range(1, len(row)):
+        row = [
+            new + (new - old) * (squares[i + k] / (squares[i] - squares[i + k]))
+            for i, (old, new) in enumerate(pairwise(row))
+        ]
+    return row[0]
+
+
+def order_between(larger, smaller, mus):
+    """Return the order in mu of what is `larger` at mus[-2] and `smaller` at mus[-1]."""
+    return log(np.asarray(larger) / np.asarray(smaller)) / log(mus[-2] / mus[-1])
+
+
+def limit_of(dataset):
+    """Return the threshold continued to mu = 0, by detuning."""
+    return continued(dataset["gamma_0"], dataset["mu"].values)
+
+
+def with_lemma(change):
+    """Return what puts other thresholds in the place of Lemma 1's."""
+
+    def changed(dataset):
+        lemma = dataset["gamma_0_lemma"]
+        return dataset.assign(gamma_0_lemma=lemma.where(lemma == 0.0, change(dataset)))
+
+    return changed
+
+
+def far_edge(dataset):
+    """Return half of the distance of Omega from the far edge of the band."""
+    return 0.5 * abs(dataset["omega"] - 4.0 * dataset.attrs["epsilon"] * (dataset["omega"] < 0))
+
+
+@claim(
+    PLACE,
+    "In the limit of small mu the pendula lose stability at the gamma_0 of Lemma 1.",
+    (THRESHOLD,),
+    (
+        Control("thresholds at the far edge of the band", {THRESHOLD: with_lemma(far_edge)}),
+        Control("thresholds of a drive of half the strength", {
+            THRESHOLD: with_lemma(lambda dataset: 2.0 * dataset["gamma_0_lemma"])}),
+    ),
+)  # fmt: skip
+def lemma_1_is_the_limit(threshold) -> Finding:
+    """Continue the exact thresholds to mu = 0; inside the band ask for none."""
+    ordered = smallest_mus(threshold)
+    beside = outside(ordered)
+    off = limit_of(beside) / beside["gamma_0_lemma"] - 1.0
+    inside = ordered["gamma_0"].sel(omega=(ordered["gamma_0_lemma"] == 0).values)
+    measured = {
+        "detunings": beside.sizes["omega"],
+        "largest_difference": abs(off).max(),
+        "largest_inside": inside.max() if inside.size else 0.0,
+    }
+    criterion = AllOf(
+        Below(FIRST_DIGITS, "largest_difference", says="relative difference in the limit"),
+        AtMost(0.0, "largest_inside", says="largest threshold in the band"),
+    )
+    return judge(measured, criterion)
+
+
+def with_correction(change):
+    """Return what puts other coefficients of mu^2 in the place of the right ones."""
+    return lambda dataset: dataset.assign(correction=change(dataset["correction"]))
+
+
+@claim(
+    PLACE,
+    "The pendula's threshold differs from Lemma 1's by gamma_0^2 mu^2 / 4: more below the band, "
+    "less above it.",
+    (THRESHOLD,),
+    (
+        Control("the same sign on both sides", {THRESHOLD: with_correction(abs)}),
+        Control("half of the coefficient", {THRESHOLD: with_correction(lambda one: 0.5 * one)}),
+    ),
+)
+def correction_of_the_threshold(threshold) -> Finding:
+    """Ask what is left beside the term to be of the order mu^4, between the two smallest mu."""
+    beside = outside(smallest_mus(threshold))
+    mu, below = beside["mu"], (beside["omega"] < 0).values
+    if below.all() or not below.any():
+        raise UndecidableError("detunings lie on one side of the band only")
+    shift = beside["gamma_0"] - beside["gamma_0_lemma"]
+    left = abs(shift - beside["correction"] * mu * mu)
+    order = order_between(left.isel(mu=-2), left.isel(mu=-1), mu.values)
+    measured = {
+        "least_order": order.min(),
+        "largest_order": order.max(),
+        "least_shift_below": shift.sel(omega=below).min(),
+        "largest_shift_above": shift.sel(omega=~below).max(),
+    }
+    says = "order in mu of what is left"
+    criterion = AllOf(
+        Near(4.0, ORDER, "least_order", "largest_order", says=says),
+        Above(0.0, "least_shift_below", says="shift below the band"),
+        Below(0.0, "largest_shift_above", says="shift above the band"),
+    )
+    return judge(measured, criterion)
+
+
+def largest_misses(dataset):
+    """Return by mu the largest difference of the rates of growth, over the largest rate.
+
+    Near a threshold a rate is the root of a small difference, and that threshold itself moves; so
+    squares of rates are compared.
+    """
+    square, law = dataset["rate"] ** 2, dataset["rate_lemma"] ** 2
+    off = abs(square - law) / law.max("gamma")
+    return off.max(("growth_omega", "gamma"))
+
+
+@claim(
+    PLACE,
+    "Unstable pendula grow at the rates of Lemma 1, with an error of the order mu^2.",
+    (THRESHOLD,),
+    (
+        Control("rates of exchanged detunings", {THRESHOLD: lambda one: one.assign(
+            rate_lemma=(one["rate_lemma"].dims, np.roll(one["rate_lemma"].values, 1, axis=0)))}),
+        Control("rates with an error of the order mu", {THRESHOLD: lambda one: one.assign(
+            rate=one["rate_lemma"] * (1.0 + one["mu"]))}),
+    ),
+)  # fmt: skip
+def rates_of_the_pendula(threshold) -> Finding:
+    """Take the order between the two smallest mu."""
+    ordered = smallest_mus(threshold)
+    missed, mu = largest_misses(ordered).values, ordered["mu"].values
+    if not missed[-1] > 0:
+        raise UndecidableError("no wave grows at any of the drives")
+    order = order_between(missed[-2], missed[-1], mu)
+    measured = {"order": order, "largest_miss": missed[0], "at_mu": mu[0]}
+    measured |= {"least_miss": missed[-1]}
+    return judge(measured, Near(2.0, ORDER, "order", says="order in mu of the difference"))
+
+
+@claim(
+    PLACE,
+    "The pendula at rest are linearly stable if gamma is below the gamma_0 of Lemma 1.",
+    (THRESHOLD,),
+    (
+        Control("detunings below the band alone", {THRESHOLD: lambda one: one.sel(
+            omega=((one["omega"] < 0) & (one["gamma_0"] > 0).all("mu")).values)}, confirms=True),
+    ),
+)  # fmt: skip
+def lemma_1_for_the_pendula(threshold) -> Finding:
+    """Compare the exact thresholds with Lemma 1's at each mu, where both are known."""
+    lemma = threshold["gamma_0_lemma"]
+    share = (threshold["gamma_0"] / lemma).where(lemma > 0)
+    if not np.isfinite(share).any():
+        raise UndecidableError("no detuning lies outside the band")
+    above = share.sel(omega=(threshold["omega"] > 0).values)
+    measured = {
+        "least_share": share.min(),
+        "largest_share": share.max(),
+        "least_share_above": above.min() if above.size else np.nan,
+    }
+    says = "least threshold of the pendula over Lemma 1's"
+    criterion = AtLeast(1.0, "least_share", says=says)
+    fails = (
+        "above the band a drive below gamma_0 already makes the pendula unstable, and where mu is"
+        " large the second resonance does so below the band"
+    )
+    return judge(measured, criterion, fails=fails)

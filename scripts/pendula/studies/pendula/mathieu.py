@@ -1,0 +1,147 @@
+"""Mathieu's equation: the drive at which a wave loses stability, and how fast it grows then.
+
+Mathieu's equation is z'' + (a - 2 q cos 2 theta) z = 0, with q > 0. Two of its curves bound the
+region where a wave of the chain is stable (NIST Digital Library of Mathematical Functions, 28.2
+and 28.6): those of the first tongue, which starts at a = 1, and the lower one of the second, which
+starts at a = 4. With `offset` = a - 1 their continued fractions, 28.6(i), are written so that
+nothing cancels near a = 1, where small mu leads. They hold for 0 < a < 4. Arithmetic is + - * / and
+square roots of real numbers, whose bits are the same on every machine.
+"""
+
+import numpy as np
+
+DEPTH = 12
+"""Terms of a continued fraction; twice as many change no bit (tests/studies/pendula)."""
+MOST = 1_000
+"""Iterations after which something is wrong; they need ten, and near a threshold some tens."""
+ROUNDING = 2.0**-49
+"""Relative rounding of a square: eight units in the last place."""
+BEYOND = 4.0
+"""The curve a_1(q) has its highest point below this q: what is not met by then never is."""
+
+
+def _fraction(square, gaps):
+    """Return square / (gaps[0] - square / (gaps[1] - ...)), and its derivative by `square`."""
+    found, slope = 0.0, 0.0
+    for gap in gaps[::-1]:
+        over = 1.0 / (gap - found)
+        slope = over * (1.0 + square * over * slope)
+        found = square * over
+    return found, slope
+
+
+def _odd_gaps(offset):
+    """Return (2 j + 1)^2 - a of the harmonics j = 1, 2, ..."""
+    return [4.0 * j * (j + 1) - offset for j in range(1, DEPTH + 1)]
+
+
+def _even_gaps(below_four):
+    """Return (2 j)^2 - a of the harmonics j = 3, 4, ..., for `below_four` = 4 - a."""
+    return [4.0 * (j * j - 1) + below_four for j in range(3, DEPTH + 3)]
+
+
+def _settled(step, start: np.ndarray, scale=0.0) -> np.ndarray:
+    """Return what `step` leaves as it is, by iteration from `start`.
+
+    The square of the result moves by a few units in the last place no more: of its own, or of that
+    of `scale`, if this is larger.
+    """
+    found = start
+    for _ in range(MOST):
+        old, found = found, step(found)
+        moved = np.abs(found - old) * (found + old)
+        if np.all((moved <= ROUNDING * np.maximum(found, scale) ** 2) | np.isinf(found)):
+            return found
+    raise ArithmeticError(f"no fixed point after {MOST} iterations")
+
+
+def first_tongue(offset) -> np.ndarray:
+    """Return the least q at which the first tongue reaches a = 1 + `offset`, -1 < offset < 3.
+
+    The solution of q = |offset| +- q^2 / (8 - offset - ...) is on a_1 for positive offsets and on
+    b_1 for negative ones. The fraction is convex in q, so that Newton's method goes to it in one
+    direction, and for positive offsets finds the least of several. Where there is none, since a_1
+    does not reach so high, the result is infinite.
+    """
+    offset = np.asarray(offset, dtype=float)
+    gaps, size, side = _odd_gaps(offset), np.abs(offset), np.sign(offset)
+
+    def step(q):
+        bounded = np.minimum(q, BEYOND)
+        fraction, slope = _fraction(bounded * bounded, gaps)
+        steepness = 1.0 - 2.0 * side * bounded * slope
+        move = (size + side * fraction - bounded) / np.where(steepness > 0.0, steepness, np.nan)
+        found = np.where(side * move > 0.0, bounded + move, bounded)
+        return np.where(np.isnan(move) | (found >= BEYOND), np.inf, found)
+
+    with np.errstate(invalid="ignore"):  # inf - inf, where nothing is met
+        return _settled(step, size)
+
+
+def second_tongue(offset) -> np.ndarray:
+    """Return the q at which the lower curve b_2 of the second tongue comes down to 1 + `offset`."""
+    below_four = 3.0 - np.asarray(offset, dtype=float)
+    gaps = _even_gaps(below_four)
+    return _settled(
+        lambda q: np.sqrt(below_four * (12.0 + below_four - _fraction(q * q, gaps)[0])),
+        np.sqrt(below_four * (12.0 + below_four)),
+    )
+
+
+def wave_threshold(offset) -> np.ndarray:
+    """Return the q up to which the wave with a = 1 + `offset` is stable, for -1 < offset < 3."""
+    return np.minimum(first_tongue(offset), second_tongue(offset))
+
+
+def band_threshold(lowest, highest) -> np.ndarray:
+    """Return the q up to which all waves with offsets from `lowest` to `highest` are stable.
+
+    It is zero where a = 1 or a = 4 is among them, at which a tongue starts. Between, the first
+    tongue meets the band at the end nearest to a = 1, and the second at the highest. NaN where all
+    waves lie above a = 4, of which these curves say nothing.
+    """
+    lowest, highest = np.asarray(lowest, dtype=float), np.asarray(highest, dtype=float)
+    nearest = np.where(lowest > 0.0, lowest, highest)
+    within = ((lowest <= 0.0) & (highest >= 0.0)) | ((lowest <= 3.0) & (highest >= 3.0))
+    above = lowest > 3.0
+    plain = within | above
+    found = np.minimum(
+        first_tongue(np.where(plain, 0.0, nearest)), second_tongue(np.where(plain, 0.0, highest))
+    )
+    return np.where(above, np.nan, np.where(within, 0.0, found))
+
+
+# --- Growth within the first tongue --------------------------------------------------------------
+
+
+def growth(offset, q) -> np.ndarray:
+    """Return the rate per unit of theta at which the wave with a = 1 + `offset` grows; 0 if stable.
+
+    A solution that grows is e^(s theta) times a series in e^(i (2 k + 1) theta), and the one with
+    the largest s of the first tongue is real. Hill's equations for its terms, a continued fraction
+    on either side of k = 0 and k = -1, meet where |offset + s^2 + 2 i s - T(s)| = q. This is solved
+    for the s in 2 i s by iteration.
+    """
+    offset, q = np.broadcast_arrays(np.asarray(offset, dtype=float), np.asarray(q, dtype=float))
+    square = q * q
+
+    def step(s):
+        real, imaginary = _tail(offset + s * s, s, square)
+        level = offset + s * s - real
+        return 0.5 * (imaginary + np.sqrt(np.maximum(0.0, (q - level) * (q + level))))
+
+    return _settled(step, np.zeros(offset.shape), q)
+
+
+def _tail(offset, s, square):
+    """Return the real and the imaginary part of T = q^2 / (d_1 - q^2 / (d_2 - ...)).
+
+    d_k = a + (s + i (2 k + 1))^2, and `offset` is a - 1 + s^2.
+    """
+    real, imaginary = np.zeros(offset.shape), np.zeros(offset.shape)
+    for k in range(DEPTH, 0, -1):
+        x = offset - 4.0 * k * (k + 1) - real
+        y = 2.0 * (2 * k + 1) * s - imaginary
+        over = square / (x * x + y * y)
+        real, imaginary = x * over, -y * over
+    return real, imaginary

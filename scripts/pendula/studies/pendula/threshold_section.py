@@ -1,0 +1,39 @@
+"""What the report says of the threshold of the pendula."""
+
+from typing import Any
+
+from pendula.report.results import Results
+from pendula.report.words import number
+
+DATA = "pendula/threshold"
+DIGITS = 12
+
+
+def threshold(results: Results) -> dict[str, Any]:
+    """Return thresholds as a table, and the picture."""
+    data = results[DATA]
+    mus = [float(mu) for mu in data["mu"].values]
+    return {
+        "head": ["Ω", "Lemma 1", *(f"μ = {number(mu)}" for mu in mus)],
+        "rows": [_row(results, float(omega)) for omega in _outside(data)],
+        "picture": results.picture("pendula_threshold", _alt(data)),
+        "sites": results.quote(DATA, float(data.attrs["sites"])),
+    }
+
+
+def _outside(data) -> list[float]:
+    return [float(one) for one in data["omega"].values[(data["gamma_0_lemma"] > 0).values]]
+
+
+def _row(results: Results, omega: float) -> list:
+    one = results[DATA].sel(omega=omega)
+    exact = [results.quote(DATA, float(value), DIGITS) for value in one["gamma_0"].values]
+    return [number(omega), results.quote(DATA, float(one["gamma_0_lemma"])), *exact]
+
+
+def _alt(data) -> str:
+    """Describe the picture in words."""
+    return (
+        f"The threshold of the drive against the detuning for {data.sizes['mu']} values of mu "
+        "beside Lemma 1; its distance from Lemma 1; and rates of growth against the drive."
+    )

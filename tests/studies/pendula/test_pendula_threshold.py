@@ -1,0 +1,126 @@
+"""Thresholds and rates of the pendula, against monodromies of the linearised chain and SciPy."""
+
+import numpy as np
+import pytest
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.messages import load
+from pendula.configuration.paper import paper
+from pendula.datasets.netcdf import as_xarray
+from pendula.models.linear_chain import gamma_0
+from pendula.studies.pendula.threshold import (
+    correction,
+    finite_pendula_threshold,
+    next_correction,
+    pendula_rate,
+    pendula_threshold,
+    squared_frequency,
+    threshold_contents,
+)
+from scipy.integrate import solve_ivp
+
+MUS = (0.05, 0.1, 0.2, 0.3)
+
+
+def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
+    """Return the largest multiplier over a period of the drive, by the linearised equation (1)."""
+    frequency = np.sqrt(1.0 + mu * mu * omega)
+
+    def rates(t, z):
+        drive = 2.0 * gamma * mu * mu * np.cos(2.0 * frequency * t)
+        return [z[1], -(1.0 + epsilon * mu * mu * curvature + 2.0 * drive) * z[0]]
+
+    runs = [
+        solve_ivp(rates, (0.0, np.pi / frequency), start, "DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+        for start in ([1.0, 0.0], [0.0, 1.0])
+    ]
+    return abs(np.linalg.eigvals(np.transpose(runs))).max()
+
+
+@pytest.mark.parametrize("mu", MUS)
+@pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (8.0, 4.0)])
+def test_the_edge_of_the_band_loses_stability_at_the_threshold(omega, curvature, mu):
+    found = float(pendula_threshold(omega, mu, 1.0))
+    assert multiplier(omega, mu, found * (1 - 1e-4), curvature) == pytest.approx(1.0, abs=1e-9)
+    assert multiplier(omega, mu, found * (1 + 1e-4), curvature) > 1.0 + 1e-5
+
+
+@pytest.mark.parametrize("omega", [-4.0, 8.0])
+def test_no_other_wave_loses_stability_first(omega):
+    found = float(pendula_threshold(omega, 0.3, 1.0))
+    for curvature in np.linspace(0.0, 4.0, 9):
+        assert multiplier(omega, 0.3, 0.999 * found, curvature) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_the_second_resonance_takes_all_stability_where_a_wave_meets_it():
+    """At mu = 0.3 and Omega = -8 the wave with a = 4 is in the band: any drive makes it grow."""
+    assert pendula_threshold(-8.0, 0.3, 1.0) == 0.0
+    curvature = (4.0 * squared_frequency(-8.0, 0.3) - 1.0) / 0.09
+    assert 0.0 < curvature < 4.0
+    assert multiplier(-8.0, 0.3, 0.5, curvature) > 1.001
+
+
+def test_corrections_are_those_of_small_mu():
+    """What is left after two terms is of the order mu^6."""
+    omegas = np.array([-6.0, -4.0, -1.0, 5.0, 8.0, 12.0])
+    left = []
+    for mu in (0.02, 0.01):
+        two = correction(omegas, 1.0) + mu * mu * next_correction(omegas, 1.0)
+        left.append(pendula_threshold(omegas, mu, 1.0) - gamma_0(omegas, 1.0) - mu * mu * two)
+    assert left[0] / left[1] == pytest.approx(np.full(6, 64.0), rel=0.05)
+
+
+def test_long_chains_have_the_threshold_of_the_infinite_one():
+    omegas = np.array([-4.0, 8.0])
+    infinite = pendula_threshold(omegas, 0.2, 1.0)
+    off = [finite_pendula_threshold(omegas, 0.2, 1.0, sites) - infinite for sites in (99, 199)]
+    assert off[0] / off[1] == pytest.approx([4.0, 4.0], rel=1e-3)  # as (N + 1)^-2
+    assert np.all(off[1] > 0)
+
+
+def test_a_short_chain_loses_stability_by_one_of_its_waves():
+    sites, omega, mu = 5, 1.3, 0.2
+    found = float(finite_pendula_threshold(omega, mu, 1.0, sites))
+    waves = 4.0 * np.sin(np.pi * np.arange(1, sites + 1) / (2 * (sites + 1))) ** 2
+    assert max(multiplier(omega, mu, 0.999 * found, s) for s in waves) < 1.0 + 1e-9
+    assert max(multiplier(omega, mu, 1.001 * found, s) for s in waves) > 1.0 + 1e-5
+
+
+@pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (0.0, 0.0), (8.0, 4.0)])
+def test_rates_are_those_of_the_fastest_wave(omega, curvature):
+    mu, gamma = 0.3, 3.0
+    period = 0.5 * mu * mu * np.pi / np.sqrt(1.0 + mu * mu * omega)  # of the drive, in tau
+    waves = [multiplier(omega, mu, gamma, s) for s in np.linspace(0.0, 4.0, 5)]
+    found = float(pendula_rate(omega, mu, gamma, 1.0))
+    assert found == pytest.approx(np.log(max(waves)) / period, rel=1e-9)
+    assert max(waves) == multiplier(omega, mu, gamma, curvature)
+
+
+def test_the_dataset_holds_what_its_names_say():
+    given = paper()["pendula"]["threshold"]
+    data = as_xarray(
+        *threshold_contents(1.0, given["omegas"], given["mus"], 30, [-4.0, 8.0], [0.0, 3.0], [-1.0])
+    )
+    assert {-4.0, 8.0} <= set(data["omega"].values) and list(data["mu"].values) == list(MUS)
+    assert data["gamma_0"].dims == ("omega", "mu")
+    assert np.all(data["gamma_0"].sel(omega=[0.0, 1.0, 4.0]) == 0.0)
+    assert data["rate"].sel(gamma=0.0).max() == 0.0
+    assert data["curve_gamma_0"].values[0] == pytest.approx(
+        data["gamma_0"].sel(omega=-1.0).values, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"omegas": [-9]}, r"omegas: has -9, and at mu = 0.3 every wave there lies above"),
+        ({"mus": [0.6]}, r"growth.omegas: has -4, and at mu = 0.6"),
+        ({"growth": {"omegas": [-6], "gammas": {"first": 0, "last": 12, "step": 1}}},
+         r"growth.gammas: has 12, at which waves of Omega = -6 and mu = 0.3 grow by the second"),
+        ({"curve": {"first": 3, "last": 1, "step": 0.1}}, r"curve: does not run forward"),
+    ],
+)  # fmt: skip
+def test_what_has_no_threshold_is_refused_by_its_key(change, text):
+    given = paper()["pendula"]
+    settings = {"pendula": given | {"threshold": given["threshold"] | change}}
+    with pytest.raises(ConfigurationError, match=text):
+        load(dict(paper()) | {"unbounded": None, "breathers": None} | settings)
