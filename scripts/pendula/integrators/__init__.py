@@ -11,12 +11,19 @@ ends as the final one. `times` are those of the outputs, from the start on. Noth
 the step loop. Another thread may raise the flag `stop`, an array of one boolean: the loop reads it
 at every step and ends (see pendula.simulation.interrupts).
 
+A system may depend on time. `build` of the methods that can follow one takes `at_time(system, t)`,
+which returns the system as it is at the time t and is asked before every call of `rates`, or once a
+step for a power series. Rounding lets t + h miss the time that a step of h reaches. Only what
+depends on time can tell, and there steps are rounded so that t + h is exact.
+
 Every explicit method measures errors by the largest component and takes the same steps whether a
 solution that is even in n is given whole or by half. Its loop counts outputs by `i`, and steps to
 `t_new`, past one output or several, which it interpolates.
 """
 
 from typing import NamedTuple
+
+from pendula.compiled import kernel
 
 DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG, INTERRUPTED = range(6)
 """The status of a run."""
@@ -42,3 +49,9 @@ class Outcome(NamedTuple):
     steps: int  # taken
     rejected: int  # tried in vain; for a fixed-point iteration how often a step was halved
     evaluations: int  # of the right-hand side; of the orders of a series for Taylor
+
+
+@kernel
+def at_any_time(system, t):
+    """Return the system itself: the `at_time` of what does not depend on time."""
+    return system

@@ -21,8 +21,16 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_magnitude
 
-from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
-from .dop853_coefficients import D4, D5, D6, D7, E3, E5, STAGES
+from . import (
+    DONE,
+    INTERRUPTED,
+    NOT_FINITE,
+    SMALLEST_PART,
+    STEP_TOO_SMALL,
+    Outcome,
+    at_any_time,
+)
+from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .tiles import count_tiles, give, take, tile_length, tile_place
 from .weighted_sums import table, write_sum
 
@@ -185,16 +193,17 @@ def unchanged(system, at_left_end, at_right_end):
     return system
 
 
-def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
+def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged, at_time=at_any_time):
     """Return the solver of y' = rates; see the package for its arguments.
 
     Where `can_be_tiled(system)`, rates at a site depend on that site and its two neighbours alone,
     and `system_of_tile(system, at_left_end, at_right_end)` is the system of a tile, which may or
     may not hold the ends of the whole.
     """
+    driven = at_time is not at_any_time
 
     @uncached
-    def initial_step(system, y, slope, spare, tolerances, longest):
+    def initial_step(system, t, y, slope, spare, tolerances, longest):
         """Return the starting step of Hairer, Norsett and Wanner (section II.4).
 
         It compares the sizes of y, y' and, by a step of Euler's method, of y''.
@@ -206,7 +215,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
                 w[row, j] = y[row, j] + h * slope[row, j]
-        rates(system, w, new_slope)
+        rates(at_time(system, t + h), w, new_slope)
         for row in range(y.shape[0]):
             for j in range(y.shape[1]):
                 w[row, j] = new_slope[row, j] - slope[row, j]
@@ -216,15 +225,15 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
         return min(longest, 100.0 * h, eighth_root(0.01 / steepest))
 
     @uncached
-    def take_stages(system, first, last, y, h, k, w):
+    def take_stages(system, first, last, t, y, h, k, w):
         """Write the arguments of stages `first` to `last` into `w`, and their slopes into `k`."""
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(16, -1), w.reshape(-1)
         for stage in range(first, last + 1):
             combine(stage, y_flat, h, k_flat, w_flat)
-            rates(system, w, k[stage - 1])
+            rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
 
     @uncached
-    def step(system, count, work, y, slope, h, tolerances, due, w, new_slope, c):
+    def step(system, count, work, t, y, slope, h, tolerances, due, w, new_slope, c):
         """Write state and slope after a step, in `count` tiles, into `w` and `new_slope`.
 
         Return the error of the step; `work` holds TILE_WORK arrays of the size of a tile. Where an
@@ -243,7 +252,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
             take(slope, left, k[0])
             if not alone:
                 take(y, left, start)
-            take_stages(here, 2, 13, start, h, k, end)
+            take_stages(here, 2, 13, t, start, h, k, end)
             own = (1 + first - left, 1 + stop - left)
             near = error_estimates(start, end, k, scratch, spare, tolerances, own)
             fifth, third = worse(fifth, near[0]), worse(third, near[1])
@@ -252,7 +261,7 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
             if not alone:
                 give(end, left, first, stop, w)
             if due and (error <= 1.0 or not alone):
-                take_stages(here, 14, 16, start, h, k, scratch)
+                take_stages(here, 14, 16, t, start, h, k, scratch)
                 prepare_interpolant(start, end, h, k, curve)
                 for m in range(0 if alone else c.shape[0]):
                     give(curve[m], left, first, stop, c[m])
@@ -267,8 +276,8 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
         columns = tile_length(y.shape[1] - 2, count) + 2
         tiles = work[WHOLE_WORK:].reshape(-1)[: TILE_WORK * y.shape[0] * columns]
         part = tiles.reshape((TILE_WORK, y.shape[0], columns))
-        rates(system, y, slope)
-        h = initial_step(system, y, slope, c, controls, end - t)
+        rates(at_time(system, t), y, slope)
+        h = initial_step(system, t, y, slope, c, controls, end - t)
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
         i += 1
@@ -287,8 +296,10 @@ def build(rates, observe, can_be_tiled=never, system_of_tile=unchanged):
                 status = NOT_FINITE if overflowed else STEP_TOO_SMALL
                 return Outcome(status, t, steps, rejected, evaluations)
             t_new = end if h == end - t else t + h
+            if driven:
+                h = t_new - t
             due = times[i] <= t_new
-            error = step(system, count, part, state, slope, h, controls, due, w, new_slope, c)
+            error = step(system, count, part, t, state, slope, h, controls, due, w, new_slope, c)
             evaluations += 12
             overflowed = error == np.inf
             factor = step_factor(error)

@@ -6,6 +6,8 @@ compare every number with an independent copy and measure the order. Each row gi
 the stages that they multiply; those that are zero are left out.
 """
 
+import numpy as np
+
 # fmt: off
 STAGES = {
     2: {1: 0.05260015195876773},
@@ -60,6 +62,11 @@ STAGES = {
 }
 """The arguments of stages 2 to 16. That of stage 13 is the solution itself, and those of the stages
 14 to 16 are for the interpolant only."""
+NODES = np.array([
+    np.nan, 0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726,
+    1 / 3, 0.25, 4 / 13, 0.6512820512820513, 0.6, 0.8571428571428571, 1.0, 1.0, 0.1, 0.2, 7 / 9,
+])
+"""The part of the step at which each stage stands, by its number."""
 # the errors of the orders five and three
 E5 = {
     1: 0.01312004499419488, 6: -1.2251564463762044, 7: -0.4957589496572502, 8: 1.6643771824549864,

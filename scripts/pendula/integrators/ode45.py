@@ -25,7 +25,15 @@ from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.numerics import elementary
 from pendula.simd import largest_in_rows
 
-from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from . import (
+    DONE,
+    INTERRUPTED,
+    NOT_FINITE,
+    SMALLEST_PART,
+    STEP_TOO_SMALL,
+    Outcome,
+    at_any_time,
+)
 from .weighted_sums import table, write_sum
 
 WORK = 9
@@ -47,6 +55,8 @@ ROWS = table(
     8,
 )
 """The weights of the arguments of stages 2 to 7, by the stages that they multiply."""
+NODES = np.array([np.nan, 0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+"""The part of the step at which each stage stands, by its number."""
 
 
 @kernel
@@ -119,8 +129,9 @@ def spacing(t):
     return 16.0 * np.spacing(max(abs(t), 2.0**-1022))
 
 
-def build(rates, observe):
+def build(rates, observe, at_time=at_any_time):
     """Return the solver of y' = rates; see the package for its arguments."""
+    driven = at_time is not at_any_time
 
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
@@ -130,7 +141,7 @@ def build(rates, observe):
         longest, refused = 0.1 * (end - t), SMALLEST_PART * (end - t)
         k, w, out = work[:7], work[7], work[8]
         y_flat, k_flat, w_flat = y.reshape(-1), k.reshape(7, -1), w.reshape(-1)
-        rates(system, y, k[0])
+        rates(at_time(system, t), y, k[0])
         h = initial_step(y, k[0], threshold, rtol, min(longest, times[1] - times[0]))
         i = np.int64(0)  # a plain 0 would be a type of its own and compile `observe` anew
         observe(system, y, i, record)
@@ -147,9 +158,11 @@ def build(rates, observe):
             while True:  # shrink h until the step passes; as a function it would take 7 % longer
                 if stop[0]:
                     return Outcome(INTERRUPTED, t, steps, rejected, evaluations)
+                if driven and h != end - t:
+                    h = (t + h) - t
                 for stage in range(2, 8):
                     combine(stage, y_flat, h, k_flat, w_flat)
-                    rates(system, w, k[stage - 1])
+                    rates(at_time(system, t + NODES[stage] * h), w, k[stage - 1])
                 evaluations += 6
                 error = h * relative_error(y, w, k, threshold, out)
                 if error <= rtol:

@@ -9,7 +9,8 @@ Layout. Sites go LANES to a block, a `Vector` (see pendula.simd). A block holds,
 the real parts of its sites, their imaginary parts, and a number a site for the rule, which keeps
 |A|^2 / 2 there. All coefficients of a block lie side by side: each is at a fixed distance from the
 start of the block, and a short chain fits into the fastest cache. Behind all blocks lie the ghosts,
-what each component sees beyond its two ends, for the order that is at work.
+what each component sees beyond its two ends, for the order that is at work, and behind them what a
+rule needs beside that (`work_arrays`, `spare_start`).
 
 Step control. Jorba and Zou, Experimental Mathematics 14 (2005) 99: the last two
 coefficients give the step at which their terms fall below the tolerance. They are measured by the
@@ -25,7 +26,15 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, inlined_by_numba, kernel
 from pendula.simd import LANES, fill, larger_magnitude, largest_lane, load, store
 
-from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
+from . import (
+    DONE,
+    INTERRUPTED,
+    NOT_FINITE,
+    SMALLEST_PART,
+    STEP_TOO_SMALL,
+    Outcome,
+    at_any_time,
+)
 
 # --- A power series in memory -------------------------------------------------------------------
 
@@ -41,8 +50,18 @@ LEFT, RIGHT = 0, ORDER_STRIDE
 """Where the ghosts to the left and to the right of a component lie, each laid out as one order."""
 GHOSTS_SIZE = 2 * ORDER_STRIDE
 _SMALLEST_COMPONENT = 2 * 3  # numbers of a component of one site: two rows of a site and two ghosts
-WORK = -(-(BLOCK_SIZE + GHOSTS_SIZE) // _SMALLEST_COMPONENT)
-"""Work arrays of the size of a state: enough for a single site, whose block is mostly padding."""
+
+
+def work_arrays(more: int) -> int:
+    """Return how many work arrays of the size of a state hold a series, and `more` numbers a block.
+
+    That is enough for a single site, whose block is mostly padding.
+    """
+    return -(-(BLOCK_SIZE + GHOSTS_SIZE + more) // _SMALLEST_COMPONENT)
+
+
+WORK = work_arrays(0)
+"""Work arrays of the size of a state."""
 
 
 class Series(NamedTuple):
@@ -72,6 +91,12 @@ def block_start(series, component, block):
 def ghosts_start(series, component):
     """Return where in memory the ghosts of a component begin."""
     return series.components * series.blocks * BLOCK_SIZE + component * GHOSTS_SIZE
+
+
+@inlined_by_llvm
+def spare_start(series):
+    """Return where in memory begins what a rule that asked for more numbers may use as it likes."""
+    return ghosts_start(series, series.components)
 
 
 @kernel
@@ -187,12 +212,13 @@ def allowed_step(series, rtol, atol):
     return min(sixteenth_root(tolerance / last), fifteenth_root(tolerance / last_but_one))
 
 
-def build(continue_series, observe):
+def build(continue_series, observe, at_time=at_any_time):
     """Return the solver of the system whose rule `continue_series(system, series)` is given.
 
     The rule writes the coefficients of the orders 1 to ORDER from those of order 0. The solver is
-    called as the package says.
+    called as the package says, which also says what `at_time` is.
     """
+    driven = at_time is not at_any_time
 
     @inlined_by_numba
     def solve(system, y, times, controls, work, record, stop):
@@ -208,7 +234,7 @@ def build(continue_series, observe):
         while i < times.size:
             if stop[0]:
                 return Outcome(INTERRUPTED, t, steps, 0, ORDER * steps)
-            continue_series(system, series)
+            continue_series(at_time(system, t), series)
             h = allowed_step(series, rtol, atol)
             steps += 1
             if not h > shortest:  # also where h is NaN
@@ -217,6 +243,8 @@ def build(continue_series, observe):
             if h * (1.0 + 1e-9) >= end - t:  # leave no remnant of the order of rounding
                 h = end - t
             t_new = end if h == end - t else t + h
+            if driven:
+                h = t_new - t
             while i < times.size and times[i] <= t_new:
                 evaluate(series, times[i] - t, y)
                 observe(system, y, i, record)
