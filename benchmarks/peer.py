@@ -8,7 +8,7 @@ from pendula.compiled import kernel
 from pendula.models.amplitudes import Chain, rates
 from pendula.problem import Problem
 from pendula.simulation.lattice import Reduction, find_reduction, pack, unpack
-from pendula.simulation.simulate import make_chain
+from pendula.simulation.models import make_chain
 
 HALF = Reduction(even=True, synchronised=False)
 

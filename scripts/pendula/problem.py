@@ -1,4 +1,4 @@
-"""One initial-value problem of the equations (4): constants, chain, data, times and solver.
+"""One initial-value problem: model, constants, chain, data, times and solver.
 
 The configuration makes a `Problem` of a case, the simulation integrates it, datasets describe it by
 their attributes: there is no second form of it in the library. Workflow and scripts pass it on as
@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 
 BOUNDARIES = ("dirichlet", "free", "periodic")
+AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
+"""The amplitude equations (4), and Newton's equations (1) of the pendula."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,14 +44,17 @@ class Constants:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
-    """One initial-value problem of the equations (4) and how it is integrated.
+    """One initial-value problem and how it is integrated.
 
-    Time is the slow time tau. `initial` is complex, of shape (2, 2r + 1): A and B on the sites
-    -r..r at tau = 0; all sites beyond are at rest. `half_width` is M, the chain has the sites
-    -M..M; None stands for a chain without ends. `snapshot_every` keeps |A_n| and |B_n| at each so
-    many outputs; 0 keeps none.
+    `model` says of which equations: "amplitudes" are (4), "pendula" are (1), which have one more
+    constant, `mu`. Data and times are those of (4) for either: pendula start from the angles and
+    velocities that (3) makes of A and B. Time is the slow time tau. `initial` is complex, of shape
+    (2, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest. `half_width`
+    is M, the chain has the sites -M..M; None stands for a chain without ends. `snapshot_every`
+    keeps the size of each component at every site at each so many outputs; 0 keeps none.
 
-    Raises ValueError where data lie outside the chain.
+    Raises ValueError where data lie outside the chain, and where there is no such model, or mu is
+    missing or means nothing.
     """
 
     constants: Constants
@@ -60,8 +65,11 @@ class Problem:
     output_step: float
     solver: Mapping[str, Any]  # {"name": ..., **controls}
     snapshot_every: int = 0
+    model: str = AMPLITUDES
+    mu: float | None = None  # of the pendula: the size of their angles
 
     def __post_init__(self):
+        require_model(self.model, self.mu, self.constants.omega)
         initial = np.array(self.initial, complex)
         if initial.ndim != 2 or len(initial) != 2 or initial.shape[1] % 2 == 0:
             raise ValueError(f"data of A and B on an odd number of sites, not {initial.shape}")
@@ -79,7 +87,10 @@ class Problem:
         return cls(constants=Constants.of(values), initial=initial, **rest)
 
     def plain(self) -> dict[str, Any]:
-        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond."""
+        """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
+
+        Problems of (4) name no model, as it was when there was no other.
+        """
         return {
             "epsilon": self.constants.epsilon,
             "gamma": self.constants.gamma,
@@ -91,6 +102,7 @@ class Problem:
             "output_step": self.output_step,
             "solver": dict(self.solver),
             "snapshot_every": self.snapshot_every,
+            **({"model": self.model, "mu": self.mu} if self.model != AMPLITUDES else {}),
         }
 
     def changed(self, **changes) -> "Problem":
@@ -113,6 +125,18 @@ class Problem:
     def times(self) -> np.ndarray:
         """The output times 0, ..., end_time in equal steps; integers among them are exact."""
         return output_times(self.end_time, self.output_step)
+
+
+def require_model(model: str, mu: float | None, omega: float) -> None:
+    """Raise ValueError if there is no such model, or if mu does not fit it."""
+    if model not in MODELS:
+        raise ValueError(f"there is no model {model!r}; there are {', '.join(MODELS)}")
+    if model == AMPLITUDES and mu is not None:
+        raise ValueError("mu has a meaning for the pendula only")
+    if model == PENDULA and not (mu is not None and 0.0 < mu < np.inf):
+        raise ValueError(f"the pendula need a positive mu, not {mu}")
+    if model == PENDULA and not 1.0 + mu * mu * omega > 0.0:
+        raise ValueError(f"1 + mu^2 Omega must be positive: mu is {mu:g}, Omega {omega:g}")
 
 
 def by_name(problems: Mapping[str, Mapping]) -> dict[str, Problem]:

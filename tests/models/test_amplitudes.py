@@ -7,13 +7,7 @@ import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
 from pendula.models.amplitudes import (
-    DIRICHLET,
-    FREE,
-    LANES,
-    MIRROR,
-    PERIODIC,
     Chain,
-    can_be_tiled,
     chain_of_tile,
     fill_site_terms,
     midpoint_rates,
@@ -21,6 +15,8 @@ from pendula.models.amplitudes import (
     rates,
     rates_at_site,
 )
+from pendula.models.chain import DIRICHLET, FREE, MIRROR, PERIODIC, can_be_tiled
+from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 
 CONSTANTS = (0.7, 1.3, -2.1)

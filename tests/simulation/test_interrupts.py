@@ -12,8 +12,9 @@ from pendula.integrators import INTERRUPTED
 from pendula.simulation import simulate as simulation
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, aligned, pack
+from pendula.simulation.models import make_chain
 from pendula.simulation.observables import blank_record
-from pendula.simulation.simulate import IntegrationError, make_chain, simulate
+from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.simulation.solvers import SOLVERS
 from pendula.studies.chaos import tangent_dynamics
 from pendula.studies.unbounded import active_sites

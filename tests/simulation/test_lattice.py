@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
-from pendula.models.amplitudes import DIRICHLET, FREE, MIRROR, PERIODIC
+from pendula.models.chain import DIRICHLET, FREE, MIRROR, PERIODIC
 from pendula.simulation.lattice import (
     WHOLE,
     Reduction,

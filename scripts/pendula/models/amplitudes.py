@@ -3,18 +3,9 @@
     i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
                   + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
 
-and the same with A and B exchanged. What stands here: the state and the ends of the chain, the
-right-hand side, the parts into which splitting and `delfour_fortin_payre` take it, and the energy.
-
-State. A real array `y[row, 1 + site]` with the rows Re A, Im A, Re B, Im B, or the first two alone
-where A = B. The sites are -M..M, or 0..M where the data are even in n. The first and the last
-column are ghosts, which hold what the ends of the chain see beyond themselves, so that no formula
-needs to know where it is.
-
-Bits. Both symmetries are invariants of the equations, and the kernels keep them to the last bit:
-neighbours are summed as (right + left) - 2 centre, which rounds alike under reflection, and A and B
-go through the same operations in the same order. Half of an even chain and one component of a chain
-with A = B therefore have the bits of the whole. Whoever changes an order of operations here
+and the same with A and B exchanged. What stands here: the right-hand side, the parts into which
+splitting and `delfour_fortin_payre` take it, and the energy. A state has the rows Re A, Im A, Re B,
+Im B, or the first two alone where A = B (see `chain`). Whoever changes an order of operations here
 changes every result (tests/test_same_bits.py).
 """
 
@@ -24,14 +15,8 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.numerics import elementary
-from pendula.simd import LANES, vector_views
 
-# --- The chain and its ends ---------------------------------------------------------------------
-
-DIRICHLET, FREE, PERIODIC, MIRROR = range(4)
-"""Kinds of ends: a site at rest beyond the end, none, the other end, or the other half (n = 0)."""
-ENDS = {"dirichlet": DIRICHLET, "free": FREE, "periodic": PERIODIC}
-"""The kinds of ends that a person can choose, by name."""
+from .chain import DIRICHLET, MIRROR, PERIODIC, at_every_site, close
 
 
 class Chain(NamedTuple):
@@ -42,35 +27,6 @@ class Chain(NamedTuple):
     omega: float
     left: int
     right: int
-
-
-@kernel
-def close(chain, y):
-    """Fill the ghost columns of `y` with what the ends of the chain see.
-
-    A site next to a free end sees its own value, so that its bond vanishes. A mirror stands at
-    site 0 of an even chain, whose left neighbour has the value of the right one.
-    """
-    n = y.shape[1] - 2
-    for row in range(y.shape[0]):
-        y[row, 0] = 0.0
-        if chain.left == FREE:
-            y[row, 0] = y[row, 1]
-        elif chain.left == PERIODIC:
-            y[row, 0] = y[row, n]
-        elif chain.left == MIRROR:
-            y[row, 0] = y[row, 2]
-        y[row, n + 1] = 0.0
-        if chain.right == FREE:
-            y[row, n + 1] = y[row, n]
-        elif chain.right == PERIODIC:
-            y[row, n + 1] = y[row, 1]
-
-
-@kernel
-def can_be_tiled(chain):
-    """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
-    return chain.left != PERIODIC
 
 
 @kernel
@@ -131,32 +87,6 @@ def site_rates(chain, y, re, j, squared_modulus, dy):
 
 
 # --- The same on a whole chain ------------------------------------------------------------------
-
-
-def at_every_site(rule):
-    """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
-
-    It goes through both components, a vector of sites at a time where a row is as long as that. The
-    last block of a row then overlaps the one before and writes the same bits again, which costs
-    less than a remainder that goes site by site.
-    """
-
-    @inlined_by_llvm
-    def walk(chain, states, dy, width):
-        last = dy.shape[1] - 1 - width  # the column at which the last block starts
-        for re in range(0, dy.shape[0], 2):
-            for j in range(1, dy.shape[1] - 1, width):
-                rule(chain, states, re, min(j, last), dy)
-
-    @inlined_by_llvm
-    def write(chain, states, dy):
-        """`states` is a tuple of states of the shape of `dy`, whose ghosts are filled."""
-        if dy.shape[1] - 2 < LANES:
-            walk(chain, states, dy, 1)
-        else:
-            walk(chain, vector_views(states), vector_views((dy,))[0], LANES)
-
-    return write
 
 
 @inlined_by_llvm

@@ -5,79 +5,21 @@ With A = sum_k a_k s^k and D = |A|^2 / 2 = sum_k d_k s^k, (4) gives
     i (k + 1) a_{k+1} = linear terms of (4) at a_k + c_k,
     c_k = sum_{j=0}^k d_j a_{k-j},      d_k = sum_{j=0}^k Re(conj(a_j) a_{k-j}) / 2,
 
-so that two Cauchy products make the coefficient c_k of the cubic term. From top to bottom: the ends
-of the chain, order by order; the Cauchy products; the recurrence; the order of the work on a chain
-that outgrows the cache. How a series lies in memory, in blocks of sites, says
-pendula.integrators.taylor; `m` is that memory, and `i` always the place at which a block begins.
-
-Bits. Each lane does what a site alone would, so it changes no bit where in its block a site stands;
-neighbours are summed as in `amplitudes`, and so half of an even chain has the bits of the whole.
+so that two Cauchy products make the coefficient c_k of the cubic term. From top to bottom: the
+Cauchy products, and the recurrence. The ends of the chain and the order of the work are those of
+`series`. How a series lies in memory, in blocks of sites, says pendula.integrators.taylor; `m` is
+that memory, and `i` always the place at which a block begins.
 """
 
 from pendula.compiled import inlined_by_llvm, kernel
-from pendula.integrators.taylor import (
-    BLOCK_SIZE,
-    EXTRA,
-    LEFT,
-    ORDER,
-    ORDER_STRIDE,
-    RIGHT,
-    X,
-    Y,
-    block_start,
-    ghosts_start,
-)
-from pendula.simd import fill, keep_lanes, left_neighbours, load, right_neighbours, store
+from pendula.integrators.taylor import EXTRA, ORDER_STRIDE, X, Y, block_start
+from pendula.simd import fill, load, store
 
-from .amplitudes import FREE, MIRROR, PERIODIC, Chain, linear_field
+from .amplitudes import Chain, linear_field
+from .series import in_waves, partner_of, sides_of, with_neighbours
 
 HALF_SQUARE = EXTRA
 """Where a coefficient keeps d_k, that of |A|^2 / 2."""
-
-
-# --- The ends of the chain: `close` of `amplitudes`, one order at a time ------------------------
-# The padding of a last block holds what its ghost holds, in every order: so it never exceeds what
-# the sites hold, and what sums or compares whole blocks needs no mask.
-
-
-@inlined_by_llvm
-def close_right_end(chain, m, first, last, sites_in_last, ghost):
-    """Write padding and right ghost of Re or Im, which lies in the blocks at `first` and `last`."""
-    seen = 0.0
-    if chain.right == FREE:
-        seen = m[last + sites_in_last - 1]
-    elif chain.right == PERIODIC:
-        seen = m[first]
-    store(m, last, keep_lanes(load(m, last), sites_in_last, seen))
-    store(m, ghost, fill(seen))
-
-
-@inlined_by_llvm
-def close_left_end(chain, m, first, last, sites_in_last, ghost):
-    """Write the left ghost of Re or Im, which lies in the blocks at `first` and `last`."""
-    seen = 0.0
-    if chain.left == FREE:
-        seen = m[first]
-    elif chain.left == PERIODIC:
-        seen = m[last + sites_in_last - 1]
-    elif chain.left == MIRROR:
-        seen = m[first + 1]
-    store(m, ghost, fill(seen))
-
-
-@inlined_by_llvm
-def close_order(chain, series, k, at_left, at_right):
-    """Fill ghosts and padding of order `k`, at the left end, the right end, or both."""
-    m, sites = series.memory, series.sites_in_last
-    for component in range(series.components):
-        ghosts = ghosts_start(series, component)
-        for part in range(X, Y + 1, Y - X):
-            first = block_start(series, component, 0) + k * ORDER_STRIDE + part
-            last = block_start(series, component, series.blocks - 1) + k * ORDER_STRIDE + part
-            if at_right:
-                close_right_end(chain, m, first, last, sites, ghosts + RIGHT + part)
-            if at_left:
-                close_left_end(chain, m, first, last, sites, ghosts + LEFT + part)
 
 
 # --- The cubic term by Cauchy products ----------------------------------------------------------
@@ -148,8 +90,7 @@ def cubic_of_odd_order(m, k, i):
 @inlined_by_llvm
 def linear_part(scaled, m, left, here, right, partner):
     """Return the linear terms at Re or Im of a block, given where it and the others lie."""
-    u = load(m, here)
-    before, after = left_neighbours(load(m, left), u), right_neighbours(u, load(m, right))
+    before, u, after = with_neighbours(m, left, here, right)
     return linear_field(scaled, scaled.gamma, before, u, after, load(m, partner))
 
 
@@ -160,13 +101,9 @@ def write_next_coefficient(chain, series, k, component, block, cubic):
     The factor and the signs go into the constants, three numbers instead of three vectors.
     """
     m, share = series.memory, 1.0 / (k + 1)
-    u = block_start(series, component, block) + k * ORDER_STRIDE
-    ghosts = ghosts_start(series, component)
-    left = u - BLOCK_SIZE if block > 0 else ghosts + LEFT
-    right = u + BLOCK_SIZE if block < series.blocks - 1 else ghosts + RIGHT
-    # the same block of the other component; the block itself when A = B, where the drive vanishes
-    # exactly since partner - u is then zero
-    partner = u + (series.components - 1 - 2 * component) * series.blocks * BLOCK_SIZE
+    left, u, right = sides_of(series, k, component, block)
+    # the block itself when A = B, where the drive vanishes exactly since partner - u is then zero
+    partner = partner_of(series, u, component)
     epsilon, gamma, omega = share * chain.epsilon, share * chain.gamma, share * chain.omega
     of_y = Chain(epsilon, -gamma, omega, chain.left, chain.right)
     of_x = Chain(-epsilon, -gamma, -omega, chain.left, chain.right)
@@ -191,32 +128,10 @@ def write_next_order(chain, series, k, first, last):
                 write_next_coefficient(chain, series, k, component, block, cubic)
 
 
-# --- The order of the work ----------------------------------------------------------------------
-
-CACHED_BLOCKS = 64
-"""A chain of more blocks outgrows a cache of half a megabyte."""
-GROUP = 4
-"""Blocks that take an order together in a wave: 17 groups of them fit into the cache."""
+continue_in_waves = in_waves(write_next_order)
 
 
 @kernel
 def continue_series(chain, series):
-    """Write the coefficients of all orders from those of order 0.
-
-    A short chain goes order by order. A long one goes in waves, so that the blocks at work fit into
-    the cache (wavefront or skewed tiling): in wave w the group g of blocks takes the order w - g,
-    for a coefficient needs no more than the order before of the groups beside it. Both ways do the
-    same operations on each block, and so give the same bits.
-    """
-    blocks = series.blocks
-    at_once = blocks <= CACHED_BLOCKS or chain.left == PERIODIC  # a ring has no side to start from
-    group = blocks if at_once else GROUP
-    groups = (blocks + group - 1) // group
-    for wave in range(groups + ORDER):
-        # from the rightmost group to the left: each finds the order before to both of its sides
-        for k in range(max(0, wave - groups + 1), min(wave, ORDER) + 1):
-            first = (wave - k) * group
-            last = min(first + group, blocks)
-            if k > 0:
-                write_next_order(chain, series, k - 1, first, last)
-            close_order(chain, series, k, first == 0, last == blocks)
+    """Write the coefficients of all orders from those of order 0."""
+    continue_in_waves(chain, series)

@@ -1,14 +1,225 @@
-"""Newton's equations (1) of the pendula, by kicks and drifts; nothing is shared with (4)."""
+"""Newton's equations (1) of the pendula on a finite chain.
+
+    x_n'' + sin x_n = C (x_{n+1} - 2 x_n + x_{n-1}) + D(t) (y_n - x_n),
+
+and the same with x and y exchanged, where C = epsilon mu^2, D(t) = 2 gamma mu^2 cos(2 omega t) and
+omega^2 = 1 + mu^2 Omega. Time is t, which is 2 tau / mu^2 (`times_of`). A state has the rows x, x',
+y, y', or the first two alone where x = y (see `chain`); x is an angle in rad.
+
+Data are amplitudes: x = 2 mu Re A and x' = -2 mu omega Im A at t = 0, the leading terms of (3).
+
+Bits. Sines and cosines are made of + - * in one order. The phase of the drive is reduced to a part
+of a turn before it is rounded: its error is some 1e-16 at every t, where the product 2 omega t
+would be wrong by 1e-11 at t = 1e5. What stands here has the same bits on every machine.
+"""
+
+from decimal import Decimal, localcontext
+from typing import NamedTuple
 
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.numerics import elementary
-from pendula.numerics.elementary import HALF_PI
+from pendula.numerics.elementary import HALF_PI, SPLITTER, complex_of
+
+from .chain import DIRICHLET, at_every_site, close
+
+TURN = 6.283185307179586
+PI = "3.14159265358979323846264338327950288419716939937511"
+
+# --- The system, and what drives it -------------------------------------------------------------
+
+
+class Pendula(NamedTuple):
+    """Parameters of the equations, the drive at one time, and the kinds of the two ends."""
+
+    coupling: float  # C
+    strength: float  # 2 gamma mu^2, the largest drive
+    frequency: float  # 2 omega, of the drive
+    turns: float  # the drive's turns in a unit of t, omega / pi ...
+    turns_rest: float  # ... and what rounding took from it
+    drive: float  # D(t)
+    quadrature: float  # 2 gamma mu^2 sin(2 omega t), for the derivatives of D
+    left: int
+    right: int
+
+
+def frequency(omega: float, mu: float) -> float:
+    """Return omega of (2), the angular frequency sqrt(1 + mu^2 Omega)."""
+    return float(np.sqrt(1.0 + mu * mu * omega))
+
+
+def turns_of_drive(omega: float, mu: float) -> tuple[float, float]:
+    """Return omega / pi, the turns of the drive in a unit of t, as a sum of two numbers."""
+    with localcontext() as context:
+        context.prec = 50
+        turns = (1 + Decimal.from_float(mu) ** 2 * Decimal.from_float(omega)).sqrt() / Decimal(PI)
+        return float(turns), float(turns - Decimal(float(turns)))
+
+
+def make_pendula(constants, mu: float, ends: tuple[int, int]) -> Pendula:
+    """Return the parameters of the kernels from the `Constants` of (4) and mu."""
+    square = mu * mu
+    omega = frequency(constants.omega, mu)
+    turns = turns_of_drive(constants.omega, mu)
+    strength = 2.0 * constants.gamma * square
+    return Pendula(constants.epsilon * square, strength, 2.0 * omega, *turns, strength, 0.0, *ends)
+
+
+def angles_of(amplitudes: np.ndarray, omega: float, mu: float) -> np.ndarray:
+    """Return angles and velocities (part, ...) at t = 0: x = 2 mu Re A and x' = -2 mu omega Im A.
+
+    `omega` is Omega.
+    """
+    size = 2.0 * mu
+    return np.array([size * amplitudes.real, (-size * frequency(omega, mu)) * amplitudes.imag])
+
+
+def amplitudes_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float):
+    """Return the complex amplitudes whose `angles_of` are these, up to rounding."""
+    size = 2.0 * mu
+    return complex_of(angles / size, velocities / (-size * frequency(omega, mu)))
+
+
+def times_of(tau: np.ndarray, mu: float) -> np.ndarray:
+    """Return the times t = 2 tau / mu^2."""
+    return 2.0 * tau / (mu * mu)
+
+
+@inlined_by_llvm
+def whole(x):
+    """Return the whole number nearest to x, for abs(x) < 2^51; x is a number or a Vector."""
+    return -(6755399441055744.0 - (6755399441055744.0 + x))  # 1.5 * 2^52, where doubles are whole
+
+
+@inlined_by_llvm
+def rest_of_product(a, b, product):
+    """Return what rounding took from the product of two numbers (Dekker, Veltkamp)."""
+    long, wide = SPLITTER * a, SPLITTER * b
+    a_high, b_high = long - (long - a), wide - (wide - b)
+    a_low, b_low = a - a_high, b - b_high
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+@kernel
+def at_time(pendula, t):
+    """Return the pendula as they are driven at the time t."""
+    turns = pendula.turns * t
+    rest = rest_of_product(pendula.turns, t, turns) + pendula.turns_rest * t
+    sine, cosine = sine_and_cosine(TURN * ((turns - np.rint(turns)) + rest))
+    return Pendula(
+        pendula.coupling,
+        pendula.strength,
+        pendula.frequency,
+        pendula.turns,
+        pendula.turns_rest,
+        pendula.strength * cosine,
+        pendula.strength * sine,
+        pendula.left,
+        pendula.right,
+    )
+
+
+@kernel
+def pendula_of_tile(pendula, at_left_end, at_right_end):
+    """Return the pendula of a tile, which end as the whole chain does where it reaches an end."""
+    return Pendula(
+        pendula.coupling,
+        pendula.strength,
+        pendula.frequency,
+        pendula.turns,
+        pendula.turns_rest,
+        pendula.drive,
+        pendula.quadrature,
+        pendula.left if at_left_end else DIRICHLET,
+        pendula.right if at_right_end else DIRICHLET,
+    )
+
+
+# --- Sines, of numbers or of vectors of sites ---------------------------------------------------
 
 sine_near_zero, cosine_near_zero = map(
     inlined_by_llvm, (elementary.sine_near_zero, elementary.cosine_near_zero)
 )
+
+
+@inlined_by_llvm
+def reduced(x):
+    """Return sin r, cos r, o and s of x = r + (o + 2 j) pi / 2, abs(r) <= pi / 4.
+
+    o is -1, 0 or 1, and s = (-1)^j. So sin x = s (sin r + o cos r) with one of the two terms, and
+    no lane of a vector needs another code than the next.
+    """
+    quarters = whole((1.0 / HALF_PI[0]) * x)
+    near = (x - HALF_PI[0] * quarters) - HALF_PI[1] * quarters
+    rest = -(HALF_PI[2] * quarters)
+    halves = whole(0.5 * quarters)
+    odd = quarters - 2.0 * halves
+    parity = halves - 2.0 * whole(0.5 * halves)
+    sign = 1.0 - 2.0 * (parity * parity)
+    return sine_near_zero(near, rest), cosine_near_zero(near, rest), odd, sign
+
+
+@inlined_by_llvm
+def sine_and_cosine(x):
+    """Return sin x and cos x with errors of some 1e-16, for angles of up to thousands of turns."""
+    s, c, odd, sign = reduced(x)
+    even = 1.0 - odd * odd
+    return sign * (even * s + odd * c), sign * (even * c - odd * s)
+
+
+# --- The right-hand side ------------------------------------------------------------------------
+
+
+@inlined_by_llvm
+def pull(pendula, left, x, right, partner):
+    """Return the forces of the neighbours and of the partner on a pendulum at the angle x."""
+    return pendula.coupling * ((right + left) - 2.0 * x) + pendula.drive * (partner - x)
+
+
+@inlined_by_llvm
+def acceleration(pendula, y, row, j):
+    """Return x'' of (1) at column `j`, from the angles in `row`."""
+    # where x = y the partner is the pendulum itself, and the drive vanishes exactly
+    partner = y[y.shape[0] - 2 - row, j]
+    forces = pull(pendula, y[row, j - 1], y[row, j], y[row, j + 1], partner)
+    return forces - sine_and_cosine(y[row, j])[0]
+
+
+@inlined_by_llvm
+def rates_at_site(pendula, states, row, j, dy):
+    y = states[0]
+    dy[row, j] = y[row + 1, j]
+    dy[row + 1, j] = acceleration(pendula, y, row, j)
+
+
+write_rates = at_every_site(rates_at_site)
+
+
+@kernel
+def rates(pendula, y, dy):
+    """Write the right-hand side of (1) at `y`, a system of first order, into `dy` (same shape)."""
+    close(pendula, y)
+    write_rates(pendula, (y,), dy)
+
+
+# --- The energy of pendula that are not driven ---------------------------------------------------
+
+
+def undriven_energy(constants, mu: float, boundary: str, angles, velocities) -> float:
+    """Return the energy that (1) conserves where x = y or gamma = 0.
+
+    That is the sum of x'^2 / 2 + 1 - cos x over all pendula, and of C (x_i - x_j)^2 / 2 over all
+    bonds, those to the ends at rest among them. `angles` and `velocities` are (2, N).
+    """
+    own = 0.5 * velocities * velocities + 2.0 * elementary.sin(0.5 * angles) ** 2
+    around = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[boundary]
+    sides = (1, 0) if boundary == "periodic" else (1, 1)
+    bonds = np.diff(np.pad(angles, ((0, 0), sides), mode=around))
+    return float(own.sum() + 0.5 * constants.epsilon * mu * mu * (bonds * bonds).sum())
+
+
+# --- By kicks and drifts ------------------------------------------------------------------------
 
 
 @inlined_by_llvm

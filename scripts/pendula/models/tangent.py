@@ -7,7 +7,8 @@ with the ghost columns and the ends of one chain.
 
 from pendula.compiled import inlined_by_llvm, kernel
 
-from .amplitudes import at_every_site, close, modulus2, rates, site_rates
+from .amplitudes import modulus2, rates, site_rates
+from .chain import at_every_site, close
 
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""

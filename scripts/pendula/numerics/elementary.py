@@ -184,14 +184,14 @@ def fifth_root(x: float) -> float:
 def sine_near_zero(x, low=0.0):
     """Return sin(x + low) for abs(x) <= 1 and a tiny `low`; also for kernels."""
     z = x * x
-    far = S9 + z * (S11 + z * (S13 + z * (S15 + z * S17)))
+    far = S9 + z * (S11 + z * (S13 + z * (S15 + S17 * z)))
     return x + (x * z * (S3 + z * (S5 + z * (S7 + z * far))) + low * (1.0 - 0.5 * z))
 
 
 def cosine_near_zero(x, low=0.0):
     """Return cos(x + low) for abs(x) <= 1 and a tiny `low`; also for kernels."""
     z = x * x
-    far = C10 + z * (C12 + z * (C14 + z * (C16 + z * C18)))
+    far = C10 + z * (C12 + z * (C14 + z * (C16 + C18 * z)))
     curved = z * z * (C4 + z * (C6 + z * (C8 + z * far)))
     half = 0.5 * z
     whole = 1.0 - half

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.models.amplitudes import ENDS, FREE, MIRROR, PERIODIC
+from pendula.models.chain import ENDS, FREE, MIRROR, PERIODIC
 
 CACHE_LINE = 64
 """Bytes of a line of the cache."""

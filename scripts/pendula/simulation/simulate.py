@@ -8,13 +8,11 @@ import numpy as np
 from pendula.feasibility import find_obstacle
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.measures.difference import norm_difference
-from pendula.models.amplitudes import Chain
-from pendula.problem import Constants, Problem
+from pendula.problem import Problem
 
 from .interrupts import interruptible
-from .lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
-from .observables import Record, blank_record
-from .solvers import SOLVERS
+from .lattice import Reduction, find_reduction, unfold
+from .models import MODELS
 
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
@@ -25,16 +23,21 @@ class IntegrationError(RuntimeError):
 
 
 class Trajectory(NamedTuple):
-    """The solution of a problem; components are A and B, sites -M..M, whatever was integrated."""
+    """The solution of a problem, whatever part of it was integrated; the sites are -M..M.
+
+    Components are A and B, or x and y of the pendula, whose norms and moduli are those of angles.
+    """
 
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # (time,)
+    energy: np.ndarray  # (time,), empty where the equations conserve none
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
-    final: np.ndarray  # (component, site), complex amplitudes at the end time
+    final: np.ndarray  # at the end time: complex (component, site); of the pendula as snapshots are
     outcome: Outcome
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
+    snapshots: np.ndarray | None = None
+    """Of the pendula: angles and velocities, (part, component, site, snapshot)."""
 
 
 def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory:
@@ -55,7 +58,7 @@ def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory
 
 def integrate(
     problem: Problem, reduction: Reduction, call: Callable
-) -> tuple[np.ndarray, Record, np.ndarray, Outcome]:
+) -> tuple[np.ndarray, Any, np.ndarray, Outcome]:
     """Return times, observables of the part that `reduction` leaves, its final state, the outcome.
 
     `call` is `interruptible`. Who makes very many short runs calls them all by that once, since a
@@ -65,25 +68,24 @@ def integrate(
     obstacle = find_obstacle(problem)
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
-    method = SOLVERS[problem.solver["name"]]
-    times, y = problem.times, pack(problem.amplitudes, reduction)
-    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
-    controls = tuple(float(problem.solver[name]) for name in method.controls)
-    chain = make_chain(problem.constants, problem.boundary, reduction)
-    work = method.room_for(chain, y)
-    outcome = call(method.run, chain, y, times, controls, work, record)
+    model = MODELS[problem.model]
+    method = model.solvers[problem.solver["name"]]
+    y = model.start(problem, reduction)
+    times = model.times(problem)
+    record = model.record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
+    scales = {"atol": model.atol(problem)}
+    controls = tuple(
+        float(problem.solver[name]) * scales.get(name, 1.0) for name in method.controls
+    )
+    system = model.system(problem, reduction)
+    work = method.room_for(system, y)
+    outcome = call(method.run, system, y, times, controls, work, record)
     if outcome.status != DONE:
-        raise _stopped(problem, outcome.time, FAULTS[outcome.status])
+        raise _stopped(problem, model.slow(problem, outcome.time), FAULTS[outcome.status])
     for values in (record.linf, record.l2, record.energy, y[:, 1:-1]):
         if not np.isfinite(values).all():
-            raise _stopped(problem, outcome.time, "the state, its norms or its energy overflow")
-    return times, record, y, outcome
-
-
-def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:
-    """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
-    ends = choose_ends(boundary, reduction)
-    return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
+            raise _stopped(problem, problem.end_time, "the state, its norms or its energy overflow")
+    return problem.times, record, y, outcome
 
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
@@ -93,21 +95,19 @@ def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
 def _collect(
     problem: Problem,
     times: np.ndarray,
-    record: Record,
+    record: Any,
     y: np.ndarray,
     reduction: Reduction,
     outcome: Outcome,
 ) -> Trajectory:
     both = Reduction(even=False, synchronised=reduction.synchronised)
     return Trajectory(
-        times,
-        unfold(record.linf, both),
-        unfold(record.l2, both),
-        record.energy,
-        unfold(record.modulus, reduction),
-        unpack(y, reduction),
-        outcome,
-        dict(problem.solver),
+        tau=times,
+        linf=unfold(record.linf, both),
+        l2=unfold(record.l2, both),
+        outcome=outcome,
+        solver=dict(problem.solver),
+        **MODELS[problem.model].collect(record, y, reduction),
     )
 
 

@@ -15,7 +15,6 @@ from pendula.integrators import (
     taylor,
 )
 from pendula.models.amplitudes import (
-    can_be_tiled,
     chain_of_tile,
     linear_radius,
     linear_rates,
@@ -24,6 +23,7 @@ from pendula.models.amplitudes import (
     rates,
 )
 from pendula.models.amplitudes_series import continue_series
+from pendula.models.chain import can_be_tiled
 
 from .lattice import aligned
 from .observables import observe

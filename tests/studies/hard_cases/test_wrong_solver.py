@@ -8,7 +8,6 @@ from pendula.compiled import uncached
 from pendula.datasets.netcdf import read
 from pendula.integrators import dop853
 from pendula.models.amplitudes import rates
-from pendula.simulation import simulate as simulation
 from pendula.simulation import solvers
 from pendula.simulation.lattice import Reduction
 from pendula.simulation.observables import observe
@@ -47,7 +46,7 @@ def wrong_dop853(monkeypatch):
     changed = type(plain)(plain.__code__, namespace)
     monkeypatch.setattr(dop853, "combine", uncached(changed))
     wrong = uncached(dop853.build(rates, observe).py_func)
-    monkeypatch.setitem(simulation.SOLVERS, "dop853", solvers.SOLVERS["dop853"]._replace(run=wrong))
+    monkeypatch.setitem(solvers.SOLVERS, "dop853", solvers.SOLVERS["dop853"]._replace(run=wrong))
 
 
 def test_the_right_solver_agrees_with_the_reference(exact):

@@ -11,7 +11,7 @@ from helpers import edit
 
 LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
 MUTANTS = Path(__file__).parent / "mutants.py"
-MODEL = "models/amplitudes.py"
+MODEL, CHAIN = "models/amplitudes.py", "models/chain.py"
 
 MUTATIONS = {
     "sign of the cubic term": (MODEL, "+ 0.5 * squared_modulus * u", "- 0.5 * squared_modulus * u"),
@@ -22,9 +22,9 @@ MUTATIONS = {
     "twice gamma": (MODEL, "gamma = chain.gamma", "gamma = 2.0 * chain.gamma"),
     "drive without the own part": (MODEL, "drive * (partner - u)", "drive * partner"),
     "drive not conjugated": (MODEL, "chain, -gamma, y[im, j - 1]", "chain, gamma, y[im, j - 1]"),
-    "free ends for Dirichlet": (MODEL, "chain.left == FREE", "chain.left <= FREE"),
-    "Dirichlet ends for free": (MODEL, "chain.right == FREE", "chain.right == MIRROR"),
-    "ring joined wrongly": (MODEL, "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
+    "free ends for Dirichlet": (CHAIN, "chain.left == FREE", "chain.left <= FREE"),
+    "Dirichlet ends for free": (CHAIN, "chain.right == FREE", "chain.right == MIRROR"),
+    "ring joined wrongly": (CHAIN, "y[row, 0] = y[row, n]", "y[row, 0] = y[row, n - 1]"),
     "lost end bonds": (MODEL, "n < reach or chain.left != PERIODIC", "n < reach"),
     "twice the bonds": (MODEL, "chain.epsilon * on_bonds", "2 * chain.epsilon * on_bonds"),
     "sign of the drive's energy": (MODEL, "drive = chain.gamma", "drive = -chain.gamma"),
@@ -41,8 +41,8 @@ CONSISTENT = {
         (MODEL, "drive = chain.gamma", "drive = -chain.gamma"),
     ],
     "free ends in both": [
-        (MODEL, "chain.left == FREE", "chain.left <= FREE"),
-        (MODEL, "chain.right == FREE", "chain.right <= FREE"),
+        (CHAIN, "chain.left == FREE", "chain.left <= FREE"),
+        (CHAIN, "chain.right == FREE", "chain.right <= FREE"),
     ],
 }
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from pendula.compiled import copy, kernel
 from pendula.integrators.dop853 import combine
-from pendula.models.amplitudes import DIRICHLET, MIRROR, Chain, close, rates
+from pendula.models.amplitudes import Chain, rates
+from pendula.models.chain import DIRICHLET, MIRROR, close
 from pendula.models.tangent import ROWS, write_tangent_rates
 from pendula.problem import Constants
 from pendula.simulation.lattice import aligned

@@ -7,7 +7,8 @@ left, as one writes it first, so that each step leaves an odd error of the order
 from math import sqrt
 
 from pendula.compiled import inlined_by_llvm, kernel
-from pendula.models.amplitudes import at_every_site, close, field, modulus2
+from pendula.models.amplitudes import field, modulus2
+from pendula.models.chain import at_every_site, close
 
 
 @inlined_by_llvm

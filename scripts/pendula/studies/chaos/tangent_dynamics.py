@@ -12,13 +12,15 @@ import numpy as np
 
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
-from pendula.models.amplitudes import MIRROR, Chain
+from pendula.models.amplitudes import Chain
+from pendula.models.chain import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
 from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, Reduction, aligned, pack
-from pendula.simulation.simulate import IntegrationError, make_chain
+from pendula.simulation.models import make_chain
+from pendula.simulation.simulate import IntegrationError
 
 from .lopsided import lopsided_rates, odd_part
 

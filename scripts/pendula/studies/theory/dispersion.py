@@ -19,7 +19,7 @@ from pendula.numerics.elementary import log, modulus
 from pendula.numerics.matrices import growth_bound, multiply, symmetric_eigenvalues, times
 from pendula.problem import Constants
 from pendula.simulation.lattice import WHOLE, pack
-from pendula.simulation.simulate import make_chain
+from pendula.simulation.models import make_chain
 
 from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_sides, run
 

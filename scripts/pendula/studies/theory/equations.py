@@ -12,20 +12,16 @@ import numpy as np
 
 from pendula.datasets.checks import tabulate, variable
 from pendula.measures.norms import power_of
-from pendula.models.amplitudes import ENDS, energies, energy, rates
+from pendula.models.amplitudes import energies, energy, rates
+from pendula.models.chain import ENDS
 from pendula.numerics import elementary
 from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import complex_of, modulus, product
 from pendula.problem import Constants, Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, pack, unpack
-from pendula.simulation.simulate import (
-    IntegrationError,
-    Trajectory,
-    integrate,
-    make_chain,
-    simulate,
-)
+from pendula.simulation.models import make_chain
+from pendula.simulation.simulate import IntegrationError, Trajectory, integrate, simulate
 
 EPS = np.finfo(float).eps
 BOUNDARIES = tuple(ENDS)

@@ -26,8 +26,9 @@ from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem, place
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, find_reduction, pack
+from pendula.simulation.models import make_chain
 from pendula.simulation.observables import Record, blank_record
-from pendula.simulation.simulate import IntegrationError, make_chain
+from pendula.simulation.simulate import IntegrationError
 from pendula.simulation.solvers import SOLVERS
 from pendula.sources import digest_of_modules
 

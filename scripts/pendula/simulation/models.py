@@ -1,0 +1,103 @@
+"""What a run needs to know of a model: how it starts, which solvers there are, what is kept.
+
+A model is a set of functions and names; `MODELS` has one for each name that a problem may give.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pendula.models.amplitudes import Chain
+from pendula.models.pendula import angles_of, make_pendula, times_of
+from pendula.numerics.elementary import complex_of
+from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
+
+from . import pendula_solvers, solvers
+from .lattice import Reduction, choose_ends, pack, unfold, unpack
+from .observables import blank_angle_record, blank_record
+from .solvers import Solver
+
+
+class Model(NamedTuple):
+    """The equations as `simulate` takes them. The names are those of datasets.
+
+    The functions that take a `reduction` see to the part of the chain that is integrated.
+    """
+
+    components: tuple[str, str]
+    parts: tuple[str, str]  # of a component: the two rows of a state
+    solvers: Mapping[str, Solver]
+    system: Callable[[Problem, Reduction], Any]  # the parameters of the kernels
+    start: Callable[[Problem, Reduction], np.ndarray]  # the state at tau = 0
+    times: Callable[[Problem], np.ndarray]  # those of the outputs, in the time of the kernels
+    slow: Callable[[Problem, float], float]  # tau at a time of the kernels
+    atol: Callable[[Problem], float]  # what an absolute tolerance of 1 means for a state
+    record: Callable[[int, int, int, int], Any]  # blank arrays for what is observed
+    collect: Callable[[Any, np.ndarray, Reduction], dict[str, np.ndarray]]
+    """From record, final state and reduction to what `Trajectory` holds of the whole chain."""
+
+
+# --- The amplitudes -----------------------------------------------------------------------------
+
+
+def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Chain:
+    """Return the parameters of the kernels: the constants, and the ends of the integrated part."""
+    ends = choose_ends(boundary, reduction)
+    return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
+
+
+def _collect_amplitudes(record, y: np.ndarray, reduction: Reduction) -> dict[str, np.ndarray]:
+    modulus = unfold(record.modulus, reduction)
+    return {"energy": record.energy, "modulus": modulus, "final": unpack(y, reduction)}
+
+
+# --- The pendula --------------------------------------------------------------------------------
+
+
+def _start_pendula(problem: Problem, reduction: Reduction) -> np.ndarray:
+    angles, velocities = angles_of(problem.amplitudes, problem.constants.omega, problem.mu)
+    return pack(complex_of(angles, velocities), reduction)
+
+
+def _collect_pendula(record, y: np.ndarray, reduction: Reduction) -> dict[str, np.ndarray]:
+    final = [unfold(y[part::2, 1:-1], reduction) for part in (0, 1)]
+    snapshots = np.array([unfold(part, reduction) for part in record.snapshots])
+    return {
+        "energy": record.energy,
+        "modulus": np.abs(snapshots[0]),
+        "final": np.array(final),
+        "snapshots": snapshots,
+    }
+
+
+MODELS = {
+    AMPLITUDES: Model(
+        components=("A", "B"),
+        parts=("re", "im"),
+        solvers=solvers.SOLVERS,
+        system=lambda problem, cut: make_chain(problem.constants, problem.boundary, cut),
+        start=lambda problem, cut: pack(problem.amplitudes, cut),
+        times=lambda problem: problem.times,
+        slow=lambda problem, time: time,
+        atol=lambda problem: 1.0,
+        record=blank_record,
+        collect=_collect_amplitudes,
+    ),
+    PENDULA: Model(
+        components=("x", "y"),
+        parts=("angle", "velocity"),
+        solvers=pendula_solvers.SOLVERS,
+        system=lambda problem, cut: make_pendula(
+            problem.constants, problem.mu, choose_ends(problem.boundary, cut)
+        ),
+        start=_start_pendula,
+        times=lambda problem: times_of(problem.times, problem.mu),
+        slow=lambda problem, time: 0.5 * problem.mu * problem.mu * time,
+        # tolerances are those of the amplitudes, so that they mean the same at any mu
+        atol=lambda problem: 2.0 * problem.mu,
+        record=blank_angle_record,
+        collect=_collect_pendula,
+    ),
+}
+"""The models by name."""

@@ -1,0 +1,57 @@
+"""Runs of the pendula, and their equations (1) written plainly in NumPy."""
+
+import numpy as np
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
+
+TIGHT = {
+    "taylor": {"name": "taylor", "rtol": 1e-15, "atol": 1e-15},
+    "dop853": {"name": "dop853", "rtol": 1e-14, "atol": 1e-14},
+    "ode45": {"name": "ode45", "rtol": 1e-12, "atol": 1e-12},
+}
+
+
+def pendula(**changes) -> Problem:
+    """Return a problem of five pairs; `changes` are plain values."""
+    plain = {
+        "epsilon": 1.0,
+        "gamma": 1.0,
+        "omega": -4.0,
+        "half_width": 2,
+        "boundary": "dirichlet",
+        "initial": {0: (1.0 + 0.5j, 0.1), 1: (0.3, -0.2j)},
+        "end_time": 1.0,
+        "output_step": 0.125,
+        "model": "pendula",
+        "mu": 0.1,
+        "solver": TIGHT["taylor"],
+    }
+    return Problem.of(plain | changes)
+
+
+def final(problem: Problem, solver="taylor", **changes):
+    """Return angles and velocities (part, component, site) at the end."""
+    return simulate(problem.changed(solver=TIGHT[solver], **changes)).final
+
+
+def slope(problem: Problem):
+    """Return f(t, state) of y' = f for a state (2, 2, N) of angles and velocities, laid flat."""
+    numbers, square = problem.constants, problem.mu * problem.mu
+    omega = np.sqrt(1 + square * numbers.omega)
+    pad = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[problem.boundary]
+
+    def f(t, flat):
+        x, v = flat.reshape(2, 2, -1)
+        wide = np.pad(x, ((0, 0), (1, 1)), mode=pad)
+        bonds = numbers.epsilon * square * (wide[:, 2:] - 2 * x + wide[:, :-2])
+        drive = 2 * numbers.gamma * square * np.cos(2 * omega * t)
+        return np.array([v, bonds + drive * (x[::-1] - x) - np.sin(x)]).ravel()
+
+    return f
+
+
+def start(problem: Problem):
+    """Return the angles and velocities (2, 2, N) at t = 0."""
+    omega = np.sqrt(1 + problem.mu**2 * problem.constants.omega)
+    z = 2 * problem.mu * problem.amplitudes
+    return np.array([z.real, -omega * z.imag])

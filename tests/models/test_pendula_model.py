@@ -1,0 +1,169 @@
+"""Newton's equations (1) as a model: against plain NumPy, Mathieu's equation, and symmetries."""
+
+from decimal import Decimal, localcontext
+
+import numpy as np
+import pytest
+from on_pendula import TIGHT, final, pendula, slope, start
+from pendula.compiled import kernel
+from pendula.models.chain import DIRICHLET
+from pendula.models.pendula import (
+    amplitudes_of,
+    at_time,
+    frequency,
+    make_pendula,
+    sine_and_cosine,
+    undriven_energy,
+)
+from pendula.simd import LANES, load, store
+from pendula.simulation.lattice import Reduction
+from pendula.simulation.simulate import simulate
+from scipy.integrate import solve_ivp
+
+BOUNDARIES = ("dirichlet", "free", "periodic")
+
+
+@kernel
+def turn_numbers(x, s, c):
+    for i in range(x.size):
+        s[i], c[i] = sine_and_cosine(x[i])
+
+
+@kernel
+def turn_vectors(x, s, c):
+    for i in range(0, x.size, LANES):
+        sine, cosine = sine_and_cosine(load(x, i))
+        store(s, i, sine)
+        store(c, i, cosine)
+
+
+@pytest.mark.parametrize("reach", [0.1, 10.0, 3000.0])
+def test_sine_and_cosine_of_numbers_and_vectors(reach):
+    x = np.concatenate([np.linspace(-reach, reach, 4000), np.arange(-12, 12) * (np.pi / 4)])
+    (s, c), (vs, vc) = np.empty((2, x.size)), np.empty((2, x.size))
+    turn_numbers(x, s, c)
+    turn_vectors(x, vs, vc)
+    assert np.array_equal(s, vs) and np.array_equal(c, vc)
+    np.testing.assert_allclose(s, np.sin(x), rtol=0, atol=3e-16)
+    np.testing.assert_allclose(c, np.cos(x), rtol=0, atol=3e-16)
+
+
+def arctan_of_one_over(n):
+    return sum(Decimal((-1) ** k) / ((2 * k + 1) * Decimal(n) ** (2 * k + 1)) for k in range(90))
+
+
+@pytest.mark.parametrize("t", [0.0, 3.7, 1234.5, 98765.4321, 1.28e6 + 1 / 3])
+def test_the_phase_of_the_drive_is_as_exact_late_as_early(t):
+    problem = pendula(mu=0.3, omega=8.0)
+    driven = at_time(make_pendula(problem.constants, 0.3, (DIRICHLET, DIRICHLET)), t)
+    with localcontext() as context:
+        context.prec = 60
+        pi = 16 * arctan_of_one_over(5) - 4 * arctan_of_one_over(239)  # Machin
+        phase = 2 * (1 + 8 * Decimal.from_float(0.3) ** 2).sqrt() * Decimal.from_float(t)
+        phase = float(phase - 2 * pi * (phase / (2 * pi)).to_integral_value())
+    assert abs(driven.drive / driven.strength - np.cos(phase)) < 5e-16
+    assert abs(driven.quadrature / driven.strength - np.sin(phase)) < 5e-16
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("solver", TIGHT)
+def test_every_solver_agrees_with_plain_numpy(boundary, solver):
+    problem = pendula(boundary=boundary, mu=0.3, end_time=2.0)
+    end = 2 * problem.end_time / problem.mu**2
+    exact = solve_ivp(
+        slope(problem), (0, end), start(problem).ravel(), "DOP853", rtol=1e-13, atol=1e-14
+    )
+    found = final(problem, solver)
+    np.testing.assert_allclose(found.ravel(), exact.y[:, -1], rtol=0, atol=2e-11)
+
+
+@pytest.mark.parametrize("omega", [8.0, -4.0])
+def test_independent_integrators_end_at_the_same_point(omega):
+    problem = pendula(half_width=30, initial={0: (1.0, 0.1)}, omega=omega, mu=0.2, end_time=20.0)
+    np.testing.assert_allclose(final(problem), final(problem, "dop853"), rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("solver", TIGHT)
+@pytest.mark.parametrize("half_width", [2, 9])
+def test_half_a_chain_and_one_component_have_the_bits_of_the_whole(boundary, solver, half_width):
+    pair = (1.0 + 0.5j, 1.0 + 0.5j)
+    problem = pendula(
+        initial={0: pair, 1: pair, -1: pair}, boundary=boundary, half_width=half_width
+    )
+    problem = problem.changed(solver=TIGHT[solver], snapshot_every=2)
+    whole = simulate(problem, Reduction(even=False, synchronised=False))
+    for even, synchronised in ((True, False), (False, True), (True, True)):
+        part = simulate(problem, Reduction(even, synchronised))
+        for name in ("linf", "l2", "modulus", "final", "snapshots"):
+            assert np.array_equal(getattr(part, name), getattr(whole, name)), name
+
+
+def test_a_long_chain_goes_in_tiles_and_waves_with_the_same_bits():
+    ring = pendula(half_width=1200, end_time=0.25, initial={0: (1.0, 0.1)}, boundary="free")
+    short = ring.changed(half_width=40)
+    for solver in ("taylor", "dop853"):
+        middle = final(ring, solver)[..., 1200 - 40 : 1200 + 41]
+        apart = np.abs(middle - final(short, solver)).max()
+        assert apart < 1e-15 * np.abs(middle).max()
+
+
+def test_small_angles_obey_the_equation_of_mathieu():
+    """z = x - y of one pair obeys z'' + (1 + 2 C + 4 gamma mu^2 cos 2 omega t) z = 0."""
+    fine = {"name": "taylor", "rtol": 1e-15, "atol": 1e-24}
+    problem = pendula(half_width=0, initial={0: (1e-7, 2e-7j)}, mu=0.3, end_time=5.0)
+    x = simulate(problem.changed(solver=fine)).final
+    square, omega = 0.09, frequency(-4.0, 0.3)
+
+    def mathieu(t, z):
+        return [z[1], -(1 + 2 * square + 4 * square * np.cos(2 * omega * t)) * z[0]]
+
+    begin = start(problem)[:, 0, 0] - start(problem)[:, 1, 0]
+    run = solve_ivp(mathieu, (0, 10 / square), begin, "DOP853", rtol=1e-13, atol=1e-22)
+    assert np.abs((x[:, 0] - x[:, 1])[:, 0] - run.y[:, -1]).max() < 1e-10 * np.abs(run.y[0]).max()
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_pendula_that_are_not_driven_keep_their_energy(boundary):
+    alike = {0: (2.0, 2.0), 1: (1j, 1j)}
+    for changes in ({"initial": alike}, {"gamma": 0.0}):
+        problem = pendula(boundary=boundary, mu=0.3, end_time=20.0, **changes)
+        given = problem.constants, problem.mu, boundary
+        energies = [undriven_energy(*given, *state) for state in (start(problem), final(problem))]
+        assert abs(energies[1] / energies[0] - 1) < 1e-13
+    driven = pendula(boundary=boundary, mu=0.3, end_time=20.0)
+    energies = [undriven_energy(*given, *state) for state in (start(driven), final(driven))]
+    assert abs(energies[1] / energies[0] - 1) > 1e-2
+
+
+def test_a_run_can_be_reversed():
+    """After whole turns of the drive the way back is the way there with velocities reversed."""
+    mu, omega = 0.3, frequency(-4.0, 0.3)
+    tau = 0.5 * mu * mu * (40 * np.pi / omega)
+    there = pendula(mu=mu, end_time=tau, output_step=tau)
+    x, v = final(there)
+    back = there.changed(initial=amplitudes_of(x, -v, -4.0, mu))
+    x, v = final(back)
+    np.testing.assert_allclose(np.array([x, -v]), start(there), rtol=0, atol=1e-12)
+
+
+def test_angles_over_the_top_are_followed():
+    problem = pendula(half_width=0, initial={0: (12j, 12j)}, boundary="free", end_time=0.5)
+    x = final(problem)
+    assert np.abs(x[0]).max() > 10 * np.pi
+    np.testing.assert_allclose(x, final(problem, "dop853"), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mu": None}, "need a positive mu"),
+        ({"mu": -0.1}, "need a positive mu"),
+        ({"mu": 0.5, "omega": -4.0}, "must be positive"),
+        ({"model": "amplitudes"}, "pendula only"),
+        ({"model": "springs"}, "no model 'springs'"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        pendula(**changes)
