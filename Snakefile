@@ -50,6 +50,7 @@ rule all:
         expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
         expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
+        expand("results/certified/{case}.nc", case=SETTINGS.certified.curves.cases),
         "results/claims.json",
         "results/controls.json",
         "results/tables/solvers.md",
@@ -110,6 +111,7 @@ include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/chaos.smk"
 include: "workflow/rules/breathers.smk"
 include: "workflow/rules/pendula.smk"
+include: "workflow/rules/certified.smk"
 include: "workflow/rules/ledger.smk"
 include: "benchmarks/benchmarks.smk"
 include: "workflow/rules/baseline.smk"

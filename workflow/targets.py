@@ -29,7 +29,7 @@ BY_FILE = {
 
 BY_WHAT_IS_MADE = {
     FIGURES: {"figures"},
-    STUDIES: {"trajectories", "sweeps", "breathers", "pendula", "unbounded"},
+    STUDIES: {"trajectories", "sweeps", "breathers", "pendula", "unbounded", "certified"},
     CHECKS: {"checks", "tables", "claims.json", "controls.json"},
 }
 

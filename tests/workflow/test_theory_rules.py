@@ -18,7 +18,7 @@ PARTS = {
     "figures": ("paper/claims_norms", "paper/claims_sweeps"),
     "solvers": ("paper/claims_regular", "paper/claims_solvers"),
     **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "pendula")},
-    "unbounded": ("unbounded/claims",),
+    **{study: (f"{study}/claims",) for study in ("unbounded", "certified")},
 }
 FIGURES = {"stability_chart", "growth_rates", "bounds"}
 FIGURE_RULES = {"stability_figures", "bounds"}

@@ -23,7 +23,8 @@ from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
-from pendula.problem import name_window
+from pendula.problem import Constants, name_window
+from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from progress import Run, expected, take_the_screen, what_it_takes
 from stop import stop
@@ -51,7 +52,17 @@ LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 RESULTS = Path("results").absolute()
-FOLDERS = ["archive", "breathers", "checks", "claims", "code", "figure_diff", "figures", "kernels"]
+FOLDERS = [
+    "archive",
+    "breathers",
+    "certified",
+    "checks",
+    "claims",
+    "code",
+    "figure_diff",
+    "figures",
+    "kernels",
+]
 FOLDERS += [
     "kept",
     "logs",

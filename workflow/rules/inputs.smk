@@ -67,6 +67,8 @@ def makers():
         "measure_sensitivity": ["results/breathers/sensitivity.nc"],
         "map_fates": ["results/breathers/fates.nc"],
         "find_threshold": ["results/pendula/threshold.nc"],
+        "certify_curve": certified_curves(),
+        "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
     }
     return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
 
@@ -325,6 +327,36 @@ def threshold_params(given):
     }
 
 
+# Proofs.
+def certified_problem(case):
+    """Return a case as a problem whose solver is not asked; stop where no bound can be proved.
+
+    A case of the paper that the configuration has changed has an infinite bound then, so that the
+    rest of a full run goes on.
+    """
+    plain = SETTINGS.problem(case, snapshot_step=None)
+    if case in OWN_CASES:
+        try:
+            find_form(Constants.of(plain))
+        except NotDefiniteError as error:
+            stop(f"cases.{case}.omega: {error}")
+    return {**plain, "solver": {"name": "polynomials"}}
+
+
+def certified_curves():
+    return below(f"certified/{case}" for case in SETTINGS.certified.curves.cases)
+
+
+def known_reference(case):
+    return references(case) if case in PAPER_CASES else []
+
+
+def wrong_curve_params(given):
+    made_for = given.model_dump(include={"epsilon", "gamma", "omega"}, exclude_none=True)
+    problem = {**certified_problem(given.case), "end_time": given.end_time}
+    return {"name": given.case, "problem": problem, "made_for": made_for}
+
+
 # The report.
 # The code that makes the numbers; the report shows the hashes of their records.
 NUMBERS_BY = [
@@ -340,6 +372,7 @@ NUMBERS_BY = [
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
     "newton/find_threshold.py",
+    "certified/certify_curve.py",
 ]
 
 
@@ -378,12 +411,12 @@ def settings_in_words():
     return json.dumps(told, sort_keys=True, default=str)
 
 
+OTHER_STUDIES = ("theory", "chaos", "breathers", "pendula", "unbounded", "certified")
 # The parts of the ledger, and the modules of claims in each, by the starts of their names
 CLAIMS_OF = {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],
     "solvers": ["paper/claims_regular", "paper/claims_solvers"],
-    **{study: [f"{study}/claims"] for study in ("theory", "chaos", "breathers", "pendula")},
-    "unbounded": ["unbounded/claims"],
+    **{study: [f"{study}/claims"] for study in OTHER_STUDIES},
 }
 
 
@@ -414,6 +447,7 @@ def claims_need():
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
         "pendula": below(f"pendula/{name}" for name in PENDULA),
+        "certified": [*certified_curves(), "results/certified/wrong/curve.nc"],
         "unbounded": [
             *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
             *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),

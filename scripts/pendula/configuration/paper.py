@@ -148,6 +148,8 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
         return _breathers(rest)
     if folder == "pendula":
         return tuple(f"pendula.{rest}.{key}" for key in paper()["pendula"][rest])
+    if folder == "certified":
+        return _certified(rest)
     return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
 
 
@@ -195,6 +197,14 @@ def _breathers(name: str) -> tuple[str, ...]:
     own = tuple(f"breathers.{name}.{key}" for key in given[name] if key != "long")
     case = given[name].get("case")
     return ("breathers.epsilon", "breathers.gamma", *own, *(_keys(case, *FINITE) if case else ()))
+
+
+def _certified(name: str) -> tuple[str, ...]:
+    """Return what a proof rests on: its case, or what asks it about a wrong one."""
+    wrong = paper()["certified"]["curves"]["wrong"]
+    if name == "wrong/curve":
+        return ("certified.curves.wrong", *_keys(wrong["case"], *FINITE))
+    return _keys(name, *FINITE, "end_time")
 
 
 def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:

@@ -7,7 +7,8 @@ from pathlib import Path
 from types import ModuleType
 
 STUDIES = (
-    *("paper", "theory", "chaos", "breathers", "pendula", "unbounded", "hard_cases", "reference"),
+    *("paper", "theory", "chaos", "breathers", "pendula", "unbounded", "certified"),
+    *("hard_cases", "reference"),
 )
 """The studies whose claims, sections and settings are collected, in the order in which they are
 told. A study with a module `settings` has its choices in config/<name>.yaml."""

@@ -1,0 +1,81 @@
+"""Curves with their proven bounds as datasets."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
+from pendula.measures.difference import NORMS, PARAMETERS
+from pendula.problem import Problem
+
+from .norm import NotDefiniteError, find_form
+from .polynomials import find_curve
+from .regular import PARTS, Certified, certify, leave_uncertified
+
+
+def curve_contents(
+    name: str, problem: Problem, made_for: Mapping | None = None, reference=None
+) -> Contents:
+    """Return the contents of the dataset on a certified curve.
+
+    `made_for` are constants that the curve is made with in place of those of the problem, which
+    the proof must then find out. Where the linear flow keeps no norm, the bound is infinite and an
+    attribute says why. `reference` is an xarray.Dataset of the same case in multiprecision, or of
+    another one, or None.
+    """
+    curve = find_curve(problem.changed(**(made_for or {})))
+    try:
+        form, found = find_form(problem.constants), certify(problem, curve)
+        proof = {"least_form": float(form.m1), "largest_form": float(form.m2)}
+    except NotDefiniteError as reason:
+        found, proof = leave_uncertified(problem, curve), {"not_certified": str(reason)}
+    solver = {"name": "polynomials", "order": len(curve.terms) - 1, "step": curve.step}
+    attributes = {
+        "title": f"Norms of {name} against time, with a proven bound of their distance to the "
+        "true ones",
+        **describe_run(name, problem, solver),
+        "parameters_mean": "the printed decimals",
+        **{f"made_for_{key}": value for key, value in (made_for or {}).items()},
+        **proof,
+    }
+    variables = curve_variables(found)
+    if reference is not None:
+        variables["reference_distance"] = _distance(found, reference, attributes)
+    return variables, attributes
+
+
+def _distance(found: Certified, reference, attributes: Mapping) -> Variable:
+    """Return the largest distance of a norm to the reference, NaN where it has another problem."""
+    apart = np.full(found.tau.shape, np.nan)
+    if all(reference.attrs[key] == attributes[key] for key in PARAMETERS):
+        known = reference.reindex(tau=found.tau, method="nearest", tolerance=1e-9)
+        off = [np.abs(known[name].values - getattr(found, name)) for name in NORMS]
+        apart = np.max(off, axis=(0, 1))
+    words = "largest distance of a norm to that of the multiprecision reference"
+    return Variable(("tau",), apart, words)
+
+
+def curve_variables(found: Certified) -> dict[str, Variable]:
+    """Return norms, the bound of their distance to the true ones, and the parts of its sum."""
+    norms = ("component", "tau")
+    return {
+        "tau": Variable(("tau",), found.tau),
+        "component": COMPONENTS,
+        "linf": Variable(norms, found.linf),
+        "l2": Variable(norms, found.l2),
+        "bound": Variable(
+            ("tau",),
+            found.bound,
+            "proven bound of the l2 distance to the true state, and so of that of each norm",
+        ),
+        "bound_part": Variable(("bound_part",), list(PARTS), "what a part of the bound is due to"),
+        "bound_parts": Variable(
+            ("bound_part", "tau"), found.parts, "part of the bound, which is their sum"
+        ),
+        "error_exponent": Variable(
+            ("tau",),
+            np.asarray(found.exponent),
+            "integral of the proven rate at which an error can grow",
+        ),
+    }
