@@ -116,6 +116,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solvers
+    from pendula.studies.pendula import threshold_figure
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
@@ -153,6 +154,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "sweeps": figures.gather_sweeps(*panels, "[10, 70]", "[10, 40]", ensembles=ensembles),
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
+        "pendula_threshold": threshold_figure.gather_threshold(pendula_threshold()),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": bounds_figure.gather_bounds(
             cases(), sweeps(), samples(), worst(), sharpness(), chain_growth()

@@ -12,6 +12,7 @@ from pendula.own_cases import figures as own
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
+from pendula.studies.pendula import threshold_figure
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -27,6 +28,7 @@ DRAWN_BY = {
     "trust": figures.draw_trust,
     "stability_chart": theory.draw_chart,
     "growth_rates": theory.draw_rates,
+    "pendula_threshold": threshold_figure.draw_threshold,
     "bounds": bounds_figure.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,

@@ -3,7 +3,7 @@
 from typing import Any
 
 from pendula.report.results import Results
-from pendula.report.words import number
+from pendula.report.words import number, percent
 
 DATA = "pendula/threshold"
 DIGITS = 12
@@ -13,11 +13,15 @@ def threshold(results: Results) -> dict[str, Any]:
     """Return thresholds as a table, and the picture."""
     data = results[DATA]
     mus = [float(mu) for mu in data["mu"].values]
+    above, mu = float(data["omega"].max()), max(mus)
+    share = data["gamma_0"].sel(omega=above, mu=mu) / data["gamma_0_lemma"].sel(omega=above)
     return {
+        "above": results.quote(DATA, above),
+        "largest_mu": results.quote(DATA, mu),
+        "share": results.say(DATA, percent(float(share))),
         "head": ["Ω", "Lemma 1", *(f"μ = {number(mu)}" for mu in mus)],
         "rows": [_row(results, float(omega)) for omega in _outside(data)],
         "picture": results.picture("pendula_threshold", _alt(data)),
-        "sites": results.quote(DATA, float(data.attrs["sites"])),
     }
 
 
