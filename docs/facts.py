@@ -75,6 +75,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         ensembles,
         lifetimes,
         breathers,
+        pendula,
         unbounded,
         theory,
         references,
@@ -332,6 +333,22 @@ def breathers(baseline: Baseline) -> dict:
             for size in spread["size"].values
         ],
     }
+
+
+def pendula(baseline: Baseline) -> dict:
+    """Return what Lemma 1 is for the pendula themselves, at the paper's detunings."""
+    data = baseline["pendula/threshold"]
+    largest = float(data["mu"].max())
+    taken = (data["curve_gamma_0"].sel(mu=largest) == 0.0) & (data["curve_gamma_0_lemma"] > 0.0)
+    return {
+        "largest_mu": number(largest),
+        "second_below": number(data["curve_omega"].where(taken).max()),
+        "rows": [
+            {"mu": number(mu), **{side: number(data["gamma_0"].sel(omega=omega, mu=mu), 12)
+                                  for side, omega in (("below", -4.0), ("above", 8.0))}}
+            for mu in data["mu"].values
+        ],
+    }  # fmt: skip
 
 
 def unbounded(baseline: Baseline) -> dict:

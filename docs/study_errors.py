@@ -13,6 +13,7 @@ import xarray as xr
 import yaml
 from pendula.measures.confidence import difference_limits
 from pendula.report.words import number
+from pendula.studies.pendula.claims_threshold import limit_of, outside, smallest_mus
 from pendula.studies.unbounded.claims import OF_A_SHORT_BULK, exponent_of, stays
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
@@ -128,6 +129,21 @@ def _listed(sizes: list) -> str:
     return ", ".join(map(number, sizes))
 
 
+def pendula(baseline) -> dict[str, float]:
+    """Return the errors of the parts of the study of the pendula."""
+    beside = outside(smallest_mus(baseline["pendula/threshold"]))
+    return {"threshold": _most(abs(limit_of(beside) / beside["gamma_0_lemma"] - 1.0))}
+
+
+def pendula_sizes(given: dict) -> dict[str, str]:
+    """Return at how many detunings, and at which mu, by the parts of `pendula`."""
+    threshold = given["threshold"]
+    return {
+        "threshold": f"{number(len(threshold['omegas']))} values of Ω, μ = "
+        + _listed(threshold["mus"]),
+    }
+
+
 def unbounded(baseline) -> dict[str, float]:
     """Return the errors of the chains without ends, of their solver, and of the thermal states."""
     growth, front = baseline["unbounded/growth"], baseline["unbounded/front"]
@@ -189,6 +205,7 @@ def unbounded_sizes(given: dict) -> dict[str, str]:
 STUDIES: dict[str, tuple[Callable, Callable]] = {
     "chaos": (chaos, chaos_sizes),
     "theory": (theory, theory_sizes),
+    "pendula": (pendula, pendula_sizes),
     "unbounded": (unbounded, unbounded_sizes),
 }
 """The study by its name in the configuration: how its errors are read, and what its parts take."""

@@ -102,6 +102,16 @@ def own_checks(second):
     return norms.assign(divergence_time=variable((), 2.0, "first tau at which the runs differ"))
 
 
+def pendula_threshold():
+    """Return the threshold of the pendula, which is computed as fast as it could be made up."""
+    from pendula.datasets.netcdf import as_xarray
+    from pendula.studies.pendula.threshold import threshold_contents
+
+    mus, curve = [0.1, 0.3], np.linspace(-8.0, 12.0, 41)
+    grid = [-4.0, -1.0, 5.0, 8.0], mus, 30, [-4.0, 0.0, 8.0], [0.0, 2.0, 3.0], curve
+    return as_xarray(*threshold_contents(1.0, *grid))
+
+
 @pytest.fixture(scope="session")
 def swept_pairs(make_sweep):
     """Return a sweep by two solvers that agree."""

@@ -46,7 +46,7 @@ DEFINITIONS = [
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
     r"\(1 \+ \|n\|\)\^-s|1/2 < s < 1|τ\^\((3/2 - s|1 - s|1/2)\)|C_0 δ",  # more formulas
     r"ε = γ = 1",
-    r"A_0|B_0",
+    r"A_0|B_0|γ_0",
     r"2γ|4ε",  # the bounds of the unstable band
     r"A = B = 0",
     r"printed 0\.1",  # what the paper prints
@@ -217,6 +217,7 @@ def test_every_fact_follows_its_dataset():
         r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$|"
         r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
+        r"pendula\.(largest_mu|second_below|rows\.\d+\.mu)$|"
         r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
     )
     left = {
