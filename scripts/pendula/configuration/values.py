@@ -130,3 +130,17 @@ class Model(BaseModel):
     """A mapping of the configuration: unknown keys are faults."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+class Steps(Model):
+    """Equally spaced values, both ends included."""
+
+    first: Number
+    last: Number
+    step: Positive
+
+    @property
+    def values(self) -> list[float]:
+        """The values, each rounded to twelve digits."""
+        count = round((self.last - self.first) / self.step)
+        return [float(f"{self.first + i * self.step:.12g}") for i in range(count + 1)]

@@ -1,5 +1,7 @@
 """Thresholds and rates of the pendula, against monodromies of the linearised chain and SciPy."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from pendula.configuration.files import ConfigurationError
@@ -67,6 +69,40 @@ def test_corrections_are_those_of_small_mu():
         two = correction(omegas, 1.0) + mu * mu * next_correction(omegas, 1.0)
         left.append(pendula_threshold(omegas, mu, 1.0) - gamma_0(omegas, 1.0) - mu * mu * two)
     assert left[0] / left[1] == pytest.approx(np.full(6, 64.0), rel=0.05)
+
+
+def times(a, b):
+    """Return the product of two polynomials in m = mu^2, without what is above m^2."""
+    return [sum((a[i] * b[n - i] for i in range(n + 1)), Fraction(0)) for n in range(3)]
+
+
+def over(a, b):
+    """Return the quotient of two such polynomials; b[0] is not zero."""
+    found = []
+    for n in range(3):
+        found.append((a[n] - sum(found[i] * b[n - i] for i in range(n))) / b[0])
+    return found
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_corrections_follow_from_the_continued_fraction(side):
+    """In rational numbers: gamma = G -+ omega^2 / (2 m) q^2 / (8 - alpha - ...) to the order m^2.
+
+    q = 2 gamma m / omega^2 and alpha = a - 1. All but the first term of the fraction is of a higher
+    order.
+    """
+    lemma, epsilon = Fraction(7, 5), Fraction(3, 4)
+    omega = -2 * lemma if side < 0 else 4 * epsilon + 2 * lemma
+    square = [Fraction(1), omega, Fraction(0)]  # omega^2
+    alpha = over([Fraction(0), -side * 2 * lemma, Fraction(0)], square)
+    gamma = [lemma, Fraction(0), Fraction(0)]
+    for _ in range(3):
+        below = times(square, [8 - alpha[0], -alpha[1], -alpha[2]])
+        term = over(times(gamma, gamma), below)  # of 2 m gamma^2 / (omega^2 (8 - alpha))
+        gamma = [lemma, -side * 2 * term[0], -side * 2 * term[1]]
+    place = float(omega), float(epsilon)
+    assert float(correction(*place)) == pytest.approx(float(gamma[1]), rel=1e-15)
+    assert float(next_correction(*place)) == pytest.approx(float(gamma[2]), rel=1e-15)
 
 
 def test_long_chains_have_the_threshold_of_the_infinite_one():

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Positive, Whole
+from pendula.configuration.values import Distinct, Model, Name, Positive, Steps, Whole
 from pendula.models.pairs import FAMILIES
 
 Count = Annotated[Whole, Field(ge=1)]
@@ -18,18 +18,11 @@ Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
 Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
 
 
-class Steps(Model):
-    """Equally spaced values, both ends included."""
+class PositiveSteps(Steps):
+    """Equally spaced values above zero."""
 
     first: Positive
     last: Positive
-    step: Positive
-
-    @property
-    def values(self) -> list[float]:
-        """The values, each rounded to twelve digits."""
-        count = round((self.last - self.first) / self.step)
-        return [float(f"{self.first + i * self.step:.12g}") for i in range(count + 1)]
 
 
 class Stability(Model):
@@ -74,7 +67,7 @@ class Growth(Model):
 
     omega: Number
     start: Positive
-    frequencies: Steps
+    frequencies: PositiveSteps
     end_times: Annotated[dict[Positive, Positive], Field(min_length=1)]
     half_widths: GrowthWidths
     outputs: Annotated[Whole, Field(ge=2)]
@@ -85,7 +78,7 @@ class LongSensitivity(Model):
     """Its longer study."""
 
     members: Count
-    scan: Steps
+    scan: PositiveSteps
 
 
 class Sensitivity(Model):
@@ -95,7 +88,7 @@ class Sensitivity(Model):
     end_time: Positive
     sizes: Positives
     members: Count
-    scan: Steps
+    scan: PositiveSteps
     long: LongSensitivity
     tolerance: Tolerance
     seed: Seed

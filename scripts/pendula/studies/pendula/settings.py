@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Needs, Number, Positive, Whole
+from pendula.configuration.values import Distinct, Model, Needs, Number, Positive, Steps, Whole
 
 from .mathieu import second_tongue
 from .threshold import squared_frequency
@@ -13,20 +13,6 @@ from .threshold import squared_frequency
 Count = Annotated[Whole, Field(ge=1)]
 Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
 Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
-
-
-class Steps(Model):
-    """Equally spaced values, both ends included."""
-
-    first: Number
-    last: Number
-    step: Positive
-
-    @property
-    def values(self) -> list[float]:
-        """The values, each rounded to twelve digits."""
-        count = round((self.last - self.first) / self.step)
-        return [float(f"{self.first + i * self.step:.12g}") for i in range(count + 1)]
 
 
 class Growth(Model):

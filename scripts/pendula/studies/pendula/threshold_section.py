@@ -18,11 +18,18 @@ def threshold(results: Results) -> dict[str, Any]:
     return {
         "above": results.quote(DATA, above),
         "largest_mu": results.quote(DATA, mu),
+        "sites": results.quote(DATA, float(data.attrs["sites"])),
+        "more": results.quote(DATA, float(_more_of_the_finite(data))),
         "share": results.say(DATA, percent(float(share))),
         "head": ["Ω", "Lemma 1", *(f"μ = {number(mu)}" for mu in mus)],
         "rows": [_row(results, float(omega)) for omega in _outside(data)],
         "picture": results.picture("pendula_threshold", _alt(data)),
     }
+
+
+def _more_of_the_finite(data):
+    """Return by how much the threshold of the finite chain is larger, at the most."""
+    return (data["gamma_0_finite"] - data["gamma_0"]).sel(omega=_outside(data)).max()
 
 
 def _outside(data) -> list[float]:
