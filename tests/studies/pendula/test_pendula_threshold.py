@@ -1,9 +1,11 @@
 """Thresholds and rates of the pendula, against monodromies of the linearised chain and SciPy."""
 
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from hill_series import distance_to_edge, growth_over_period
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.messages import load
 from pendula.configuration.paper import paper
@@ -21,6 +23,33 @@ from pendula.studies.pendula.threshold import (
 from scipy.integrate import solve_ivp
 
 MUS = (0.05, 0.1, 0.2, 0.3)
+
+
+def exact_terms(omega, mu, gamma, curvature):
+    """Return a - 1 and q of the wave, in 40 digits, for epsilon = 1."""
+    with localcontext() as context:
+        context.prec = 40
+        square = Decimal(mu) ** 2
+        over = square / (1 + square * Decimal(omega))
+        return over * (Decimal(curvature) - Decimal(omega)), 2 * Decimal(gamma) * over
+
+
+@pytest.mark.parametrize("mu", MUS)
+@pytest.mark.parametrize("omega", [-6.0, -4.0, -0.5, 4.5, 8.0, 12.0])
+def test_thresholds_have_twelve_digits(omega, mu):
+    found = float(pendula_threshold(omega, mu, 1.0))
+    terms = exact_terms(omega, mu, found, 0.0 if omega < 0 else 4.0)
+    assert abs(distance_to_edge(*terms, -2)) < 1e-12
+
+
+@pytest.mark.parametrize("mu", MUS)
+@pytest.mark.parametrize("omega", [-4.0, 0.0, 8.0])
+def test_rates_have_ten_digits(omega, mu):
+    gamma = 3.0
+    terms = exact_terms(omega, mu, gamma, 4.0 if omega > 0 else 0.0)
+    per_tau = 2.0 * np.sqrt(1.0 + mu * mu * omega) / (np.pi * mu * mu)
+    exact = growth_over_period(*terms) * per_tau
+    assert float(pendula_rate(omega, mu, gamma, 1.0)) == pytest.approx(exact, rel=1e-10)
 
 
 def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
