@@ -20,6 +20,7 @@ DRAWING = {
     "draw_breathers",
     "draw_fates",
     "draw_sensitivity",
+    "draw_threshold",
     "chaos_figures",
     "ensembles",
     "lifetimes",
