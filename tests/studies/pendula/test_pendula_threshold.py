@@ -11,6 +11,9 @@ from pendula.configuration.messages import load
 from pendula.configuration.paper import paper
 from pendula.datasets.netcdf import as_xarray
 from pendula.models.linear_chain import gamma_0
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
+from pendula.studies.pendula.mathieu import growth
 from pendula.studies.pendula.threshold import (
     correction,
     finite_pendula_threshold,
@@ -148,6 +151,27 @@ def test_a_short_chain_loses_stability_by_one_of_its_waves():
     waves = 4.0 * np.sin(np.pi * np.arange(1, sites + 1) / (2 * (sites + 1))) ** 2
     assert max(multiplier(omega, mu, 0.999 * found, s) for s in waves) < 1.0 + 1e-9
     assert max(multiplier(omega, mu, 1.001 * found, s) for s in waves) > 1.0 + 1e-5
+
+
+@pytest.mark.parametrize(("factor", "grows"), [(0.98, False), (1.02, True)])
+def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, grows):
+    """Newton's equations with the sine, from tiny angles in the wave that is the first to grow."""
+    sites, omega, mu = 5, 8.0, 0.2
+    gamma = factor * float(finite_pendula_threshold(omega, mu, 1.0, sites))
+    angle = np.pi * sites / (sites + 1)
+    wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
+    run = simulate(Problem.of({
+        "epsilon": 1.0, "gamma": gamma, "omega": omega, "half_width": 2, "boundary": "dirichlet",
+        "initial": {n: (a, -a) for n, a in wave.items()}, "end_time": 30.0, "output_step": 0.01,
+        "model": "pendula", "mu": mu,
+        "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-25},
+    }))  # fmt: skip
+    late, later = (run.l2[0][1000 * i : 1000 * (i + 1)].max() for i in (1, 2))
+    square = squared_frequency(omega, mu) / (mu * mu)
+    rate = growth((4.0 * np.sin(angle / 2) ** 2 - omega) / square, 2.0 * gamma / square)
+    per_tau = 2.0 * np.sqrt(squared_frequency(omega, mu)) / (mu * mu) * float(rate)
+    assert bool(per_tau > 0.0) == grows
+    assert np.log(later / late) / 10.0 == pytest.approx(per_tau, abs=2e-3)
 
 
 @pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (0.0, 0.0), (8.0, 4.0)])
