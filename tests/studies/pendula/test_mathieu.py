@@ -40,7 +40,7 @@ def test_what_the_first_tongue_does_not_reach_is_infinite():
     assert wave_threshold(highest + 1e-3) == second_tongue(highest + 1e-3)
 
 
-@pytest.mark.parametrize("of", [first_tongue, second_tongue])
+@pytest.mark.parametrize("of", [first_tongue, second_tongue, lambda offset: growth(offset, 1.1)])
 def test_deeper_fractions_change_no_bit(of, monkeypatch):
     found = of(OFFSETS)
     monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
@@ -48,7 +48,15 @@ def test_deeper_fractions_change_no_bit(of, monkeypatch):
 
 
 def test_growth_is_that_of_the_monodromy():
-    for offset, q in ((-0.1, 0.3), (0.0, 1e-3), (0.02, 0.02006), (0.5, 1.0), (0.56, 1.1)):
+    for offset, q in (
+        (-0.1, 0.3),
+        (0.0, 1e-3),
+        (0.02, 0.02006),
+        (0.5, 1.0),
+        (0.56, 1.1),
+        (1.2, 3.0),
+        (-0.5, 4.0),
+    ):
         exact = growth_over_period(offset, q) / np.pi
         assert float(growth(offset, q)) == pytest.approx(exact, rel=1e-12)
 
