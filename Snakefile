@@ -36,6 +36,8 @@ FIGURES = [
     *("breathers", "sensitivity", "fates"),
     # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula
     "pendula_threshold",
+    # How far computed curves can be from the true ones, as proved
+    "certified_curves",
     # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
     *("growth_law", "front", "window_map"),
 ]
@@ -51,6 +53,7 @@ rule all:
         expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
         expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
         expand("results/certified/{case}.nc", case=SETTINGS.certified.curves.cases),
+        "results/certified/lines.nc",
         "results/claims.json",
         "results/controls.json",
         "results/tables/solvers.md",

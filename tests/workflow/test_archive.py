@@ -18,6 +18,7 @@ ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     "bounds",
     "draw_breathers",
+    "draw_certified_curves",
     "draw_fates",
     "draw_sensitivity",
     "draw_threshold",

@@ -24,6 +24,28 @@ rule certify_curve:
         "../../scripts/certified/certify_curve.py"
 
 
+rule measure_lines:
+    "Until when the printed lines of Figs 2 to 4 contain the true curves, as a theorem"
+    input:
+        code=code("certified/measure_lines.py"),
+        trajectories=trajectories(),
+        references=references(*PAPER_CASES),
+        proved=certified_curves(),
+    output:
+        data="results/certified/lines.nc",
+    log:
+        "results/logs/certified/lines.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        cases=PAPER_CASES,
+        certified=SETTINGS.certified.curves.cases,
+    message:
+        "Finding until when the printed lines contain the true curves"
+    script:
+        "../../scripts/certified/measure_lines.py"
+
+
 use rule certify_curve as certify_wrong_curve with:
     "A curve of an equation with a wrong constant, for the negative control of the proofs"
     input:
@@ -37,3 +59,20 @@ use rule certify_curve as certify_wrong_curve with:
         **wrong_curve_params(SETTINGS.certified.curves.wrong),
     message:
         "Asking the proof about a curve of another equation"
+
+
+rule draw_certified_curves:
+    "Proven bounds of the error of curves, what they are due to, and the error that is known"
+    input:
+        code=code("certified/draw_curves.py"),
+        curves=certified_curves(),
+    output:
+        **figure("certified_curves"),
+    log:
+        "results/logs/figures/certified_curves.log",
+    conda:
+        "../envs/pinned.yaml"
+    message:
+        "Drawing the proven bounds of curves"
+    script:
+        "../../scripts/certified/draw_curves.py"

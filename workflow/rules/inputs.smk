@@ -68,6 +68,7 @@ def makers():
         "map_fates": ["results/breathers/fates.nc"],
         "find_threshold": ["results/pendula/threshold.nc"],
         "certify_curve": certified_curves(),
+        "measure_lines": ["results/certified/lines.nc"],
         "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
     }
     return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
@@ -372,7 +373,7 @@ NUMBERS_BY = [
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
     "newton/find_threshold.py",
-    "certified/certify_curve.py",
+    *("certified/certify_curve.py", "certified/measure_lines.py"),
 ]
 
 
@@ -447,7 +448,10 @@ def claims_need():
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
         "pendula": below(f"pendula/{name}" for name in PENDULA),
-        "certified": [*certified_curves(), "results/certified/wrong/curve.nc"],
+        "certified": [
+            *(*certified_curves(), *below(["certified/wrong/curve", "certified/lines"])),
+            *below(["trajectories/fig2_small", "trajectories/fig3_small"]),
+        ],
         "unbounded": [
             *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
             *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),

@@ -204,6 +204,8 @@ def _certified(name: str) -> tuple[str, ...]:
     wrong = paper()["certified"]["curves"]["wrong"]
     if name == "wrong/curve":
         return ("certified.curves.wrong", *_keys(wrong["case"], *FINITE))
+    if name == "lines":
+        return _of_all(paper()["cases"], *FINITE, "end_time", "solver")
     return _keys(name, *FINITE, "end_time")
 
 

@@ -22,6 +22,9 @@ from pendula.spent import spending
 from .description import as_text, describe
 from .thrift import DPI, thrifty
 
+LINE_WIDTH = 0.7
+"""The width of a line, in points."""
+
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
 
@@ -65,7 +68,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
     "ytick.major.width": 0.6,
     "xtick.minor.width": 0.4,
     "ytick.minor.width": 0.4,
-    "lines.linewidth": 0.7,
+    "lines.linewidth": LINE_WIDTH,
     "legend.frameon": False,
     "legend.handlelength": 2,
     "pdf.fonttype": 42,

@@ -1,8 +1,11 @@
 """What is proved of the curves of small data, and whether the proof notices what is wrong."""
 
-from pendula.ledger.claim import Control, claim
+from pendula.ledger.claim import Control, claim, runs, wrong_run
 from pendula.ledger.criterion import AllOf, AtLeast, AtMost, Finding, judge
 from pendula.ledger.cutoff import Cutoff
+from pendula.measures.difference import NORMS
+
+from .lines import distance, half_lines
 
 SECTION = 7
 PLACE = "Figs 2 and 3, small data"
@@ -56,3 +59,32 @@ def references_within_bounds(eight, minus_four) -> Finding:
         AtLeast(2, *outputs, says="outputs with a reference"),
     )
     return judge(measured, criterion)
+
+
+def raised(run):
+    """Return a run whose curves lie the width of a printed line above where they are."""
+    width = 2.0 * half_lines(run)
+    return run.assign({name: run[name] + width.sel(norm=name, drop=True) for name in NORMS})
+
+
+def _in_lines(run, proved) -> float:
+    return float((distance(run, proved) / half_lines(run)).max())
+
+
+@claim(
+    PLACE,
+    "At every output the printed lines contain the true curves, as a theorem.",
+    (*runs("fig2_small", "fig3_small"), EIGHT, MINUS_FOUR),
+    (
+        wrong_run("the lines of Fig 3 in Fig 2", fig2_small="fig3_small"),
+        wrong_run("the lines of Fig 2 in Fig 3", fig3_small="fig2_small"),
+        wrong_run("lines that lie their own width too high", fig3_small=raised),
+    ),
+)
+def lines_contain_curves(drawn_eight, drawn_minus_four, eight, minus_four) -> Finding:
+    """Take the largest proven distance in units of half of a line; one or less is inside."""
+    measured = {
+        "at_8": _in_lines(drawn_eight, eight),
+        "at_minus_4": _in_lines(drawn_minus_four, minus_four),
+    }
+    return judge(measured, AtMost(1.0, *measured, says="largest distance in halves of a line"))

@@ -11,7 +11,7 @@ from pendula.problem import Problem
 
 from .norm import NotDefiniteError, find_form
 from .polynomials import find_curve
-from .regular import PARTS, Certified, certify, leave_uncertified
+from .regular import PARTS, Certified, leave_unproved, norms_at, prove
 
 
 def curve_contents(
@@ -26,10 +26,11 @@ def curve_contents(
     """
     curve = find_curve(problem.changed(**(made_for or {})))
     try:
-        form, found = find_form(problem.constants), certify(problem, curve)
-        proof = {"least_form": float(form.m1), "largest_form": float(form.m2)}
+        form, proof = find_form(problem.constants), prove(problem, curve)
+        about = {"least_form": float(form.m1), "largest_form": float(form.m2)}
     except NotDefiniteError as reason:
-        found, proof = leave_uncertified(problem, curve), {"not_certified": str(reason)}
+        proof, about = leave_unproved(problem, curve), {"not_certified": str(reason)}
+    found = norms_at(proof, problem.times)
     solver = {"name": "polynomials", "order": len(curve.terms) - 1, "step": curve.step}
     attributes = {
         "title": f"Norms of {name} against time, with a proven bound of their distance to the "
@@ -37,7 +38,7 @@ def curve_contents(
         **describe_run(name, problem, solver),
         "parameters_mean": "the printed decimals",
         **{f"made_for_{key}": value for key, value in (made_for or {}).items()},
-        **proof,
+        **about,
     }
     variables = curve_variables(found)
     if reference is not None:

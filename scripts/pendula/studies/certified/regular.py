@@ -86,13 +86,27 @@ class Certified(NamedTuple):
         return UP * np.sum(self.parts, axis=0)
 
 
+class Proof(NamedTuple):
+    """A curve, and how far it can be from the solution of its problem."""
+
+    problem: Problem
+    curve: Curve
+    errors: np.ndarray  # in the l2 norm, (step, end of interval, part), parts as in GROWING
+    exponents: np.ndarray  # (interval + 1,), the integral of the rate
+
+
 def certify(problem: Problem, curve: Curve | None = None) -> Certified:
-    """Return a curve and its proven distance to the solution of a problem, in all parts.
+    """Return a curve and its proven distance to the solution of a problem, at the output times.
 
     Raises NotDefiniteError where Omega lies in the interval where no norm is kept.
     """
+    proof = prove(problem, find_curve(problem) if curve is None else curve)
+    return norms_at(proof, problem.times)
+
+
+def prove(problem: Problem, curve: Curve) -> Proof:
+    """Return the proven distance of a curve to the solution; raises NotDefiniteError."""
     form = find_form(problem.constants)
-    curve = find_curve(problem) if curve is None else curve
     sizes = _sizes(curve)
     growth = _growth(curve, problem, form, sizes)
     inputs = {
@@ -103,14 +117,14 @@ def certify(problem: Problem, curve: Curve | None = None) -> Certified:
     }
     errors = _accumulate(inputs, growth, sizes, form, curve.step)
     exponents = np.concatenate([[0.0], np.cumsum(growth)])
-    return _observe(problem, curve, errors, exponents, form)
+    return Proof(problem, curve, UP * errors / sqrt(form.m1), exponents)
 
 
-def leave_uncertified(problem: Problem, curve: Curve) -> Certified:
-    """Return the curve alone: the bound is infinite, as where no norm is kept."""
-    states, off = _states(curve, problem.times)
-    parts = np.full((len(PARTS), len(problem.times)), np.inf)
-    return _reduce(problem, states, off, parts, np.full(len(problem.times), np.inf))
+def leave_unproved(problem: Problem, curve: Curve) -> Proof:
+    """Return an infinite distance, as where no norm is kept."""
+    steps = curve.terms.shape[1]
+    errors = np.full((steps, SAMPLES + 1, len(GROWING)), np.inf)
+    return Proof(problem, curve, errors, np.full(steps * SAMPLES + 1, np.inf))
 
 
 class Sizes(NamedTuple):
@@ -308,15 +322,19 @@ def _accumulate(inputs, growth: np.ndarray, sizes: Sizes, form: Form, step: floa
 # --- The curve at the output times ----------------------------------------------------------------
 
 
-def _observe(
-    problem: Problem, curve: Curve, errors: np.ndarray, exponents: np.ndarray, form: Form
-) -> Certified:
-    index, theta = _places(curve, problem.times)
+def norms_at(proof: Proof, tau: np.ndarray) -> Certified:
+    """Return the norms at any times of the run, and the parts of their bound."""
+    index, theta = _places(proof.curve, tau)
     interval = np.ceil(theta * SAMPLES).astype(int)
-    parts = np.empty((len(PARTS), len(index)))
-    parts[:-1] = UP * errors[index, interval].T / sqrt(form.m1)
-    states, off = _states(curve, problem.times)
-    return _reduce(problem, states, off, parts, exponents[index * SAMPLES + interval])
+    states, off = evaluate(proof.curve.terms[:, index], theta[:, None, None, None])
+    squares = states[:, 0] ** 2 + states[:, 1] ** 2  # (time, component, site)
+    l2 = np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
+    linf = np.sqrt(squares.max(axis=2)).T
+    parts = np.empty((len(PARTS), len(tau)))
+    parts[:-1] = proof.errors[index, interval].T
+    # squares, the at most 16 levels of the sum, and the root: 12 roundings of the norm or fewer
+    parts[-1] = UP * (_norms(off, 1) + 12.0 * UNIT * _norms(states, 1))
+    return Certified(tau, linf, l2, parts, proof.exponents[index * SAMPLES + interval], states)
 
 
 def _places(curve: Curve, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -328,22 +346,6 @@ def _places(curve: Curve, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     index = np.minimum((tau / curve.step).astype(int), curve.terms.shape[1] - 1)
     return index, (tau - index * curve.step) / curve.step
-
-
-def _states(curve: Curve, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the states (time, part, component, site), and a bound of their rounding errors."""
-    index, theta = _places(curve, tau)
-    return evaluate(curve.terms[:, index], theta[:, None, None, None])
-
-
-def _reduce(problem: Problem, states, off, parts, exponent) -> Certified:
-    """Return the norms of the states, and write the last of the parts."""
-    squares = states[:, 0] ** 2 + states[:, 1] ** 2  # (time, component, site)
-    l2 = np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
-    linf = np.sqrt(squares.max(axis=2)).T
-    # squares, the at most 16 levels of the sum, and the root: 12 roundings of the norm or fewer
-    parts[-1] = UP * (_norms(off, 1) + 12.0 * UNIT * _norms(states, 1))
-    return Certified(problem.times, linf, l2, parts, exponent, states)
 
 
 def tree_sum(values: np.ndarray) -> np.ndarray:

@@ -2,21 +2,32 @@
 
 from typing import Any
 
+import numpy as np
+
 from pendula.ledger.section import Ledger
+from pendula.report.page import Picture
 from pendula.report.results import Results, Section
-from pendula.report.words import case_in_words, number
+from pendula.report.words import case_in_words, case_of, number
+
+LINES = "certified/lines"
+NORMS = {"linf": "ℓ∞", "l2": "ℓ2"}
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return what is proved, topic by topic."""
-    return {"curves": _curves(results)}
+    return {"curves": _curves(results), "lines": _lines(results)}
 
 
 def _curves(results: Results) -> dict[str, Any]:
-    cases = results.settings["certified"]["curves"]["cases"]
+    names = [
+        f"certified/{case}"
+        for case in results.settings["certified"]["curves"]["cases"]
+        if f"certified/{case}" in results
+    ]
     return {
         "head": ["case", "until τ =", "proven bound", "largest distance to the reference"],
-        "rows": [_curve(results, f"certified/{case}") for case in cases],
+        "rows": [_curve(results, name) for name in names],
+        "picture": _picture(results, names),
     }
 
 
@@ -28,6 +39,36 @@ def _curve(results: Results, name: str) -> list:
         results.quote(name, float(one["bound"].max())),
         results.quote(name, float(one["reference_distance"].max())),
     ]
+
+
+def _picture(results: Results, names: list[str]) -> Picture:
+    said = "; ".join(
+        f"{case_in_words(one.attrs['omega'], one.attrs['initial'])}: at the end at most "
+        f"{number(float(one['bound'][-1]))}"
+        for one in map(results.__getitem__, names)
+    )
+    alt = f"Proven bounds of the distance to the true solution, and their parts. {said}."
+    return results.picture("certified_curves", alt)
+
+
+def _lines(results: Results) -> dict[str, Any]:
+    """Return until when each printed line contains the true curve, proved and measured."""
+    lines = results[LINES]
+    curves = [(norm, one) for norm in lines["norm"].values for one in lines["component"].values]
+    return {
+        "head": ["case", *(f"{NORMS[str(norm)]} of {one}" for norm, one in curves)],
+        "rows": [
+            [case_of(case), *(_until(results, case.sel(norm=n, component=c)) for n, c in curves)]
+            for case in (lines.sel(case=name) for name in lines["case"].values)
+        ],
+    }
+
+
+def _until(results: Results, curve) -> Any:
+    proved, measured = (float(curve[f"{how}_until"]) for how in ("contained", "measured"))
+    words = [f"{number(proved, 4)} proved" if np.isfinite(proved) else "nothing proved"]
+    words += [f"{number(measured, 4)} measured"] if np.isfinite(measured) else ["none measured"]
+    return results.say(LINES, ", ".join(words))
 
 
 SECTIONS = (Section("certified", "Numbers with a proof", gather),)

@@ -1,0 +1,90 @@
+"""Until when the printed lines of Figs 2 to 4 contain the true curves: as proved, and as measured.
+
+A line is drawn through the outputs of a run, and has a width. It contains the true curve at an
+output if the run's value there is no further from the true one than half of that width, in the
+units of the panel. The true value is known to within its proven bound, so this is a theorem; with
+the multiprecision reference in its place it is a measurement. Between two outputs the line is
+straight, and nothing is said.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from pendula.drawing.strips import half_line
+from pendula.measures.difference import NORMS, at_times, is_of_same_case
+
+WORDS = {
+    "norm": "norm that a panel shows",
+    "half_line": "how far a printed line surely reaches from its points, in units of the norm",
+    "contained_until": "tau to which the printed line contains the true curve at every output, as "
+    "proved; NaN: nothing is proved",
+    "measured_until": "tau to which it contains the multiprecision reference; NaN: none is known",
+    "largest_distance": "largest proven distance of the drawn curve to the true one; infinite: "
+    "nothing is proved",
+    "run_end": "end of the runs of the case",
+}
+
+
+def contain(
+    runs: Mapping[str, xr.Dataset],
+    certified: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
+) -> xr.Dataset:
+    """Return by case and curve until when the printed line contains the true curve.
+
+    Cases that are not in `certified` have no theorem; a reference of another problem is none.
+    """
+    cases = [_of_case(run, certified.get(name), references[name]) for name, run in runs.items()]
+    data = xr.concat(cases, xr.Variable("case", list(runs)))
+    for name, long_name in WORDS.items():
+        data[name].attrs = {"long_name": long_name, "units": "1"}
+    return data.assign_attrs(title="Until when the printed lines contain the true curves")
+
+
+def _of_case(run: xr.Dataset, proved: xr.Dataset | None, reference: xr.Dataset) -> xr.Dataset:
+    half = half_lines(run)
+    known = is_of_same_case(run, reference)
+    off = distance(run, proved) if proved is not None else np.inf * _curves(run)
+    apart = abs(_curves(run) - _curves(at_times(reference, run["tau"])))
+    return xr.Dataset(
+        {
+            "half_line": half,
+            "contained_until": _until(off, half).where(np.isfinite(off).any("tau")),
+            "measured_until": _until(apart, half).where(known),
+            "largest_distance": off.max("tau"),
+            "run_end": float(run["tau"][-1]),
+            "omega": float(run.attrs["omega"]),
+            "initial": str(run.attrs["initial"]),
+        }
+    )
+
+
+def _curves(run: xr.Dataset) -> xr.DataArray:
+    """Return the four curves of a run, (norm, component, tau), without their descriptions."""
+    both = xr.concat([run[name] for name in NORMS], xr.Variable("norm", list(NORMS)))
+    return both.drop_attrs(deep=False)
+
+
+def half_lines(run: xr.Dataset) -> xr.DataArray:
+    """Return half of the width of the lines in the panel of each norm, in units of the norm."""
+    top = _curves(run).max(("component", "tau"))
+    return top.copy(data=[half_line(float(value)) for value in top])
+
+
+def distance(run: xr.Dataset, proved: xr.Dataset) -> xr.DataArray:
+    """Return how far the drawn curves can be from the true ones, (norm, component, tau).
+
+    It is infinite where they are not of one case, and at outputs that only one of them has.
+    """
+    if not is_of_same_case(run, proved):
+        return np.inf * _curves(run)
+    known = proved[[*NORMS, "bound"]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
+    return (abs(_curves(run) - _curves(known)) + known["bound"].drop_attrs()).fillna(np.inf)
+
+
+def _until(off: xr.DataArray, half: xr.DataArray) -> xr.DataArray:
+    """Return the last tau up to which no distance is larger than half of a line."""
+    inside = (off <= half).astype(int).cumprod("tau")
+    return off["tau"].where(inside == 1).max("tau")
