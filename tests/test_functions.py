@@ -43,7 +43,15 @@ ALLOWED = {
         "studies/breathers/periodic.py",
         "numpy.linalg",
     ): "states and rates are rounded before they are stored",
-    ("studies/breathers/periodic.py", "@"): "rates are rounded before they are stored",
+    (
+        "studies/breathers/multipliers.py",
+        "numpy.linalg",
+    ): "traces and rates are rounded before they are stored",
+    (
+        "studies/breathers/multipliers.py",
+        "scipy.optimize",
+    ): "what is found is rounded before it is stored",
+    ("studies/breathers/multipliers.py", "@"): "rates are rounded before they are stored",
     (
         "studies/breathers/driven_growth.py",
         "numpy.linalg",

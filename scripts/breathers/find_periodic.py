@@ -1,7 +1,7 @@
 """Find periodic breathers and how fast their perturbations grow."""
 
 from pendula.datasets.netcdf import write
-from pendula.studies.breathers.contents import periodic_contents
+from pendula.studies.breathers.periodic_contents import periodic_contents
 
 
 def find_periodic(

@@ -7,11 +7,27 @@ from pendula.ledger.claim import evaluate
 from pendula.studies.breathers.claims import GROWTH, PERIODIC, SENSITIVITY, STEADY
 
 
+def collisions(*shape: int) -> dict:
+    """Return two collisions: a quartet, and a pair that meets itself at one."""
+    over = ("parity", "family", "omega", "frequency")
+    frequency, multiplier = np.full((2, *shape), np.nan), np.full((2, 2, *shape), np.nan)
+    signature = np.zeros((2, 2, *shape), np.int8)
+    for parity, at_end in ((0, False), (1, True)):
+        frequency[parity, 0, -1, 0] = 9.5
+        multiplier[:, parity, 0, -1, 0] = (1.0, 0.0) if at_end else (0.8, 0.6)
+        signature[:, parity, 0, -1, 0] = (1, -1)
+    return {
+        "collision_frequency": (over, frequency),
+        "collision_multiplier": (("part", *over), multiplier),
+        "collision_signature": (("colliding", *over), signature),
+    }
+
+
 @pytest.fixture
 def sources():
     """Return datasets in which all claims hold."""
     families, omegas = ["A only", "A = B"], [-13.0, -4.0, 8.0]
-    rates = np.array([[0.0, 0.5, 0.1], [0.0, 0.4, 0.2]])
+    rates = np.array([[0.0, 0.5, 0.1], [0.0, 0.4, 0.0]])
     over = ("family", "omega")
     steady = xr.Dataset(
         {
@@ -28,8 +44,13 @@ def sources():
         {
             "power": (("component", *over, "frequency"), power),
             "growth": ((*over, "frequency"), growth),
+            "growth_half": ((*over, "frequency"), growth + 1e-3 * (growth > 0.0)),
+            "growing": ((*over, "frequency"), growth),
+            "growing_half": ((*over, "frequency"), growth),
+            "highest_wave": ("omega", [8.0, 8.0, 8.0]),
+            **collisions(len(families), len(omegas), 2),
         },
-        {"family": families, "omega": omegas, "frequency": [9.0, 12.0]},
+        {"family": families, "omega": omegas, "frequency": [9.0, 12.0], "part": ["re", "im"]},
     )  # fmt: skip
     drives, scaled = np.array([0.05, 0.1, 1.0]), np.linspace(0.0, 1.0, 21)
     law = np.minimum(6.0, 8.0 * scaled) * np.ones((3, 1))
@@ -62,7 +83,7 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     rows = evaluate(sources, None, ("breathers/claims",))
     assert {row["verdict"] for row in rows} <= {"confirmed", "confirmed with a caveat"}
     assert all(control["passes"] for row in rows for control in row["controls"])
-    assert len(rows) == 5
+    assert len(rows) == 7
 
 
 @pytest.mark.parametrize(
@@ -71,6 +92,13 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
         ("steady_unstable", STEADY, lambda one: one.assign(growth=one["growth"] * 0.0)),
         ("steady_unstable", STEADY, lambda one: one.assign(growth_half=one["growth"] * 0.0)),
         ("periodic_stable", PERIODIC, lambda one: one.assign(growth=one["growth"] + 0.1)),
+        ("periodic_stable", PERIODIC, lambda one: one.assign(growth_half=one["growth"] + 0.1)),
+        ("stable_on_any_chain", PERIODIC, lambda one: one.assign(growth_half=0 * one["growth"])),
+        ("stable_on_any_chain", STEADY, lambda one: one.assign(growth_half=0 * one["growth"])),
+        (
+            "opposite_signatures_collide", PERIODIC,
+            lambda one: one.assign(collision_signature=0 * one["collision_signature"]),
+        ),
         ("data_below_breathers", PERIODIC, lambda one: one.assign(power=one["power"] * 0.6)),
         ("grows_by_drive", GROWTH, lambda one: one.assign(gained=1.3 * one["gained"])),
         ("grows_by_drive", GROWTH, lambda one: one.assign(gained=0.8 * one["gained"])),
@@ -88,11 +116,30 @@ def test_a_wrong_dataset_is_refused(sources, name, source, change):
     assert verdicts({**sources, source: change(sources[source])})[name] == "not reproduced"
 
 
+def test_what_a_finite_chain_makes_within_the_waves_is_a_caveat(sources):
+    one = sources[PERIODIC]
+    wide = one.assign(highest_wave=one["highest_wave"] + 2.0)
+    wide["growing"].loc[{"frequency": 9.0}] = 7.0
+    wide["growth_half"].loc[{"frequency": 9.0}] = 0.0  # a verdict that is not asked there
+    (row,) = (
+        row
+        for row in evaluate({**sources, PERIODIC: wide}, None, ("breathers/claims",))
+        if row["name"] == "stable_on_any_chain"
+    )
+    assert row["verdict"] == "confirmed with a caveat"
+    assert "7 growing multipliers" in row["because"]
+
+
 @pytest.mark.parametrize(
     ("name", "source", "change"),
     [
         ("steady_unstable", STEADY, lambda one: one.sel(omega=[-13.0])),
         ("periodic_stable", PERIODIC, lambda one: one.sel(omega=[8.0])),
+        (
+            "opposite_signatures_collide",
+            PERIODIC,
+            lambda one: one.assign(collision_frequency=one["collision_frequency"] * np.nan),
+        ),
         ("grows_by_drive", GROWTH, lambda one: one.sel(gamma=[1.0])),
         ("spreading_is_an_accident", SENSITIVITY, lambda one: one.isel(size=[0, 1])),
     ],

@@ -4,17 +4,11 @@ import numpy as np
 import pytest
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
-from pendula.studies.breathers.periodic import (
-    FAMILIES,
-    Breather,
-    family_of,
-    growth,
-    half_traces,
-    shoot,
-    single_site,
-)
+from pendula.studies.breathers import multipliers, periodic
+from pendula.studies.breathers.multipliers import PARITIES, growth, half_traces
+from pendula.studies.breathers.periodic import FAMILIES, Breather, family_of, shoot, single_site
 from pendula.studies.breathers.steady import NotFoundError
-from pendula.studies.breathers.waves import bands, distance_from_bands
+from pendula.studies.breathers.waves import bands, distance_from_bands, free_intervals
 
 BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
@@ -98,7 +92,7 @@ def test_multipliers_are_those_of_the_flow():
     """All even multipliers of an unstable breather, from differences of the nonlinear flow."""
     short = Constants(epsilon=0.3, gamma=1.0, omega=8.0)
     breather = shoot(short, 10.0, single_site(short, 10.0, "A = B", M))
-    rate = growth(10.0, half_traces(breather)["even"])
+    rate = growth(10.0, half_traces(breather, "even"))
     slow = np.abs(multipliers_by_differences(breather)).max()
     assert rate > 0.3
     assert np.log(slow) / (4.0 * breather.quarter) == pytest.approx(rate, rel=1e-6)
@@ -106,7 +100,7 @@ def test_multipliers_are_those_of_the_flow():
 
 def test_a_growing_perturbation_grows_in_the_nonlinear_flow_at_the_rate_of_floquet(found):
     breather = found[-4.0, "A = B"]
-    rate = growth(12.0, half_traces(breather)["even"])
+    rate = growth(12.0, half_traces(breather, "even"))
     change = np.zeros((2, M + 1))
     change[:, 0] = (1e-9, -1e-9)  # out of A = B, where the drive acts
     sizes = []
@@ -125,8 +119,7 @@ def test_a_stable_breather_stays_for_a_long_time(found, family):
     within each period: its least and its largest value are.
     """
     breather = found[-4.0, family]
-    traces = half_traces(breather)
-    assert growth(12.0, traces["even"]) == growth(12.0, traces["odd"]) == 0.0
+    assert [growth(12.0, half_traces(breather, parity)) for parity in PARITIES] == [0.0, 0.0]
     long = problem_of(breather, 1e4, 1e-3 * breather.data[:, :1]).changed(
         output_step=0.5, snapshot_every=1, solver={"name": "taylor", "rtol": 1e-10, "atol": 1e-10}
     )
@@ -147,16 +140,8 @@ def test_an_unstable_breather_does_not_stay(found):
 
 def test_the_shift_in_time_has_the_multiplier_one(found):
     for breather in found.values():
-        nearest = np.abs(half_traces(breather)["even"] - 1.0).min()
+        nearest = np.abs(half_traces(breather, "even") - 1.0).min()
         assert nearest == 0.0
-
-
-def test_growth_of_traces():
-    assert growth(2.0, np.array([0.3 + 0j, -1.0, 1.0])) == 0.0
-    # mu = -e^x over half a period pi / 2
-    assert growth(2.0, np.array([-np.cosh(0.2) + 0j])) == pytest.approx(0.4 / np.pi)
-    # a quartet e^(x + i y)
-    assert growth(2.0, np.array([np.cosh(0.2 + 0.7j)])) == pytest.approx(0.4 / np.pi)
 
 
 @pytest.mark.parametrize(
@@ -177,6 +162,44 @@ def test_bands_of_linear_waves(constants, expected):
 def test_odd_multiples_may_meet_a_band(frequency, distance):
     """2.8 lies below the band, 8.4 above it; 3 times 2 lies within, as does 5 times 1."""
     assert distance_from_bands(BELOW, frequency) == pytest.approx(distance)
+
+
+@pytest.mark.parametrize("omega", [-4.0, 0.0, 1.0, 20.0])
+def test_free_intervals_are_where_no_odd_multiple_meets_a_band(omega):
+    constants = Constants(epsilon=1.0, gamma=1.0, omega=omega)
+    free = free_intervals(constants)
+    for frequency in np.linspace(0.05, 30.0, 1201):
+        inside = any(low < frequency < high for low, high in free)
+        assert inside == (distance_from_bands(constants, frequency) > 0.0)
+
+
+def test_a_family_below_which_waves_lie_ends_there():
+    found = family_of(BELOW, "A = -B", [3.0, 12.0], {"least": 8, "most": 20})
+    assert [one.frequency for one in found] == [12.0]  # 3 lies in a lower free interval
+
+
+def test_a_alone_ends_where_it_has_become_a_equal_to_b():
+    widths = {"least": 8, "most": 40}
+    alone = list(family_of(ABOVE, "A only", [8.07, 8.1, 9.0], widths))
+    assert [one.frequency for one in alone] == [9.0, 8.1]
+    equal = list(family_of(ABOVE, "A = B", [8.07, 8.1, 9.0], widths))
+    assert [one.frequency for one in equal] == [9.0, 8.1, 8.07]
+    for one in equal:
+        assert np.array_equal(one.data[0], one.data[1])
+
+
+def test_more_steps_change_nothing(monkeypatch):
+    """Neither of the solution nor of its perturbations."""
+    for constants, family in ((BELOW, "A = -B"), (ABOVE, "A only")):
+        coarse = shoot(constants, 9.0, single_site(constants, 9.0, family, M))
+        traces = half_traces(coarse, "even")
+        with monkeypatch.context() as finer:
+            finer.setattr(periodic, "FINE_STEPS", 2 * periodic.FINE_STEPS)
+            finer.setattr(multipliers, "STEPS", 2 * multipliers.STEPS)
+            fine = shoot(constants, 9.0, coarse.data)
+            assert np.abs(fine.data - coarse.data).max() < 1e-13
+            changed = half_traces(coarse, "even")
+        assert 0.0 < np.abs(np.sort(changed) - np.sort(traces)).max() < 1e-10
 
 
 def test_a_frequency_below_the_chain_has_no_single_site():

@@ -96,10 +96,86 @@ def periodic_stable(periodic) -> Finding:
         "lowest_frequency": here["frequency"].where(found).min(),
         "highest_frequency": here["frequency"].where(found).max(),
         "largest_growth": here["growth"].max(),
+        "largest_growth_half": here["growth_half"].max(),
         "least_power": power.min(),
     }
-    criterion = AllOf(AtLeast(1, "breathers"), AtMost(0.0, "largest_growth"))
+    criterion = AllOf(
+        AtLeast(1, "breathers"),
+        AtMost(0.0, "largest_growth", "largest_growth_half", says="rate of growth on two chains"),
+    )
     return judge(measured, criterion, f"at {int(found.sum())} frequencies")
+
+
+def verdicts_that_differ(dataset) -> int:
+    """Return how many states are stable on one chain and unstable on another one."""
+    differ = (dataset["growth"] > 0.0) != (dataset["growth_half"] > 0.0)
+    return int((differ & np.isfinite(dataset["growth"])).sum())
+
+
+def of_another_family(dataset):
+    """Return a dataset whose rates on the shorter chain are those of the next family."""
+    return dataset.assign(growth_half=dataset["growth_half"].roll(family=1))
+
+
+@claim(
+    PLACE,
+    "Whether a breather is stable does not depend on the length of the chain.",
+    (STEADY, PERIODIC),
+    (
+        Control("steady states beside the rates of another family", {STEADY: of_another_family}),
+        Control("periodic ones beside the rates of another family", {PERIODIC: of_another_family}),
+    ),
+)
+def stable_on_any_chain(steady, periodic) -> Finding:
+    """Compare verdicts with those on half of the half-width, above the frequencies of waves.
+
+    Within them the waves of a finite chain are few, and make quartets that come and go with it.
+    """
+    above = periodic["frequency"] > periodic["highest_wave"]
+    outside = periodic[["growth", "growth_half"]].where(above)
+    measured = {
+        "steady": verdicts_that_differ(steady),
+        "periodic": verdicts_that_differ(outside),
+        "compared": np.isfinite(steady["growth"]).sum() + np.isfinite(outside["growth"]).sum(),
+    }
+    says = "states whose verdict changes"
+    criterion = AllOf(AtLeast(1, "compared"), AtMost(0, "steady", "periodic", says=says))
+    within = periodic[["growing", "growing_half"]].where(~above)
+    if not np.isfinite(within["growing"]).any():
+        return judge(measured, criterion)
+    longer, shorter = (int(within[name].max()) for name in ("growing", "growing_half"))
+    caveat = (
+        f"within the frequencies of waves a breather has {longer} growing multipliers, and"
+        f" {shorter} on half of the chain: quartets that a finite chain makes"
+    )
+    return judge(measured, criterion, caveat)
+
+
+def of_one_signature(periodic):
+    """Return the collisions as if both multipliers had the same signature."""
+    return periodic.assign(collision_signature=abs(periodic["collision_signature"]))
+
+
+@claim(
+    PLACE,
+    "Where a family of breathers becomes unstable, multipliers of opposite signatures collide.",
+    (PERIODIC,),
+    (Control("both multipliers have one signature", {PERIODIC: of_one_signature}),),
+)
+def opposite_signatures_collide(periodic) -> Finding:
+    """Ask for the product of the two Krein signatures beside each collision."""
+    met = np.isfinite(periodic["collision_frequency"])
+    if not met.any():
+        raise UndecidableError("no family becomes unstable between the frequencies")
+    product = periodic["collision_signature"].astype(float).prod("colliding").where(met)
+    quartets = met & (periodic["collision_multiplier"].sel(part="im") > 0.0)
+    measured = {
+        "collisions": met.sum(),
+        "quartets": quartets.sum(),
+        "largest_product": product.max(),
+    }
+    says = "product of the two signatures"
+    return judge(measured, Below(0.0, "largest_product", says=says))
 
 
 def at_eight(periodic):

@@ -13,7 +13,7 @@ from pendula.models.chain import DIRICHLET, MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants, Problem, output_times
 
-from . import branches, driven_growth, fates, periodic, sensitivity, steady
+from . import branches, driven_growth, fates, sensitivity, steady
 
 PARTS = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7
@@ -28,7 +28,7 @@ def energy_of(constants: Constants, state: np.ndarray) -> float:
     return float(energy(chain, y))
 
 
-def _kept(dimensions: tuple[str, ...], values, words: str, digits: int = DIGITS) -> Variable:
+def kept(dimensions: tuple[str, ...], values, words: str, digits: int = DIGITS) -> Variable:
     about = {"significant_digits": digits}
     return Variable(dimensions, rounded(values, digits), words, attributes=about)
 
@@ -65,11 +65,11 @@ def steady_contents(
         "component": COMPONENTS,
         "family": Variable(("family",), [one.name for one in FAMILIES], "family of steady states"),
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
-        "amplitude": _kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
-        "power": _kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
-        "energy": _kept(over, energies, "conserved energy H of equation (8)"),
-        "growth": _kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
-        "growth_half": _kept(
+        "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
+        "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
+        "energy": kept(over, energies, "conserved energy H of equation (8)"),
+        "growth": kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
+        "growth_half": kept(
             over, rates, "largest rate of growth on half of the half-width", GROWTH_DIGITS
         ),
         **_births(epsilon, gamma, half_width),
@@ -94,8 +94,8 @@ def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable
         names.append(daughter.name)
     return {
         "born_family": Variable(("born_family",), names, "family born in a pitchfork"),
-        "pitchfork": _kept(("born_family",), found, "Omega of the pitchfork", 8),
-        "turning_point": _kept(
+        "pitchfork": kept(("born_family",), found, "Omega of the pitchfork", 8),
+        "turning_point": kept(
             ("born_family",), arcs, "Omega where the family turns, from its arc", 6
         ),
     }
@@ -118,72 +118,13 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
         "chain_half_width": Variable(
             ("chain_half_width",), [half_width, 2 * half_width], "half-width"
         ),
-        "stable_below": _kept(
+        "stable_below": kept(
             ("stable_family", "chain_half_width"),
             found,
             "Omega below which a family is stable",
             4,
         ),
     }
-
-
-# --- Periodic breathers ---------------------------------------------------------------------------
-
-
-def periodic_contents(
-    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
-    half_widths: Mapping[str, int],
-) -> Contents:  # fmt: skip
-    """Return the three families at each Omega and frequency; NaN where a family does not exist.
-
-    `half_widths` has the least and the most that a chain may have.
-    """
-    families, shape = periodic.FAMILIES, (len(periodic.FAMILIES), len(omegas), len(frequencies))
-    amplitude, power = np.full((2, 2, *shape), np.nan), np.full((2, *shape), np.nan)
-    energies, away = np.full(shape, np.nan), np.full(shape[1:], np.nan)
-    rates = np.full((2, *shape), np.nan)
-    for j, omega in enumerate(omegas):
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-        away[j] = [periodic.distance_from_bands(constants, one) for one in frequencies]
-        for i, family in enumerate(families):
-            for breather in periodic.family_of(constants, family, frequencies, half_widths):
-                k = list(frequencies).index(breather.frequency)
-                amplitude[0, :, i, j, k], amplitude[1, :, i, j, k] = breather.data[:, 0], 0.0
-                power[:, i, j, k] = steady.power(breather.data)
-                energies[i, j, k] = energy_of(constants, breather.data.astype(complex))
-                for p, traces in enumerate(periodic.half_traces(breather).values()):
-                    rates[p, i, j, k] = periodic.growth(breather.frequency, traces)
-    over = ("family", "omega", "frequency")
-    variables = {
-        "part": PARTS,
-        "component": COMPONENTS,
-        "parity": Variable(("parity",), ["even", "odd"], "parity of the tangent vector in n"),
-        "family": Variable(("family",), list(families), "family of periodic breathers"),
-        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
-        "frequency": Variable(
-            ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
-        ),
-        "amplitude": _kept(
-            ("part", "component", *over),
-            amplitude,
-            "amplitude on a site, site 0, when both are real",
-        ),
-        "power": _kept(
-            ("component", *over), power, "power P of each component, when both are real"
-        ),
-        "energy": _kept(over, energies, "conserved energy H of equation (8)"),
-        "growth": _kept(
-            over, rates.max(axis=0), "largest rate of growth of a perturbation", GROWTH_DIGITS
-        ),
-        "parity_growth": _kept(
-            ("parity", *over), rates, "largest rate of growth by parity", GROWTH_DIGITS
-        ),
-        "band_distance": Variable(
-            ("omega", "frequency"), away, "distance of the odd multiples of lambda from the bands"
-        ),
-    }
-    about = {"epsilon": epsilon, "gamma": gamma}
-    return variables, {"title": "Periodic breathers localised at one pair", **about}
 
 
 # --- Sensitivity, fates and growth ----------------------------------------------------------------
@@ -262,18 +203,18 @@ def growth_contents(
         "gamma": Variable(("gamma",), np.array(list(end_times))),
         "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
         "gained": Variable(grid, np.array(found), "sum of |B|^2, which the breather gains as well"),
-        "predicted_gain": _kept(grid, predicted, "the same by the law of weak drives", 9),
+        "predicted_gain": kept(grid, predicted, "the same by the law of weak drives", 9),
         "frequency": Variable(
             over, [one.frequency for one in family], "frequency lambda of the breather"
         ),
-        "free_power": _kept(over, [one.power for one in family], "P of the breather without drive"),
-        "predicted_rate": _kept(
+        "free_power": kept(over, [one.power for one in family], "P of the breather without drive"),
+        "predicted_rate": kept(
             over,
             [driven_growth.rate(free, one) for one in family],
             "rate of growth of P by the law, over gamma^2",
             9,
         ),
-        "own_rate": _kept(
+        "own_rate": kept(
             over,
             [driven_growth.own_radiation(free, one) for one in family],
             "rate at which A radiates its own image, over gamma^2",

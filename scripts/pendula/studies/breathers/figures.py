@@ -27,23 +27,29 @@ DRIVES = ("#a9bbe0", "#e0a100", "#16876b", style.BLUE, style.RED)
 # --- Families -------------------------------------------------------------------------------------
 
 
-def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset, bands: list[float]) -> xr.Dataset:
-    """Return P and growth of periodic breathers, and what the drive feeds, as they are drawn.
+PAIRS, PAIR = 1, 2
+"""What collides: two pairs of multipliers, which make a quartet, or a pair with itself."""
+COLLISION_LOOKS = {PAIRS: ("*", 7, "two pairs collide"), PAIR: ("X", 4.5, "a pair meets itself")}
 
-    `bands` are the highest frequencies of linear waves, one for each Omega.
-    """
+
+def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
+    """Return P, growth and collisions of breathers, and what the drive feeds, as they are drawn."""
+    met = np.isfinite(periodic["collision_frequency"])
+    of_two = periodic["collision_multiplier"].sel(part="im", drop=True) > 0.0
     drawn = xr.Dataset(
         {
             "total_power": periodic["power"].sum("component", skipna=False),
             "unstable": (periodic["growth"] > 0).astype(np.int8),
-            "highest_wave": ("omega", bands),
+            "collision": (met * np.where(of_two, PAIRS, PAIR)).astype(np.int8),
+            **{name: periodic[name] for name in
+               ("highest_wave", "collision_frequency", "collision_power")},
             **{name: growth[name] for name in ("time", "gained", "predicted_gain")},
         }
-    )
+    )  # fmt: skip
     described = {
         "total_power": "P of the breather",
         "unstable": "1 if a perturbation grows",
-        "highest_wave": "highest frequency of linear waves",
+        "collision": f"{PAIRS} where two pairs of multipliers collide, {PAIR} a pair with itself",
     }
     for name, words in described.items():
         drawn[name].attrs = {"long_name": words, "units": "1"}
@@ -53,7 +59,7 @@ def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset, bands: list[float
 @style.styled
 def draw_breathers(data: xr.Dataset) -> Figure:
     """Draw P against the frequency for each family and Omega; beside it, growth by the drive."""
-    figure = style.new_figure(style.DOUBLE, 2.6)
+    figure = style.new_figure(style.DOUBLE, 2.7)
     panels = figure.subplots(1, data.sizes["omega"] + 1)
     for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
         _draw_families(axes, data.sel(omega=omega))
@@ -65,30 +71,48 @@ def draw_breathers(data: xr.Dataset) -> Figure:
         for colour, marker, words in FAMILY_LOOKS.values()
     ]
     shown.append(
-        Line2D([], [], color="0.3", marker="o", markerfacecolor="white", ls=":", markersize=4,
+        Line2D([], [], color="0.3", marker="o", markerfacecolor="white", ls="none", markersize=4,
                label="unstable")
     )  # fmt: skip
-    figure.legend(handles=shown, loc="outside upper center", ncols=4)
+    shown += [
+        Line2D([], [], color="black", marker=marker, ls="none", markersize=size, label=words)
+        for kind, (marker, size, words) in COLLISION_LOOKS.items()
+        if (data["collision"] == kind).any()
+    ]
+    figure.legend(handles=shown, loc="outside upper center", ncols=3)
     return figure
 
 
 def _draw_families(axes: Axes, data: xr.Dataset) -> None:
-    frequency, edge = data["frequency"].values, float(data["highest_wave"])
+    """Draw P of each family; equal steps to the right multiply the distance from the waves."""
+    edge = float(data["highest_wave"])
+    data = data.sel(frequency=data["frequency"] > edge)
+    frequency = data["frequency"].values
     for family, (colour, marker, _) in FAMILY_LOOKS.items():
         power = data["total_power"].sel(family=family).values
         grows = data["unstable"].sel(family=family).values == 1
-        axes.plot(frequency, power, color=colour, lw=0.8, ls=":" if grows.all() else "-")
+        axes.plot(frequency - edge, power, color=colour, lw=0.8)
         for some, face in ((grows, "white"), (~grows, colour)):
             axes.plot(
-                frequency[some], power[some], color=colour, marker=marker, markersize=3.5,
+                frequency[some] - edge, power[some], color=colour, marker=marker, markersize=3.5,
                 linestyle="none", markerfacecolor=face,
             )  # fmt: skip
-    axes.axvspan(0.0, edge, color="0.88", lw=0)
-    axes.set_xlim(edge - 1.5, 1.03 * frequency.max())
+    for kind, (marker, size, _) in COLLISION_LOOKS.items():
+        some = data["collision"].values == kind
+        axes.plot(
+            data["collision_frequency"].values[some] - edge, data["collision_power"].values[some],
+            color="black", marker=marker, markersize=size, linestyle="none", zorder=4,
+            markeredgecolor="white", markeredgewidth=0.4,
+        )  # fmt: skip
+    axes.set_xscale("log")
+    ticks = [frequency[0]]
+    for tick in frequency[1:]:
+        if tick - edge > 1.6 * (ticks[-1] - edge):
+            ticks.append(tick)
+    axes.set_xticks(np.array(ticks) - edge, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
     axes.set_ylim(0, None)
-    axes.text(edge - 0.3, 0.5, "linear waves", rotation=90, ha="right", va="bottom",
-              transform=axes.get_xaxis_transform(), fontsize=6.5, color="0.35")  # fmt: skip
-    axes.set_xlabel(r"frequency $\lambda$")
+    axes.set_xlabel(rf"frequency $\lambda$, on the scale $\log (\lambda - {edge:g})$")
     axes.set_ylabel("$P$")
 
 
@@ -101,10 +125,10 @@ def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
     most = float(data["predicted_gain"].max())
     axes.plot([], [], color="0.3", lw=0.9, ls="--", label="law")
     axes.set_xscale("log")
-    axes.set_ylim(0, 2.8 * most)
+    axes.set_ylim(0, 3.2 * most)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(r"$\|B\|^2$, gained by $A$ too")
-    axes.legend(fontsize=6.5, loc="upper left", ncols=2, handlelength=1.4, columnspacing=0.8)
+    axes.legend(fontsize=6.5, loc="upper left", handlelength=1.4)
 
 
 # --- Sensitivity ----------------------------------------------------------------------------------

@@ -10,25 +10,14 @@ has the period T and both symmetries. So a breather is found by shooting over a 
 period: Re A(T / 4) = Re B(T / 4) = 0 for the real unknowns A(0), B(0), by Newton's method, which
 needs the perturbations of these data alone.
 
-Stability. Let perturbations of real and imaginary parts go over T / 4 as
-
-    p -> P p + Q q,    q -> S p + W q,
-
-symplectic in p, q: W^T P - Q^T S = 1 (sums over the whole chain). The reflection at T / 4 gives the
-map over T / 2, and with the change of sign there the multipliers mu over half a period are the
-eigenvalues of minus
-
-    [ W^T P + Q^T S    2 W^T Q ]
-    [ 2 P^T S    P^T W + S^T Q ].
-
-This is a product of two reflections, so that mu and 1 / mu come together, and (mu + 1 / mu) / 2 =
-nu are the eigenvalues of -(W^T P + Q^T S) = -(1 + 2 Q^T S): half as many, and a breather is stable
-if all nu lie in [-1, 1]. The shift along the solution has nu = 1. There mu has a Jordan block, and
-an error d of the map would show as sqrt(d); nu is simple and exact, so that it is set to 1.
+Their stability stands in `multipliers`.
 
 Existence. On an infinite chain the tails decay if no odd multiple of lambda meets the frequencies
 of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, +-kappa for A + B
-and +-sqrt(kappa^2 - 4 gamma^2) for A - B.
+and +-sqrt(kappa^2 - 4 gamma^2) for A - B. So lambda lies above all of them, or in a gap below (see
+`waves.free_intervals`). Into the gap at Omega = -4, 2.7 to 3.5, "A only" and "A = -B" can be
+continued from gamma = 0, but they end at gamma of 0.2 to 0.5 and 0.7 to 0.95. A = B does not feel
+the drive and has the one harmonic lambda, which only has to lie above Omega.
 """
 
 from collections.abc import Mapping
@@ -36,12 +25,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.numerics.elementary import log
+from pendula.numerics.elementary import geometric, log
 from pendula.problem import Constants
 
-from .quarter_period import flow
+from .quarter_period import FINE_STEPS, STEPS, flow
 from .steady import NotFoundError
-from .waves import distance_from_bands
+from .waves import distance_from_bands, free_intervals, highest
 
 FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
@@ -62,6 +51,11 @@ class Breather(NamedTuple):
         """A quarter of the period."""
         return 0.5 * np.pi / self.frequency
 
+    @property
+    def finer(self) -> int:
+        """How many times more steps a quarter takes where waves are faster than the breather."""
+        return max(1, int(np.ceil(highest(self.constants) / self.frequency)))
+
 
 def single_site(constants: Constants, frequency: float, family: str, half_width: int) -> np.ndarray:
     """Return a first guess: the motion of one pair whose neighbours follow it weakly."""
@@ -77,28 +71,57 @@ def single_site(constants: Constants, frequency: float, family: str, half_width:
     return data
 
 
+def widened(data: np.ndarray, sites: int) -> np.ndarray:
+    """Return data with zeros behind their end, or cut off, on so many sites."""
+    kept = data[:, :sites]
+    return np.pad(kept, ((0, 0), (0, sites - kept.shape[1])))
+
+
 def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather:
-    """Return the breather that Newton's method finds from real data, (component, site)."""
-    data, (rows, sites) = start, start.shape
-    directions = np.zeros((rows * sites, 4, sites))
-    directions[:, ::2] = np.eye(rows * sites).reshape(-1, rows, sites)
-    nothing, largest = np.empty((0, 4, sites)), np.inf
+    """Return the breather that Newton's method finds from real data, (component, site).
+
+    A start with A = B or A = -B leads to such a breather to the last bit, also where the matrix
+    cannot tell the step that breaks the symmetry from zero. The matrix is kept while a step makes
+    the error a hundred times smaller.
+    """
+    data, sites, guess = start, start.shape[1], Breather(constants, frequency, start)
+    quarter, finer = guess.quarter, guess.finer
+    symmetry = next((sign for sign in (1, -1) if np.array_equal(start[0], sign * start[1])), 0)
+    changes = _changes(sites, symmetry)
+    directions = np.array([real_data(one) for one in changes])
+    nothing, largest, matrix = np.empty((0, 4, sites)), np.inf, None
     for _ in range(ITERATIONS):
-        ends = flow(constants, _real(data), directions, nothing, 0.5 * np.pi / frequency)
-        real = ends[:, ::2].reshape(len(ends), -1)
-        last, largest = largest, np.abs(real[0]).max() / np.abs(data).max()
+        miss = flow(constants, real_data(data), nothing, nothing, quarter, finer * FINE_STEPS)
+        miss = miss[0, ::2]
+        last, largest = largest, np.abs(miss).max() / np.abs(data).max()
         if largest <= TOLERANCE and largest >= 0.1 * last:
             return Breather(constants, frequency, data)
         if not largest < 10.0:
             break
-        data = data - np.linalg.solve(real[1:].T, real[0]).reshape(data.shape)
+        if matrix is None or largest > 0.01 * last:
+            ends = flow(constants, real_data(data), directions, nothing, quarter, finer * STEPS)
+            ends = ends[1:, ::2]
+            matrix = ends.reshape(len(ends), -1)[:, : len(ends)].T
+        steps = np.linalg.solve(matrix, miss.ravel()[: len(matrix)])
+        one = steps.reshape(-1, sites)
+        data = data - (np.concatenate([one, symmetry * one]) if symmetry else one)
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
 
-LARGEST_RATIO = 1.5
-"""Of a frequency and the next one, between which Newton's method does not lose a family."""
-DECAY = 34.0
-"""A tail falls by this exponent before the chain ends: to 2e-15 of the centre."""
+def _changes(sites: int, symmetry: int) -> np.ndarray:
+    """Return unit changes of real data, (change, component, site); both components if symmetric."""
+    one = np.eye(sites)
+    if symmetry:
+        return np.stack([one, symmetry * one], axis=1)
+    return np.eye(2 * sites).reshape(-1, 2, sites)
+
+
+LARGEST_RATIOS = 2.0, 1.5
+"""Of the distances of a frequency and the next one from the waves, and of the two, between which
+Newton's method does not lose a family."""
+DECAY = 28.0
+"""A tail falls by this exponent before the chain ends: to 7e-13 of the centre, which the end of the
+chain changes by the square of that."""
 
 
 def half_width_for(constants: Constants, frequency: float, least: int, most: int) -> int:
@@ -113,67 +136,40 @@ def half_width_for(constants: Constants, frequency: float, least: int, most: int
 def family_of(constants: Constants, family: str, frequencies, half_widths: Mapping[str, int]):
     """Yield the breathers of a family from the highest frequency down to where it ends.
 
-    Each starts from the one before. A frequency whose odd multiples meet a band has no breather.
+    Each starts from the one before. "A only" can end above the waves, where it has become A = B.
     """
     wanted = sorted(frequencies, reverse=True)
+    edge = constants.omega if family == "A = B" else free_intervals(constants)[-1][0]
     half_width = half_width_for(constants, wanted[0], **half_widths)
     data = single_site(constants, wanted[0], family, half_width)
     for before, frequency in zip([wanted[0], *wanted], wanted, strict=False):
-        for step in _between(before, frequency):
-            if distance_from_bands(constants, step) == 0.0:
-                return
-            half_width = half_width_for(constants, step, **half_widths)
-            data = np.pad(data, ((0, 0), (0, max(0, half_width + 1 - data.shape[1]))))
-            breather = shoot(constants, step, data)
+        if frequency <= edge:
+            return
+        for step in _between(edge, before, frequency):
+            half_width = max(half_width, half_width_for(constants, step, **half_widths))
+            breather = shoot(constants, step, widened(data, half_width + 1))
             data = breather.data
+            if family == "A only" and np.abs(data[0] - data[1]).max() < EQUAL * np.abs(data).max():
+                return
         yield breather
 
 
-def _between(start: float, end: float) -> list[float]:
-    """Return frequencies after `start` down to `end`, so close that each leads to the next."""
-    count = max(1, int(np.ceil(log(start / end) / log(LARGEST_RATIO))))
-    return [start + (end - start) * k / count for k in range(1, count)] + [end]
+EQUAL = 1e-6
+"""Where A and B differ by less, relative to the largest, they are equal."""
 
 
-def half_traces(breather: Breather) -> dict[str, np.ndarray]:
-    """Return the numbers nu of the module's text for even and odd perturbations, complex."""
-    sites = breather.data.shape[1]
-    evens, odds = _directions(sites, 0), _directions(sites, 1)
-    ends = flow(breather.constants, _real(breather.data), evens, odds, breather.quarter)[1:]
-    weights = np.tile([1.0] + [2.0] * (sites - 1), 2)[:, None]  # a site stands for its image too
-    even = _nu(ends[: len(evens)], 0, weights)
-    even[np.argmin(np.abs(even - 1.0))] = 1.0
-    return {"even": even, "odd": _nu(ends[len(evens) :], 1, np.ones((2 * sites - 2, 1)))}
+def _between(edge: float, start: float, end: float) -> list[float]:
+    """Return frequencies after `start` down to `end`, so close that each leads to the next.
+
+    `edge` is the frequency below them at which the waves begin.
+    """
+    ratios = (start - edge) / (end - edge), start / end
+    counts = [log(one) / log(most) for one, most in zip(ratios, LARGEST_RATIOS, strict=True)]
+    count = max(1, int(np.ceil(max(counts) - 1e-9)))
+    away = geometric(start - edge, end - edge, count + 1)[1:-1]
+    return [*(float(edge + one) for one in away), end]
 
 
-def _real(data: np.ndarray) -> np.ndarray:
+def real_data(data: np.ndarray) -> np.ndarray:
+    """Return real amplitudes as a state (4, M + 1)."""
     return np.stack([data[0], 0.0 * data[0], data[1], 0.0 * data[1]])
-
-
-def _directions(sites: int, first: int) -> np.ndarray:
-    """Return unit perturbations on the sites `first`..M: of real parts, then of imaginary ones."""
-    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[:, first:].reshape(-1, 2, sites)
-    found = np.zeros((2, len(units), 4, sites))
-    found[0][:, ::2] = found[1][:, 1::2] = units
-    return found.reshape(-1, 4, sites)
-
-
-def _nu(ends: np.ndarray, first: int, weights: np.ndarray) -> np.ndarray:
-    count = len(ends) // 2
-    real_to_imaginary = ends[:count, 1::2, first:].reshape(count, -1).T
-    imaginary_to_real = ends[count:, ::2, first:].reshape(count, -1).T
-    product = (imaginary_to_real.T @ (weights * real_to_imaginary)) / weights
-    return -1.0 - 2.0 * np.linalg.eigvals(product).astype(complex)
-
-
-NOISE = 1e-7
-"""Where bands of both signatures meet, nu has nearly double values, which rounding splits by the
-square root of its size. Growth by less than this counts as none."""
-
-
-def growth(frequency: float, traces: np.ndarray) -> float:
-    """Return the rate at which the worst perturbation grows per unit of tau; 0 if none does."""
-    root = np.sqrt(traces**2 - 1.0)
-    largest = float(np.maximum(np.abs(traces + root), np.abs(traces - root)).max())
-    rate = float(log(largest)) * frequency / np.pi
-    return rate if rate > NOISE else 0.0

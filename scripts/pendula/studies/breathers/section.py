@@ -1,5 +1,6 @@
 """The report's part on breathers: families, growth by the drive, sensitivity, and fates."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,12 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
                      for omega in results[PERIODIC]["omega"].values
                      for family in results[PERIODIC]["family"].values],
         "families_head": ["Ω", "family", "P at the lowest frequency", "least P", "unstable at"],
+        "collisions_head": ["Ω", "family", "λ", "perturbation", "multiplier over half a period",
+                            "signatures"],
+        "collisions": list(_collisions(results)),
+        "edge": results.say(PERIODIC, _span(results[PERIODIC]["highest_wave"].values)),
+        "within": _within(results),
+        "lower_free": results.say(PERIODIC, _lower_free(results)),
         "frequencies": results.say(PERIODIC, _span(results[PERIODIC]["frequency"].values)),
         "growth": _growth(results),
         "sensitivity": _sensitivity(results),
@@ -51,7 +58,8 @@ def _omegas(results: Results) -> list[float]:
 
 
 def _span(values: np.ndarray) -> str:
-    return f"{number(float(values.min()))} to {number(float(values.max()))}"
+    ends = number(float(values.min())), number(float(values.max()))
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def _steady_row(results: Results, family: str) -> list:
@@ -90,6 +98,52 @@ def _family(results: Results, omega: float, family: str) -> list:
         results.quote(PERIODIC, float(np.nanmin(power))),
         results.say(PERIODIC, said),
     ]
+
+
+def _collisions(results: Results) -> Iterator[list]:
+    """Yield a row for each collision: where it is, what meets, and with which signatures."""
+    data = results[PERIODIC]
+    met = data["collision_frequency"].transpose("omega", "family", "frequency", "parity")
+    for at in np.argwhere(np.isfinite(met.values)):
+        one = data.isel(dict(zip(met.dims, at, strict=True)))
+        real, imaginary = one["collision_multiplier"].values
+        signs = ("+" if sign > 0 else "−" for sign in one["collision_signature"].values)
+        value = (
+            number(real, 4) if not imaginary else f"{number(real, 4)} ± {number(imaginary, 4)} i"
+        )
+        yield [
+            number(float(one["omega"])),
+            symbols(str(one["family"].item())),
+            results.quote(PERIODIC, float(one["collision_frequency"]), 5),
+            str(one["parity"].item()),
+            results.say(PERIODIC, value),
+            results.say(PERIODIC, " and ".join(signs)),
+        ]
+
+
+def _within(results: Results) -> str:
+    """Return how fast breathers grow whose frequency is that of a wave, on two chains."""
+    data = results[PERIODIC]
+    rates = data[["growth", "growth_half"]].where(data["frequency"] <= data["highest_wave"])
+    said = [
+        f"{symbols(str(family))} at λ = {number(float(frequency))} grows by"
+        f" {number(float(one['growth']))} and, on half of the chain, by"
+        f" {number(float(one['growth_half']))}"
+        for family in data["family"].values
+        for frequency in data["frequency"].values
+        for one in [rates.sel(family=family, frequency=frequency).max("omega")]
+        if np.isfinite(one["growth"])
+    ]
+    return results.say(PERIODIC, "; ".join(said)) if said else ""
+
+
+def _lower_free(results: Results) -> str:
+    """Return the intervals of frequencies below the waves none of whose multiples meets a band."""
+    low, high = (results[PERIODIC][f"free_{end}"].values for end in ("low", "high"))
+    ends = sorted(
+        {(a, b) for a, b in zip(low.ravel(), high.ravel(), strict=True) if np.isfinite(b)}
+    )
+    return "; ".join(f"{number(a, 4)} to {number(b, 4)}" for a, b in ends) or "none"
 
 
 def _growth(results: Results) -> dict[str, Any]:

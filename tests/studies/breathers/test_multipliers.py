@@ -1,0 +1,189 @@
+"""Floquet multipliers: against the flow over a whole period, signatures, and collisions."""
+
+import numpy as np
+import pytest
+from pendula.problem import Constants
+from pendula.studies.breathers.multipliers import (
+    PARITIES,
+    HalfMap,
+    collision,
+    growth,
+    half_map,
+    half_traces,
+    localised_modes,
+    spectrum,
+)
+from pendula.studies.breathers.periodic import (
+    FAMILIES,
+    Breather,
+    family_of,
+    real_data,
+    shoot,
+    single_site,
+)
+from pendula.studies.breathers.quarter_period import flow
+from pendula.studies.breathers.steady import NotFoundError
+from pendula.studies.breathers.waves import band_traces
+
+BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
+ABOVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
+M = 12
+
+
+def members(constants: Constants, family: str, *frequencies: float, most: int = 30) -> list:
+    return list(family_of(constants, family, frequencies, {"least": 8, "most": most}))
+
+
+def known(breather: Breather, parity: str) -> tuple:
+    return breather, *spectrum(half_map(breather, parity), parity)
+
+
+def monodromy(breather: Breather, parity: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return the map of all perturbations over a whole period, and the weights of their sums.
+
+    Rows and columns are the real parts of A and B on all sites, then the imaginary ones.
+    """
+    sites, first = breather.data.shape[1], PARITIES.index(parity)
+    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[:, first:].reshape(-1, 2, sites)
+    directions = np.zeros((2, len(units), 4, sites))
+    directions[0][:, ::2] = directions[1][:, 1::2] = units
+    directions, nothing = directions.reshape(-1, 4, sites), np.empty((0, 4, sites))
+    bundle = (nothing, directions) if first else (directions, nothing)
+    period = 4.0 * breather.quarter
+    ends = flow(breather.constants, real_data(breather.data), *bundle, period, 128)[1:, :, first:]
+    rows = np.concatenate([ends[:, ::2], ends[:, 1::2]], axis=1).reshape(len(ends), -1)
+    weights = np.tile([1.0] * (1 - first) + [2.0] * (sites - 1), 4)
+    return rows.T, weights
+
+
+@pytest.fixture(scope="module")
+def found():
+    """Return breathers at the frequency 12, by detuning and family."""
+    return {
+        (constants.omega, family): shoot(constants, 12.0, single_site(constants, 12.0, family, M))
+        for constants in (BELOW, ABOVE)
+        for family in FAMILIES
+    }
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+def test_twice_the_map_over_half_a_period_is_that_over_a_period(found, parity):
+    for breather in found.values():
+        half = half_map(breather, parity)
+        lower = (half.a.T * half.weights[:, 0]) / half.weights
+        whole = np.block([[half.a, half.b], [half.c, lower]])
+        assert np.abs(whole @ whole - monodromy(breather, parity)[0]).max() < 1e-9
+
+
+@pytest.mark.parametrize("parity", PARITIES)
+def test_signatures_are_those_of_the_definition(found, parity):
+    """i conj(v)^T J v on the eigenvectors of the flow over a period, for each multiplier.
+
+    Where two multipliers are nearly equal their eigenvectors are not known.
+    """
+    compared = []
+    for breather in found.values():
+        matrix, weights = monodromy(breather, parity)
+        values, vectors = np.linalg.eig(matrix)
+        traces, signs = spectrum(half_map(breather, parity), parity)
+        for nu, sign in zip(traces, signs, strict=True):
+            mu = nu.real + 1j * np.sqrt(1.0 - nu.real**2 + 0j)
+            off = np.abs(values - mu**2)
+            if nu == 1.0 or abs(nu) > 1.0 or nu.imag or np.sort(off)[1] < 1e-6:
+                continue
+            p, q = np.split(vectors[:, off.argmin()], 2)
+            form = 1j * np.sum(weights[: len(p)] * (p.conj() * q - q.conj() * p))
+            assert off.min() < 1e-8
+            assert np.sign(form.real) == sign
+            compared.append(sign)
+    assert set(compared) == {1, -1}
+    assert len(compared) > 60
+
+
+def test_waves_have_the_signature_of_their_frequency():
+    """On a chain nearly at rest nu fills the bands of (15): positive frequencies at Omega = 8."""
+    for constants, expected in ((BELOW, -1), (ABOVE, 1)):
+        rest = Breather(constants, 12.0, np.zeros((2, 30)))
+        traces, signs = spectrum(half_map(rest, "odd"), "odd")
+        assert set(signs) == {expected}
+        bands = band_traces(constants, 12.0)
+        assert all(any(low - 1e-9 < nu.real < high + 1e-9 for low, high in bands) for nu in traces)
+        low, high = min(bands)[0], max(high for _, high in bands)
+        assert traces.real.min() == pytest.approx(low, abs=0.01)
+        assert traces.real.max() == pytest.approx(high, abs=0.01)
+        assert localised_modes(rest, traces, signs) == []
+
+
+def test_growth_of_traces():
+    assert growth(2.0, np.array([0.3 + 0j, -1.0, 1.0])) == 0.0
+    assert growth(2.0, np.array([0.3, 1.0 + 1e-13])) == 0.0  # real ones too, and rounding
+    # mu = -e^x over half a period pi / 2
+    assert growth(2.0, np.array([-np.cosh(0.2) + 0j])) == pytest.approx(0.4 / np.pi)
+    # a quartet e^(x + i y)
+    assert growth(2.0, np.array([np.cosh(0.2 + 0.7j)])) == pytest.approx(0.4 / np.pi)
+
+
+def test_localised_modes_come_with_their_signatures(found):
+    opposite = found[-4.0, "A = -B"]
+    (mode,) = localised_modes(*known(opposite, "even"))
+    assert mode.signature == -1
+    assert mode.trace == pytest.approx(0.945451, abs=1e-5)
+    equal = found[-4.0, "A = B"]
+    (mode,) = localised_modes(*known(equal, "even"))
+    assert mode.signature == 0  # it grows
+    assert mode.trace.real > 1.0
+
+
+def test_a_quartet_is_born_where_opposite_signatures_meet():
+    low, high = members(ABOVE, "A = -B", 9.5, 10.0)[::-1]
+    met = collision(known(low, "even"), known(high, "even"), "even")
+    assert sorted(met.signatures) == [-1, 1]
+    assert -1.0 < met.trace < 1.0
+    frequency = met.breather.frequency
+    assert low.frequency < frequency < high.frequency
+    for away, grows in ((-1e-3, True), (1e-3, False)):
+        beside = shoot(ABOVE, frequency + away, met.breather.data)
+        assert (growth(frequency, half_traces(beside, "even")) > 0.0) is grows
+
+
+def test_a_collision_is_the_same_on_twice_the_chain():
+    found = []
+    for half_width in (18, 36):
+        ends = [
+            shoot(ABOVE, lam, single_site(ABOVE, lam, "A = -B", half_width)) for lam in (9.6, 9.75)
+        ]
+        met = collision(*(known(one, "even") for one in ends), "even")
+        found.append((met.breather.frequency, met.trace))
+    assert found[0] == pytest.approx(found[1], abs=1e-5)
+
+
+def test_a_pair_meets_itself_at_one():
+    """A = B gives birth to A alone there: an even perturbation that makes A and B differ."""
+    low, high = members(ABOVE, "A = B", 8.07, 8.1, 9.0)[:0:-1]
+    met = collision(known(low, "even"), known(high, "even"), "even")
+    assert met.trace == 1.0
+    assert met.signatures == (1, -1)
+    assert 8.08 < met.breather.frequency < 8.083
+
+
+def test_no_collision_where_both_are_stable_or_grow():
+    for family in ("A only", "A = B"):
+        low, high = members(BELOW, family, 9.0, 10.0)[::-1]
+        assert collision(known(low, "even"), known(high, "even"), "even") is None
+
+
+def test_two_collisions_at_once_are_refused():
+    stable, grown = np.array([0.5 + 0j, 0.2]), np.array([1.2 + 0j, -1.2])
+    signs = np.array([1, -1])
+    ends = [Breather(ABOVE, lam, np.zeros((2, 3))) for lam in (9.0, 10.0)]
+    with pytest.raises(NotFoundError, match="two even"):
+        collision((ends[0], stable, signs), (ends[1], grown, signs), "even")
+
+
+def test_what_rounding_splits_stays_on_the_circle():
+    """Two waves of one signature with equal nu: a is not symmetric, and rounding may split them."""
+    one = np.eye(3)
+    turned = np.array([[0.5, 1e-9, 0.0], [-1e-9, 0.5, 0.0], [0.0, 0.0, 0.1]])
+    traces, signs = spectrum(HalfMap(-turned, one, one, np.ones((3, 1))), "odd")
+    assert not traces.imag.any()
+    assert set(signs) == {1}
