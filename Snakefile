@@ -54,6 +54,7 @@ rule all:
         expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
         expand("results/certified/{case}.nc", case=SETTINGS.certified.curves.cases),
         "results/certified/lines.nc",
+        expand("results/certified/{name}.nc", name=["breathers", "constants"]),
         "results/claims.json",
         "results/controls.json",
         "results/tables/solvers.md",

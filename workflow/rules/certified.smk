@@ -76,3 +76,40 @@ rule draw_certified_curves:
         "Drawing the proven bounds of curves"
     script:
         "../../scripts/certified/draw_curves.py"
+
+
+rule prove_breathers:
+    "Steady breathers that are proved to exist on the infinite chain, and spectra on a finite one"
+    input:
+        code=code("certified/prove_breathers.py"),
+    output:
+        data="results/certified/breathers.nc",
+    log:
+        "results/logs/certified/breathers.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **SETTINGS.certified.breathers.model_dump(),
+    message:
+        "Proving that steady breathers exist, and which are stable"
+    script:
+        "../../scripts/certified/prove_breathers.py"
+
+
+rule enclose_constants:
+    "The constants of the theorems that the theory stores, between bounds"
+    input:
+        code=code("certified/enclose_constants.py"),
+        datasets=checks(*ENCLOSED),
+    output:
+        data="results/certified/constants.nc",
+    log:
+        "results/logs/certified/constants.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **constants_params(),
+    message:
+        "Enclosing the constants of the theorems"
+    script:
+        "../../scripts/certified/enclose_constants.py"

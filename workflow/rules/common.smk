@@ -21,7 +21,7 @@ from order import put_in_order
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
-from pendula.configuration.paper import concerning, differences, paper, reason
+from pendula.configuration.paper import ENCLOSED, concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import Constants, name_window
 from pendula.studies.certified.norm import NotDefiniteError, find_form

@@ -70,6 +70,8 @@ def makers():
         "certify_curve": certified_curves(),
         "measure_lines": ["results/certified/lines.nc"],
         "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
+        "prove_breathers": ["results/certified/breathers.nc"],
+        "enclose_constants": ["results/certified/constants.nc"],
     }
     return {name_of(path): rule for rule, paths in made_by.items() for path in paths}
 
@@ -348,6 +350,21 @@ def certified_curves():
     return below(f"certified/{case}" for case in SETTINGS.certified.curves.cases)
 
 
+def constants_params():
+    """Return the cases and the arguments of checks that lead to the constants."""
+    given = {
+        name: arguments
+        for group in GROUPS
+        for name, arguments in SETTINGS.theory.arguments(group).items()
+        if name in ENCLOSED
+    }
+    return {
+        "names": [f"checks/{name}" for name in ENCLOSED],
+        "problems": {case: SETTINGS.problem(case, snapshot_step=None) for case in PAPER_CASES},
+        "theory": given,
+    }
+
+
 def known_reference(case):
     return references(case) if case in PAPER_CASES else []
 
@@ -373,7 +390,8 @@ NUMBERS_BY = [
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
     "newton/find_threshold.py",
-    *("certified/certify_curve.py", "certified/measure_lines.py"),
+    *("certified/certify_curve.py", "certified/measure_lines.py", "certified/prove_breathers.py"),
+    "certified/enclose_constants.py",
 ]
 
 
@@ -451,6 +469,7 @@ def claims_need():
         "certified": [
             *(*certified_curves(), *below(["certified/wrong/curve", "certified/lines"])),
             *below(["trajectories/fig2_small", "trajectories/fig3_small"]),
+            *below(["certified/breathers", "certified/constants", "breathers/steady"]),
         ],
         "unbounded": [
             *below(f"unbounded/{name}" for name in CLAIMED_RUNS),

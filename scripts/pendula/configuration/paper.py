@@ -199,9 +199,18 @@ def _breathers(name: str) -> tuple[str, ...]:
     return ("breathers.epsilon", "breathers.gamma", *own, *(_keys(case, *FINITE) if case else ()))
 
 
+ENCLOSED = ("cases", "theorem_2_case", "theorem_3_constant", "threshold", "chart")
+"""The checks whose constants the study of proofs encloses."""
+
+
 def _certified(name: str) -> tuple[str, ...]:
-    """Return what a proof rests on: its case, or what asks it about a wrong one."""
-    wrong = paper()["certified"]["curves"]["wrong"]
+    """Return what a proof rests on: its states or case, or what asks it about a wrong one."""
+    given = paper()["certified"]
+    wrong = given["curves"]["wrong"]
+    if name == "breathers":
+        return tuple(f"certified.breathers.{key}" for key in given["breathers"])
+    if name == "constants":
+        return tuple(dict.fromkeys(path for check in ENCLOSED for path in _check(check, ())))
     if name == "wrong/curve":
         return ("certified.curves.wrong", *_keys(wrong["case"], *FINITE))
     if name == "lines":

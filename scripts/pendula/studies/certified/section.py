@@ -7,15 +7,23 @@ import numpy as np
 from pendula.ledger.section import Ledger
 from pendula.report.page import Picture
 from pendula.report.results import Results, Section
-from pendula.report.words import case_in_words, case_of, number
+from pendula.report.words import case_in_words, case_of, number, symbols
+
+from .states import Verdict
 
 LINES = "certified/lines"
+BREATHERS, CONSTANTS = "certified/breathers", "certified/constants"
 NORMS = {"linf": "ℓ∞", "l2": "ℓ2"}
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return what is proved, topic by topic."""
-    return {"curves": _curves(results), "lines": _lines(results)}
+    return {
+        "curves": _curves(results),
+        "lines": _lines(results),
+        "breathers": _breathers(results),
+        "constants": _constants(results),
+    }
 
 
 def _curves(results: Results) -> dict[str, Any]:
@@ -69,6 +77,48 @@ def _until(results: Results, curve) -> Any:
     words = [f"{number(proved, 4)} proved" if np.isfinite(proved) else "nothing proved"]
     words += [f"{number(measured, 4)} measured"] if np.isfinite(measured) else ["none measured"]
     return results.say(LINES, ", ".join(words))
+
+
+VERDICTS = {Verdict.STABLE: "stable", Verdict.UNSTABLE: "unstable", Verdict.UNDECIDED: "open"}
+
+
+def _breathers(results: Results) -> dict[str, Any]:
+    proved = results[BREATHERS]
+    return {
+        "head": ["family", "Ω", "ε", "a true state within", "no other within", "chain", "growth"],
+        "rows": [_breather(results, i) for i in range(proved.sizes["proof"])],
+        "sites": results.quote(BREATHERS, 2 * int(proved.attrs["chain_half_width"]) + 1),
+        "bits": results.quote(BREATHERS, int(proved.attrs["bits"])),
+        "refused": [
+            results.quote(BREATHERS, float(omega))
+            for omega in proved["tested_omega"].values[np.isinf(proved["wrong_radius"].values)]
+        ],
+    }
+
+
+def _breather(results: Results, index: int) -> list:
+    """Return what is proved of one state, in words where it is refused."""
+    one = results[BREATHERS].isel(proof=index)
+    found = bool(np.isfinite(one["radius"]))
+    numbers = [float(one[name]) for name in ("radius", "unique_radius", "growth_low")]
+    told = [results.quote(BREATHERS, x) if found else "no proof" for x in numbers]
+    verdict = Verdict(int(one["stable"]))
+    return [
+        symbols(str(one["family"].item())),
+        number(float(one["omega"])),
+        number(float(one["epsilon"])),
+        *told[:2],
+        results.say(BREATHERS, VERDICTS[verdict]),
+        told[2] if verdict is Verdict.UNSTABLE else "none" if verdict else "",
+    ]
+
+
+def _constants(results: Results) -> dict[str, Any]:
+    constants = results[CONSTANTS]
+    return {
+        "count": results.quote(CONSTANTS, constants.sizes["constant"]),
+        "error": results.quote(CONSTANTS, float(constants["stored_error"].max())),
+    }
 
 
 SECTIONS = (Section("certified", "Numbers with a proof", gather),)

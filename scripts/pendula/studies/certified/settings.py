@@ -5,7 +5,8 @@ from typing import Annotated
 from pydantic import Field
 
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Number, Positive
+from pendula.configuration.values import Distinct, Model, Name, Number, Positive, Whole
+from pendula.models.pairs import FAMILIES, pair
 
 
 class WrongCurve(Model):
@@ -25,19 +26,64 @@ class Curves(Model):
     wrong: WrongCurve
 
 
+class State(Model):
+    """A steady breather by its family, its Omega and its coupling."""
+
+    family: str
+    omega: Number
+    epsilon: Positive
+
+
+class WrongState(State):
+    """A state that is tested at another Omega than its own."""
+
+    tested_at: Number
+
+
+class HalfWidths(Model):
+    """Half-widths of what is kept of the infinite chain, and of the finite chain."""
+
+    block: Annotated[Whole, Field(ge=2)]
+    chain: Annotated[Whole, Field(ge=2)]
+
+
+class Breathers(Model):
+    """Steady breathers whose existence and stability are proved."""
+
+    gamma: Positive
+    half_widths: HalfWidths
+    proofs: Annotated[list[State], Field(min_length=1)]
+    wrong: Annotated[list[WrongState], Field(min_length=2, max_length=2)]
+
+    def faults(self) -> Faults:
+        """Yield the states that single pairs of pendula do not have."""
+        named = {family.name: family for family in FAMILIES}
+        for key, states in (("proofs", self.proofs), ("wrong", self.wrong)):
+            for i, state in enumerate(states):
+                if state.family not in named:
+                    yield f"{key}[{i}].family", f"is none of {', '.join(named)}"
+                elif pair(named[state.family], self.gamma, state.omega) is None:
+                    yield f"{key}[{i}].omega", f"no pair has a state {state.family} there"
+
+
 class Needs(Model):
     """The largest error that each part bears."""
 
     curves: Positive
+    breathers: Positive
+    constants: Positive
 
 
 class Settings(Model):
     """Section `certified` of the configuration."""
 
     curves: Curves
+    breathers: Breathers
     needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
-        """Yield the cases that the configuration has not."""
+        """Yield the cases that the configuration has not, and states that do not exist."""
         yield from settings.absent("cases", "curves.cases", self.curves.cases)
         yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
+        for key, fault in self.breathers.faults():
+            yield f"breathers.{key}", fault

@@ -192,7 +192,8 @@ theorem_2 = theorem(
     controls=(wrong("data a hundred times as large", "negative_depth"),),
 )
 def positive_depth(depth) -> Finding:
-    measured = {"largest_energy": number(depth, "most_energy"), "radius": number(depth, "radius")}
+    measured = {"largest_energy": number(depth, "most_energy")}
+    measured["radius"] = number(depth, "largest_start")
     return judge(measured, Below(0.0, "largest_energy", says="largest H / P of data in the ball"))
 
 

@@ -111,7 +111,7 @@ def check_negative_depth(constants: Constants, count: int, seed: int, scale: flo
     return table(
         "The sign of -H for data as small as Theorem 2 asks",
         {},
-        radius=variable(radius, (), "largest P of these data"),
+        largest_start=variable(radius, (), "largest P of these data"),
         least_depth=variable(min(depth), (), "least -H / P of these data"),
         most_energy=variable(-min(depth), (), "largest H / P of these data", tolerance=0.0),
     )

@@ -1,0 +1,105 @@
+"""Enclosed constants: around what `models` computes in doubles, and not around what is wrong."""
+
+import numpy as np
+import pytest
+from flint import arb
+from pendula.models import bounds, linear_chain
+from pendula.problem import Constants, Problem, on_sites
+from pendula.studies.certified import balls, constants
+from pendula.studies.certified.constants import Parameters, farthest
+from pendula.studies.theory import errata
+from pendula.studies.theory.equations import total_energy
+
+HERE = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
+OTHERS = [HERE, Constants(epsilon=0.7, gamma=-0.3, omega=-2.2),
+          Constants(epsilon=-0.4, gamma=0.3, omega=-4.1)]  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def precision():
+    with balls.precision():
+        yield
+
+
+def near(ball, value, within=1e-13):
+    return farthest(ball, float(value)) < within and balls.upper(ball.rad()) < 1e-25
+
+
+@pytest.mark.parametrize("k", OTHERS)
+@pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
+def test_the_energy_is_that_of_the_kernels(k, boundary):
+    rng = np.random.default_rng(5)
+    data = rng.normal(size=(2, 7)) + 1j * rng.normal(size=(2, 7))
+    assert near(constants.energy(Parameters.of(k), boundary, data), total_energy(k, boundary, data))
+
+
+@pytest.mark.parametrize("k", OTHERS)
+def test_bounds_of_a_case_are_those_of_the_models(k):
+    problem = Problem(
+        constants=k, half_width=5, boundary="dirichlet", initial=on_sites({0: (0.3, "0.1j")}),
+        end_time=1.0, output_step=1.0, solver={"name": "taylor"},
+    )  # fmt: skip
+    found = {one.variable: one.ball for one in constants.of_cases({"mine": problem})}
+    h, start = total_energy(k, "dirichlet", problem.amplitudes), 0.1
+    delta_0, c_0 = bounds.theorem_2_constants(k)
+    expected = {
+        "energy": h, "start": start, "delta_0": delta_0, "c_0": c_0,
+        "theorem_3": bounds.theorem_3_bound(h, 11, k), "widened": bounds.widened_bound(h, start, k),
+    }  # fmt: skip
+    assert found.keys() == expected.keys()
+    assert all(near(found[name], value) for name, value in expected.items())
+
+
+def test_theorem_1_needs_its_range():
+    def variables(omega):
+        problem = Problem(
+            constants=Constants(epsilon=1.0, gamma=1.0, omega=omega), half_width=3,
+            boundary="dirichlet", initial=on_sites({0: (1.0, 0.1)}), end_time=1.0,
+            output_step=1.0, solver={"name": "taylor"},
+        )  # fmt: skip
+        return {one.variable for one in constants.of_cases({"mine": problem})}
+
+    assert "theorem_1" in variables(6.5) and "theorem_1" not in variables(6.0)
+
+
+@pytest.mark.parametrize("omega", [-4.0, 0.0, 1.3, 2.0, 5.5])
+@pytest.mark.parametrize("epsilon", [1.0, -0.5])
+def test_thresholds_are_those_of_the_linear_chain(omega, epsilon):
+    k = Parameters.of(Constants(epsilon=epsilon, gamma=0.0, omega=omega))
+    finite = linear_chain.finite_threshold(np.array([omega]), epsilon, 21, "dirichlet")[0]
+    assert near(constants.threshold(k, 21), finite)
+    assert near(constants.threshold(k, None), linear_chain.gamma_0(omega, epsilon))
+
+
+def test_the_root_lies_where_the_bound_reaches_the_depth():
+    k, depth = Parameters.of(HERE), balls.decimal(6.619975)
+    root = constants.widened(k, depth)
+    below, above = (constants.coercivity(k, arb(f * root.mid())) for f in (0.999, 1.001))
+    assert below < depth < above
+    assert constants.widened(k, balls.decimal(13.5)) is None  # above the barrier of 13.4
+
+
+def test_the_printed_bound_fails_from_three_sites_on():
+    found = constants.of_printed_constant(HERE, 0.1, 5)
+    stored = errata.check_theorem_3_constant(HERE, 0.1, 5)["data_vars"]
+    for one in found:
+        values = stored[one.variable]["data"]
+        value = values if values.ndim == 0 else values[(one.of["sites"] - 1) // 2]
+        assert near(one.ball, value), one.label
+    assert found[-1].variable == "smallest" and found[-1].ball == 3
+
+
+def test_a_tenth_is_not_the_double_next_to_it():
+    data = np.array([[0.1 + 0j], [0j]])
+    assert farthest(constants.power(data), 0.1 * 0.1) > 0.0
+    assert constants.power(data).contains(arb(1) / 100)
+
+
+@pytest.mark.parametrize("stored", [1.01 * 4.0, np.nan, np.inf, -4.0])
+def test_a_wrong_number_is_far(stored):
+    assert farthest(arb(4), stored) > 0.009
+
+
+def test_a_small_constant_is_held_to_an_absolute_distance():
+    assert farthest(arb(0), 2e-16) == pytest.approx(2e-16, rel=1e-9)
+    assert farthest(arb(1000), 1001.0) == pytest.approx(1e-3, rel=1e-9)

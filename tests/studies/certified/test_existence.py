@@ -1,0 +1,147 @@
+"""Existence proofs of breathers: the inequalities against dense matrices, and what is refused."""
+
+import numpy as np
+import pytest
+from flint import arb, arb_mat, ctx
+from pendula.models.pairs import FAMILIES
+from pendula.studies.certified import balls, existence
+from pendula.studies.certified.existence import RefusedError, prove
+from pendula.studies.certified.states import Chain, LostError, find_state
+
+REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
+HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
+FAR = HERE._replace(half_width=25)
+
+
+def proved(family, chain=HERE, state=None, **how):
+    state = find_state(chain, family) if state is None else state
+    return prove(chain, family.drive(chain.gamma), state, **how)
+
+
+def refined(chain, s, whole):
+    """Return the state of a finite chain to some sixty digits, by Newton's method."""
+    u = arb_mat([[arb(float(x))] for x in whole])
+    for _ in range(3):
+        values = u.entries()
+        k, miss = existence.slope(chain, s, values), existence.residual(chain, s, values)
+        u = (u - k.mid().solve(miss.mid())).mid()
+    return u.entries()
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_the_true_state_lies_within_the_radius_and_not_within_a_small_part_of_it(family):
+    """The state of a far longer chain stands for that of the infinite one."""
+    longer = np.zeros((2, FAR.half_width + 1))
+    longer[:, : HERE.half_width + 1] = state = find_state(HERE, family)
+    whole = np.concatenate([longer[:, :0:-1], longer], axis=1).ravel()
+    with ctx.workprec(200):
+        true = refined(FAR, family.drive(FAR.gamma), whole)
+        distance = max(
+            balls.upper(abs(x - arb(float(y)))) for x, y in zip(true, whole, strict=True)
+        )
+    radius = proved(family, state=state).radius
+    assert distance <= radius < 1e-10
+    assert radius < 20.0 * distance
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_the_contraction_is_the_norm_of_a_longer_dense_matrix(family):
+    """1 - A DF on a longer chain, A the inverse on the block and C^-1 beyond, in doubles."""
+    chain, extra, s = HERE._replace(half_width=3), 4, family.drive(HERE.gamma)
+    state = find_state(chain, family)
+    longer = chain._replace(half_width=chain.half_width + extra)
+    sites = 2 * longer.half_width + 1
+    u = np.zeros((2, sites))
+    u[:, extra:-extra] = np.concatenate([state[:, :0:-1], state], axis=1)
+    with balls.precision():
+        slope = existence.slope(longer, s, [arb(float(x)) for x in u.ravel()])
+    df = np.array([[float(x.mid()) for x in row] for row in slope.tolist()])
+    block = np.arange(extra, sites - extra)
+    block = np.concatenate([block, block + sites])
+    a = np.zeros_like(df)
+    a[np.ix_(block, block)] = np.linalg.inv(df[np.ix_(block, block)])
+    outer = chain.omega - s - 2.0 * chain.epsilon
+    for n in [*range(extra), *range(sites - extra, sites)]:
+        both = np.ix_([n, n + sites], [n, n + sites])
+        a[both] = np.linalg.inv([[outer, s], [s, outer]])
+    norm = np.abs(np.eye(2 * sites) - a @ df).sum(axis=1).max()
+    assert proved(family, chain, state).contraction == pytest.approx(norm, rel=1e-9)
+
+
+def test_uniqueness_stops_before_the_next_state():
+    """Zero, the mirror image and other families are states as well: none lies that near."""
+    state = find_state(HERE, EQUAL)
+    others = [np.zeros_like(state), -state, find_state(HERE, REAL), find_state(HERE, ASYMMETRIC)]
+    distances = [np.abs(state - other).max() for other in others]
+    assert 0.1 < proved(EQUAL, state=state).unique < min(distances)
+
+
+def test_the_tail_decays_as_the_linear_chain_allows():
+    """rho + 1 / rho = 2 + 4 for sums at Omega = -4, and 2 + 2 for differences in s = -1."""
+    assert proved(EQUAL).decay == pytest.approx(3.0 - np.sqrt(8.0), rel=1e-12)
+    assert proved(IMAGINARY).decay == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-9)
+
+
+def test_a_finite_chain_has_a_proof_of_its_own():
+    """The state of nine sites differs from that of the infinite chain in its fourth digit."""
+    short = HERE._replace(half_width=4)
+    assert proved(EQUAL, short, infinite=False).radius < 1e-14
+    assert 1e-5 < proved(EQUAL, short).radius < 1e-2
+
+
+# --- Refusals -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("family", "omega"), [(EQUAL, 0.0), (EQUAL, 2.0), (EQUAL, 4.0), (REAL, 5.0), (IMAGINARY, -1.0)]
+)
+def test_inside_a_band_the_outside_does_not_contract(family, omega):
+    """[0, 4 epsilon] for sums, shifted by 2 s for differences."""
+    with pytest.raises(RefusedError, match="band"):
+        proved(family, HERE._replace(omega=omega), find_state(HERE, family))
+
+
+def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
+    state = find_state(HERE, EQUAL)
+    off = np.array([1e-10, 1e-6, 1e-3])
+    radii = [proved(EQUAL, state=state * (1.0 + one)).radius for one in off]
+    sizes = np.abs(state).max() * off
+    assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
+    with pytest.raises(RefusedError, match="residual"):
+        proved(EQUAL, state=1.3 * state)
+
+
+def test_zero_is_no_breather():
+    with pytest.raises(RefusedError, match="zero"):
+        proved(EQUAL, state=np.zeros((2, HERE.half_width + 1)))
+
+
+def test_at_a_pitchfork_there_is_no_proof():
+    """A = B meets the asymmetric family at Omega = -0.5870372 (results/breathers/steady.nc)."""
+    beside = HERE._replace(omega=-0.7, half_width=32)
+    state = find_state(beside, EQUAL)
+    assert proved(EQUAL, beside, state).radius < 1e-6
+    at = beside._replace(omega=-0.58703721)
+    with pytest.raises(RefusedError):
+        proved(EQUAL, at, with_equal_parts(at, state))
+
+
+def with_equal_parts(chain, state):
+    """Return the state with A = B: the slope of one component alone stays regular."""
+    a, sites = state[0], state.shape[1]
+    coupled = chain.epsilon * (np.eye(sites, k=1) + np.eye(sites, k=-1))
+    coupled[0, 1] *= 2.0
+    coupled += (chain.omega - 2.0 * chain.epsilon) * np.eye(sites)
+    for _ in range(20):
+        a = a - np.linalg.solve(coupled + np.diag(1.5 * a * a), coupled @ a + 0.5 * a**3)
+    return np.stack([a, a])
+
+
+def test_a_family_that_does_not_exist_is_lost():
+    with pytest.raises(LostError, match="no pair"):
+        find_state(HERE._replace(omega=-1.5), IMAGINARY)
+
+
+def test_a_step_that_leaves_the_family_is_lost():
+    with pytest.raises(LostError):
+        find_state(HERE._replace(epsilon=40.0), ASYMMETRIC)

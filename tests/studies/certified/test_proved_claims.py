@@ -1,0 +1,90 @@
+"""Claims on proved breathers and enclosed constants, each fed a right and a wrong case."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.datasets.netcdf import as_xarray
+from pendula.ledger.claim import evaluate
+from pendula.studies.certified.claims_breathers import CONSTANTS, PROVED, STEADY
+from pendula.studies.certified.proved_breathers import breathers_contents
+
+PROOFS = [
+    {"family": "A = B real", "omega": -8.0, "epsilon": 1.0},
+    {"family": "A = B real", "omega": -4.0, "epsilon": 1.0},
+]
+WRONG = [{**PROOFS[1], "tested_at": 2.0}, {**PROOFS[1], "tested_at": -4.001}]
+
+
+@pytest.fixture(scope="module")
+def proved():
+    return as_xarray(*breathers_contents(1.0, {"block": 18, "chain": 8}, PROOFS, WRONG))
+
+
+@pytest.fixture
+def sources(proved):
+    """Return datasets in which all claims hold."""
+    steady = xr.Dataset(
+        {"growth_half": (("family", "omega"), [[0.0, float(proved["growth_low"][1])]]),
+         "chain_half_width": ("chain_half_width", [8, 16])},
+        {"family": ["A = B real"], "omega": [-8.0, -4.0]},
+        {"gamma": 1.0, "epsilon": 1.0},
+    )  # fmt: skip
+    constants = xr.Dataset(
+        {"lower": ("constant", [0.99999999999999989, 4.0]), "stored": ("constant", [1.0, 4.0]),
+         "upper": ("constant", [1.0, 4.0])},
+        {"constant": ["one", "four"]},
+    )  # fmt: skip
+    return {PROVED: proved, STEADY: steady, CONSTANTS: constants}
+
+
+def rows_of(sources):
+    return {row["name"]: row for row in evaluate(sources, None, ("certified/claims_breathers",))}
+
+
+def test_all_hold_where_they_should_and_every_control_is_refused(sources):
+    rows = rows_of(sources)
+    assert len(rows) == 4
+    assert {row["verdict"] for row in rows.values()} == {"confirmed"}
+    assert all(control["passes"] for row in rows.values() for control in row["controls"])
+
+
+@pytest.mark.parametrize(
+    ("name", "source", "change"),
+    [
+        ("breathers_exist", PROVED, lambda one: one.assign(radius=one["radius"] + 1e-11)),
+        ("breathers_exist", PROVED, lambda one: one.assign(tail_factor=one["tail_factor"] + 1.0)),
+        ("breathers_stable_or_not", PROVED, lambda one: one.isel(proof=[0])),
+        (
+            "breathers_stable_or_not", PROVED,
+            lambda one: one.assign(chain_radius=one["chain_radius"] * np.inf),
+        ),
+        ("growth_as_proved", STEADY, lambda one: one.assign(growth_half=one["growth_half"] + 1e-5)),
+        ("constants_enclosed", CONSTANTS, lambda one: one.assign(upper=one["upper"] + 1e-11)),
+        ("constants_enclosed", CONSTANTS, lambda one: one.assign(lower=-one["lower"])),
+    ],
+)  # fmt: skip
+def test_a_wrong_dataset_is_refused(sources, name, source, change):
+    assert (
+        rows_of({**sources, source: change(sources[source])})[name]["verdict"] == "not reproduced"
+    )
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda one: one.sel(omega=[-8.0]).assign_coords(omega=[-7.0]),
+        lambda one: one.assign_attrs(epsilon=0.5),
+        lambda one: one.assign_attrs(gamma=0.5),
+        lambda one: one.assign_coords(chain_half_width=[9, 16]),
+    ],
+)
+def test_without_a_state_in_both_studies_rates_are_not_compared(sources, change):
+    rows = rows_of({**sources, STEADY: change(sources[STEADY])})
+    assert rows["growth_as_proved"]["verdict"] == "cannot be decided"
+
+
+def test_what_is_refused_is_said_in_the_dataset(proved):
+    assert np.isinf(proved["wrong_radius"][0]) and proved["wrong_radius"][1] > 1e-5
+    assert list(proved["stable"].values) == [1, 0]
+    assert proved["stable"].attrs["flag_meanings"] == "undecided unstable stable"
+    assert float(proved["radius"].max()) < 1e-12

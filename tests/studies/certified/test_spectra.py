@@ -1,0 +1,105 @@
+"""Proofs of stability: what boxes of eigenvalues say, and spectra against dense matrices."""
+
+import numpy as np
+import pytest
+from flint import acb, arb
+from pendula.models.pairs import FAMILIES
+from pendula.studies.certified import balls, spectra
+from pendula.studies.certified.spectra import decide, judge
+from pendula.studies.certified.states import Chain, Verdict, find_state
+
+REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
+HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=8)
+
+
+def box(real, imag=0.0, radius=1e-3):
+    return acb(arb(real, radius), arb(imag, radius))
+
+
+@pytest.mark.parametrize(
+    ("boxes", "zero", "verdict"),
+    [
+        ([box(-1), box(-2)], False, Verdict.STABLE),
+        ([box(-1), box(2)], False, Verdict.UNSTABLE),
+        ([box(-1, 0.5), box(-1, -0.5)], False, Verdict.UNSTABLE),
+        ([box(-1), box(0)], False, Verdict.UNDECIDED),
+        ([box(-1), box(0)], True, Verdict.STABLE),
+        ([box(-1), box(0), box(1)], True, Verdict.UNSTABLE),
+        # one box meets the axis, the conjugate of its eigenvalue lies in the other, which does not
+        ([box(-1, 0.0009), box(-1.0005, -0.0012)], False, Verdict.UNSTABLE),
+        ([box(-1), box(-1)], False, Verdict.UNDECIDED),  # not isolated
+        (None, False, Verdict.UNDECIDED),
+    ],
+)
+def test_boxes_decide(boxes, zero, verdict):
+    assert judge(boxes, zero).verdict is verdict
+
+
+def test_the_rate_is_the_root_of_the_fastest_box():
+    found = judge([box(4.0, radius=1e-6), box(1.0), box(-9.0)], False)
+    assert found.growth_low < 2.0 < found.growth_high < found.growth_low + 1e-6
+
+
+def exponents(chain, family, state):
+    """Return all exponents of a state on the whole chain, from one dense matrix in doubles."""
+    s, whole = family.drive(chain.gamma), np.concatenate([state[:, :0:-1], state], axis=1)
+    one = np.eye(whole.shape[1])
+    neighbours = np.eye(len(one), k=1) + np.eye(len(one), k=-1) - 2.0 * one
+    linear = np.kron(np.eye(2), chain.epsilon * neighbours + chain.omega * one)
+    exchange = s * np.kron([[1.0, -1.0], [-1.0, 1.0]], one)
+    squares, zero = np.diag(whole.ravel() ** 2), np.zeros_like(linear)
+    lower, upper = linear + 0.5 * squares + exchange, linear + 1.5 * squares - exchange
+    return np.linalg.eigvals(np.block([[zero, lower], [-upper, zero]]))
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_the_blocks_have_the_spectrum_of_the_whole_chain(family):
+    state = find_state(HERE, family)
+    with balls.precision():
+        u = [[arb(float(x)) for x in row] for row in state]
+        blocks = [b for even in (True, False) for b, _ in spectra.blocks(HERE, family, u, even)]
+        boxes = [y for block in blocks for y in spectra.eigenvalues(block)]
+        total = sum((block.trace() for block in blocks), arb(0))
+        assert sum(boxes, acb(0)).overlaps(acb(total))
+    found = np.array([complex(float(y.real.mid()), float(y.imag.mid())) for y in boxes])
+    squares = exponents(HERE, family, state) ** 2
+    assert 2 * len(found) == len(squares)
+    assert max(np.abs(found - y).min() for y in squares) < 1e-6
+    assert max(np.abs(squares - y).min() for y in found) < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("family", "omega", "verdict"),
+    [
+        (EQUAL, -4.0, Verdict.UNSTABLE),
+        (EQUAL, -8.0, Verdict.STABLE),
+        (REAL, -13.0, Verdict.STABLE),
+        (ASYMMETRIC, -10.0, Verdict.STABLE),
+        (IMAGINARY, -4.0, Verdict.UNSTABLE),
+    ],
+)
+def test_states_are_proved_stable_or_not(family, omega, verdict):
+    chain = HERE._replace(omega=omega)
+    state = find_state(chain, family)
+    found = decide(chain, family, state, 1e-14)
+    fastest = exponents(chain, family, state).real.max()
+    assert found.verdict is verdict
+    if verdict is Verdict.STABLE:
+        assert found.growth_low == found.growth_high == 0.0
+    else:
+        assert found.growth_low - 1e-7 < fastest < found.growth_high + 1e-7
+
+
+def test_a_state_that_is_not_known_well_proves_nothing():
+    """Within a tenth of it the boxes are wider than the distances between eigenvalues."""
+    chain = HERE._replace(omega=-8.0)
+    assert decide(chain, EQUAL, find_state(chain, EQUAL), 0.1).verdict is Verdict.UNDECIDED
+
+
+def test_a_state_that_is_not_of_the_family_is_not_taken_for_stable():
+    """The free phase of A = B is what allows the eigenvalue zero: 0.9 times the state has none."""
+    chain = HERE._replace(omega=-8.0)
+    state = find_state(chain, EQUAL)
+    assert decide(chain, EQUAL, 0.9 * state, 1e-14).verdict is not Verdict.UNDECIDED
+    nearly = EQUAL._replace(kind="asymmetric")
+    assert decide(chain, nearly, state, 1e-14).verdict is Verdict.UNDECIDED
