@@ -13,7 +13,7 @@ import sys
 
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
-    *("pandas", "pydantic", "smart_open", "yte"),
+    *("pydantic", "smart_open", "yte"),
 )
 """What every run imports, whatever it is asked for."""
 

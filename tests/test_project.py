@@ -158,6 +158,40 @@ def test_a_record_follows_every_kind_of_import(tmp_path, monkeypatch, statement)
     assert sources.modules_of(here) == [room / "__init__.py", room / "style.py", here]
 
 
+def imports_in(tree) -> list[str]:
+    kinds = ast.Import, ast.ImportFrom
+    return sorted(ast.dump(node) for node in sources._statements(tree) if isinstance(node, kinds))
+
+
+def test_a_record_has_the_imports_that_python_finds():
+    """Not everything is parsed, so that what is left out must hold no import."""
+    modules = sources.SCRIPTS.rglob("*.py")
+    texts = {module: module.read_text(encoding="utf-8") for module in modules}
+    assert len(texts) > 100
+    parsed = {module: ast.parse(text) for module, text in texts.items()}
+    read = {module: sources._tree_of(text) for module, text in texts.items()}
+    assert [one for one in texts if imports_in(read[one]) != imports_in(parsed[one])] == []
+    assert sum(map(size, read.values())) < 0.2 * sum(map(size, parsed.values()))
+
+
+def size(tree) -> int:
+    return sum(1 for _ in ast.walk(tree))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("if a: import job", "import os; import job", "import os, \\\n    job\n"),
+        *("from pendula import (\n    problem,  # why\n    compiled,\n)", "import  job"),
+        *("from pendula import *", "from .  import style", "x = 1; from . import style"),
+        *('"""Say import once."""\nimport job', "\timport job", "import job  # the import"),
+    ],
+)
+def test_an_import_of_any_shape_is_found(text):
+    text = f"def f():\n{text}" if text.startswith("\t") else text
+    assert imports_in(sources._tree_of(text)) == imports_in(ast.parse(text)) != []
+
+
 def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     record = Path(code_records.code("paper/draw_chain.py"))

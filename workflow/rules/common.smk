@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from snakemake.logging import logger
+from snakemake.persistence import PersistenceBase
 
 if sys.version_info < (3, 11):
     logger.error(f"this project needs Python 3.11 or newer, and this is {sys.version.split()[0]}")
@@ -29,6 +30,10 @@ from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
 from progress import Run, expected, take_the_screen, what_it_takes
 from stop import stop
 from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
+
+# Snakemake would import pandas, for a fifth of a second, to ask of each parameter whether it is a
+# table of pandas. None is.
+PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_builtin
 
 if not os.access(".", os.W_OK):
     stop(
