@@ -1,12 +1,14 @@
 """Ctrl-C ends a compiled run: every kernel reads the flag, and whoever waits for it raises it."""
 
+import os
 import signal
 import threading
+import weakref
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from helpers import wait_for
+from helpers import HANGS, wait_for
 from oracle import SOLVERS as CONTROLS
 from pendula.integrators import INTERRUPTED
 from pendula.simulation import simulate as simulation
@@ -151,3 +153,22 @@ def test_a_fault_of_the_run_reaches_the_caller():
 
 def test_a_run_that_is_not_interrupted_returns_its_result_with_the_flag_down():
     assert interruptible(lambda number, stop: (number, bool(stop[0])), 3) == (3, False)
+
+
+def test_a_thread_does_one_run_after_another_and_keeps_no_array():
+    first = interruptible(lambda stop: threading.get_ident())
+    array = np.zeros(3)
+    kept = weakref.ref(array)
+    assert interruptible(lambda given, stop: threading.get_ident(), array) == first
+    del array
+    wait_for(lambda: kept() is None)
+    assert first != threading.get_ident()
+
+
+def test_a_fork_has_threads_of_its_own():
+    assert interruptible(lambda stop: 3) == 3
+    child = os.fork()
+    if not child:
+        signal.alarm(HANGS)  # ends the child, whoever waits in it
+        os._exit(interruptible(lambda stop: 5))
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 5

@@ -2,14 +2,19 @@
 
 Python tells its main thread of an interrupt between two of its own instructions. A compiled run is
 a single instruction that may take hours, and an interrupt that comes while LLVM compiles may be
-lost altogether. So the run gets a thread of its own, and the caller waits for it in Python. Where
-the wait is interrupted, the caller raises a flag, which the kernels read at every step. What the
-run has written by then is dropped, so that nobody sees half of a result.
+lost altogether. So another thread does the run, and the caller waits for it in Python. Where the
+wait is interrupted, the caller raises a flag, which the kernels read at every step. What the run
+has written by then is dropped, so that nobody sees half of a result.
+
+A thread that has done a run waits for the next one: to start one takes as long as a short run.
 """
 
+import os
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
+from queue import Empty, SimpleQueue
 from typing import Any
 
 import numpy as np
@@ -20,6 +25,35 @@ PATIENCE = 0.5
 """Seconds that an interrupted caller waits for the end of a step; compilation may take longer."""
 
 
+class _Worker:
+    """A thread that does one run after another."""
+
+    def __init__(self):
+        self.runs, self.ends = SimpleQueue(), SimpleQueue()
+        # A daemon thread, so that the interpreter can leave while that thread still compiles.
+        threading.Thread(target=self._work, daemon=True).start()
+
+    def _work(self) -> None:
+        while task := self.runs.get():
+            end = _end_of(*task)
+            del task  # arrays of a run that is over
+            self.ends.put(end)
+            del end
+
+
+def _end_of(run: Callable, arguments: tuple) -> tuple[Any, BaseException | None]:
+    try:
+        return run(*arguments), None
+    except BaseException as fault:
+        return None, fault
+
+
+_idle: list[_Worker] = []
+"""Workers that wait for a run. A fork has none of the threads of its parent."""
+if hasattr(os, "register_at_fork"):  # Windows has no forks
+    os.register_at_fork(after_in_child=_idle.clear)
+
+
 def interruptible(run: Callable, *arguments) -> Any:
     """Return run(*arguments, stop), a run that ends when the flag `stop` is raised.
 
@@ -28,30 +62,38 @@ def interruptible(run: Callable, *arguments) -> Any:
     if it is one of many threads and the main thread is interrupted.
     """
     stop = np.zeros(1, np.bool_)
-    results, faults = [], []
-
-    def work() -> None:
-        try:
-            results.append(run(*arguments, stop))
-        except BaseException as fault:
-            faults.append(fault)
-
-    # A daemon thread, so that the interpreter can leave while that thread still compiles.
-    thread = threading.Thread(target=work, daemon=True)
+    worker = None
     try:
-        thread.start()
-        while thread.is_alive():
-            thread.join(LOOK)
-            if _main_thread_is_interrupted():
-                raise KeyboardInterrupt
+        worker = _take()
+        worker.runs.put((run, (*arguments, stop)))
+        result, fault = _wait(worker.ends)
     except BaseException:
         stop[0] = True
-        if thread.is_alive():  # not so if it never started
-            thread.join(PATIENCE)
+        if worker is not None:
+            worker.runs.put(None)  # it may be busy for long: others get another one
+            with suppress(Empty):
+                worker.ends.get(timeout=PATIENCE)
         raise
-    for fault in faults:
+    _idle.append(worker)
+    if fault is not None:
         raise fault
-    return results[0]
+    return result
+
+
+def _take() -> _Worker:
+    try:
+        return _idle.pop()
+    except IndexError:
+        return _Worker()
+
+
+def _wait(ends: SimpleQueue) -> tuple[Any, BaseException | None]:
+    while True:
+        try:
+            return ends.get(timeout=LOOK)
+        except Empty:
+            if _main_thread_is_interrupted():
+                raise KeyboardInterrupt from None
 
 
 def _main_thread_is_interrupted() -> bool:
