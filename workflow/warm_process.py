@@ -65,15 +65,24 @@ def prepare(modules: list[str]) -> None:
     gc.enable()
 
 
+POWERS = range(-16, 5)
+CASES = [(omega, pair) for omega in (8, -4, 0) for pair in ("1, 0.1", "5, 1")]
+"""What stands at axes and above panels of many figures: its formulas are read once for all."""
+
+
 def _draw_something(style) -> None:
     """Draw a picture that nobody sees, which loads fonts and the tables of both kinds of files."""
 
     @style.styled
     def draw():
         figure = style.new_figure(1.0, 1.0)
-        figure.add_subplot().set_xlabel(r"$\tau$")
-        for kind in ("png", "pdf"):
-            figure.savefig(io.BytesIO(), format=kind)
+        axes = figure.add_subplot(yscale="log", xlabel=r"$\tau$")
+        axes.set_yticks([float(f"1e{power}") for power in POWERS])
+        for omega, pair in CASES:
+            figure.text(0.0, 0.0, rf"$\Omega = {omega}$,  $(A_{{0}}, B_{{0}}) = ({pair})$")
+        with style.thrifty():
+            for kind in ("png", "pdf"):
+                figure.savefig(io.BytesIO(), format=kind)
 
     draw()
 

@@ -116,6 +116,25 @@ def test_fonts_hold_the_outlines_of_matplotlib_alone_and_nothing_to_set_text_wit
         assert [*slim["hmtx"].metrics.values()] == [*full["hmtx"].metrics.values()]
 
 
+def test_a_font_is_embedded_alike_again(saved):
+    """What stays in memory of a font is not what an earlier figure has changed."""
+    assert save(thrift.thrifty)[1] == saved["thrifty"][1]
+
+
+def test_a_text_is_measured_anew_where_it_changes():
+    figure = draw()
+    text = figure.text(0.5, 0.5, "one")
+    with thrift.thrifty():
+        renderer = figure.canvas.get_renderer()
+        boxes = [text.get_window_extent(renderer).bounds]
+        for name, value in {"text": "more", "fontsize": 20, "rotation": 40, "ha": "right"}.items():
+            text.set(**{name: value})
+            boxes.append(text.get_window_extent(renderer).bounds)
+        figure.dpi = 50
+        boxes.append(text.get_window_extent().bounds)
+    assert len(set(boxes)) == 6
+
+
 def test_ticks_are_found_anew_where_limits_or_sizes_change():
     figure = draw()
     axes = figure.axes[0]
