@@ -78,6 +78,7 @@ rule draw_certified_curves:
         "../../scripts/certified/draw_curves.py"
 
 
+<<<<<<< HEAD
 rule prove_breathers:
     "Steady breathers that are proved to exist on the infinite chain, and spectra on a finite one"
     input:
@@ -113,3 +114,21 @@ rule enclose_constants:
         "Enclosing the constants of the theorems"
     script:
         "../../scripts/certified/enclose_constants.py"
+=======
+rule certificate:
+    "The proof of a short case as a file that others can check: results/certified/short_case.json"
+    input:
+        code=code("certified/make_certificate.py"),
+    output:
+        certificate="results/certified/short_case.json",
+    log:
+        "results/logs/certified/certificate.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        problem=short_problem(SETTINGS.certified.certificate),
+    message:
+        "Making a certificate of a short case"
+    script:
+        "../../scripts/certified/make_certificate.py"
+>>>>>>> fe742b9 (Let a stranger check a certificate of a short case in exact arithmetic, with nothing but Python)

@@ -346,6 +346,11 @@ def certified_problem(case):
     return {**plain, "solver": {"name": "polynomials"}}
 
 
+def short_problem(given):
+    short = {"half_width": given.half_width, "end_time": given.end_time}
+    return {**certified_problem(given.case), **short}
+
+
 def certified_curves():
     return below(f"certified/{case}" for case in SETTINGS.certified.curves.cases)
 

@@ -245,7 +245,7 @@ def _times(half_squares: np.ndarray, terms: np.ndarray, k: int) -> np.ndarray:
 
 def _growth(curve: Curve, problem: Problem, form: Form, sizes: Sizes) -> np.ndarray:
     """Return bounds of the integral of the rate over each interval, (interval,)."""
-    states = _samples(curve)
+    states = sample(curve)
     rates = find_rates(states, problem, form)
     delta = curve.step / SAMPLES
     a0 = np.sum(sizes.modulus, axis=0)
@@ -263,7 +263,7 @@ def _growth(curve: Curve, problem: Problem, form: Form, sizes: Sizes) -> np.ndar
     return UP * delta * (0.5 * (rates[:-1] + rates[1:]) + extra)
 
 
-def _samples(curve: Curve) -> np.ndarray:
+def sample(curve: Curve) -> np.ndarray:
     """Return the states at the ends of all intervals, (interval + 1, part, component, site)."""
     inner = [evaluate(curve.terms, i / SAMPLES)[0] for i in range(SAMPLES)]
     states = np.stack(inner, axis=1).reshape(-1, *curve.terms.shape[2:])

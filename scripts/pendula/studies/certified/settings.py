@@ -66,6 +66,14 @@ class Breathers(Model):
                     yield f"{key}[{i}].omega", f"no pair has a state {state.family} there"
 
 
+class ShortCase(Model):
+    """A case on a short chain for a short time, whose proof others can check."""
+
+    case: Name
+    half_width: Annotated[Whole, Field(ge=0)]
+    end_time: Positive
+
+
 class Needs(Model):
     """The largest error that each part bears."""
 
@@ -79,6 +87,7 @@ class Settings(Model):
 
     curves: Curves
     breathers: Breathers
+    certificate: ShortCase
     needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
@@ -87,3 +96,4 @@ class Settings(Model):
         yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault
+        yield from settings.absent("cases", "certificate.case", [self.certificate.case])

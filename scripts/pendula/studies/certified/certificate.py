@@ -1,0 +1,64 @@
+"""A proof of a short case as a file that others can check: see scripts/certified/check_certificate.
+
+All numbers are integers: coefficients in units of 2^-BITS, rates of 2^-20, bounds of 2^-60. The
+coefficients are rounded so far that the bound is hardly larger than it must be, and whoever changes
+a last digit breaks it.
+"""
+
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from pendula.problem import Problem
+
+from .norm import decimal, find_form, find_rates
+from .polynomials import Curve, find_curve
+from .regular import prove, sample
+
+BITS = 34
+ORDER = 14
+SLACK = 1e-6
+"""Each step leaves so much more room than the one before, as a part of the bound."""
+
+
+def make_certificate(problem: Problem) -> dict[str, Any]:
+    """Return the certificate of a problem with Dirichlet ends; raises NotDefiniteError."""
+    exact = find_curve(problem, ORDER, left_out=2.0**-BITS)
+    curve = Curve(exact.step, np.rint(exact.terms * 2.0**BITS) * 2.0**-BITS)
+    bounds = prove(problem, curve).errors[:, -1].sum(axis=1)
+    rates = find_rates(sample(curve), problem, find_form(problem.constants))
+    per_step = (len(rates) - 1) // len(bounds)
+    constants = problem.constants
+    return {
+        "what": "i A_n' = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n + gamma (conj B_n - "
+        "conj A_n) + |A_n|^2 A_n / 2, the same with A and B exchanged, A = B = 0 beyond the ends",
+        **{name: str(decimal(getattr(constants, name))) for name in ("epsilon", "gamma", "omega")},
+        "initial": [
+            [str(decimal(x)) for x in part]
+            for one in problem.amplitudes
+            for part in (one.real, one.imag)
+        ],
+        "steps_per_tau": round(1.0 / curve.step),
+        "end_time": str(decimal(len(bounds) * curve.step)),
+        "bits": BITS,
+        "steps": [
+            {
+                "terms": [_whole(terms) for terms in curve.terms[:, j]],
+                "rates": _rates(rates[per_step * j : per_step * (j + 1) + 1]),
+                "bound": ceil(2.0**60 * bound * (1.0 + SLACK * (j + 1))),
+            }
+            for j, bound in enumerate(bounds)
+        ],
+    }
+
+
+def _whole(terms: np.ndarray) -> list[list[int]]:
+    """Return the terms of one order as integers: rows Re A, Im A, Re B, Im B."""
+    rows = np.swapaxes(terms, 0, 1).reshape(4, -1)
+    return [[int(x) for x in row] for row in rows * 2.0**BITS]
+
+
+def _rates(rates: np.ndarray) -> list[int]:
+    """Return rates in units of 2^-20, a little larger, as states at ends of steps are rounded."""
+    return [ceil(rate * 2.0**20) + 1 for rate in rates]
