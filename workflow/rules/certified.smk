@@ -78,7 +78,6 @@ rule draw_certified_curves:
         "../../scripts/certified/draw_curves.py"
 
 
-<<<<<<< HEAD
 rule prove_breathers:
     "Steady breathers that are proved to exist on the infinite chain, and spectra on a finite one"
     input:
@@ -114,7 +113,8 @@ rule enclose_constants:
         "Enclosing the constants of the theorems"
     script:
         "../../scripts/certified/enclose_constants.py"
-=======
+
+
 rule certificate:
     "The proof of a short case as a file that others can check: results/certified/short_case.json"
     input:
@@ -131,4 +131,3 @@ rule certificate:
         "Making a certificate of a short case"
     script:
         "../../scripts/certified/make_certificate.py"
->>>>>>> fe742b9 (Let a stranger check a certificate of a short case in exact arithmetic, with nothing but Python)
