@@ -15,8 +15,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from pendula.problem import Problem
 from pendula.simulation.lattice import Reduction
+from pendula.simulation.models import MODELS
 from pendula.simulation.simulate import Trajectory, simulate
-from pendula.simulation.solvers import SOLVERS
 
 TIGHT = {"taylor": 1e-14, "dop853": 1e-12, "ode45": 1e-9}
 ITERATED = {"step": 0.0025, "tolerance": 1e-13, "iterations": 50}
@@ -25,6 +25,8 @@ CONTROLS = {
     "crank_nicolson": ITERATED,
     "delfour_fortin_payre": ITERATED,
     "splitting": {"step": 0.0025},
+    **{f"pendula.{name}": {"rtol": value, "atol": value} for name, value in TIGHT.items()},
+    "pendula.kahan_li": {"step": 0.25},
 }
 RUNS = [(name, even) for name in CONTROLS for even in (True, False)]
 
@@ -36,20 +38,33 @@ def digest(trajectory: Trajectory) -> str:
     return hashlib.sha256(b"".join((part + 0.0).tobytes() for part in parts)).hexdigest()[:16]
 
 
+def of_model(name: str) -> tuple[str, str]:
+    """Return the model and the solver of a run; the amplitudes are not named."""
+    model, _, solver = name.rpartition(".")
+    return model or "amplitudes", solver
+
+
 def run(name: str, even: bool) -> str:
     """Return the hash of Fig 4, large data, to tau = 3, by half of the chain or the whole."""
+    model, solver = of_model(name)
     plain = {
         "epsilon": 1.0, "gamma": 1.0, "omega": 0.0, "half_width": 30, "boundary": "dirichlet",
         "initial": {0: (5.0, 1.0)}, "end_time": 3.0, "output_step": 0.1,
-        "solver": {"name": name, **CONTROLS[name]},
+        "solver": {"name": solver, **CONTROLS[name]},
+        **({"model": model, "mu": 0.1} if model == "pendula" else {}),
     }  # fmt: skip
     return digest(simulate(Problem.of(plain), Reduction(even=even, synchronised=False)))
+
+
+def hits(model: str, solver: str) -> int:
+    """Return how often a kernel came from the cache."""
+    return sum(MODELS[model].solvers[solver].run.stats.cache_hits.values())
 
 
 def main(threads: int) -> dict:
     with ThreadPoolExecutor(threads) as pool:
         hashes = list(pool.map(lambda task: run(*task), RUNS * threads))
-    cached = {name: sum(SOLVERS[name].run.stats.cache_hits.values()) for name in CONTROLS}
+    cached = {name: hits(*of_model(name)) for name in CONTROLS}
     found = {name: set() for name in CONTROLS}
     for (name, _), value in zip(RUNS * threads, hashes, strict=True):
         found[name].add(value)

@@ -34,22 +34,42 @@ def find_obstacle(problem: Problem) -> str | None:
     """Return why a problem cannot be integrated, or None if it can."""
     parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
     peak = float(parts.max(initial=0.0))  # NaN where there is one
-    found = find_fault(problem.constants, peak, float(problem.end_time), problem.solver)
+    span = float(problem.end_time)
+    found = find_fault(problem.constants, peak, span, problem.solver, problem.mu)
     return found and found[1]
 
 
-def find_fault(constants: Constants, peak: float, span: float, solver: Mapping) -> Obstacle | None:
-    """Return the key that keeps data of the size `peak` from being followed for a time `span`."""
+def find_fault(
+    constants: Constants, peak: float, span: float, solver: Mapping, mu: float | None = None
+) -> Obstacle | None:
+    """Return the key that keeps data of the size `peak` from being followed for a time `span`.
+
+    Both are of the amplitudes; `mu` is that of pendula.
+    """
+    rates = _rates(constants, peak, mu)
     return (
-        _find_in_data(constants, peak, span)
-        or _find_in_steps(constants, solver, span)
+        _find_in_data(constants, peak, span, rates)
+        or _find_in_steps(solver, span if mu is None else _fast(mu) * span, rates)
         or _find_in_tolerances(solver, peak)
-        or _find_in_series(constants, peak, span, solver)
+        or _find_in_series(peak, span, solver, rates, 1.0 if mu is None else _fast(mu))
     )
 
 
-def _rates(constants: Constants, peak: float) -> dict[str, float]:
-    """Return bounds of the relative rates at which data of the size `peak` turn or grow, by key."""
+def _fast(mu: float) -> float:
+    """Return the units of t, in which pendula swing, in one of tau."""
+    return 2.0 / (mu * mu) if mu * mu > 0.0 else np.inf
+
+
+def _rates(constants: Constants, peak: float, mu: float | None) -> dict[str, float]:
+    """Return bounds of the relative rates at which data of the size `peak` turn or grow, by key.
+
+    They are per unit of tau. Pendula of (1) swing at the rate 1 per unit of t, and those that go
+    over the top turn at a rate of the size of their velocity.
+    """
+    if mu is not None:
+        own = {"epsilon": 8.0 * abs(constants.epsilon), "gamma": 8.0 * abs(constants.gamma)}
+        swing = {"omega": abs(float(constants.omega)), "mu": _fast(mu)}
+        return own | swing | {"initial": 2.0 * mu * peak * _fast(mu)}
     return {
         "epsilon": 4.0 * abs(constants.epsilon),
         "omega": abs(float(constants.omega)),
@@ -58,19 +78,20 @@ def _rates(constants: Constants, peak: float) -> dict[str, float]:
     }
 
 
-def rate(constants: Constants, peak: float) -> float:
+def rate(constants: Constants, peak: float, mu: float | None = None) -> float:
     """Return a bound of the relative rate at which data of the size `peak` turn or grow."""
-    return sum(_rates(constants, peak).values())
+    return sum(_rates(constants, peak, mu).values())
 
 
-def _find_in_data(constants: Constants, peak: float, span: float) -> Obstacle | None:
+def _find_in_data(
+    constants: Constants, peak: float, span: float, rates: Mapping[str, float]
+) -> Obstacle | None:
     values = {**vars(constants), "initial": peak, "end_time": span}
     endless = [key for key, value in values.items() if not isfinite(value)]
     if endless:
         return endless[0], "the data or the constants are not finite"
     if 0.0 < peak < SMALLEST_DATA:
         return "initial", f"the data are so small ({peak:.0e}) that their squares vanish"
-    rates = _rates(constants, peak)
     fastest = max(rates, key=rates.get)
     angle = sum(rates.values()) * span
     if angle == np.inf:
@@ -83,7 +104,7 @@ def _find_in_data(constants: Constants, peak: float, span: float) -> Obstacle | 
     return None
 
 
-def _find_in_steps(constants: Constants, solver: Mapping, span: float) -> Obstacle | None:
+def _find_in_steps(solver: Mapping, span: float, rates: Mapping[str, float]) -> Obstacle | None:
     if "step" not in solver:
         return None
     key, step = "solver.step", solver["step"]
@@ -92,7 +113,7 @@ def _find_in_steps(constants: Constants, solver: Mapping, span: float) -> Obstac
     if not span <= MOST_STEPS * step:
         text = f"the run takes {span / step:.0e} steps, more than {MOST_STEPS:.0e}"
         return key, f"{text}: the step is too short"
-    reach = rate(constants, 0.0) * min(step, span)
+    reach = sum(rates[key] for key in rates if key != "initial") * min(step, span)
     if solver["name"] == "splitting" and reach > LONGEST_SERIES:
         text = f"they turn the data by {reach:.0f} in it"
         return key, f"the step is too long for the linear terms: {text}"
@@ -121,14 +142,14 @@ def _find_in_tolerances(solver: Mapping, peak: float) -> Obstacle | None:
 
 
 def _find_in_series(
-    constants: Constants, peak: float, span: float, solver: Mapping
+    peak: float, span: float, solver: Mapping, rates: Mapping[str, float], fast: float
 ) -> Obstacle | None:
     """Refuse chains so slow or fast that the last coefficients of a power series leave the doubles.
 
     Where nothing moves they may vanish.
     """
-    total = rate(constants, peak)
-    if solver["name"] != "taylor" or peak == 0.0 or total * span < 1e-6:
+    total = sum(rates.values()) / fast  # in the time of the series
+    if solver["name"] != "taylor" or peak == 0.0 or total * span * fast < 1e-6:
         return None
     octaves = abs(frexp(peak)[1]) + SERIES_ORDER * (abs(frexp(total)[1]) + 1)
     if octaves < 270.0:  # as always, and then the logarithms need not be asked: 2^270 < 1e270

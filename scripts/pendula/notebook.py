@@ -21,7 +21,7 @@ from pendula.own_cases.checks import check_run
 from .configuration import cases, cost, values
 from .configuration.schema import Limits
 from .configuration.solvers import with_controls
-from .problem import Problem, by_site, write_initial
+from .problem import PENDULA, Problem, by_site, write_initial
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
@@ -29,7 +29,9 @@ __all__ = ["Case", "check", "draw_norms", "draw_spacetime", "draw_sweep", "simul
 
 
 class Case(cases.Case):
-    """One initial-value problem of the equations (4) of the paper, checked when it is made.
+    """One initial-value problem of the paper's equations, checked when it is made.
+
+    They are the equations (4) of the amplitudes, or Newton's equations (1) of the pendula.
 
     Keys and defaults are those of a case in YAML:
 
@@ -42,7 +44,11 @@ class Case(cases.Case):
     snapshot_step: in tau; how often the moduli on all sites are kept, whole output steps.
         They divide the run. Left out, 200 snapshots or more are spread over it.
     solver: "taylor" (1e-14), "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre" or "auto",
-        or a dict with the controls, such as {"name": "auto", "error": 1e-9}.
+        or a dict with the controls, such as {"name": "auto", "error": 1e-9}. The pendula have
+        "taylor", "dop853", "ode45", "kahan_li" and "auto".
+    model: "amplitudes", or "pendula"; these need mu, and start from the angles and velocities that
+        the expansion (3) makes of `initial`.
+    mu: the small parameter of (3); angles have the size of 2 mu A.
 
     Raises ConfigurationError, with every fault in words.
 
@@ -95,14 +101,15 @@ def _announce(takes: cost.Cost) -> None:
 
 
 # What a run keeps of its case, and what decides its trajectory.
-OF_ONE_RUN = ("epsilon", "gamma", "omega", "half_width", "boundary", "initial", "end_time")
+OF_ONE_RUN = ("model", "mu", "epsilon", "gamma", "omega", "half_width", "boundary", "initial")
+OF_ONE_RUN += ("end_time",)
 
 
 def _require_run_of(case: Case, run: xr.Dataset) -> None:
     """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
     problem = Problem.of(case.shown_problem())
     made_of = {**problem.plain(), "initial": write_initial(by_site(problem.initial))}
-    other = [key for key in OF_ONE_RUN if run.attrs.get(key, "absent") != made_of[key]]
+    other = [key for key in OF_ONE_RUN if run.attrs.get(key) != made_of.get(key)]
     if other:
         raise ConfigurationError(
             f"the run is of another case: they differ in {', '.join(other)}; give the run of this "
@@ -126,7 +133,8 @@ def simulate(case: Case, name: str = "case", hours: float | None = None):
     """Integrate a case and return its trajectory as an xarray.Dataset.
 
     Coordinates: tau (time,), component ("A", "B"), site (-M..M), part ("re", "im").
-    Variables, all without units:
+    Variables, all without units (those of the pendula, ("x", "y") and ("angle", "velocity"), are
+    in rad, and have no energy):
 
     linf, l2 (component, tau): max_n |A_n| and sqrt(sum_n |A_n|^2); the same of B.
     energy (tau): the conserved H of equation (8).
@@ -212,7 +220,8 @@ def check(case: Case, run=None):
     """
     _require(case, Case, "a case, such as Case(omega=8)")
     run = simulate(case) if run is None else run
-    _require(run, xr.Dataset, RUN, "linf", "l2", "energy", "tau")
+    kept = "final" if case.model == PENDULA else "energy"
+    _require(run, xr.Dataset, RUN, "linf", "l2", kept, "tau")
     _require_run_of(case, run)
     return check_run(Problem.of(case.shown_problem()), run)
 

@@ -146,6 +146,15 @@ def kernels(*solvers):
     return [f"results/kernels/{name}.txt" for name in compiled]
 
 
+def own_kernels(case, solver=None):
+    """Return the kernels that a case of one's own waits for.
+
+    Those of the pendula are compiled by the first job that needs them, and others wait for it.
+    """
+    given = SETTINGS.cases[case]
+    return [] if given.model == "pendula" else kernels(solver or given.solver.name)
+
+
 def references(*cases):
     return [committed(f"tests/baseline/reference/{case}.nc") for case in cases]
 

@@ -47,7 +47,7 @@ use rule trajectory as own_trajectory with:
     "A case of your own, by its own solver: results/trajectories/{case}.nc"
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=lambda wildcards: kernels(SETTINGS.cases[wildcards.case].solver.name),
+        kernels=lambda wildcards: own_kernels(wildcards.case),
     output:
         datasets=["results/trajectories/{case}.nc"],
     wildcard_constraints:
@@ -63,14 +63,14 @@ use rule own_trajectory as own_trajectory_by_solver with:
     "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=lambda wildcards: kernels(wildcards.solver),
+        kernels=lambda wildcards: own_kernels(wildcards.case, wildcards.solver),
     output:
         datasets=["results/trajectories/{case}.{solver}.nc"],
     log:
         "results/logs/trajectories/{case}.{solver}.log",
     wildcard_constraints:
         case=one_of(OWN_CASES),
-        solver=one_of([*ALL_SOLVERS, "auto"]),
+        solver=one_of([*ALL_SOLVERS, "auto", "kahan_li"]),
     params:
         name="{case}",
         problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case, wildcards.solver)],

@@ -4,16 +4,16 @@ A default is the value of the paper's cases, save for `solver` and `snapshot_ste
 """
 
 from collections.abc import Iterator, Mapping
-from math import inf
+from math import inf, sqrt
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from pendula.feasibility import find_fault, rate
-from pendula.problem import Constants
+from pendula.problem import AMPLITUDES, PENDULA, Constants
 
 from . import cost
-from .solvers import Solver, Taylor
+from .solvers import OF_AMPLITUDES, OF_PENDULA, Solver, Taylor
 from .values import Complex, Model, Number, Positive, Whole, as_whole, fault, faults, shown
 
 FEWEST = 200
@@ -89,7 +89,11 @@ Initial = Annotated[
 
 
 class Case(Model):
-    """One initial-value problem of equations (4), and the solver that integrates it."""
+    """One initial-value problem, and the solver that integrates it.
+
+    The equations are (4) of the amplitudes, or with `model: pendula` Newton's equations (1), which
+    need `mu` and start from the angles and velocities that (3) makes of the amplitudes.
+    """
 
     omega: Number
     epsilon: Number = 1.0
@@ -101,19 +105,42 @@ class Case(Model):
     output_step: Positive = 0.025
     snapshot_step: Positive | None = None
     solver: Solver = Taylor()
+    model: Literal["amplitudes", "pendula"] = AMPLITUDES
+    mu: Positive | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> "Case":
-        found = [*self._faults_of_times(), *self.faults_of_step(self.solver)]
+        found = [*self._faults_of_model(), *self._faults_of_times()]
+        found += [*self.faults_of_solver(self.solver)] or [*self.faults_of_step(self.solver)]
         outside = [site for site in self.initial if abs(site) > self.half_width]
         if outside:
             m = self.half_width
             text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
             found.append(("initial", text))
-        found += self.obstacles()
+        if not any(key in ("mu", "solver.name") for key, _ in found):
+            found += self.obstacles()
         if found:
             raise faults(found)
         return self
+
+    def _faults_of_model(self) -> Iterator[tuple[str, str]]:
+        mu = self.mu
+        if self.model == AMPLITUDES and mu is not None:
+            yield "mu", "has a meaning for the pendula only; add model: pendula, or leave it out"
+        if self.model == PENDULA and mu is None:
+            yield "mu", "is missing: Newton's equations need it, for example 0.1"
+        if self.model == PENDULA and mu is not None and not 1.0 + mu * mu * self.omega > 0.0:
+            largest = 1.0 / sqrt(-self.omega)
+            text = "the square of the pendula's frequency, 1 + mu^2 Omega, is not positive"
+            yield "mu", f"{text}; with omega {self.omega:g} it must be less than {largest:.4g}"
+
+    def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
+        """Yield the fault of a solver that does not take the equations of the case."""
+        known = OF_PENDULA if self.model == PENDULA else OF_AMPLITUDES
+        if solver.name not in known:
+            whose = "Newton's equations" if self.model == PENDULA else "the amplitude equations"
+            text = f"{solver.name} does not take {whose}; give one of {', '.join(known)}"
+            yield "solver.name", text
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
@@ -136,6 +163,8 @@ class Case(Model):
     def faults_of_step(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a step that does not divide the time between two outputs."""
         step = getattr(solver, "step", None)
+        if self.model == PENDULA:  # whose steps are of another time, and fit themselves
+            return
         if step is not None and not is_multiple(self.output_step, step):
             near = _nearest_parts(self.output_step, step)
             text = f"{step:g} does not divide the output step of {self.output_step:g}"
@@ -153,8 +182,8 @@ class Case(Model):
         constants = Constants(epsilon=self.epsilon, gamma=self.gamma, omega=self.omega)
         amplitudes = [z for pair in self.initial.values() for z in pair]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
-        found = find_fault(constants, peak, span, given)
-        angle = rate(constants, peak) * span
+        found = find_fault(constants, peak, span, given, self.mu)
+        angle = rate(constants, peak, self.mu) * span
         took = cost.estimate(self.problem(solver=given, end_time=span, snapshot_step=None))
         if found is not None and cost.HOUR < took.seconds < inf:
             found = found[0], f"{found[1]}, and would take {took}"
@@ -166,6 +195,8 @@ class Case(Model):
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed."""
         values = {**self.model_dump(), **changes}
+        if values["model"] == AMPLITUDES:
+            del values["model"], values["mu"]
         snapshots = values.pop("snapshot_step")
         every = round(snapshots / values["output_step"]) if snapshots else 0
         return {**values, "snapshot_every": every}

@@ -6,6 +6,7 @@ from typing import get_args
 
 from pydantic import BaseModel, ValidationError, create_model
 
+from pendula.problem import AMPLITUDES
 from pendula.studies import modules
 
 from .cases import Case
@@ -86,6 +87,12 @@ def require(
     absent += [f"cases.{name}" for name in cases if name not in settings.cases]
     absent += [f"sweeps.{name}" for name in sweeps if name not in settings.sweeps]
     lines = [f"{path}: is missing or empty, and the figures need it" for path in absent]
+    lines += [
+        f"cases.{name}.model: the figures of the paper are of the amplitudes; "
+        "give a case of another name"
+        for name in cases
+        if name in settings.cases and settings.cases[name].model != AMPLITUDES
+    ]
     steps: dict[str, str] = {}
     for name in [name for name in cases if name in settings.cases]:
         for solver in solvers:

@@ -25,7 +25,7 @@ AT_LEAST = {"members", "swept_members", "nodes"}
 AT_MOST = {"tolerance"}
 """Smaller values are still about the same case."""
 
-EQUATION = ("epsilon", "gamma", "omega")
+EQUATION = ("model", "epsilon", "gamma", "omega")
 DATA = (*EQUATION, "initial")
 CHAIN = (*DATA, "boundary", "output_step")
 FINITE = (*CHAIN, "half_width")

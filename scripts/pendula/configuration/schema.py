@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from pendula.problem import name_window
+from pendula.problem import AMPLITUDES, name_window
 
 from . import cost
 from .cases import Case, is_multiple
@@ -128,6 +128,13 @@ class Configuration(Model):
                 near = difflib.get_close_matches(name, getattr(self, section), 1)
                 hint = f"; did you mean {near[0]!r}?" if near else ""
                 yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
+            elif section == "cases" and name not in PAPER_CASES:  # `require` tells of those
+                yield from self._not_amplitudes(key, name)
+
+    def _not_amplitudes(self, key: str, name: str) -> Faults:
+        """Yield the fault of a case of the pendula where only the amplitudes have a meaning."""
+        if self.cases[name].model != AMPLITUDES:
+            yield key, f"case {name!r} is of the pendula, and this is about the amplitude equations"
 
     def excess(self, key: str, costs: list[cost.Cost], times: float = 1.0) -> Faults:
         """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""
@@ -161,7 +168,7 @@ class Configuration(Model):
         sweep = self.sweeps[name]
         if sweep.case not in self.cases:
             return list(self.absent("cases", "case", [sweep.case]))
-        case, found = self.cases[sweep.case], []
+        case, found = self.cases[sweep.case], list(self._not_amplitudes("case", sweep.case))
         reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
         if reach > shortest:
             text = f"lies outside the chain of half-width {shortest}"
@@ -172,7 +179,9 @@ class Configuration(Model):
             text = f"is not a whole number of output steps of {case.output_step:g}"
             found.append(("windows", f"{off_grid[0]:g} {text}"))
         if sweep.solver is not None:
-            found += case.faults_of_step(sweep.solver)
+            found += [*case.faults_of_solver(sweep.solver)] or case.faults_of_step(sweep.solver)
+            if found:
+                return found
         for key, text in case.obstacles(sweep.solver, max(times)):
             own = key.startswith("solver") and sweep.solver is not None
             here = key if own else "windows" if key == "end_time" else "case"

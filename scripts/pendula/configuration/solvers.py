@@ -58,6 +58,22 @@ class DelfourFortinPayre(Iterated):
     name: Literal["delfour_fortin_payre"] = "delfour_fortin_payre"
 
 
+class KahanLi(Model):
+    """Kahan and Li's symplectic composition of order eight, of the pendula alone.
+
+    Its step is the longest in the pendula's own time t, in which they swing by about 2 pi.
+    """
+
+    name: Literal["kahan_li"] = "kahan_li"
+    step: Positive = 0.25
+
+
+OF_PENDULA = ("taylor", "dop853", "ode45", "kahan_li", "auto")
+"""The solvers that take Newton's equations."""
+OF_AMPLITUDES = ("taylor", "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre", "auto")
+"""The solvers that take the amplitude equations."""
+
+
 class Solvers(Model):
     """The controls of each solver where a case names it without giving its own."""
 
@@ -67,10 +83,11 @@ class Solvers(Model):
     dop853: Dop853 = Dop853()
     taylor: Taylor = Taylor()
     auto: Auto = Auto()
+    kahan_li: KahanLi = KahanLi()
 
 
 Solver = Annotated[
-    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto,
+    Ode45 | CrankNicolson | DelfourFortinPayre | Dop853 | Taylor | Auto | KahanLi,
     Field(discriminator="name"),
 ]
 

@@ -61,6 +61,8 @@ NAMES = {
     "final": "amplitude at the end time",
 }
 """Long names of variables that several datasets share; all of them have the units "1"."""
+ANGLES = ("linf", "l2", "modulus", "final")
+"""Those that are angles in "rad" where the pendula themselves are followed."""
 
 
 SOLVER_NAMES = {
@@ -71,6 +73,7 @@ SOLVER_NAMES = {
     "dop853": "DOP853",
     "taylor": "Taylor",
     "splitting": "BM6 splitting",
+    "kahan_li": "Kahan\N{EN DASH}Li",
 }
 """The solvers as figures and pages write them."""
 
@@ -86,8 +89,9 @@ def describe(name: str, long_name: str = "", units: str = "1") -> dict[str, str]
     """
     if not (long_name or name in NAMES):
         raise NamingError(f"{name}: has no long_name, and is not in datasets/registry.py")
-    if units not in UNITS or (name in NAMES and units != "1"):
-        raise NamingError(f"{name}: has the units {units!r}; known are {', '.join(UNITS)}")
+    known = ("1", "rad") if name in ANGLES else ("1",) if name in NAMES else UNITS
+    if units not in known:
+        raise NamingError(f"{name}: has the units {units!r}; known are {', '.join(known)}")
     return {"long_name": long_name or NAMES[name], "units": units}
 
 

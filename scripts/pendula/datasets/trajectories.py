@@ -5,22 +5,30 @@ from typing import Any
 
 import numpy as np
 
-from pendula.problem import Problem, name_window, write_initial
+from pendula.problem import PENDULA, Problem, name_window, write_initial
+from pendula.simulation.models import MODELS
 from pendula.simulation.simulate import Trajectory
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, Sweep
 
 from .netcdf import Variable
+from .registry import NAMES
 
 COMPONENTS = Variable(("component",), ["A", "B"])
+OF_PENDULA = Variable(("component",), list(MODELS[PENDULA].components))
+PARTS = MODELS[PENDULA].parts
 Contents = tuple[dict[str, Variable], dict[str, Any]]
 """The variables and the attributes of a dataset."""
 
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
     """Return the contents of the dataset on a run of `problem`."""
-    variables = trajectory_variables(trajectory, problem.snapshot_every)
+    driven = problem.model == PENDULA
+    variables = (_pendula_variables if driven else trajectory_variables)(
+        trajectory, problem.snapshot_every
+    )
     attributes = describe_run(name, problem, trajectory.solver)
-    title = f"Norms and energy of {name} against time, by {trajectory.solver['name']}"
+    what = "Norms of the angles" if driven else "Norms and energy"
+    title = f"{what} of {name} against time, by {trajectory.solver['name']}"
     return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
 
 
@@ -44,13 +52,33 @@ def trajectory_variables(trajectory: Trajectory, snapshot_every: int) -> dict[st
     return variables
 
 
-def final_state(trajectory: Trajectory) -> dict[str, Variable]:
-    """Return the amplitudes at the end time, from which another run can start."""
-    parts = [trajectory.final.real, trajectory.final.imag]
-    return {
-        "part": Variable(("part",), ["re", "im"]),
-        "final": Variable(("part", "component", "site"), parts),
+def _pendula_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
+    """Return the same of pendula: norms of the angles, no energy, and the state at the end."""
+    variables = trajectory_variables(trajectory, snapshot_every)
+    del variables["energy"]
+    whose = {
+        "linf": ", of the angles",
+        "l2": ", of the angles",
+        "modulus": ": the angle to which a pendulum swings",
     }
+    for name in variables.keys() & whose:
+        one = variables[name]
+        about = f"{NAMES[name]}{whose[name]}"
+        variables[name] = Variable(one.dimensions, one.values, about, "rad")
+    reach = trajectory.final.shape[-1] // 2
+    sites = Variable(("site",), np.arange(-reach, reach + 1))
+    return variables | {"component": OF_PENDULA, "site": sites} | final_state(trajectory)
+
+
+def final_state(trajectory: Trajectory) -> dict[str, Variable]:
+    """Return the state at the end time: amplitudes, or angles and velocities of the pendula."""
+    grid = ("part", "component", "site")
+    if not np.iscomplexobj(trajectory.final):
+        parts = Variable(("part",), list(PARTS), f"{NAMES['part']}, x + i x'")
+        about = f"{NAMES['final']}, as angle and velocity of a pendulum"
+        return {"part": parts, "final": Variable(grid, trajectory.final, about, "rad")}
+    parts = [trajectory.final.real, trajectory.final.imag]
+    return {"part": Variable(("part",), ["re", "im"]), "final": Variable(grid, parts)}
 
 
 def sweep_contents(

@@ -67,7 +67,8 @@ def draw_moduli(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[s
         image = _draw_modulus(axes, case["modulus"].sel(component=component), peak)
         axes.set_title(f"$|{component}_n|$,  {name}", loc="left")
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
-    bar.set_label("modulus (square-root scale)")
+    units = case["modulus"].attrs.get("units", "1")
+    bar.set_label(f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)")
 
 
 def _draw_modulus(axes: Axes, modulus: xr.DataArray, peak: float) -> AxesImage:

@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from . import style
 
 NORMS = {"linf": r"$\ell^\infty$", "l2": r"$\ell^2$"}
-PALE = {"A": "#f0a79f", "B": "#9db2de"}
+PALE = {"A": "#f0a79f", "B": "#9db2de", "x": "#f0a79f", "y": "#9db2de"}
 """Colours of bands, and of curves that lie under others."""
 TALL, LOW = 1.5, 0.8
 """Heights in inches: of a panel that stands alone, and of a strip."""
@@ -82,7 +82,7 @@ def _draw_case(place: GridSpec, case: xr.Dataset, strips: Sequence[Strip]) -> np
             axes.text(0.985, 0.93, strip.label, transform=axes.transAxes, **LABEL)
     named = grid if len(strips) < 3 else grid[1:2]
     for axes, name in zip(named.flat, len(named) * list(NORMS), strict=True):
-        axes.set_ylabel(f"{NORMS[name]} norm")
+        axes.set_ylabel(f"{NORMS[name]} norm{style.name_units(case[f'{strips[0].prefix}{name}'])}")
     for axes, name in zip(grid[0], NORMS, strict=True):
         shown = [f"{strip.prefix}{name}" for strip in strips]
         top = max(float(case[curves].max()) for curves in shown)

@@ -34,6 +34,8 @@ RED, BLUE = "#e8402f", "#123b8c"
 COLOURS = {
     "A": RED,
     "B": BLUE,
+    "x": RED,
+    "y": BLUE,
     "l2": RED,
     "linf": BLUE,
     "ode45": "#111111",
@@ -42,6 +44,7 @@ COLOURS = {
     "dop853": "#16876b",
     "taylor": "#7b4fa3",
     "splitting": "#5aa7d6",
+    "kahan_li": "#c2558f",
 }
 
 MARKERS = {
@@ -51,6 +54,7 @@ MARKERS = {
     "dop853": "^",
     "taylor": "D",
     "splitting": "P",
+    "kahan_li": "X",
 }
 """The solvers' marks, which tell them apart in grey too."""
 
@@ -117,6 +121,12 @@ def name_legend(figure: Figure, *panels: Axes) -> None:
     )
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
+
+
+def name_units(values: xr.DataArray) -> str:
+    """Return the units of a quantity as its axis names them; nothing where it has none."""
+    units = values.attrs.get("units", "1")
+    return "" if units == "1" else f" ({units})"
 
 
 def name_case(case: xr.Dataset) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.numerics import elementary
-from pendula.numerics.elementary import HALF_PI, SPLITTER, complex_of
+from pendula.numerics.elementary import HALF_PI, SPLITTER, complex_of, modulus, product
 
 from .chain import DIRICHLET, at_every_site, close
 
@@ -79,6 +79,23 @@ def amplitudes_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: 
     """Return the complex amplitudes whose `angles_of` are these, up to rounding."""
     size = 2.0 * mu
     return complex_of(angles / size, velocities / (-size * frequency(omega, mu)))
+
+
+def swings_of(angles: np.ndarray, velocities: np.ndarray, omega: float, mu: float) -> np.ndarray:
+    """Return sqrt(x^2 + (x' / omega)^2): the angle that a pendulum swings to, were it harmonic.
+
+    Of the leading terms of (3) it is 2 mu |A|, whatever the phase.
+    """
+    return modulus(complex_of(angles, velocities / frequency(omega, mu)))
+
+
+def leading_angles(amplitudes: np.ndarray, omega: float, mu: float, tau: float) -> np.ndarray:
+    """Return the angles 2 mu Re(A e^{i omega t}) of the expansion (3) at one tau, shaped alike."""
+    turns, rest = turns_of_drive(omega, mu)
+    t = float(times_of(tau, mu))
+    half = Decimal.from_float(t) * (Decimal.from_float(turns) + Decimal.from_float(rest)) / 2
+    phase = TURN * float(half - half.to_integral_value())
+    return 2.0 * mu * product(amplitudes, elementary.turn(phase)).real
 
 
 def times_of(tau: np.ndarray, mu: float) -> np.ndarray:

@@ -20,7 +20,7 @@ from pendula.measures.difference import NORMS, at_times, difference, divergence_
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.numerics.elementary import log, modulus, square_modulus
-from pendula.problem import Problem
+from pendula.problem import PENDULA, Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.studies.chaos.lyapunov import ROUNDING, amplification, predict
@@ -28,6 +28,8 @@ from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
 from pendula.studies.chaos.tangents import random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
+
+from .pendula import check_pendula
 
 TITLE = "A case beside the paper's statements"
 TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
@@ -57,7 +59,8 @@ def run_again(problem: Problem, run: xr.Dataset) -> xr.Dataset:
         second = as_xarray(*trajectory_contents("second run", again, simulate(again)))
         apart = difference(run, second).reindex(tau=run["tau"])
     except IntegrationError as error:
-        second, apart = run[list(NORMS)] * np.nan, xr.full_like(run["energy"], np.nan)
+        second = run[list(NORMS)] * np.nan
+        apart = xr.full_like(run["linf"].isel(component=0, drop=True), np.nan)
         said["second_refusal"] = str(error)
     return _compared(run, second, apart).assign_attrs(said)
 
@@ -67,7 +70,7 @@ def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Da
     data = data.rename({norm: f"second_{norm}" for norm in NORMS})
     for norm in NORMS:
         long_name = f"{run[norm].attrs['long_name']}, by another method"
-        data[f"second_{norm}"].attrs = {"long_name": long_name, "units": "1"}
+        data[f"second_{norm}"].attrs = {"long_name": long_name, "units": run[norm].attrs["units"]}
     data["difference"] = apart.assign_attrs(
         long_name="largest difference of the norms of two runs, of full scale", units="1"
     )
@@ -199,6 +202,9 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     `run` is the trajectory that `simulate` made of `problem`.
     """
     again = run_again(problem, run)
+    if problem.model == PENDULA:
+        data = xr.merge([again, check_pendula(problem, run)], combine_attrs="drop_conflicts")
+        return data.assign_attrs({**run.attrs, **data.attrs})
     solver = {
         key.removeprefix("second_"): again.attrs[key]
         for key in ("second_name", "second_rtol", "second_atol")

@@ -24,6 +24,7 @@ LONGEST = 46
 def name_parameters(attributes: Mapping) -> str:
     """Return the constants of the equations, and the half-width where there is only one."""
     symbols = {"omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M"}
+    symbols |= {"mu": r"\mu"}
     known = {symbol: attributes[key] for key, symbol in symbols.items() if key in attributes}
     return ",  ".join(f"${symbol} = {float(value):.4g}$" for symbol, value in known.items())
 

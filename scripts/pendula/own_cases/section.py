@@ -10,7 +10,8 @@ from pendula import __version__
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.measures.difference import VISIBLE
-from pendula.problem import read_initial
+from pendula.models.pendula import frequency
+from pendula.problem import PENDULA, read_initial
 from pendula.report.page import Picture, picture, render
 from pendula.report.sections import versions
 from pendula.report.words import (
@@ -31,13 +32,16 @@ STEEPEST = 1.01
 WEAKEST = 1e-6
 """A drive that lets P grow by less over a whole run cannot be told from rounding."""
 ENDS = {
-    "dirichlet": "A = B = 0 beyond them",
+    "dirichlet": "{} = 0 beyond them",
     "free": "free",
     "periodic": "joined to a ring",
 }
+EIGHT = 8.0
+"""Outputs in a period of the pendula that show how they swing."""
 FEW = 8
 """The data of more sites do not fit into the table."""
-_SIGNS = {"omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
+EQUATIONS = "Newton's equations (1) of the pendula"
+_SIGNS = {"mu": "μ", "omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
 
 
 def write(cases: list[str], sweeps: dict[str, str], folder: Path) -> str:
@@ -76,8 +80,24 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
         },
         "level": percent(VISIBLE),
         "divergence_time": float(checks["divergence_time"]),
+        "parts": bool(np.isfinite(checks["divergence_time"])),
+        "pendula": _is_of_pendula(run.attrs),
         "said": _said(checks, link),
-        **_decided(checks),
+        **(_decided_of_pendula(run, checks) if _is_of_pendula(run.attrs) else _decided(checks)),
+    }
+
+
+def _is_of_pendula(attributes: Mapping[str, Any]) -> bool:
+    return attributes.get("model") == PENDULA
+
+
+def _decided_of_pendula(run, checks) -> dict[str, Any]:
+    period = np.pi * checks.attrs["mu"] ** 2 / frequency(checks.attrs["omega"], checks.attrs["mu"])
+    return {
+        "at_rest": not bool(run["linf"].any()),
+        "over": bool(np.isfinite(checks["over_the_top"])),
+        "followed": bool(np.isfinite(checks["expansion_error"])),
+        "too_rare": bool(checks.attrs["output_step"] > period / EIGHT),
     }
 
 
@@ -98,7 +118,6 @@ def _decided(checks) -> dict[str, Any]:
     limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
     return {
         "at_rest": float(checks["start"]) == 0.0,
-        "parts": bool(np.isfinite(checks["divergence_time"])),
         "chaotic": bool(checks.get("chaotic", 0)),
         "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
         "region": str(checks["region"].values),
@@ -116,7 +135,7 @@ def _decided(checks) -> dict[str, Any]:
 def _picture_of_norms(name: str, run, folder: Path) -> Picture:
     parts = []
     for norm, word in (("linf", "l-infinity"), ("l2", "l2")):
-        for component in ("A", "B"):
+        for component in run["component"].values:
             curve = run[norm].sel(component=component)
             first, top, last = (number(x) for x in (curve[0], curve.max(), curve[-1]))
             when = number(curve["tau"][int(np.argmax(curve.values))])
@@ -131,13 +150,13 @@ def _picture_of_norms(name: str, run, folder: Path) -> Picture:
 
 
 def _picture_of_moduli(name: str, run, folder: Path) -> Picture:
-    modulus = run["modulus"].max("component")
+    modulus, sites = run["modulus"].max("component"), run["site"].values
     site, when = (int(i) for i in np.unravel_index(int(np.argmax(modulus.values)), modulus.shape))
     link = f"own/cases/{name}.spacetime.png"
     alt = (
-        f"Moduli of A and B of {name} over sites {run['site'].values[0]} to "
-        f"{run['site'].values[-1]} and tau from 0 to {number(run['tau'][-1])}: the largest, "
-        f"{number(modulus.max())}, on site {run['site'].values[site]} at "
+        f"Moduli of {' and '.join(run['component'].values)} of {name} over sites "
+        f"{sites[0]} to {sites[-1]} and tau from 0 to {number(run['tau'][-1])}: the largest, "
+        f"{number(modulus.max())}, on site {sites[site]} at "
         f"{number(run['snapshot_tau'][when])}."
     )
     return picture(folder / link, alt, link)
@@ -210,8 +229,10 @@ def exact(value: Any) -> str:
 
 def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the parameters of a problem and of its solver as rows of a table."""
-    rows = [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
-    rows.append(("ends of the chain", ENDS[attributes["boundary"]]))
+    rows = [("model", EQUATIONS)] if _is_of_pendula(attributes) else []
+    rows += [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
+    at_rest = "x = y" if _is_of_pendula(attributes) else "A = B"
+    rows.append(("ends of the chain", ENDS[attributes["boundary"]].format(at_rest)))
     rows += data(attributes)
     rows.append(("end time τ, output step", f"{exact(attributes['end_time'])}, "
                  f"{exact(attributes['output_step'])}"))  # fmt: skip

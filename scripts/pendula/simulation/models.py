@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pendula.models.amplitudes import Chain
-from pendula.models.pendula import angles_of, make_pendula, times_of
+from pendula.models.pendula import angles_of, make_pendula, swings_of, times_of
 from pendula.numerics.elementary import complex_of
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
@@ -34,7 +34,7 @@ class Model(NamedTuple):
     slow: Callable[[Problem, float], float]  # tau at a time of the kernels
     atol: Callable[[Problem], float]  # what an absolute tolerance of 1 means for a state
     record: Callable[[int, int, int, int], Any]  # blank arrays for what is observed
-    collect: Callable[[Any, np.ndarray, Reduction], dict[str, np.ndarray]]
+    collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]
     """From record, final state and reduction to what `Trajectory` holds of the whole chain."""
 
 
@@ -47,7 +47,9 @@ def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Cha
     return Chain(float(constants.epsilon), float(constants.gamma), float(constants.omega), *ends)
 
 
-def _collect_amplitudes(record, y: np.ndarray, reduction: Reduction) -> dict[str, np.ndarray]:
+def _collect_amplitudes(
+    problem: Problem, record, y: np.ndarray, reduction: Reduction
+) -> dict[str, np.ndarray]:
     modulus = unfold(record.modulus, reduction)
     return {"energy": record.energy, "modulus": modulus, "final": unpack(y, reduction)}
 
@@ -60,12 +62,15 @@ def _start_pendula(problem: Problem, reduction: Reduction) -> np.ndarray:
     return pack(complex_of(angles, velocities), reduction)
 
 
-def _collect_pendula(record, y: np.ndarray, reduction: Reduction) -> dict[str, np.ndarray]:
+def _collect_pendula(
+    problem: Problem, record, y: np.ndarray, reduction: Reduction
+) -> dict[str, np.ndarray]:
     final = [unfold(y[part::2, 1:-1], reduction) for part in (0, 1)]
     snapshots = np.array([unfold(part, reduction) for part in record.snapshots])
     return {
         "energy": record.energy,
-        "modulus": np.abs(snapshots[0]),
+        # a snapshot finds all pendula at one phase of their swing: their angles alone would show it
+        "modulus": swings_of(*snapshots, problem.constants.omega, problem.mu),
         "final": np.array(final),
         "snapshots": snapshots,
     }

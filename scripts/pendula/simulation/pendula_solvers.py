@@ -1,7 +1,7 @@
 """The solvers of Newton's equations (1) by name, compiled and cached as those of (4)."""
 
 from pendula.compiled import kernel
-from pendula.integrators import dop853, ode45, taylor
+from pendula.integrators import dop853, kahan_li, ode45, taylor
 from pendula.models import pendula_series
 from pendula.models.chain import can_be_tiled
 from pendula.models.pendula import at_time, pendula_of_tile, rates
@@ -13,6 +13,7 @@ from .solvers import Solver
 solve_ode45 = ode45.build(rates, observe_angles, at_time)
 solve_dop853 = dop853.build(rates, observe_angles, can_be_tiled, pendula_of_tile, at_time)
 solve_taylor = taylor.build(continue_series, observe_angles, at_time)
+solve_kahan_li = kahan_li.build(rates, observe_angles, at_time)
 
 
 @kernel
@@ -30,8 +31,14 @@ def run_taylor(pendula, y, times, controls, work, record, stop):
     return solve_taylor(pendula, y, times, controls, work, record, stop)
 
 
+@kernel
+def run_kahan_li(pendula, y, times, controls, work, record, stop):
+    return solve_kahan_li(pendula, y, times, controls, work, record, stop)
+
+
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
     "taylor": Solver(run_taylor, ("rtol", "atol"), pendula_series.WORK),
+    "kahan_li": Solver(run_kahan_li, ("step",), kahan_li.WORK),
 }

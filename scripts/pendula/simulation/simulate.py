@@ -25,7 +25,8 @@ class IntegrationError(RuntimeError):
 class Trajectory(NamedTuple):
     """The solution of a problem, whatever part of it was integrated; the sites are -M..M.
 
-    Components are A and B, or x and y of the pendula, whose norms and moduli are those of angles.
+    Components are A and B. Of the pendula they are x and y, the norms are those of angles in rad,
+    and the modulus is the angle to which a pendulum swings (pendula.models.pendula.swings_of).
     """
 
     tau: np.ndarray  # (time,)
@@ -69,7 +70,11 @@ def integrate(
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
     model = MODELS[problem.model]
-    method = model.solvers[problem.solver["name"]]
+    name = problem.solver["name"]
+    if name not in model.solvers:
+        known = ", ".join(model.solvers)
+        raise IntegrationError(f"{name} does not take the {problem.model}: these do: {known}")
+    method = model.solvers[name]
     y = model.start(problem, reduction)
     times = model.times(problem)
     record = model.record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
@@ -107,7 +112,7 @@ def _collect(
         l2=unfold(record.l2, both),
         outcome=outcome,
         solver=dict(problem.solver),
-        **MODELS[problem.model].collect(record, y, reduction),
+        **MODELS[problem.model].collect(problem, record, y, reduction),
     )
 
 

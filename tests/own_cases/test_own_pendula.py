@@ -1,0 +1,133 @@
+"""A user's case of the pendula: its dataset, checks, figures and page, and what is left out."""
+
+import numpy as np
+import pytest
+from pendula import Case, check, draw_norms, draw_spacetime, simulate
+from pendula.configuration import cost
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
+from pendula.models.pendula import leading_angles
+from pendula.own_cases import section
+from pendula.problem import Problem
+from pendula.simulation import simulate as simulation
+from pendula.simulation.models import MODELS
+from simulate_own import as_the_workflow_writes
+
+SWING = Case(omega=-4, model="pendula", mu=0.1, half_width=8, end_time=2)
+OVER = SWING.changed(omega=0, initial={0: ("6j", 1)}, mu=0.2)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(SWING)
+
+
+@pytest.fixture(scope="module")
+def checks(run):
+    return check(SWING, run)
+
+
+def test_a_dataset_of_pendula_says_so_and_has_angles(run, tmp_path):
+    written = as_the_workflow_writes(SWING, "case", tmp_path / "case.nc")
+    assert written.identical(run)
+    assert run.attrs["model"] == "pendula" and run.attrs["mu"] == 0.1 and "energy" not in run
+    assert list(run["component"].values) == ["x", "y"]
+    assert list(run["part"].values) == ["angle", "velocity"]
+    assert all(run[name].attrs["units"] == "rad" for name in ("linf", "l2", "modulus", "final"))
+    assert float(run["linf"].sel(component="x")[0]) == 0.2
+    assert float(run["l2"].sel(component="y")[0]) == pytest.approx(0.02)
+    angles = run["final"].sel(part="angle")
+    np.testing.assert_allclose(run["linf"][:, -1], np.abs(angles).max("site"), rtol=0, atol=0)
+
+
+def test_a_dataset_of_amplitudes_names_no_model(tmp_path):
+    plain = as_the_workflow_writes(Case(omega=8, half_width=2, end_time=1), "a", tmp_path / "a.nc")
+    assert not {"model", "mu"} & plain.attrs.keys() and "energy" in plain and "final" not in plain
+
+
+def test_moduli_are_the_swings_whatever_the_phase():
+    """One free pendulum swings to the same angle all the time, and its angle does not stay."""
+    alone = Case(omega=0, epsilon=0, gamma=0, half_width=0, initial={0: (0.01, 0.01)},
+                 model="pendula", mu=0.1, end_time=1)  # fmt: skip
+    run = simulate(alone)
+    np.testing.assert_allclose(run["modulus"], 0.002, rtol=1e-6)
+    assert float(run["linf"].min()) < 0.0005
+
+
+def test_a_second_run_and_the_expansion_stand_beside_it(checks):
+    assert float(checks["largest_difference"]) < 1e-11 and checks["divergence_time"] == np.inf
+    assert checks["second_linf"].attrs["units"] == "rad"
+    assert 0.2 <= float(checks["largest_angle"]) < 0.25 and checks["over_the_top"] == np.inf
+    assert 1e-4 < float(checks["expansion_error"]) < 0.02 < float(checks["expansion_swing"])
+    assert not {"exponent", "gamma_0", "energy_drift"} & checks.data_vars.keys()
+
+
+def test_the_error_of_the_expansion_falls_with_the_cube_of_mu():
+    errors = [float(check(SWING.changed(mu=mu))["expansion_error"]) for mu in (0.1, 0.05)]
+    assert 2.5 < np.log2(errors[0] / errors[1]) < 3.5
+
+
+def test_pendula_that_go_over_the_top_are_told():
+    found = check(OVER)
+    assert 0 < float(found["over_the_top"]) < 2 and float(found["largest_angle"]) > np.pi
+
+
+def test_angles_of_the_expansion_turn_with_the_exact_phase():
+    z = np.array([[1.0 + 0.5j]])
+    t = 2 * 3.0 / 0.3**2
+    expected = 0.6 * (z * np.exp(1j * np.sqrt(1 + 0.09 * 8) * t)).real
+    np.testing.assert_allclose(leading_angles(z, 8.0, 0.3, 3.0), expected, rtol=0, atol=1e-13)
+
+
+def test_its_figures_are_in_radians(run, checks):
+    axes = draw_norms(run, checks).axes
+    assert ["(rad)" in one.get_ylabel() for one in axes] == [True, True]
+    assert r"$\mu = 0.1$" in axes[0].get_title("left")
+    picture = draw_spacetime(run).axes
+    assert "x_n" in picture[0].get_title("left") and "rad" in picture[2].get_ylabel()
+
+
+@pytest.mark.parametrize(("case", "said"), [(SWING, "fewer than eight"), (OVER, "over the top")])
+def test_its_page_says_what_has_a_meaning(case, said, tmp_path, monkeypatch):
+    folder = tmp_path / "trajectories"
+    folder.mkdir()
+    run = as_the_workflow_writes(case, "mine", folder / "mine.nc")
+    found = {"trajectories/mine.nc": run, "own/cases/mine.checks.nc": check(case, simulate(case))}
+    monkeypatch.setattr(section, "read", lambda path: found[path.relative_to(tmp_path).as_posix()])
+    monkeypatch.setattr(
+        section, "picture", lambda path, alt, link: section.Picture("", 1, 1, alt, link)
+    )
+    page = section.write(["mine"], {}, tmp_path)
+    assert said in page and "Newton&#39;s equations (1)" in page and "x = y = 0" in page
+    assert "Lemma 1" not in page and "The energy H" not in page
+
+
+def test_the_configuration_knows_the_solvers_of_each_model():
+    for model, known in (("pendula", OF_PENDULA), ("amplitudes", OF_AMPLITUDES)):
+        own = {*MODELS[model].solvers} - {"implicit_midpoint", "splitting"}  # never configured
+        assert own == {*known} - {"auto"}
+
+
+def test_a_solver_of_the_other_model_is_refused_in_words():
+    problem = Problem.of(SWING.problem() | {"solver": {"name": "crank_nicolson"}})
+    with pytest.raises(simulation.IntegrationError, match="does not take the pendula"):
+        simulation.simulate(problem)
+
+
+def test_a_run_of_the_amplitudes_is_no_run_of_the_pendula():
+    with pytest.raises(ConfigurationError, match="differ in model, mu"):
+        check(SWING, simulate(Case(omega=-4, half_width=8, end_time=2)).assign(final=0))
+
+
+def test_auto_follows_the_pendula_to_an_error():
+    run = simulate(SWING.changed(solver={"name": "auto", "error": 1e-9}))
+    assert run.attrs["solver_estimated_error"] <= 1e-9
+
+
+@pytest.mark.parametrize("solver", ["taylor", "dop853", "ode45"])
+@pytest.mark.parametrize("mu", [0.05, 0.3])
+def test_the_estimate_of_its_cost_counts_its_steps(solver, mu):
+    case = SWING.changed(solver=solver, mu=mu)
+    problem = case.problem()
+    steps, _ = cost.steps_of(problem["solver"], problem)
+    assert 1 / 3 < steps / simulate(case).attrs["steps"] < 3
