@@ -1,5 +1,6 @@
 """The report's part on proofs: how far computed curves can be from the true ones."""
 
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 import numpy as np
@@ -85,7 +86,15 @@ VERDICTS = {Verdict.STABLE: "stable", Verdict.UNSTABLE: "unstable", Verdict.UNDE
 def _breathers(results: Results) -> dict[str, Any]:
     proved = results[BREATHERS]
     return {
-        "head": ["family", "Ω", "ε", "a true state within", "no other within", "chain", "growth"],
+        "head": [
+            "family",
+            "Ω",
+            "ε",
+            "a true state within",
+            "no other within",
+            "chain",
+            "growth above",
+        ],
         "rows": [_breather(results, i) for i in range(proved.sizes["proof"])],
         "sites": results.quote(BREATHERS, 2 * int(proved.attrs["chain_half_width"]) + 1),
         "bits": results.quote(BREATHERS, int(proved.attrs["bits"])),
@@ -97,11 +106,12 @@ def _breathers(results: Results) -> dict[str, Any]:
 
 
 def _breather(results: Results, index: int) -> list:
-    """Return what is proved of one state, in words where it is refused."""
+    """Return what is proved of one state, its digits cut off on the safe side."""
     one = results[BREATHERS].isel(proof=index)
     found = bool(np.isfinite(one["radius"]))
-    numbers = [float(one[name]) for name in ("radius", "unique_radius", "growth_low")]
-    told = [results.quote(BREATHERS, x) if found else "no proof" for x in numbers]
+    ends = {"radius": ROUND_CEILING, "unique_radius": ROUND_FLOOR, "growth_low": ROUND_FLOOR}
+    safe = [float(Context(3, way).create_decimal(float(one[name]))) for name, way in ends.items()]
+    told = [results.quote(BREATHERS, x) if found else "no proof" for x in safe]
     verdict = Verdict(int(one["stable"]))
     return [
         symbols(str(one["family"].item())),
