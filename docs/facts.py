@@ -76,6 +76,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         lifetimes,
         breathers,
         pendula,
+        proofs,
         unbounded,
         theory,
         references,
@@ -349,6 +350,22 @@ def pendula(baseline: Baseline) -> dict:
             for mu in data["mu"].values
         ],
     }  # fmt: skip
+
+
+def proofs(baseline: Baseline) -> dict:
+    """Return how near true breathers and true constants are proved to be, rounded upward."""
+    proved, constants = baseline["certified/breathers"], baseline["certified/constants"]
+    return {
+        "states": str(proved.sizes["proof"]),
+        "radius": number(1.05 * float(proved["radius"].max()), 2),
+        "unique": number(0.95 * float(proved["unique_radius"].min()), 2),
+        "chain_sites": str(2 * int(proved.attrs["chain_half_width"]) + 1),
+        "stable": str(int((proved["stable"] == 1).sum())),
+        "unstable": str(int((proved["stable"] == 0).sum())),
+        "bits": str(int(proved.attrs["bits"])),
+        "constants": str(constants.sizes["constant"]),
+        "constants_off": number(1.05 * float(constants["stored_error"].max()), 2),
+    }
 
 
 def unbounded(baseline: Baseline) -> dict:

@@ -84,6 +84,8 @@ COUNTED = {
     ),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
     *("solvers.kept", "ensembles.peak_at", "ensembles.late_from"),
+    *("proofs.states", "proofs.stable", "proofs.unstable", "proofs.bits", "proofs.constants"),
+    "proofs.chain_sites",
 }
 
 
