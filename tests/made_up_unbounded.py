@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from made_up_breathers import sensitivity
 
 TAU = np.linspace(0.0, 200.0, 401)
 PIECES = TAU[4::4]
@@ -119,4 +120,5 @@ def unbounded_runs() -> dict[str, xr.Dataset]:
         "map_fig5_right": window_map(),
         "thermal": thermal(),
     }
-    return {f"unbounded/{name}": data for name, data in made.items()}
+    runs = {f"unbounded/{name}": data for name, data in made.items()}
+    return runs | {"breathers/sensitivity": sensitivity()}

@@ -466,7 +466,7 @@ def claims_need():
             *checks(*(f"wrong/{name}" for name in WRONG)),
         ],
         "chaos": [
-            *below(["sweeps/fig5_left", "sweeps/fig6_left"]),
+            *below(["sweeps/fig5_left", "sweeps/fig6_left", "breathers/sensitivity"]),
             *checks("trust", *CHAOS_CHECKS),
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
@@ -477,7 +477,7 @@ def claims_need():
             *below(["certified/breathers", "certified/constants", "breathers/steady"]),
         ],
         "unbounded": [
-            *below(f"unbounded/{name}" for name in CLAIMED_RUNS),
+            *below(["breathers/sensitivity", *(f"unbounded/{name}" for name in CLAIMED_RUNS)]),
             *below(f"unbounded/map_{sweep}" for sweep in ("fig5_left", "fig5_right", "fig6_left")),
         ],
     }

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from made_up_breathers import sensitivity
 from pendula.ledger.claim import evaluate
 from pendula.studies.breathers.claims import GROWTH, PERIODIC, SENSITIVITY, STEADY
 
@@ -63,16 +64,7 @@ def sources():
         },
         {"gamma": drives},
     )
-    shares = np.array([1.0, 1.0, 0.4, 0.1])
-    sensitivity = xr.Dataset(
-        {
-            "share": ("size", shares), "share_low": ("size", shares - 0.1),
-            "share_high": ("size", shares + 0.1), "spread": ("initial", [1, 0, 0]),
-        },
-        {"size": [1e-8, 1e-6, 1e-3, 1e-1], "initial": [4.9, 5.0, 5.1]},
-        {"members": 20},
-    )  # fmt: skip
-    return {STEADY: steady, PERIODIC: periodic, GROWTH: driven, SENSITIVITY: sensitivity}
+    return {STEADY: steady, PERIODIC: periodic, GROWTH: driven, SENSITIVITY: sensitivity()}
 
 
 def verdicts(sources):

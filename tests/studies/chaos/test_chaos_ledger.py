@@ -1,5 +1,6 @@
 """The claims on chaotic figures, turned over: made-up ensembles as the paper says, and others."""
 
+import made_up_breathers
 import made_up_chaos
 import numpy as np
 import pytest
@@ -108,6 +109,7 @@ def sources():
         EVEN: swept(),
         UNEVEN: swept(),
         LIVES: lives,
+        "breathers/sensitivity": made_up_breathers.sensitivity(),
         "checks/lyapunov": chaotic,
         "sweeps/fig5_left": single_sweep(1.2),
         "sweeps/fig6_left": single_sweep(5.0),
