@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from jinja2 import Environment, FileSystemLoader
+from made_up_breathers import sensitivity
 from pendula.ledger import section as claims
 from pendula.report import page
 from pendula.studies.paper import motion
 from pendula.studies.paper import section as paper
+from pendula.studies.paper.section_breathers import beside_breathers
 
 
 def observed(**changes) -> xr.Dataset:
@@ -221,3 +223,63 @@ def test_numbers_of_the_ledger_link_to_what_decides_them(tmp_path):
     assert ledger.quote("a", "x") == ("1.5", "checks/chart.nc")
     assert np.isnan(ledger.value("a", "y")) and np.isnan(ledger.value("b", "x"))
     assert ledger.holds("a") and ledger.verdict("b") == "confirmed"
+
+
+def breathers_results(folder, **attributes) -> made_up.MadeUp:
+    """Return what the section says of breathers, with runs of the paper's data or of others."""
+    runs = {
+        f"trajectories/fig{which}_{size}": run_of(size, 1.0).assign_attrs(
+            omega=omega, initial=made_up.LARGE if size == "large" else made_up.SMALL
+        )
+        for which, omega in ((2, 8.0), (3, -4.0), (4, 0.0))
+        for size in ("small", "large")
+    }
+    runs["trajectories/fig2_large"].attrs.update(attributes)
+    fate = xr.Dataset(
+        {"fate": (("omega", "a0", "b0"), [[[1, 1], [1, 0]], [[2, 2], [2, 1]]])},
+        {"omega": [8.0, 0.0], "a0": [1.0, 5.0], "b0": [1.0, 5.0]},
+    )
+    fate["fate"].attrs["flag_meanings"] = "disperses breather spreads"
+    power = [[[20.0, np.nan]], [[16.0, np.nan]]]
+    periodic = xr.Dataset(
+        {"power": (("component", "omega", "frequency"), power)},
+        {"omega": [-4.0], "frequency": [9.0, 12.0]},
+    )
+    shares = sensitivity(1.0, 0.9, 0.4, 0.15).assign_attrs(omega=-4.0)
+    found = {"breathers/sensitivity": shares, "breathers/fates": fate}
+    return made_up.MadeUp(folder, runs | found | {"breathers/periodic": periodic})
+
+
+def beside(results: made_up.MadeUp, which: int) -> str:
+    folders = [page.STUDIES, page.HERE / "templates"]
+    templates = Environment(loader=FileSystemLoader(folders), trim_blocks=True)
+    part = templates.get_template("paper/section.html.j2").module
+    found = beside_breathers(results, which).get("breathers")
+    return re.sub(r"<[^>]+>|\s+", " ", str(part.beside_breathers(found)))
+
+
+@pytest.mark.parametrize(
+    ("which", "words"),
+    [
+        (2, ["75 % stay", "figure among them", "0 % spread"]),
+        (3, ["P of 36 or more", "have 1", "100 % spread", "15 % do", "3 amplitudes"]),
+        (4, ["25 % stay", "75 % spread, the large data of the figure among them"]),
+        (5, ["P of 36 or more", "75 % spread"]),
+        (6, ["75 % stay", "15 % do"]),
+    ],
+)
+def test_each_figure_says_what_breathers_change(tmp_path, which, words):
+    said = " ".join(beside(breathers_results(tmp_path), which).split())
+    for one in words:
+        assert one in said, said
+
+
+def test_of_other_data_it_is_not_said_that_they_are_on_the_map(tmp_path):
+    other = breathers_results(tmp_path, initial='{"0": [5.0, "1j"], "3": [1.0, 0.0]}')
+    assert "among them" not in beside(other, 2)
+
+
+def test_a_run_of_another_study_of_breathers_says_nothing(tmp_path):
+    results = breathers_results(tmp_path)
+    results.differs = {"breathers.fates.points": "14 and not 4"}
+    assert beside(results, 6).strip() == ""

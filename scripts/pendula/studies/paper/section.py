@@ -24,6 +24,7 @@ from pendula.report.words import (
 )
 
 from .motion import SIZES, gather_motion
+from .section_breathers import beside_breathers
 from .section_solvers import gather_solvers
 
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
@@ -40,8 +41,8 @@ def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
     alt = "A drawing of a chain of pendula pairs on strings, coupled along the chain and across "
     return {
         "chain": results.picture("fig1", f"{alt}each pair."),
-        "norms": [_norms(results, which) for which in (2, 3, 4)],
-        "sweeps": [_sweeps(results, which) for which in (5, 6)],
+        "norms": [_norms(results, which) | beside_breathers(results, which) for which in (2, 3, 4)],
+        "sweeps": [_sweeps(results, which) | beside_breathers(results, which) for which in (5, 6)],
         **half_widths(results, SWEPT),
         "verdicts": {which: ledger.counts(f"Fig {which}") for which in range(1, 7)},
         "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
