@@ -17,6 +17,7 @@ from made_up_unbounded import named, unbounded_runs
 from pendula.datasets.netcdf import read, save, write
 from pendula.numerics.search import maximise
 from pendula.problem import Constants
+from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
 from pendula.studies.unbounded.front import measure_front
 from pendula.studies.unbounded.long_runs import measure_growth
@@ -33,7 +34,9 @@ CHECKS = {
 NODES = 6
 GROWN = ("fig4_small", "fig3_large", "fig3_small", "fig2_large")
 UNBOUNDED = ("growth", "front", "thermal")
-NAMES = (*CHECKS, "search", *UNBOUNDED)
+PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
+"""A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
+NAMES = (*CHECKS, "search", *UNBOUNDED, "proofs")
 
 
 def prepare(folder: Path) -> None:
@@ -74,6 +77,7 @@ def make(given: Path, made: Path, *every: str) -> None:
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
     cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))
     write(str(made / "thermal.nc"), thermal_variables([cold], [warm]), {})
+    write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 
 
 if __name__ == "__main__":
