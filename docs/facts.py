@@ -6,6 +6,7 @@ dataset a number stands; the text around the fact names them as well.
 """
 
 import json
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,10 @@ class Baseline:
             self._read[name] = read(self.folder / f"{name}.nc")
         return self._read[name]
 
+    def has(self, name: str) -> bool:
+        """Return whether there is such a dataset."""
+        return (self.folder / f"{name}.nc").exists()
+
     def claims(self) -> list[dict]:
         """Return the rows of the ledger of the last full run that was accepted."""
         return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
@@ -77,6 +82,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         breathers,
         pendula,
         proofs,
+        certified,
         unbounded,
         theory,
         references,
@@ -365,6 +371,43 @@ def proofs(baseline: Baseline) -> dict:
         "bits": str(int(proved.attrs["bits"])),
         "constants": str(constants.sizes["constant"]),
         "constants_off": number(1.05 * float(constants["stored_error"].max()), 2),
+    }
+
+
+def certified(baseline: Baseline) -> dict:
+    """Return the proven bounds of curves, rounded upward, what lines contain, and a short proof."""
+    lines = baseline["certified/lines"]
+    known = [str(case) for case in lines["case"].values if baseline.has(f"certified/{case}")]
+    whole = lines["contained_until"] == lines["run_end"]
+    share = lines["largest_distance"] / lines["half_line"]
+    return {
+        "rows": [_certified_curve(baseline[f"certified/{case}"], case) for case in known],
+        "contained": number(int(whole.sum())),
+        "in_lines": number(1.05 * float(share.where(np.isfinite(share)).max()), 2),
+        "certificate": _short_case(baseline.folder / "certified/short_case.json"),
+    }
+
+
+def _certified_curve(curve: xr.Dataset, case: str) -> dict[str, str]:
+    last = curve.isel(tau=-1)
+    largest = last["bound_parts"].argmax("bound_part")
+    return {
+        "case": case,
+        "end": number(float(curve["tau"][-1])),
+        "bound": number(1.05 * float(last["bound"]), 2),
+        "part": str(curve["bound_part"].values[int(largest)]),
+        "of_part": number(float(last["bound_parts"][largest]), 2),
+        "distance": number(float(curve["reference_distance"].max()), 2),
+    }
+
+
+def _short_case(path: Path) -> dict[str, str]:
+    made = json.loads(path.read_text(encoding="utf-8"))
+    return {
+        "sites": number(len(made["initial"][0])),
+        "steps": number(len(made["steps"])),
+        "end": number(float(Fraction(made["end_time"]))),
+        "bound": number(1.05 * made["steps"][-1]["bound"] / 2 ** made["bound_bits"], 2),
     }
 
 

@@ -202,11 +202,34 @@ def unbounded_sizes(given: dict) -> dict[str, str]:
     }
 
 
+def certified(baseline) -> dict[str, float]:
+    """Return the largest proven error of each part of the proofs."""
+    cases = given("certified")["curves"]["cases"]
+    proved = baseline["certified/breathers"]
+    radii = [_most(proved[name]) for name in ("radius", "chain_radius")]
+    return {
+        "curves": max(_most(baseline[f"certified/{case}"]["bound"]) for case in cases),
+        "breathers": max(radii),
+        "constants": _most(baseline["certified/constants"]["stored_error"]),
+    }
+
+
+def certified_sizes(given: dict) -> dict[str, str]:
+    """Return of which cases and states there are proofs."""
+    return {
+        "curves": ", ".join(f"`{case}`" for case in given["curves"]["cases"]),
+        "breathers": f"{number(len(given['breathers']['proofs']))} states, half-widths "
+        + " and ".join(number(m) for m in given["breathers"]["half_widths"].values()),
+        "constants": "those that the checks of the theory store",
+    }
+
+
 STUDIES: dict[str, tuple[Callable, Callable]] = {
     "chaos": (chaos, chaos_sizes),
     "theory": (theory, theory_sizes),
     "pendula": (pendula, pendula_sizes),
     "unbounded": (unbounded, unbounded_sizes),
+    "certified": (certified, certified_sizes),
 }
 """The study by its name in the configuration: how its errors are read, and what its parts take."""
 

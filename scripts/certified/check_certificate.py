@@ -130,11 +130,11 @@ def check(certificate):
         whole = [[int(u) for row in term for u in row] for term in step["terms"]]
         terms = [[u * unit for u in term] for term in whole]
         jump = root(sum((a - b) ** 2 for a, b in zip(terms[0], state, strict=True)))
-        rates = [Fraction(rate, 2**20) for rate in step["rates"]]
+        rates = [Fraction(rate, 2 ** certificate["rate_bits"]) for rate in step["rates"]]
         factor, a = growth(terms, rates, eq, h, 1 if low > 0 else -1, k)
         if factor is None:
             return f"step {number}: a rate is too small, or too large for one step"
-        end = Fraction(step["bound"], 2**60)
+        end = Fraction(step["bound"], 2 ** certificate["bound_bits"])
         off = jump + defect(whole, eq, h, unit) + h * (3 * a * end + end**2) * end / 2
         if not factor * (bound + k * off) < end:
             return f"step {number}: the bound is too small"

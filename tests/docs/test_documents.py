@@ -220,6 +220,7 @@ def test_every_fact_follows_its_dataset():
         r".*(end|from|least_omega|largest_omega|error)$|"
         r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
         r"pendula\.(largest_mu|second_below|rows\.\d+\.mu)$|"
+        r"certified\.(rows\.\d+\.part|contained|certificate\..*)$|"
         r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
     )
     left = {

@@ -1,8 +1,8 @@
 """A proof of a short case as a file that others can check: see scripts/certified/check_certificate.
 
-All numbers are integers: coefficients in units of 2^-BITS, rates of 2^-20, bounds of 2^-60. The
-coefficients are rounded so far that the bound is hardly larger than it must be, and whoever changes
-a last digit breaks it.
+All numbers are integers: coefficients in units of 2^-BITS, rates of 2^-RATE_BITS, bounds of
+2^-BOUND_BITS. The coefficients are rounded so far that the bound is hardly larger than it must be,
+and whoever changes a last digit breaks it.
 """
 
 from math import ceil
@@ -17,6 +17,7 @@ from .polynomials import Curve, find_curve
 from .regular import prove, sample
 
 BITS = 34
+RATE_BITS, BOUND_BITS = 20, 60
 ORDER = 14
 SLACK = 1e-6
 """Each step leaves so much more room than the one before, as a part of the bound."""
@@ -42,11 +43,13 @@ def make_certificate(problem: Problem) -> dict[str, Any]:
         "steps_per_tau": round(1.0 / curve.step),
         "end_time": str(decimal(len(bounds) * curve.step)),
         "bits": BITS,
+        "rate_bits": RATE_BITS,
+        "bound_bits": BOUND_BITS,
         "steps": [
             {
                 "terms": [_whole(terms) for terms in curve.terms[:, j]],
                 "rates": _rates(rates[per_step * j : per_step * (j + 1) + 1]),
-                "bound": ceil(2.0**60 * bound * (1.0 + SLACK * (j + 1))),
+                "bound": ceil(2.0**BOUND_BITS * bound * (1.0 + SLACK * (j + 1))),
             }
             for j, bound in enumerate(bounds)
         ],
@@ -60,5 +63,5 @@ def _whole(terms: np.ndarray) -> list[list[int]]:
 
 
 def _rates(rates: np.ndarray) -> list[int]:
-    """Return rates in units of 2^-20, a little larger, as states at ends of steps are rounded."""
-    return [ceil(rate * 2.0**20) + 1 for rate in rates]
+    """Return rates in their units, a little larger, as states at the ends of steps are rounded."""
+    return [ceil(rate * 2.0**RATE_BITS) + 1 for rate in rates]
