@@ -30,8 +30,12 @@ def pendula(**changes) -> Problem:
 
 
 def final(problem: Problem, solver="taylor", **changes):
-    """Return angles and velocities (part, component, site) at the end."""
-    return simulate(problem.changed(solver=TIGHT[solver], **changes)).final
+    """Return angles and velocities (part, component, site) at the end.
+
+    The solver is one of TIGHT, or where it is None that of the problem.
+    """
+    changes |= {} if solver is None else {"solver": TIGHT[solver]}
+    return simulate(problem.changed(**changes)).final
 
 
 def slope(problem: Problem):

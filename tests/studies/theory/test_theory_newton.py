@@ -31,17 +31,8 @@ def test_the_pendula_follow_an_independent_solver():
     start = np.concatenate([angles[0, 0].ravel(), velocities[0, 0].ravel()])
     controls = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12}
     found = solve_ivp(newton, (0.0, times[-1]), start, args=(CONSTANTS, mu), **controls).y[:, -1]
-    np.testing.assert_allclose(angles[-1, 0].ravel(), found[:6], atol=1e-5)
-    np.testing.assert_allclose(velocities[-1, 0].ravel(), found[6:], atol=1e-5)
-
-
-def test_runs_with_constants_of_their_own_do_not_mix():
-    other, times = Constants(epsilon=0.2, gamma=0.5, omega=3.0), np.linspace(0.0, 20.0, 3)
-    data = one_pair(3, (1.0, 0.1))
-    both = pendula_run([CONSTANTS, other], 0.2, data, times)[0]
-    for i, constants in enumerate((CONSTANTS, other)):
-        alone = pendula_run([constants], 0.2, data, times)[0]
-        np.testing.assert_allclose(both[:, i], alone[:, 0], rtol=1e-12)
+    np.testing.assert_allclose(angles[-1, 0].ravel(), found[:6], atol=1e-9)
+    np.testing.assert_allclose(velocities[-1, 0].ravel(), found[6:], atol=1e-9)
 
 
 def test_a_pair_grows_at_twice_gamma_at_one_to_two_and_nowhere_else():

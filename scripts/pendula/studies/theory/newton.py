@@ -1,34 +1,27 @@
 """Newton's equations (1) for small mu against the amplitudes of (4): Section 2's derivation.
 
-Equations (1) share nothing with the library's model of (4). Runs of
-one mu go together, each with constants of its own. Angles are in radians.
+The model of (1) shares the chain and the integrators with that of (4), but no equation and no time:
+it takes nothing from the expansion but the data. Angles are in radians.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 
 from pendula.datasets.checks import table, variable
-from pendula.integrators.splitting import LINEAR_PARTS, NONLINEAR_PARTS
-from pendula.models.pendula import move
+from pendula.models.pendula import amplitudes_of, angles_of, frequency
 from pendula.numerics import elementary
 from pendula.numerics.elementary import complex_of, product
-from pendula.problem import Constants
+from pendula.problem import PENDULA, Constants, Problem
+from pendula.simulation.lattice import WHOLE
+from pendula.simulation.simulate import simulate
 
 from .equations import misstated, random_amplitudes, right_hand_side, run, total_energy
 
 OUTPUTS = 41
 """Times at which angles are compared, the first of them the start."""
-
-
-STEP = 2.0 * np.pi / 10.0
-"""Longest step: a tenth of the pendula's period, in ten stages."""
-
-
-def frequency(constants: Constants, mu: float) -> float:
-    """Return omega of (2)."""
-    return float(np.sqrt(1.0 + mu * mu * constants.omega))
+SOLVER = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
 
 
 def pendula_run(
@@ -37,28 +30,32 @@ def pendula_run(
     """Return angles and velocities (time, run, 2, N) of (1) from what (3) makes of `amplitudes`.
 
     Every run has `constants` of its own, its drive times one of `drives`, and data (2, N) of its
-    own or the same as all. The velocity keeps the slow rate of the
-    amplitudes, so that the data err by mu^3 only. By the splitting BM6 between the motion of free
-    particles and the forces: symplectic, so that thousands of periods do not damp the pendula.
+    own or the same as all. The velocity keeps the slow rate of the amplitudes, so that the data err
+    by mu^3 only. `times` are equal steps of t from 0 on. Both components are integrated on the
+    whole chain, whatever the symmetries.
     """
     runs = len(constants)
     data = np.broadcast_to(amplitudes, (runs, *np.shape(amplitudes)[-2:]))
-    frequencies = np.array([frequency(k, mu) for k in constants])
-    pairs = zip(constants, data, strict=True)
-    slow = np.array([0.5 * mu * mu * right_hand_side(k, "dirichlet", z) for k, z in pairs])
-    angles = 2.0 * mu * data.real
-    velocities = 2.0 * mu * (slow.real - frequencies[:, None, None] * data.imag)
-    bonds = mu * mu * np.array([k.epsilon for k in constants])
-    strengths = 2.0 * mu * mu * drives * np.array([k.gamma for k in constants])
-    found = [(angles, velocities)]
-    for start, end in pairwise(times):
-        count = int(np.ceil((end - start) / STEP))
-        h, x, v = (end - start) / count, *map(np.copy, found[-1])
-        stages = start + h * (np.arange(count)[:, None] + np.cumsum(LINEAR_PARTS))
-        drive = strengths * elementary.cos(2.0 * frequencies * stages[..., None])
-        move(bonds, drive, h * LINEAR_PARTS, h * NONLINEAR_PARTS, x, v)
-        found.append((x, v))
-    angles, velocities = np.array(found).swapaxes(0, 1)
+    strengths = np.broadcast_to(drives, runs)
+    end = 0.5 * mu * mu * times[-1]
+    states = []
+    for own, strength, z in zip(constants, strengths, data, strict=True):
+        slow = mu * mu * mu * right_hand_side(own, "dirichlet", z).real  # mu times d/dt of 2 mu A
+        angles, velocities = angles_of(z, own.omega, mu)
+        problem = Problem(
+            constants=replace(own, gamma=float(strength * own.gamma)),
+            half_width=z.shape[-1] // 2,
+            boundary="dirichlet",
+            initial=amplitudes_of(angles, velocities + slow, own.omega, mu),
+            end_time=end,
+            output_step=end / (len(times) - 1),
+            solver=SOLVER,
+            snapshot_every=1,
+            model=PENDULA,
+            mu=mu,
+        )
+        states.append(simulate(problem, WHOLE).snapshots)
+    angles, velocities = np.array(states).transpose(1, 4, 0, 2, 3)
     return angles, velocities
 
 
@@ -84,7 +81,7 @@ def envelope_run(constants: Constants, amplitudes: np.ndarray, taus) -> np.ndarr
 
 def angle_errors(angles, envelope, constants: Constants, mu: float, times) -> np.ndarray:
     """Return max |x - x of (3)| over the chain at each time."""
-    phase = elementary.turn(frequency(constants, mu) * times)[:, None, None]
+    phase = elementary.turn(frequency(constants.omega, mu) * times)[:, None, None]
     return np.abs(angles - 2.0 * mu * product(envelope, phase).real).max(axis=(1, 2))
 
 
@@ -199,7 +196,7 @@ def rotating_energy(constants: Constants, mu: float, amplitudes: np.ndarray, t) 
     That is the sum of 1 - cos x - omega^2 x^2 / 2 over all pendula, of C (x_{n+1} - x_n)^2 / 2
     over all bonds, those to the ends at rest among them, and of D(t) (x - y)^2 / 2.
     """
-    omega = frequency(constants, mu)
+    omega = frequency(constants.omega, mu)
     angles = 2.0 * mu * product(amplitudes, elementary.turn(omega * t)).real
     bonds = np.sum(np.diff(np.pad(angles, ((0, 0), (1, 1)))) ** 2)
     drive = 2.0 * constants.gamma * mu * mu * elementary.cos(2.0 * omega * t)
@@ -210,7 +207,7 @@ def rotating_energy(constants: Constants, mu: float, amplitudes: np.ndarray, t) 
 
 def averaged_energy(constants: Constants, mu: float, amplitudes: np.ndarray) -> float:
     """Return -1 / mu^4 of the mean of that energy over a turn: 32 points take a cosine's x^16."""
-    turn = 2.0 * np.pi / frequency(constants, mu) * np.arange(32) / 32
+    turn = 2.0 * np.pi / frequency(constants.omega, mu) * np.arange(32) / 32
     mean = float(np.mean([rotating_energy(constants, mu, amplitudes, t) for t in turn]))
     return -mean / (mu * mu * mu * mu)
 
@@ -229,7 +226,7 @@ def check_inherited_energy(
     static, along = [], []
     for mu in mus:
         static.append(abs(averaged_energy(constants, mu, amplitudes) - energy))
-        times, omega = fast_times(mu, end_time), frequency(constants, mu)
+        times, omega = fast_times(mu, end_time), frequency(constants.omega, mu)
         angles, velocities = (
             found[:, 0] for found in pendula_run([constants], mu, amplitudes, times)
         )
