@@ -1,10 +1,10 @@
 """Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
 
 Run as `python docs/keep.py results` after a full run, after `snakemake reproduction` on a quiet
-machine, and after `snakemake unbounded` if the long study was made anew. It reduces them to what is
-quoted and writes this to tests/baseline/quoted: the ledger, the hard cases, where the time of a
-reproduction goes (by which `snakemake` says how long a run will take), and the long study of the
-chain without ends.
+machine, and after `snakemake unbounded`, or `snakemake fates sensitivity`, if a long study was made
+anew. It reduces them to what is quoted and writes this to tests/baseline/quoted: the ledger, the
+hard cases, where the time of a reproduction goes (by which `snakemake` says how long a run will
+take), and the long studies of the chain without ends and of breathers.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -29,6 +29,8 @@ from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.laws import compare, span_means  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
+from pendula.studies.breathers.fates import FATES  # noqa: E402
+from pendula.studies.breathers.nearest import NEAR  # noqa: E402
 from pendula.studies.unbounded.bulk import (  # noqa: E402
     mean_powers,
     mean_terms,
@@ -248,6 +250,92 @@ def _laws(run: xr.Dataset, start: float = 10.0) -> dict[str, Variable]:
     }
 
 
+def keep_long_breathers(results: Path, folder: Path) -> None:
+    """Keep the shares of the long studies of fates and of sensitivity, without their maps."""
+    fates, spread = (
+        read(results / f"breathers/long/{name}.nc") for name in ("fates", "sensitivity")
+    )
+    whole = ("omega", "plane", "fate_name", "area", "area_low", "area_high")
+    shares = ("size", "share", "share_low", "share_high")
+    kept = {
+        **{name: _as_it_is(fates[name]) for name in whole},
+        **{name: _as_it_is(spread[name]) for name in shares},
+        **_nearness(fates),
+        **_on_other_terms(fates),
+        **_scanned(spread),
+    }
+    sizes = {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
+    about = {name: fates.attrs[name] for name in ("epsilon", "gamma", "half_width", "end_time")}
+    title = "The long study of breathers, reduced to what the documents quote"
+    members = {"members": spread.attrs["members"]}
+    _write(folder / "breathers.nc", title, kept, **about, **sizes, **members)
+
+
+def _as_it_is(values: xr.DataArray) -> Variable:
+    return Variable(values.dims, values.values, values.attrs["long_name"])
+
+
+def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
+    """Return how near breathers are to periodic ones where A_0 and B_0 differ, by Omega.
+
+    Where no family is known at the frequency of any breather, shares of none are NaN.
+    """
+    unequal = fates["a0"] != fates["b0"]
+    rows = []
+    for omega in fates["omega"].values:
+        here = fates.sel(omega=omega).where(unequal)
+        distance = here["distance"].values[np.isfinite(here["distance"].values)]
+        alone = here["nearest"].values[np.isfinite(here["distance"].values)] == 1
+        breathers = int((here["fate"] == FATES.index("breather")).sum())
+        shares = ((distance <= NEAR).mean(), alone.mean()) if distance.size else (np.nan, np.nan)
+        median = np.median(distance) if distance.size else np.nan
+        rows.append((distance.size / breathers if breathers else np.nan, *shares, median))
+    words = {
+        "compared": "share of breathers with a family of periodic ones at their frequency",
+        "near": f"share of these no further than {NEAR} from a family",
+        "nearest_alone": "share of these whose nearest family is that with A only",
+        "median_distance": "median distance of these",
+    }
+    columns = zip(words.items(), np.transpose(rows), strict=True)
+    return {name: Variable(("omega",), values, said) for (name, said), values in columns}
+
+
+def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
+    """Return how many data change their fate on other terms, and the shares of fates there."""
+    checked = fates["checked_fate"]
+    changed = (checked != checked.isel(terms=0)).mean("checked")
+    shares = [(checked == kind).mean("checked").values for kind in range(fates.sizes["fate_name"])]
+    return {
+        "terms": _as_it_is(fates["terms"]),
+        "changed": Variable(
+            ("terms", "omega"), changed.values, "share of data whose fate differs from the map's"
+        ),
+        "terms_share": Variable(
+            ("fate_name", "terms", "omega"), np.array(shares), "share of these data with a fate"
+        ),
+        "checked": Variable((), checked.sizes["checked"], "data at each Omega run on all terms"),
+    }
+
+
+def _scanned(spread: xr.Dataset) -> dict[str, Variable]:
+    """Return the share that spreads of all amplitudes of the scan, and by unit of A_0."""
+    amplitude = spread["initial"].values
+    starts = np.arange(np.floor(amplitude.min()), np.ceil(amplitude.max()))
+    shares = [
+        spread["spread"].values[(amplitude >= start) & (amplitude < start + 1)].mean()
+        for start in starts
+    ]
+    return {
+        "from_amplitude": Variable(("from_amplitude",), starts, "least A_0 of a unit of the scan"),
+        "scan_share": Variable(("from_amplitude",), shares, "share of its amplitudes that spread"),
+        "scanned": Variable((), len(amplitude), "amplitudes of the scan"),
+        "scan_spread": Variable((), spread["spread"].values.mean(), "share of all that spread"),
+        "largest_that_spreads": Variable(
+            (), amplitude[spread["spread"].values == 1].max(), "largest A_0 that spreads"
+        ),
+    }
+
+
 def main(results: Path, folder: Path = QUOTED) -> None:
     """Keep whatever of these the folder of results holds."""
     folder.mkdir(exist_ok=True)
@@ -255,6 +343,7 @@ def main(results: Path, folder: Path = QUOTED) -> None:
         "claims.json": keep_full_run,
         "speed/reproduction.json": keep_reproduction,
         "unbounded/long/tolerances.nc": keep_long_study,
+        "breathers/long/fates.nc": keep_long_breathers,
     }.items():
         if (results / needed).exists():
             keep(results, folder)

@@ -1,16 +1,26 @@
 """Map what becomes of data on one pair."""
 
 import numpy as np
-from pendula.datasets.netcdf import write
+from pendula.datasets.netcdf import read, write
 from pendula.problem import by_name
-from pendula.studies.breathers.contents import fates_contents
+from pendula.studies.breathers.fate_contents import Grid, fates_contents
 
 
 def map_fates(
-    data: str, problems: dict[float, dict], amplitudes: list[float], kernels: list[str] | tuple = ()
+    data: str,
+    periodic: str,
+    problems: dict[float, dict],
+    amplitudes: list[float],
+    turned: list[float],
+    phases: list[float],
+    ratio: float,
+    checked: int,
+    cases: dict[str, dict],
+    kernels: list[str] | tuple = (),
 ) -> None:
-    """Write the fate of each pair of `amplitudes` for the problem of each detuning."""
-    write(data, *fates_contents(by_name(problems), np.array(amplitudes)))
+    """Write the fate of (A_0, B_0), of B_0 turned in phase, and of the paper's `cases`."""
+    grid = Grid(np.array(amplitudes), np.array(turned), np.array(phases), ratio, checked)
+    write(data, *fates_contents(by_name(problems), grid, by_name(cases), read(periodic)))
 
 
 if __name__ == "__main__":

@@ -90,6 +90,7 @@ rule map_fates:
     input:
         code=code("breathers/map_fates.py"),
         kernels=kernels("taylor"),
+        periodic="results/breathers/periodic.nc",
     output:
         data="results/breathers/fates.nc",
     log:
@@ -97,7 +98,7 @@ rule map_fates:
     conda:
         "../envs/pinned.yaml"
     params:
-        **fate_params(SETTINGS.breathers.fates, "full"),
+        **fate_params(SETTINGS.breathers, "full"),
     message:
         "Mapping what becomes of data on one pair"
     script:
@@ -111,7 +112,7 @@ use rule map_fates as map_long_fates with:
     log:
         "results/logs/breathers/long_fates.log",
     params:
-        **fate_params(SETTINGS.breathers.fates, "long"),
+        **fate_params(SETTINGS.breathers, "long"),
 
 
 rule draw_breathers:
@@ -171,8 +172,6 @@ rule draw_fates:
         "results/logs/figures/fates.log",
     conda:
         "../envs/pinned.yaml"
-    params:
-        marked=data_of_cases(),
     message:
         "Drawing what becomes of data on one pair"
     script:
@@ -193,7 +192,7 @@ use rule draw_fates as draw_long_fates with:
 rule breathers:
     "States that stay at one pair, which data reach them, and which spread: datasets and figures"
     input:
-        expand("results/breathers/{name}.nc", name=[*BREATHERS, "fates"]),
+        expand("results/breathers/{name}.nc", name=BREATHERS),
         expand("results/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
     message:
         "The breathers and their figures are there"

@@ -249,7 +249,7 @@ def lifetime_params(given):
 
 
 # Breathers.
-BREATHERS = ["steady", "periodic", "growth", "sensitivity"]
+BREATHERS = ["steady", "periodic", "growth", "sensitivity", "fates"]
 
 
 def steady_params(given):
@@ -287,15 +287,14 @@ def sensitivity_params(given, size):
     }
 
 
-def data_of_cases():
-    """Return (A_0, B_0) of the paper's cases that have real data on one pair, by their Omega."""
-    found = {}
-    for case in PAPER_CASES:
-        problem = SETTINGS.problem(case)
-        (site, pair), *others = problem["initial"].items()
-        if not (others or site) and not any(complex(one).imag for one in pair):
-            found.setdefault(problem["omega"], []).append([complex(one).real for one in pair])
-    return found
+def cases_on_one_pair():
+    """Return the paper's cases that have real data on one pair."""
+
+    def on_one_pair(initial):
+        (site, pair), *others = initial.items()
+        return not (others or site or any(complex(one).imag for one in pair))
+
+    return [case for case in PAPER_CASES if on_one_pair(SETTINGS.problem(case)["initial"])]
 
 
 def long_breathers_figure(name):
@@ -303,16 +302,21 @@ def long_breathers_figure(name):
     return {key: f"results/breathers/long/{name}.{kind}" for key, kind in kinds.items()}
 
 
-def fate_params(given, size):
-    like = {
-        "half_width": given.half_width,
-        "end_time": given.end_time,
-        "output_step": given.end_time,
-    }
+def fate_params(breathers, size):
+    given, plain = breathers.fates, ("half_width", "end_time")
+    like = {"output_step": given.end_time, **{name: getattr(given, name) for name in plain}}
+    cases = followed(cases_on_one_pair(), given.tolerance, "taylor", **like)
     (problem,) = followed(["fig4_small"], given.tolerance, "taylor", **like).values()
+    problem = {**problem, "epsilon": breathers.epsilon, "gamma": breathers.gamma}
+    size = given if size == "full" else given.long
     return {
         "problems": {omega: {**problem, "omega": omega} for omega in given.omegas},
-        "amplitudes": given.amplitudes((given if size == "full" else given.long).points),
+        "amplitudes": given.amplitudes(size.points),
+        "turned": given.amplitudes(size.phases.amplitudes),
+        "phases": given.turns(size.phases.points),
+        "ratio": given.phases.ratio,
+        "checked": size.checked,
+        "cases": cases,
     }
 
 

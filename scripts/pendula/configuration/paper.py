@@ -145,7 +145,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     if folder == "sweeps":
         return _sweep(stem, solver)
     if folder == "breathers":
-        return _breathers(rest)
+        return _breathers(rest, on)
     if folder == "pendula":
         return tuple(f"pendula.{rest}.{key}" for key in paper()["pendula"][rest])
     if folder == "certified":
@@ -191,12 +191,16 @@ def _unbounded(name: str) -> tuple[str, ...]:
     return (*whole, *own, *extent, *_keys(varied["case"] if varied else name, *DATA))
 
 
-def _breathers(name: str) -> tuple[str, ...]:
-    """Return what a part of the study of breathers rests on, but for its longer variant."""
+def _breathers(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what a part of the study of breathers rests on, but for its longer variant.
+
+    Fates are compared with periodic breathers; those of the paper's data rest on its cases.
+    """
     given = paper()["breathers"]
-    own = tuple(f"breathers.{name}.{key}" for key in given[name] if key != "long")
-    case = given[name].get("case")
-    return ("breathers.epsilon", "breathers.gamma", *own, *(_keys(case, *FINITE) if case else ()))
+    parts = (name, "periodic") if name == "fates" else (name,)
+    own = tuple(f"breathers.{part}.{key}" for part in parts for key in given[part] if key != "long")
+    cases = [case for case in (given[name].get("case"), *on) if case]
+    return ("breathers.epsilon", "breathers.gamma", *own, *_of_all(cases, *FINITE))
 
 
 ENCLOSED = ("cases", "theorem_2_case", "theorem_3_constant", "threshold", "chart")

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from made_up_breathers import sensitivity
 from pendula.ledger.claim import evaluate
-from pendula.studies.breathers.claims import GROWTH, PERIODIC, SENSITIVITY, STEADY
+from pendula.studies.breathers.claims import GROWTH, MAP, PERIODIC, SENSITIVITY, STEADY
 
 
 def collisions(*shape: int) -> dict:
@@ -64,7 +64,34 @@ def sources():
         },
         {"gamma": drives},
     )
-    return {STEADY: steady, PERIODIC: periodic, GROWTH: driven, SENSITIVITY: sensitivity()}
+    made = {STEADY: steady, PERIODIC: periodic, GROWTH: driven, SENSITIVITY: sensitivity()}
+    return made | {MAP: made_up_fates()}
+
+
+def made_up_fates():
+    """Return maps on which all spread at Omega = 0 but A = B, none at 8, and some at -4."""
+    fate = np.ones((3, 3, 3), dtype=np.int8)
+    fate[0, 0] = 3
+    fate[1] = 3 - 2 * np.eye(3, dtype=np.int8)
+    turned = np.array([[[1, 3]], [[3, 3]], [[0, 1]]], dtype=np.int8)
+    words = {"flag_meanings": "disperses breather moves spreads"}
+    return xr.Dataset(
+        {
+            "fate": (("omega", "a0", "b0"), fate, words),
+            "turned_fate": (("omega", "turned_a0", "phase"), turned, words),
+            "case_breather_frequency": ("case", [17.9, np.nan]),
+            "case_distance": (("case", "family"), [[0.06, 0.7], [np.nan, np.nan]]),
+        },
+        {"omega": [-4.0, 0.0, 8.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0],
+         "family": ["A only", "A = B"], "case": ["fig2_large", "fig3_large"]},
+    )  # fmt: skip
+
+
+def with_fate(fates, name, omega, number):
+    """Return maps with another fate at one point of one of them."""
+    changed = fates[name].copy(deep=True)
+    changed[{"omega": list(fates["omega"].values).index(omega)}][0, 1] = number
+    return fates.assign({name: changed})
 
 
 def verdicts(sources):
@@ -75,7 +102,7 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     rows = evaluate(sources, None, ("breathers/claims",))
     assert {row["verdict"] for row in rows} <= {"confirmed", "confirmed with a caveat"}
     assert all(control["passes"] for row in rows for control in row["controls"])
-    assert len(rows) == 7
+    assert len(rows) == 9
 
 
 @pytest.mark.parametrize(
@@ -102,6 +129,11 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
             "spreading_is_an_accident", SENSITIVITY,
             lambda one: one.assign(share_high=one["share_high"] + 0.4),
         ),
+        ("ends_near_stable", MAP, lambda one: one.assign(case_distance=one["case_distance"] + 1.0)),
+        ("ends_near_stable", PERIODIC, lambda one: one.assign(growth=one["growth"] + 0.1)),
+        ("detuning_decides", MAP, lambda one: with_fate(one, "fate", 8.0, 3)),
+        ("detuning_decides", MAP, lambda one: with_fate(one, "turned_fate", 8.0, 3)),
+        ("detuning_decides", MAP, lambda one: with_fate(one, "turned_fate", 0.0, 1)),
     ],
 )  # fmt: skip
 def test_a_wrong_dataset_is_refused(sources, name, source, change):
@@ -134,6 +166,8 @@ def test_what_a_finite_chain_makes_within_the_waves_is_a_caveat(sources):
         ),
         ("grows_by_drive", GROWTH, lambda one: one.sel(gamma=[1.0])),
         ("spreading_is_an_accident", SENSITIVITY, lambda one: one.isel(size=[0, 1])),
+        ("ends_near_stable", MAP, lambda one: one.sel(case=["fig3_large"])),
+        ("detuning_decides", MAP, lambda one: one.sel(omega=[-4.0, 8.0])),
     ],
 )
 def test_without_its_case_a_claim_cannot_be_decided(sources, name, source, change):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pendula.measures.confidence import share_limits
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.fates import (
@@ -9,13 +10,22 @@ from pendula.studies.breathers.fates import (
     DISPERSES,
     MOVES,
     SPREADS,
-    fate,
+    at_the_end,
+    ends,
     fate_of,
     folded_power,
     largest_linear_gain,
-    map_of_fates,
+    map_of_amplitudes,
+    map_of_phases,
+    on_one_pair,
+    place_of,
+    shares_of_area,
 )
+from pendula.studies.breathers.nearest import Families
 from pendula.studies.breathers.sensitivity import has_spread, largest_l2, scan, shares
+
+NONE = Families(["A only"], np.empty(0), np.empty((2, 1, 0)))
+"""No breathers to compare with."""
 
 
 def pair_problem(omega, a, b, end_time=30.0):
@@ -36,15 +46,18 @@ def moduli(power: dict[int, float], half_width=3) -> np.ndarray:
 @pytest.mark.parametrize(
     ("power", "expected"),
     [
-        ({0: 6, 1: 2, -1: 2}, BREATHER),
-        ({2: 3, -2: 3, 0: 1}, MOVES),  # neither of the two holds half by itself
-        ({0: 5, 1: 2.5, -1: 2.5}, DISPERSES),  # exactly half is no majority
-        ({0: 14, 1: 7, -1: 7, 2: 2}, DISPERSES),  # P has grown from 10 to 30, as waves can
-        ({0: 14, 1: 7, -1: 7, 2: 2.1}, SPREADS),
+        ({0: 6, 5: 3, -5: 2}, BREATHER),
+        ({0: 3, 1: 2, -1: 2, 5: 6}, BREATHER),  # wide, and still at the centre
+        ({1: 3, -1: 3, 5: 5}, BREATHER),  # on both sides of the centre
+        ({4: 3, -4: 3, 0: 1}, MOVES),  # neither of the two holds half by itself
+        ({3: 2, 4: 2, 5: 2, 0: 5}, MOVES),  # wide
+        ({0: 5, 5: 2.5, -5: 2.5}, DISPERSES),  # exactly half is no majority
+        ({0: 14, 3: 7, -3: 7, 6: 2}, DISPERSES),  # P has grown from 10 to 30, as waves can
+        ({0: 14, 3: 7, -3: 7, 6: 2.1}, SPREADS),
     ],
 )
 def test_what_the_end_of_a_run_shows(power, expected):
-    assert fate_of(moduli(power), 10.0, 3.0) == expected
+    assert fate_of(moduli(power, 8), 10.0, 3.0) == expected
 
 
 def test_pairs_are_counted_with_their_mirror_images():
@@ -78,17 +91,94 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
     [(8.0, 5.0, 1.0, BREATHER), (8.0, 1.0, 0.1, DISPERSES), (-4.0, 1.0, 0.1, DISPERSES),
      (0.0, 5.0, 1.0, SPREADS), (0.0, 1.0, 1.0, DISPERSES)],
 )  # fmt: skip
-def test_fates_of_the_papers_data(omega, a, b, expected):
-    assert fate(pair_problem(omega, a, b, 70.0))[0] == expected
+def test_known_fates(omega, a, b, expected):
+    assert ends([pair_problem(omega, a, b, 70.0)], NONE).fate == [expected]
+
+
+def test_two_solitons_that_run_apart_move():
+    """A = B is undriven; these are solitons of the focusing equation with a speed each."""
+    sites = np.arange(-12, 13)
+    pulses = sum(
+        1.4 / np.cosh(0.7 * (side * sites - 5)) * np.exp(-0.8j * side * sites) for side in (1, -1)
+    )
+    even = 0.5 * (pulses + pulses[::-1])
+    starts, run = (
+        pair_problem(8.0, 1.0, 1.0, end).changed(initial=np.array([even, even]))
+        for end in (1e-3, 20.0)
+    )
+    assert place_of(at_the_end(simulate(starts))) == 5
+    assert place_of(at_the_end(simulate(run))) > 15
+    assert ends([run], NONE).fate == [MOVES]
 
 
 def test_exchanging_the_components_changes_no_fate():
-    one, other = (fate(pair_problem(-4.0, *pair))[1] for pair in ((4.0, 2.5), (2.5, 4.0)))
+    one, other = (simulate(pair_problem(-4.0, *pair)) for pair in ((4.0, 2.5), (2.5, 4.0)))
     assert np.array_equal(one.final, other.final[::-1])
-    found = map_of_fates(pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0]))
+    found = map_of_amplitudes(pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0]), NONE).fate
     assert np.array_equal(found, found.T)
     assert found[0, 0] == DISPERSES
     assert found[2, 2] == BREATHER
+
+
+def test_a_map_of_phases_turns_b_alone():
+    """At phase 0 and pi the data are real: those of the other map, and with the sign of B."""
+    problem, phases = pair_problem(8.0, 1.0, 1.0, 20.0), np.array([-0.5 * np.pi, 0.0, np.pi])
+    found = map_of_phases(problem, np.array([1.0, 5.0]), phases, 0.2, NONE)
+    assert found.fate.tolist() == [3 * [DISPERSES], 3 * [BREATHER]]
+    for phase, b in enumerate((-1.0j, 1.0, -1.0)):
+        alone = ends([on_one_pair(problem, 5.0, b)], NONE)
+        assert found.held[1, phase] == pytest.approx(alone.held[0], rel=1e-9)
+    assert len({round(float(held), 9) for held in found.held[1]}) == 3
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"half_width": 60}, {"end_time": 140.0, "output_step": 140.0},
+     {"solver": {"name": "taylor", "rtol": 1e-10, "atol": 1e-10}}],
+)  # fmt: skip
+def test_no_choice_of_a_run_decides_fates_where_motion_is_regular(change):
+    data = [(-4.0, 1.0, 0.5), (-4.0, 6.5, 1.0), (8.0, 5.0, 1.0), (8.0, 2.0, 1.0), (0.0, 3.0, 1.0)]
+    runs = [pair_problem(*one, 70.0) for one in data]
+    changed = ends([run.changed(**change) for run in runs], NONE).fate
+    assert ends(runs, NONE).fate.tolist() == changed.tolist()
+    assert sorted(set(changed)) == [DISPERSES, BREATHER, SPREADS]
+
+
+def test_a_disc_has_its_area_within_the_limits():
+    """The centre lies anywhere between the points, so that the grid is one of many."""
+    rng, points = np.random.default_rng(3), 40
+    grid, radius, missed, held = np.arange(points) + 0.5, 12.0, [], 0
+    for _ in range(40):
+        x, y = 20.0 + rng.uniform(-0.5, 0.5, 2)
+        inside = (grid[:, None] - x) ** 2 + (grid - y) ** 2 < radius**2
+        found = shares_of_area(np.where(inside, BREATHER, DISPERSES))
+        area = np.pi * radius**2 / points**2
+        held += found.low[BREATHER] < area < found.high[BREATHER]
+        missed.append(found.value[BREATHER] - area)
+    assert held >= 38
+    scattered = share_limits(round(area * points**2), points**2)
+    assert found.half[BREATHER] < 0.5 * scattered.half  # known between equal neighbours
+    assert np.std(missed) < 0.5 * found.half[BREATHER]  # and wide enough
+
+
+def test_scattered_fates_have_the_limits_of_independent_draws():
+    drawn = np.random.default_rng(5).choice([BREATHER, SPREADS], size=(60, 60), p=[0.7, 0.3])
+    found, exact = shares_of_area(drawn), share_limits(int((drawn == SPREADS).sum()), 3600)
+    assert found.value[SPREADS] == pytest.approx(exact.value)
+    assert found.half[SPREADS] == pytest.approx(exact.half, rel=0.05)
+
+
+def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
+    drawn = np.random.default_rng(6).choice([BREATHER, SPREADS], size=(40, 40))
+    drawn = np.where(np.tri(40, dtype=bool), drawn, drawn.T)
+    np.fill_diagonal(drawn, DISPERSES)
+    found, twice = shares_of_area(drawn, mirrored=True), shares_of_area(drawn)
+    assert found.value[DISPERSES] == 0.0
+    below = drawn[np.tril_indices(40, -1)]
+    assert found.value[SPREADS] == pytest.approx((below == SPREADS).mean())
+    assert found.half[SPREADS] == pytest.approx(twice.half[SPREADS] * 2**0.5, rel=0.1)
+    nothing = share_limits(0, 40 * 39 // 2)
+    assert found.high[MOVES] == pytest.approx(nothing.high, rel=1e-5)
 
 
 def test_a_run_spreads_where_nobody_holds_most_of_it():

@@ -20,10 +20,12 @@ SECTION = 7
 PLACE = "Section 6, breathers"
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
-GROWTH = "breathers/growth"
+GROWTH, MAP = "breathers/growth", "breathers/fates"
 
 OF_PAPER = -4.0
 """Omega of the paper's Fig 3."""
+OF_FIG_2, OF_FIG_4 = 8.0, 0.0
+"""Omega of the paper's Figs 2 and 4."""
 DATA_POWER = 26.0
 """P of the paper's large data, A_0 = 5 and B_0 = 1."""
 FIRST_ORDER = Cutoff(0.1, "a law of first order holds up to a tenth where gamma is a tenth")
@@ -276,5 +278,100 @@ def spreading_is_an_accident(sensitivity) -> Finding:
         Below(
             MAJORITY, "large_at_most", says="upper limit of the share that spreads, large changes"
         ),
+    )
+    return judge(measured, criterion)
+
+
+def with_case(name: str):
+    """Return what puts another of the paper's cases in the place of the large one at Omega = 8."""
+    return lambda fates: fates.assign_coords(
+        case=[{"fig2_large": name, name: "fig2_large"}.get(str(one), str(one))
+              for one in fates["case"].values]
+    )  # fmt: skip
+
+
+def with_families_exchanged(fates):
+    """Return the paper's data with their distances from the families in another order."""
+    distance = fates["case_distance"]
+    return fates.assign(case_distance=distance.copy(data=np.roll(distance.values, 1, axis=-1)))
+
+
+@claim(
+    "Section 5, Fig 2 lower",
+    "The large data at Omega = 8 end as a breather near the stable family in which B follows A.",
+    (MAP, PERIODIC),
+    (
+        Control("the large data at Omega = -4", {MAP: with_case("fig3_large")}),
+        Control("distances from the families in another order", {MAP: with_families_exchanged}),
+    ),
+    on=("fig2_large",),
+)
+def ends_near_stable(fates, periodic) -> Finding:
+    """Ask whether the end is nearer to this family than to the others, and this is stable there."""
+    if "fig2_large" not in fates["case"].values:
+        raise UndecidableError("the large data at Omega = 8 were not followed")
+    end = fates.sel(case="fig2_large")
+    apart = end["case_distance"].set_index(family="family")
+    own, others = float(apart.sel(family="A only")), apart.drop_sel(family="A only")
+    frequency = float(end["case_breather_frequency"])
+    family = at_omega(periodic, OF_FIG_2).sel(family="A only").sortby("frequency")
+    above = int(np.searchsorted(family["frequency"].values, frequency))
+    measured = {
+        "frequency": frequency,
+        "distance": own,
+        "times_nearer": others.min() / own if np.isfinite(own) else 0.0,  # no breather, no family
+        "largest_growth": family["growth"]
+        .isel(frequency=slice(max(above - 1, 0), above + 1))
+        .max(),
+    }
+    criterion = AllOf(
+        AtLeast(FACTOR, "times_nearer", says="distance of the next family over that of this one"),
+        AtMost(0.0, "largest_growth"),
+    )
+    return judge(measured, criterion)
+
+
+def with_detunings_exchanged(fates):
+    """Return the map of Omega = 8 at 0, and that of 0 at 8."""
+    names = {OF_FIG_2: OF_FIG_4, OF_FIG_4: OF_FIG_2}
+    return fates.assign_coords(omega=[names.get(one, one) for one in fates["omega"].values])
+
+
+def with_one_that_disperses(fates):
+    """Return the maps with one pair of data at Omega = 0 that does not spread."""
+    fate, at_zero = fates["fate"], fates["omega"] == OF_FIG_4
+    corner = (fates["a0"] == fates["a0"][-1]) & (fates["b0"] == fates["b0"][0])
+    return fates.assign(fate=fate.where(~(at_zero & corner), 0))
+
+
+def spread_on(fate):
+    """Return where the data of a map spread, as 0 or 1."""
+    number = fate.attrs["flag_meanings"].split().index("spreads")
+    return (fate == number).astype(float)
+
+
+@claim(
+    "Section 5, Figs 2 and 4",
+    "The detuning decides whether unequal A_0 and B_0 spread: at Omega = 0 all do, at 8 none.",
+    (MAP,),
+    (
+        Control("the maps of both detunings exchanged", {MAP: with_detunings_exchanged}),
+        Control("one point at Omega = 0 that disperses", {MAP: with_one_that_disperses}),
+    ),
+)
+def detuning_decides(fates) -> Finding:
+    """Count fates on both maps; A = B conserves P, has no area, and is left out."""
+    fate, turned = (spread_on(fates[name]) for name in ("fate", "turned_fate"))
+    fate = fate.where(fates["a0"] != fates["b0"])
+    measured = {
+        "points": at_omega(fate, OF_FIG_2).count() + at_omega(turned, OF_FIG_2).count(),
+        "spread_at_8": at_omega(fate, OF_FIG_2).mean(),
+        "spread_at_0": at_omega(fate, OF_FIG_4).mean(),
+        "turned_at_8": at_omega(turned, OF_FIG_2).mean(),
+        "turned_at_0": at_omega(turned, OF_FIG_4).mean(),
+    }
+    criterion = AllOf(
+        AtLeast(1.0, "spread_at_0", "turned_at_0", says="least share that spreads at Omega = 0"),
+        AtMost(0.0, "spread_at_8", "turned_at_8", says="largest share that spreads at Omega = 8"),
     )
     return judge(measured, criterion)

@@ -13,7 +13,7 @@ from pendula.models.chain import DIRICHLET, MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants, Problem, output_times
 
-from . import branches, driven_growth, fates, sensitivity, steady
+from . import branches, driven_growth, sensitivity, steady
 
 PARTS = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7
@@ -127,7 +127,7 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
     }
 
 
-# --- Sensitivity, fates and growth ----------------------------------------------------------------
+# --- Sensitivity and growth -----------------------------------------------------------------------
 
 
 def sensitivity_contents(
@@ -154,27 +154,6 @@ def sensitivity_contents(
     described = describe_run(name, problem, problem.solver)
     about = {"members": members, "seed": seed, "ratio": ratio}
     return variables, {"title": f"Which data close to those of {name} spread", **described, **about}
-
-
-def fates_contents(problems: Mapping[float, Problem], amplitudes: np.ndarray) -> Contents:
-    """Return the fate of each (A_0, B_0) at each detuning."""
-    found = [fates.map_of_fates(problem, amplitudes) for problem in problems.values()]
-    variables = {
-        "omega": Variable(("omega",), np.array(list(problems))),
-        "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
-        "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
-        "fate": Variable(
-            ("omega", "a0", "b0"), np.array(found), "fate of the data",
-            attributes={"flag_values": np.arange(len(fates.FATES), dtype=np.int8),
-                        "flag_meanings": " ".join(fates.FATES)},
-        ),
-    }  # fmt: skip
-    (one, *_) = problems.values()
-    described = describe_run("pairs", one, one.solver)
-    about = {
-        key: value for key, value in described.items() if key not in ("omega", "initial", "case")
-    }
-    return variables, {"title": "What becomes of data on one pair", **about}
 
 
 def growth_contents(

@@ -2,10 +2,13 @@
 
 The four fates are told apart by the end of a run on an even chain, without a number to choose:
 
-- one pair, or a pair and its mirror image, holds more than half of P: the central one, then the
-  motion ends as a *breather*, or another one, then it *moves*;
-- no pair does, and P is no larger than linear waves could have made it: it *disperses*;
-- no pair does, and P is larger: it *spreads*, and the drive feeds the sea that fills the chain.
+- three neighbouring pairs, or three and their mirror image, hold more than half of P: the central
+  ones, then the motion ends as a *breather*, or others, then it *moves*;
+- no three do, and P is no larger than linear waves could have made it: it *disperses*;
+- no three do, and P is larger: it *spreads*, and the drive feeds the sea that fills the chain.
+
+Three and not one, since a breather of little P and whatever moves along the chain reach beyond one
+pair. On 61 pairs dispersed waves and seas have less than a third of P on any three.
 
 Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
@@ -13,10 +16,19 @@ factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Wh
 no wave has a bound, and all growth counts.
 """
 
+from collections.abc import Iterable
+from typing import NamedTuple
+
 import numpy as np
 
+from pendula.measures.confidence import Limits, share_limits
+from pendula.numerics.elementary import complex_of, cos, sin
 from pendula.problem import Constants, Problem
-from pendula.simulation.simulate import Trajectory, simulate
+from pendula.simulation.interrupts import interruptible
+from pendula.simulation.lattice import find_reduction, unpack
+from pendula.simulation.simulate import Trajectory, integrate
+
+from .nearest import Families, Follower, alone, distances, swing
 
 FATES = ("disperses", "breather", "moves", "spreads")
 DISPERSES, BREATHER, MOVES, SPREADS = range(len(FATES))
@@ -45,13 +57,38 @@ def folded_power(modulus: np.ndarray) -> np.ndarray:
     return folded
 
 
+def held_by_three(modulus: np.ndarray) -> np.ndarray:
+    """Return the share of P on a pair, its two neighbours and their images, by (distance,).
+
+    `modulus` is (component, site) on an odd number of sites, of which there are at least five. The
+    first entry is the share of the three at the centre, the next one that of the five there.
+    """
+    power = folded_power(modulus)
+    held = power.copy()
+    held[1:] += power[:-1]
+    held[:-1] += power[1:]
+    return held / power.sum()
+
+
+def place_of(modulus: np.ndarray) -> int | None:
+    """Return how far from the centre three pairs hold more than half of P; None if none do.
+
+    What is one site away from the centre includes it, and is no place of its own.
+    """
+    held = held_by_three(modulus)
+    if held[0] > MAJORITY:
+        return 0
+    strongest = 2 + int(held[2:].argmax())
+    return strongest if held[strongest] > MAJORITY else None
+
+
 def fate_of(modulus: np.ndarray, initial_power: float, gain: float) -> int:
     """Return the fate that the moduli (component, site) at the end of a run show."""
-    power = folded_power(modulus)
-    strongest = int(power.argmax())
-    if power[strongest] > MAJORITY * power.sum():
-        return MOVES if strongest else BREATHER
-    return SPREADS if power.sum() > gain * (1.0 + ROUNDING) * initial_power else DISPERSES
+    place = place_of(modulus)
+    if place is not None:
+        return MOVES if place else BREATHER
+    grown = folded_power(modulus).sum() > gain * (1.0 + ROUNDING) * initial_power
+    return SPREADS if grown else DISPERSES
 
 
 def at_the_end(run: Trajectory) -> np.ndarray:
@@ -59,21 +96,117 @@ def at_the_end(run: Trajectory) -> np.ndarray:
     return np.sqrt(run.final.real**2 + run.final.imag**2)
 
 
-def fate(problem: Problem) -> tuple[int, Trajectory]:
-    """Return the fate of the data of a problem, and the run that shows it."""
-    run = simulate(problem)
-    initial_power = float(np.sum(problem.initial.real**2 + problem.initial.imag**2))
-    return fate_of(at_the_end(run), initial_power, largest_linear_gain(problem.constants)), run
+class End(NamedTuple):
+    """What runs have come to; how they swing is known of breathers alone, else NaN and 0."""
+
+    fate: int | np.ndarray
+    held: float | np.ndarray  # share of P on the three pairs at the centre
+    frequency: float | np.ndarray  # lambda of the breather
+    distances: np.ndarray  # (family,): from each family of periodic breathers
+
+    @property
+    def nearest(self) -> np.ndarray:
+        """The number of the nearest family from 1 on, 0 where there is none."""
+        off = np.where(np.isnan(self.distances), np.inf, self.distances)
+        return np.where(np.isinf(off).all(axis=-1), 0, 1 + off.argmin(axis=-1)).astype(np.int8)
+
+    @property
+    def distance(self) -> np.ndarray:
+        """The distance from the nearest family, NaN where there is none."""
+        off = np.where(np.isnan(self.distances), np.inf, self.distances).min(axis=-1)
+        return np.where(np.isinf(off), np.nan, off)
 
 
-def map_of_fates(problem: Problem, amplitudes: np.ndarray) -> np.ndarray:
-    """Return the fate of each (A_0, B_0) from a list of amplitudes for both, (A_0, B_0).
+def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
+    """Return what becomes of the data of a problem; the flag `stop` ends the run."""
+    reduction = find_reduction(problem.amplitudes)
+    _, _, y, _ = integrate(problem, reduction, lambda run, *given: run(*given, stop))
+    state = unpack(y, reduction)
+    squares = state.real**2 + state.imag**2
+    modulus = np.sqrt(squares)
+    fate = fate_of(modulus, power_of(problem.initial), largest_linear_gain(problem.constants))
+    held = held_by_three(modulus)[0]
+    end = End(fate, held, np.nan, np.full(len(families.names), np.nan))
+    if fate != BREATHER:
+        return end
+    guess = alone(problem.constants, float(squares.max()))
+    found = swing(Follower(problem, state, stop), guess)
+    if found is None:
+        return end
+    return end._replace(frequency=found.frequency, distances=distances(found, families))
+
+
+def power_of(amplitudes: np.ndarray) -> float:
+    """Return P of complex amplitudes."""
+    return float(np.sum(amplitudes.real**2 + amplitudes.imag**2))
+
+
+def ends(problems: Iterable[Problem], families: Families) -> End:
+    """Return what becomes of the data of many problems, as arrays (problem, ...).
+
+    All run in one thread, since a thread takes as long as a tenth of a run.
+    """
+
+    def follow(stop: np.ndarray) -> list[End]:
+        return [end_of(one, families, stop) for one in problems if not stop[0]]
+
+    return End(*(np.array(values) for values in zip(*interruptible(follow), strict=True)))
+
+
+def on_one_pair(problem: Problem, a: complex, b: complex) -> Problem:
+    """Return the problem with other data, (A_0, B_0) on the central pair."""
+    return problem.changed(initial=np.array([[a], [b]], complex))
+
+
+def map_of_amplitudes(problem: Problem, amplitudes: np.ndarray, families: Families) -> End:
+    """Return the end of each real (A_0, B_0) from a list for both, as arrays (A_0, B_0, ...).
 
     Exchanging A and B changes no fate, so that one half mirrors the other.
     """
-    fates = np.empty(2 * [len(amplitudes)], dtype=np.int8)
-    for i, a in enumerate(amplitudes):
-        for j, b in enumerate(amplitudes[: i + 1]):
-            fates[i, j] = fate(problem.changed(initial=np.array([[a], [b]], complex)))[0]
-            fates[j, i] = fates[i, j]
-    return fates
+    rows, columns = np.tril_indices(len(amplitudes))
+    data = zip(amplitudes[rows], amplitudes[columns], strict=True)
+    found = ends((on_one_pair(problem, a, b) for a, b in data), families)
+    number = np.empty(2 * [len(amplitudes)], dtype=int)
+    number[rows, columns] = number[columns, rows] = np.arange(len(rows))
+    return End(*(values[number] for values in found))
+
+
+def map_of_phases(
+    problem: Problem, amplitudes: np.ndarray, phases: np.ndarray, ratio: float, families: Families
+) -> End:
+    """Return the end of each A_0 with B_0 = ratio A_0 exp(i phase), as arrays (A_0, phase, ...)."""
+    sizes = ratio * amplitudes[:, None]
+    others = complex_of(sizes * cos(phases), sizes * sin(phases))
+    data = zip(np.repeat(amplitudes, len(phases)), others.ravel(), strict=True)
+    found = ends((on_one_pair(problem, a, b) for a, b in data), families)
+    return End(*(values.reshape(*others.shape, *values.shape[1:]) for values in found))
+
+
+# --- Shares of an area ----------------------------------------------------------------------------
+
+
+def shares_of_area(fates: np.ndarray, mirrored: bool = False) -> Limits:
+    """Return the share of each fate in the area that a grid of data covers, with limits, (fate,).
+
+    The points sample the area evenly. Where neighbours have one fate, so has all between them;
+    where they have not, a point is a draw. So the variance of a share p of n points is v / n, with
+    v half of the mean square of the difference between neighbours in place of p (1 - p), to which
+    it comes where fates are scattered (successive differences: Wolter, J. Am. Stat. Assoc. 79
+    (1984) 781). The limits are those of Clopper and Pearson for so many draws as have this
+    variance. What a longer run or chain would change is not in them.
+
+    In a `mirrored` map each point but for the diagonal stands twice and counts once. The diagonal,
+    A_0 = B_0, has no area and is left out.
+    """
+    is_of = np.arange(len(FATES))[:, None, None] == fates
+    counted = np.where(np.eye(*fates.shape, dtype=bool) & mirrored, np.nan, is_of.astype(float))
+    points = np.isfinite(counted[0]).sum() / (2 if mirrored else 1)
+    return Limits(*np.transpose([_share(one, points) for one in counted]))
+
+
+def _share(counted: np.ndarray, points: float) -> Limits:
+    share = float(np.nanmean(counted))
+    squares = [np.diff(counted, axis=axis).ravel() ** 2 for axis in (0, 1)]
+    between = 0.5 * float(np.nanmean(np.concatenate(squares)))
+    draws = points * share * (1.0 - share) / between if between else points
+    return share_limits(share * draws, draws)._replace(value=share)

@@ -1,12 +1,10 @@
-"""Breathers in pictures: families and their growth, sensitivity to data, the map of fates."""
+"""Breathers in pictures: families and their growth, sensitivity to data; not the maps of fates."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pendula.drawing import style
 
@@ -14,12 +12,6 @@ FAMILY_LOOKS = {
     "A only": (style.RED, "o", "A alone, B driven"),
     "A = -B": (style.BLUE, "s", "A = \N{MINUS SIGN}B"),
     "A = B": ("#16876b", "^", "A = B"),
-}
-FATE_LOOKS = {
-    "disperses": ("#d9d9d9", "disperses"),
-    "breather": (style.BLUE, "stays as a breather"),
-    "moves": ("#e0a100", "moves away"),
-    "spreads": (style.RED, "spreads"),
 }
 DRIVES = ("#a9bbe0", "#e0a100", "#16876b", style.BLUE, style.RED)
 
@@ -166,38 +158,4 @@ def draw_sensitivity(data: xr.Dataset) -> Figure:
     scan.set_ylim(0, None)
     scan.set_title("(b) a scan of amplitudes", loc="left")
     scan.legend(loc="upper right")
-    return figure
-
-
-# --- Fates ----------------------------------------------------------------------------------------
-
-
-def gather_fates(fates: xr.Dataset) -> xr.Dataset:
-    """Return the map of fates as it is drawn."""
-    return fates[["fate"]]
-
-
-@style.styled
-def draw_fates(data: xr.Dataset, marked: dict[float, list[tuple[float, float]]]) -> Figure:
-    """Draw the fate of each (A_0, B_0), a panel for each Omega; `marked` has the paper's data."""
-    figure = style.new_figure(style.DOUBLE, 3.1)
-    colours = ListedColormap([colour for colour, _ in FATE_LOOKS.values()])
-    panels = figure.subplots(1, data.sizes["omega"], sharey=True, squeeze=False)[0]
-    for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
-        fate = data["fate"].sel(omega=omega)
-        axes.pcolormesh(
-            data["a0"].values, data["b0"].values, fate.transpose("b0", "a0").values,
-            cmap=colours, vmin=-0.5, vmax=len(FATE_LOOKS) - 0.5, shading="nearest",
-            rasterized=True,
-        )  # fmt: skip
-        for a, b in marked.get(float(omega), []):
-            axes.plot(a, b, marker="o", markersize=5, markerfacecolor="white", color="black")
-        axes.set(box_aspect=1, xlim=(0, data["a0"][-1]), ylim=(0, data["b0"][-1]))
-        axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
-        axes.set_xlabel("$A_0$")
-    panels[0].set_ylabel("$B_0$")
-    shown = [Patch(color=colour, label=words) for colour, words in FATE_LOOKS.values()]
-    paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
-                   color="black", label="the paper's data")  # fmt: skip
-    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5)
     return figure

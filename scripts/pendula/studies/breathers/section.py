@@ -10,7 +10,7 @@ from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import number, percent, span, symbols
 
-from .fates import FATES, SPREADS
+from .nearest import NEAR
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
 GROWTH, SENSITIVITY, MAP = "breathers/growth", "breathers/sensitivity", "breathers/fates"
@@ -40,9 +40,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "frequencies": results.say(PERIODIC, _span(results[PERIODIC]["frequency"].values)),
         "growth": _growth(results),
         "sensitivity": _sensitivity(results),
-        "fates_head": ["Ω", *FATES],
-        "fates": [_fates(results, float(omega)) for omega in results[MAP]["omega"].values],
-        "points": results.quote(MAP, results[MAP]["fate"][0].size, 6),
+        "fates": _fates(results),
         "pictures": _pictures(results),
     }  # fmt: skip
 
@@ -183,15 +181,84 @@ def _sensitivity(results: Results) -> dict[str, Any]:
     }
 
 
-def _fates(results: Results, omega: float) -> list:
-    fate = results[MAP]["fate"].sel(omega=omega).values
-    shares = (percent(float((fate == kind).mean())) for kind in range(len(FATES)))
-    return [number(omega), *(results.say(MAP, share) for share in shares)]
+def _fates(results: Results) -> dict[str, Any]:
+    """Return shares of area, how near breathers are to periodic ones, and runs on other terms."""
+    data = results[MAP]
+    omegas = [float(omega) for omega in data["omega"].values]
+    return {
+        "head": ["Ω", "data", *map(str, data["fate_name"].values)],
+        "planes": {
+            plane: [_shares(results, plane, omega) for omega in omegas]
+            for plane in map(str, data["plane"].values)
+        },
+        "ratio": results.quote(MAP, float(data.attrs["ratio"])),
+        "end": results.quote(MAP, float(data.attrs["end_time"])),
+        "near": [_near(results, omega) for omega in omegas
+                 if np.isfinite(_distances(data, omega)).any()],
+        "within": results.quote(MAP, NEAR),
+        "checked": [_checked(results, str(terms)) for terms in data["terms"].values[1:]],
+        "checked_points": results.quote(MAP, data["checked_fate"][0].size),
+        "cases": [_case(results, str(case)) for case in data["case"].values],
+    }  # fmt: skip
+
+
+AXES = {"amplitudes": ("a0", "b0"), "phases": ("turned_a0", "phase")}
+
+
+def _shares(results: Results, plane: str, omega: float) -> list:
+    """Return a row: how many data there are, and the share of each fate with its limits."""
+    data = results[MAP].sel(plane=plane, omega=omega)
+    count = int(np.prod([data.sizes[axis] for axis in AXES[plane]]))
+    shares = [
+        [percent(float(one[name])) for name in ("area", "area_low", "area_high")]
+        for one in (data.isel(fate_name=i) for i in range(data.sizes["fate_name"]))
+    ]
+    said = (f"{value} ({low} to {high})" for value, low, high in shares)
+    return [number(omega), results.quote(MAP, count, 6), *(results.say(MAP, one) for one in said)]
+
+
+def _distances(data, omega: float) -> np.ndarray:
+    here = data.sel(omega=omega)
+    return here["distance"].where(here["a0"] != here["b0"]).values
+
+
+def _near(results: Results, omega: float) -> dict[str, Any]:
+    """Return the share of breathers on the first map that are near to a periodic one.
+
+    A = B is left out as in the shares: it has families of its own.
+    """
+    distance = _distances(results[MAP], omega)
+    known = distance[np.isfinite(distance)]
+    return {
+        "omega": results.quote(MAP, omega),
+        "share": results.say(MAP, percent(float((known <= NEAR).mean()))),
+        "median": results.quote(MAP, float(np.median(known)), 2),
+    }
+
+
+def _checked(results: Results, terms: str) -> dict[str, Any]:
+    fates = results[MAP]["checked_fate"]
+    changed = (fates.sel(terms=terms) != fates.isel(terms=0)).sum()
+    return {"terms": terms, "changed": results.quote(MAP, int(changed))}
+
+
+def _case(results: Results, case: str) -> dict[str, Any]:
+    one = results[MAP].sel(case=case)
+    off = one["case_distance"].values
+    found = {
+        "case": case,
+        "fate": results.say(MAP, str(results[MAP]["fate_name"].values[int(one["case_fate"])])),
+    }
+    if np.isfinite(off).any():
+        found["frequency"] = results.quote(MAP, float(one["case_breather_frequency"]), 4)
+        found["family"] = symbols(str(results[MAP]["family"].values[np.nanargmin(off)]))
+        found["distance"] = results.quote(MAP, float(np.nanmin(off)), 2)
+    return found
 
 
 def _pictures(results: Results) -> dict[str, Picture]:
     power = results[PERIODIC]["power"].sum("component", skipna=False)
-    spread = (results[MAP]["fate"] == SPREADS).mean(("a0", "b0"))
+    spread = results[MAP]["area"].sel(plane="amplitudes", fate_name="spreads")
     said = "; ".join(
         f"Ω = {float(omega):g}: {percent(float(spread.sel(omega=omega)))} spread"
         for omega in spread["omega"].values
@@ -201,7 +268,8 @@ def _pictures(results: Results) -> dict[str, Picture]:
         "localised motion gains from the drive beside the law of weak drives.",
         "sensitivity": "The share of runs that spread against the size of a random change of the "
         "data, and the largest norm against the initial amplitude.",
-        "fates": f"What becomes of data on one pair, by their amplitudes. {said}.",
+        "fates": "What becomes of data on one pair, by their amplitudes, and by the phase between "
+        f"them. {said}.",
     }
     return {name: results.picture(name, alt) for name, alt in described.items()}
 

@@ -1,8 +1,8 @@
 """Which of almost equal data spread over the chain, and how almost equal they have to be.
 
-A run has spread where no pair of pendula (with its mirror image) holds more than half of P at the
-end, see `fates`. The share of runs that have spread is counted over random relative changes of the
-data of one size, with the exact limits of Clopper and Pearson.
+A run has spread where no three neighbouring pairs, with their mirror image, hold more than half of
+P at the end, see `fates`. The share of runs that have spread is counted over random relative
+changes of the data of one size, with the exact limits of Clopper and Pearson.
 """
 
 from collections.abc import Iterable
@@ -14,13 +14,12 @@ from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 
-from .fates import MAJORITY, at_the_end, folded_power
+from .fates import at_the_end, place_of
 
 
 def has_spread(run: Trajectory) -> bool:
-    """Return whether no pair and its mirror image hold more than half of P at the end of a run."""
-    power = folded_power(at_the_end(run))
-    return bool(power.max() <= MAJORITY * power.sum())
+    """Return whether no three pairs hold more than half of P at the end of a run."""
+    return place_of(at_the_end(run)) is None
 
 
 def largest_l2(run: Trajectory) -> float:

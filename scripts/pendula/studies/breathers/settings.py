@@ -94,10 +94,25 @@ class Sensitivity(Model):
     seed: Seed
 
 
+class Phases(Model):
+    """The map over A_0 and the phase of B_0: how many of each."""
+
+    amplitudes: Annotated[Whole, Field(ge=2)]
+    points: Annotated[Whole, Field(ge=2)]
+
+
+class FullPhases(Phases):
+    """The same, with the size of B_0."""
+
+    ratio: Positive  # |B_0| / |A_0|
+
+
 class LongFates(Model):
     """Its longer study."""
 
-    points: Count
+    points: Annotated[Whole, Field(ge=3)]
+    phases: Phases
+    checked: Count
 
 
 class Fates(Model):
@@ -107,13 +122,19 @@ class Fates(Model):
     half_width: Count
     end_time: Positive
     largest: Positive
-    points: Count
+    points: Annotated[Whole, Field(ge=3)]
+    phases: FullPhases
+    checked: Count
     long: LongFates
     tolerance: Tolerance
 
     def amplitudes(self, points: int) -> list[float]:
-        """Return so many equally spaced amplitudes up to the largest; zero is none of them."""
-        return [float(f"{one:.12g}") for one in self.largest * np.arange(1, points + 1) / points]
+        """Return so many amplitudes, the middles of equal parts of what is below the largest."""
+        return [float(f"{one:.12g}") for one in self.largest * (np.arange(points) + 0.5) / points]
+
+    def turns(self, points: int) -> list[float]:
+        """Return so many phases up to pi; 0 is one of them if their number is even."""
+        return [float(one) for one in 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi]
 
 
 class Settings(Model):
@@ -147,6 +168,9 @@ class Settings(Model):
         ):
             if not steps.first < steps.last:
                 yield key, f"does not run forward from {steps.first:g} to {steps.last:g}"
+        for key, given in (("fates", self.fates), ("fates.long", self.fates.long)):
+            if 2 * given.checked > given.points:
+                yield f"{key}.checked", f"leaves less than two of {given.points} amplitudes"
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:
@@ -154,5 +178,8 @@ class Settings(Model):
             one = [estimate(settings.problem(given.case, end_time=given.end_time))]
             runs = given.members * len(given.sizes)
             yield from settings.excess("sensitivity.members", one, runs)
+            phases = self.fates.phases
             runs = len(self.fates.omegas) * self.fates.points**2
             yield from settings.excess("fates.points", one, runs)
+            runs = len(self.fates.omegas) * phases.amplitudes * phases.points
+            yield from settings.excess("fates.phases.points", one, runs)

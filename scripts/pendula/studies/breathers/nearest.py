@@ -1,0 +1,198 @@
+"""How a run that stays at one pair swings, and which family of periodic breathers it is near.
+
+A periodic breather of `periodic` has A and B real twice in a period, with opposite signs. So a run
+is followed beyond its end and looked at whenever the larger one of A_0 and B_0, the leading one, is
+real. With the instants tau_0, ..., tau_K of K half periods,
+
+    lambda = pi K / (tau_K - tau_0),
+    distance = max over k of |(A_0, B_0)(tau_k) - +-(a, b)| / |(a, b)|,
+
+where (a, b) is the pair at the centre of the family's breather of this frequency, and +- the sign
+of the leading one. The distance of a breather from its own family is zero but for interpolation,
+and grows with all that the run has besides: other phases of the other one, other frequencies.
+Exchanging A and B changes no equation: where B leads, a run is compared with (b, a).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from pendula.integrators import DONE
+from pendula.problem import Constants, Problem
+from pendula.simulation.lattice import find_reduction, pack
+from pendula.simulation.models import make_chain
+from pendula.simulation.observables import blank_record
+from pendula.simulation.solvers import SOLVERS
+
+HALF_PERIODS = 6
+STRIDE = np.pi / 6.0
+"""The phase of one step towards the next instant; below the largest tangent it is what is left."""
+LARGEST_TANGENT = 1.2
+MOST_STRIDES = 20
+"""A leading amplitude that is not real again after so many steps does not swing."""
+SLOWEST = 0.5
+"""Least frequency that a step is made for."""
+
+
+class Swing(NamedTuple):
+    """How the pair at the centre swings; the leading amplitude is real and positive."""
+
+    frequency: float
+    pairs: np.ndarray  # (instant, 2), complex: the leading amplitude and the other one
+
+
+class Follower:
+    """Short runs one after another from a state: their arrays would take longer than they do."""
+
+    def __init__(self, problem: Problem, state: np.ndarray, stop: np.ndarray):
+        """Start from `state`, complex (2, 2M + 1); the flag `stop` ends each run."""
+        reduction = find_reduction(state)
+        self._y, self._stop = pack(state, reduction), stop
+        self._run, controls = SOLVERS[problem.solver["name"]], problem.solver
+        self._chain = make_chain(problem.constants, problem.boundary, reduction)
+        self._controls = tuple(float(controls[name]) for name in self._run.controls)
+        self._work = self._run.room_for(self._chain, self._y)
+        rows, columns = self._y.shape
+        self._record = blank_record(rows // 2, columns - 2, 2, 0)
+        self._centre = 1 if reduction.even else 1 + state.shape[1] // 2
+        self.time = 0.0
+
+    def go(self, duration: float) -> bool:
+        """Follow the state for `duration`; return whether the solver could."""
+        given = np.array([0.0, duration]), self._controls, self._work, self._record
+        self.time += duration
+        return self._run.run(self._chain, self._y, *given, self._stop).status == DONE
+
+    def pair(self) -> np.ndarray:
+        """Return A and B of the pair at the centre."""
+        y = self._y[:, self._centre]
+        pair = y[::2] + 1j * y[1::2]
+        return pair if len(pair) == 2 else np.repeat(pair, 2)
+
+
+def alone(constants: Constants, square: float) -> float:
+    """Return the frequency of one amplitude between neighbours at rest, |A_0|^2 = `square`."""
+    return constants.omega - 2.0 * constants.epsilon + 0.5 * square
+
+
+def swing(follower: Follower, frequency: float, half_periods: int = HALF_PERIODS) -> Swing | None:
+    """Return how the pair swings from now on, or None where it does not.
+
+    `frequency` is a guess. The amplitudes turn as exp(-i lambda tau), so that the phase of the
+    leading one falls; its signs at the instants must alternate.
+    """
+    pair = follower.pair()
+    lead = int(np.argmax(pair.real**2 + pair.imag**2))
+    times, pairs = [], []
+    for _ in range(half_periods + 1):
+        rate = frequency if len(times) < 2 else np.pi / (times[-1] - times[-2])
+        if not _to_real(follower, lead, max(rate, SLOWEST)):
+            return None
+        times.append(follower.time)
+        pairs.append(follower.pair()[[lead, 1 - lead]])
+    signs = np.sign([pair[0].real for pair in pairs])
+    if (signs[1:] == signs[:-1]).any():
+        return None
+    return Swing(np.pi * half_periods / (times[-1] - times[0]), signs[:, None] * np.array(pairs))
+
+
+def _to_real(follower: Follower, lead: int, rate: float) -> bool:
+    """Follow until the leading amplitude is real again; return whether that happened."""
+    for _ in range(MOST_STRIDES):
+        if not follower.go(STRIDE / rate):
+            return False
+        left = _phase_left(follower.pair()[lead])
+        if left is not None:
+            break
+    else:
+        return False
+    for fraction in (0.9, 1.0):  # the first step measures the rate, the second one uses it
+        before, duration = left, fraction * left / rate
+        if not follower.go(duration):
+            return False
+        left = _phase_left(follower.pair()[lead])
+        if left is None:
+            return True  # just beyond
+        rate = max(SLOWEST, (before - left) / duration)
+    return True
+
+
+def _phase_left(z: complex) -> float | None:
+    """Return by how much the phase of `z` has to fall until it is real, if that is little.
+
+    The tangent is turned into an angle to three per cent.
+    """
+    if not 0.0 < z.imag * z.real < LARGEST_TANGENT * z.real * z.real:
+        return None
+    tangent = z.imag / z.real
+    return tangent / (1.0 + 0.28 * tangent * tangent)
+
+
+# --- Families -------------------------------------------------------------------------------------
+
+NODES = 4
+"""So many of the known frequencies around one, or all if there are fewer, give its breather."""
+BEYOND = 2.0
+"""Over the highest known frequency. Far above the bands a family depends on 1 / lambda smoothly."""
+
+
+class Families(NamedTuple):
+    """Pairs of real amplitudes at the centre of breathers at one detuning, by their frequency."""
+
+    names: list[str]
+    frequencies: np.ndarray  # (frequency,), rising
+    pairs: np.ndarray  # (component, family, frequency), NaN where a family does not exist
+
+    @classmethod
+    def of(cls, periodic: xr.Dataset, omega: float) -> "Families":
+        """Return those of the dataset of periodic breathers; none at another detuning."""
+        names = [str(name) for name in periodic["family"].values]
+        if omega not in periodic["omega"].values:
+            return cls(names, np.empty(0), np.empty((2, len(names), 0)))
+        here = periodic.sel(omega=omega, part="re").sortby("frequency")
+        pairs = here["amplitude"].transpose("component", "family", "frequency").values
+        return cls(names, here["frequency"].values, pairs)
+
+    def at(self, frequency: float) -> np.ndarray:
+        """Return (family, component), NaN below and far above the frequencies of a family.
+
+        The ratio of both amplitudes and |A_0|^2 / lambda are interpolated in 1 / lambda: to a
+        hundredth, but for lambda below 9 at Omega = 8, where A alone turns into A = B: a tenth.
+        """
+        return np.array([self._pair(i, frequency) for i in range(len(self.names))])
+
+    def _pair(self, family: int, frequency: float) -> np.ndarray:
+        known = np.isfinite(self.pairs[0, family])
+        frequencies, (a, b) = self.frequencies[known], self.pairs[:, family, known]
+        if not known.any() or not frequencies[0] <= frequency <= BEYOND * frequencies[-1]:
+            return np.full(2, np.nan)
+        around = np.sort(np.argsort(np.abs(1.0 / frequencies - 1.0 / frequency))[:NODES])
+        x, a, b = 1.0 / frequencies[around], a[around], b[around]
+        ratio, square = (_lagrange(x, y, 1.0 / frequency) for y in (b / a, a * a * x))
+        first = np.sqrt(square * frequency)
+        return np.array([first, ratio * first])
+
+
+def _lagrange(x: np.ndarray, y: np.ndarray, at: float) -> float:
+    """Return the value of the polynomial through (x, y)."""
+    total = 0.0
+    for i, (xi, yi) in enumerate(zip(x, y, strict=True)):
+        weight = yi
+        for j, xj in enumerate(x):
+            if j != i:
+                weight = weight * (at - xj) / (xi - xj)
+        total += weight
+    return float(total)
+
+
+NEAR = 0.1
+"""A breather that is no further than this from a periodic one looks like it in a figure."""
+
+
+def distances(swing: Swing, families: Families) -> np.ndarray:
+    """Return the distance from each family, see the module's text: (family,), NaN where none is."""
+    wanted = families.at(swing.frequency)[:, None]
+    off = swing.pairs - wanted
+    squares = (off.real**2 + off.imag**2).sum(axis=-1).max(axis=-1)
+    return np.sqrt(squares / (wanted**2).sum(axis=-1)[:, 0])
