@@ -236,10 +236,17 @@ def breathers_results(folder, **attributes) -> made_up.MadeUp:
     }
     runs["trajectories/fig2_large"].attrs.update(attributes)
     fate = xr.Dataset(
-        {"fate": (("omega", "a0", "b0"), [[[1, 1], [1, 0]], [[2, 2], [2, 1]]])},
-        {"omega": [8.0, 0.0], "a0": [1.0, 5.0], "b0": [1.0, 5.0]},
-    )
-    fate["fate"].attrs["flag_meanings"] = "disperses breather spreads"
+        {
+            "fate": (("omega", "a0", "b0"), np.zeros((2, 2, 2), dtype=np.int8)),
+            "area": (
+                ("plane", "omega", "fate_name"), [[[0.25, 0.75, 0.0], [0.0, 0.25, 0.75]]]
+            ),
+            "case_fate": ("case", [1, 2]), "case_a0": ("case", [5.0, 5.0]),
+            "case_b0": ("case", [1.0, 1.0]),
+        },
+        {"omega": [8.0, 0.0], "plane": ["amplitudes"], "case": ["fig2_large", "fig4_large"],
+         "fate_name": ["disperses", "breather", "spreads"]},
+    )  # fmt: skip
     power = [[[20.0, np.nan]], [[16.0, np.nan]]]
     periodic = xr.Dataset(
         {"power": (("component", "omega", "frequency"), power)},

@@ -50,23 +50,29 @@ def _knife(results: Results, source: str) -> dict[str, Any]:
 
 def _fates(results: Results, case: str) -> dict[str, Any] | None:
     """Return the shares of data on one pair that spread, and that stay, at a case's detuning."""
-    about, fate = results[f"trajectories/{case}"].attrs, results[FATES]["fate"]
+    about, data = results[f"trajectories/{case}"].attrs, results[FATES]
     omega = float(about["omega"])
-    if omega not in fate["omega"].values:
+    if omega not in data["omega"].values:
         return None
-    kinds = fate.attrs["flag_meanings"].split()
-    here = fate.sel(omega=omega)
-    shares = {kind: percent(float((here == k).mean())) for k, kind in enumerate(kinds)}
-    sites = json.loads(about["initial"])
-    a, b = sites["0"] if list(sites) == ["0"] else (None, None)
-    on_grid = a in here["a0"].values.tolist() and b in here["b0"].values.tolist()
+    area = data["area"].sel(omega=omega, plane="amplitudes")
+    shares = {kind: percent(float(area.sel(fate_name=kind))) for kind in ("breather", "spreads")}
     return {
         "omega": results.quote(FATES, omega),
-        "own": kinds[int(here.sel(a0=a, b0=b))] if on_grid else "",
-        "points": results.quote(FATES, here.size, 6),
+        "own": _own_fate(data, case, json.loads(about["initial"])),
+        "points": results.quote(FATES, data["fate"].sel(omega=omega).size, 6),
         "stays": results.say(FATES, shares["breather"]),
         "spreads": results.say(FATES, shares["spreads"]),
     }
+
+
+def _own_fate(data, case: str, initial: dict) -> str:
+    """Return what became of the data of a case; an empty text where these are other data."""
+    if case not in data["case"].values:
+        return ""
+    one = data.sel(case=case)
+    if initial != {"0": [float(one["case_a0"]), float(one["case_b0"])]}:
+        return ""
+    return str(data["fate_name"].values[int(one["case_fate"])])
 
 
 def _small(results: Results, case: str) -> dict[str, Any] | None:
