@@ -78,8 +78,12 @@ def operators(chain: Chain, s: float, state: np.ndarray, even: bool) -> tuple:
     sites = kept.shape[1]
     one = np.eye(sites)
     linear = chain.epsilon * second_difference(sites, even) + chain.omega * one
-    exchange = s * np.block([[one, -one], [-one, one]])
-    both = np.kron(np.eye(2), linear)
+    exchange, both = np.empty((2, 2, sites, 2, sites))  # cheaper than np.block and np.kron
+    exchange[0, :, 0] = exchange[1, :, 1] = s * one
+    exchange[0, :, 1] = exchange[1, :, 0] = s * -one
+    both[0, :, 0] = both[1, :, 1] = linear
+    both[0, :, 1] = both[1, :, 0] = 0.0
+    exchange, both = (matrix.reshape(2 * sites, -1) for matrix in (exchange, both))
     squares = np.diag(kept.ravel() ** 2)
     return both + 0.5 * squares + exchange, both + 1.5 * squares - exchange
 
