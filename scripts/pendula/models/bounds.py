@@ -87,12 +87,15 @@ def coercivity(power, constants: Constants):
     -H >= |Omega| P - gamma P (1 + s) - P^3 (1 - 3 s^2 / 4) / (64 epsilon), here at its least s.
     Concave in P. Does not hold on a ring or with free ends, where a constant has no gradient.
     """
-    k = with_positive_coupling(constants)
-    power = np.asarray(power, dtype=float)
-    cubic = power * power / (64.0 * k.epsilon)
+    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
     with np.errstate(divide="ignore", over="ignore"):
-        s = np.minimum(1.0, 2.0 * abs(k.gamma) / (3.0 * cubic))
-    return power * (abs(k.omega) - abs(k.gamma) * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
+        return _coercivity(np.asarray(power, dtype=float), epsilon, abs(gamma), abs(omega))
+
+
+def _coercivity(power: np.ndarray, epsilon: float, gamma: float, omega: float):
+    cubic = power * power / (64.0 * epsilon)
+    s = np.minimum(1.0, 2.0 * gamma / (3.0 * cubic))
+    return power * (omega - gamma * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:
@@ -125,11 +128,15 @@ def widened_bound(energy, start, constants: Constants):
     top, barrier = widened_barrier(constants)
     energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
     inside = (start < top) & (-energy < barrier)
-    low, high = np.zeros(energy.shape), np.full(energy.shape, top)
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        below = coercivity(np.maximum(middle, 1e-300), constants) < -energy
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    low, high, depth = np.zeros(energy.shape), np.full(energy.shape, top), -energy
+    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
+    with np.errstate(divide="ignore", over="ignore"):
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            power = np.maximum(middle, 1e-300)
+            below = _coercivity(power, epsilon, abs(gamma), abs(omega)) < depth
+            np.copyto(low, middle, where=below)
+            np.copyto(high, middle, where=~below)
     return np.where(inside, high, np.inf)
 
 
