@@ -16,7 +16,7 @@ from pendula.ledger.cutoff import Cutoff
 
 from .states import Verdict
 
-SECTION = 8
+SECTION = 7
 PLACE = "Section 6, breathers"
 
 PROVED, STEADY, CONSTANTS = "certified/breathers", "breathers/steady", "certified/constants"

@@ -41,10 +41,13 @@ class WrongState(State):
 
 
 class HalfWidths(Model):
-    """Half-widths of what is kept of the infinite chain, and of the finite chain."""
+    """Half-widths of what is kept of the infinite chain, and of the finite chain.
 
-    block: Annotated[Whole, Field(ge=2)]
-    chain: Annotated[Whole, Field(ge=2)]
+    The time of a proof grows as their cube, and takes minutes at the largest.
+    """
+
+    block: Annotated[Whole, Field(ge=2, le=200)]
+    chain: Annotated[Whole, Field(ge=2, le=100)]
 
 
 class Breathers(Model):
@@ -61,9 +64,12 @@ class Breathers(Model):
         for key, states in (("proofs", self.proofs), ("wrong", self.wrong)):
             for i, state in enumerate(states):
                 if state.family not in named:
-                    yield f"{key}[{i}].family", f"is none of {', '.join(named)}"
+                    yield f"{key}.{i}.family", f"is none of {', '.join(named)}"
                 elif pair(named[state.family], self.gamma, state.omega) is None:
-                    yield f"{key}[{i}].omega", f"no pair has a state {state.family} there"
+                    yield (
+                        f"{key}.{i}.omega",
+                        f"no pair of pendula has a state {state.family} at {state.omega:g}",
+                    )
 
 
 class ShortCase(Model):
