@@ -85,6 +85,8 @@ def test_without_a_state_in_both_studies_rates_are_not_compared(sources, change)
 
 def test_what_is_refused_is_said_in_the_dataset(proved):
     assert np.isinf(proved["wrong_radius"][0]) and proved["wrong_radius"][1] > 1e-5
+    assert "band" in str(proved["wrong_refusal"].values[0])
+    assert list(proved["proof_refusal"].values) == ["", ""]
     assert list(proved["stable"].values) == [1, 0]
     assert proved["stable"].attrs["flag_meanings"] == "undecided unstable stable"
     assert float(proved["radius"].max()) < 1e-12

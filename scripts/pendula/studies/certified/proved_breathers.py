@@ -66,6 +66,7 @@ def breathers_contents(
             )
             for prefix, place in (("", "infinite chain"), ("chain_", "finite chain"))
         },
+        "proof_refusal": Variable(of, [one["refusal"] for one in found], "why nothing is proved"),
         **_labels(("wrong_proof",), wrong, "wrong_"),
         "tested_omega": Variable(
             ("wrong_proof",), [float(one["tested_at"]) for one in wrong],
@@ -74,6 +75,9 @@ def breathers_contents(
         "wrong_radius": Variable(
             ("wrong_proof",), [one["radius"] for one in refused],
             "radius that is proved of the wrong state, infinite if it is refused",
+        ),
+        "wrong_refusal": Variable(
+            ("wrong_proof",), [one["refusal"] for one in refused], "why the wrong state is refused"
         ),
     }  # fmt: skip
     title = "Steady breathers whose existence and stability are proved"
@@ -102,8 +106,9 @@ def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dic
         chain = Chain(float(given["epsilon"]), gamma, float(given["omega"]), half_widths[name])
         state = find_state(chain, family)
         tested = chain._replace(omega=float(given.get("tested_at", chain.omega)))
-        proof = _proof(tested, family, state, infinite=name == "block")
+        proof, why = _proof(tested, family, state, infinite=name == "block")
         found |= {f"{prefix}{key}": value for key, value in zip(PROVED, proof, strict=True)}
+        found[f"{prefix}refusal"] = why
         found[f"{prefix}amplitude"] = state
         if name == "chain" and np.isfinite(proof.radius):
             spectrum = spectra.decide(tested, family, state, proof.radius)
@@ -111,8 +116,11 @@ def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dic
     return found
 
 
-def _proof(chain: Chain, family: Family, state: np.ndarray, infinite: bool) -> existence.Proof:
+def _proof(
+    chain: Chain, family: Family, state: np.ndarray, infinite: bool
+) -> tuple[existence.Proof, str]:
+    """Return what is proved, and no words, or nothing and why."""
     try:
-        return existence.prove(chain, family.drive(chain.gamma), state, infinite)
-    except existence.RefusedError:
-        return REFUSED
+        return existence.prove(chain, family.drive(chain.gamma), state, infinite), ""
+    except existence.RefusedError as why:
+        return REFUSED, str(why)
