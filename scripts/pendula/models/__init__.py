@@ -1,7 +1,9 @@
 """The equations, each written once: what solvers, observables and checks need of a model.
 
-`amplitudes` holds the paper's equations (4) and their energy (8), `amplitudes_series` the same
-equations for the Taylor method, `tangent` their linearisation along a solution, `linear_chain` the
-exact solution without the cubic terms and Lemma 1, `bounds` the constants of Theorems 1 to 3,
-`pairs` the steady states of one pair, `pendula` Newton's equations (1).
+`chain` holds what all models share: the state, its ends and the walk over its sites; `series` holds
+the same for power series. `amplitudes` are the paper's equations (4) and their energy (8), and
+`pendula` are Newton's equations (1); `amplitudes_series` and `pendula_series` hold them for the
+Taylor method. Of (4) there are also their linearisation along a solution (`tangent`), the exact
+solution without the cubic terms and Lemma 1 (`linear_chain`), the constants of Theorems 1 to 3
+(`bounds`), and the steady states of one pair (`pairs`).
 """
