@@ -17,7 +17,7 @@ def beside_breathers(results: Results, which: int) -> dict[str, dict[str, Any]]:
     """
     names = (SENSITIVITY, PERIODIC, FATES)
     if not all(name in results for name in names) or results.apart(*names):
-        return {}
+        return {"breathers": {}}
     below, above, within = "fig3_small", "fig2_large", "fig4_large"
     parts = {
         2: {"fates": (_fates, above)},
