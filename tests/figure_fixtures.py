@@ -102,6 +102,25 @@ def own_checks(second):
     return norms.assign(divergence_time=variable((), 2.0, "first tau at which the runs differ"))
 
 
+def certified_curve(case, omega):
+    """Return a certified curve of a short chain, which takes no longer than to make one up."""
+    from pendula.datasets.netcdf import as_xarray
+    from pendula.problem import Constants, Problem
+    from pendula.studies.certified.contents import curve_contents
+
+    problem = Problem(
+        constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
+        half_width=2,
+        boundary="dirichlet",
+        initial=np.array([[1.0], [0.1]]),
+        end_time=1.0,
+        output_step=0.5,
+        solver={"name": "polynomials"},
+    )
+    known = as_xarray(*curve_contents(case, problem))
+    return as_xarray(*curve_contents(case, problem, reference=known))
+
+
 def pendula_threshold():
     """Return the threshold of the pendula, which is computed as fast as it could be made up."""
     from pendula.datasets.netcdf import as_xarray
@@ -122,6 +141,7 @@ def swept_pairs(make_sweep):
 def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     """Return what every figure draws, by the name of the figure."""
     from pendula.own_cases import figures as own
+    from pendula.studies.certified import figures as certified
     from pendula.studies.chaos import figures as chaos
     from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
@@ -165,6 +185,9 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "stability_chart": theory.gather_chart(long, short, windows(), points),
         "growth_rates": theory.gather_rates(long, short, threshold()),
         "pendula_threshold": threshold_figure.gather_threshold(pendula_threshold()),
+        "certified_curves": certified.gather_curves(
+            [certified_curve("fig2_small", 8.0), certified_curve("fig3_small", -4.0)]
+        ),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": bounds_figure.gather_bounds(
             cases(), sweeps(), samples(), worst(), sharpness(), chain_growth()

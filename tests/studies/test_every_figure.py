@@ -7,6 +7,7 @@ from matplotlib.text import Text
 from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.own_cases import figures as own
+from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
@@ -27,6 +28,7 @@ DRAWN_BY = {
     "stability_chart": theory.draw_chart,
     "growth_rates": theory.draw_rates,
     "pendula_threshold": threshold_figure.draw_threshold,
+    "certified_curves": certified.draw_curves,
     "bounds": bounds_figure.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,

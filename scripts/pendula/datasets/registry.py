@@ -59,6 +59,7 @@ NAMES = {
     "share": "share of",
     "size": "size of",
     "final": "amplitude at the end time",
+    "bound": "bound",
 }
 """Long names of variables that several datasets share; all of them have the units "1"."""
 ANGLES = ("linf", "l2", "modulus", "final")

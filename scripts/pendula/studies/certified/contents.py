@@ -68,7 +68,7 @@ def curve_variables(found: Certified) -> dict[str, Variable]:
         "bound": Variable(
             ("tau",),
             found.bound,
-            "proven bound of the l2 distance to the true state, and so of that of each norm",
+            "bound, as proved, of the l2 distance to the true state, and so of each norm's error",
         ),
         "bound_part": Variable(("bound_part",), list(PARTS), "what a part of the bound is due to"),
         "bound_parts": Variable(

@@ -16,7 +16,7 @@ from pendula.drawing.strips import half_line
 from pendula.measures.difference import NORMS, at_times, is_of_same_case
 
 WORDS = {
-    "norm": "norm that a panel shows",
+    "norm": "norm",
     "half_line": "how far a printed line surely reaches from its points, in units of the norm",
     "contained_until": "tau to which the printed line contains the true curve at every output, as "
     "proved; NaN: nothing is proved",

@@ -45,7 +45,7 @@ def _curve(results: Results, name: str) -> list:
     return [
         case_in_words(one.attrs["omega"], one.attrs["initial"]),
         number(float(one["tau"][-1])),
-        results.quote(name, float(one["bound"].max())),
+        results.quote(name, _cut(one["bound"].max(), ROUND_CEILING)),
         results.quote(name, float(one["reference_distance"].max())),
     ]
 
@@ -53,7 +53,7 @@ def _curve(results: Results, name: str) -> list:
 def _picture(results: Results, names: list[str]) -> Picture:
     said = "; ".join(
         f"{case_in_words(one.attrs['omega'], one.attrs['initial'])}: at the end at most "
-        f"{number(float(one['bound'][-1]))}"
+        f"{number(_cut(one['bound'][-1], ROUND_CEILING))}"
         for one in map(results.__getitem__, names)
     )
     alt = f"Proven bounds of the distance to the true solution, and their parts. {said}."
@@ -110,7 +110,7 @@ def _breather(results: Results, index: int) -> list:
     one = results[BREATHERS].isel(proof=index)
     found = bool(np.isfinite(one["radius"]))
     ends = {"radius": ROUND_CEILING, "unique_radius": ROUND_FLOOR, "growth_low": ROUND_FLOOR}
-    safe = [float(Context(3, way).create_decimal(float(one[name]))) for name, way in ends.items()]
+    safe = [_cut(one[name], way) for name, way in ends.items()]
     told = [results.quote(BREATHERS, x) if found else "no proof" for x in safe]
     verdict = Verdict(int(one["stable"]))
     return [
@@ -121,6 +121,11 @@ def _breather(results: Results, index: int) -> list:
         results.say(BREATHERS, VERDICTS[verdict]),
         told[2] if verdict is Verdict.UNSTABLE else "none" if verdict else "",
     ]
+
+
+def _cut(value, way: str) -> float:
+    """Return a proved number with the digits that the page shows, rounded to the safe side."""
+    return float(Context(3, way).create_decimal(float(value)))
 
 
 def _constants(results: Results) -> dict[str, Any]:
