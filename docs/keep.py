@@ -360,7 +360,8 @@ def configuration() -> dict:
     raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
-    for long in (kept["unbounded"], kept["breathers"]["sensitivity"], kept["breathers"]["fates"]):
+    parts = ("periodic", "sensitivity", "fates")
+    for long in (kept["unbounded"], *(kept["breathers"][name] for name in parts)):
         del long["long"]
     return kept
 

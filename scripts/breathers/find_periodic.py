@@ -11,6 +11,7 @@ def find_periodic(
     omegas: list[float],
     frequencies: list[float],
     half_widths: dict[str, int],
+    kernels: list[str] | tuple = (),
 ) -> None:
     """Write the three families at each Omega and frequency."""
     write(data, *periodic_contents(epsilon, gamma, omegas, frequencies, half_widths))

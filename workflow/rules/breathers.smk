@@ -23,6 +23,7 @@ rule periodic_breathers:
     "Periodic motions localised at one pair, and how fast their perturbations grow"
     input:
         code=code("breathers/find_periodic.py"),
+        kernels=kernels("taylor"),
     output:
         data="results/breathers/periodic.nc",
     log:
@@ -35,6 +36,25 @@ rule periodic_breathers:
         "Finding periodic breathers"
     script:
         "../../scripts/breathers/find_periodic.py"
+
+
+rule perturbed_breathers:
+    "How stable breathers move after a change, for thousands of periods: results/breathers/long/"
+    input:
+        code=code("breathers/perturb_breathers.py"),
+        kernels=kernels("taylor"),
+    output:
+        data="results/breathers/long/perturbed.nc",
+    log:
+        "results/logs/breathers/long_perturbed.log",
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        **perturbed_params(SETTINGS.breathers),
+    message:
+        "Following changed breathers for thousands of periods"
+    script:
+        "../../scripts/breathers/perturb_breathers.py"
 
 
 rule growth_by_drive:

@@ -265,8 +265,12 @@ def steady_params(given):
 
 
 def periodic_params(given):
-    plain = given.periodic.model_dump()
+    plain = given.periodic.model_dump(exclude={"long"})
     return {"epsilon": given.epsilon, "gamma": given.gamma, **plain}
+
+
+def perturbed_params(given):
+    return {**periodic_params(given), **given.periodic.long.model_dump()}
 
 
 def drive_params(given):

@@ -46,12 +46,17 @@ def sources():
             "power": (("component", *over, "frequency"), power),
             "growth": ((*over, "frequency"), growth),
             "growth_half": ((*over, "frequency"), growth + 1e-3 * (growth > 0.0)),
+            "parity_growth": (
+                ("parity", *over, "frequency"), np.stack([growth + 0.1 * np.arange(2), growth]),
+            ),
+            "measured_growth": ((*over, "frequency"), 1.0003 * (growth + 0.1 * np.arange(2))),
             "growing": ((*over, "frequency"), growth),
             "growing_half": ((*over, "frequency"), growth),
             "highest_wave": ("omega", [8.0, 8.0, 8.0]),
             **collisions(len(families), len(omegas), 2),
         },
-        {"family": families, "omega": omegas, "frequency": [9.0, 12.0], "part": ["re", "im"]},
+        {"family": families, "omega": omegas, "frequency": [9.0, 12.0], "part": ["re", "im"],
+         "parity": ["even", "odd"]},
     )  # fmt: skip
     drives, scaled = np.array([0.05, 0.1, 1.0]), np.linspace(0.0, 1.0, 21)
     law = np.minimum(6.0, 8.0 * scaled) * np.ones((3, 1))
@@ -102,7 +107,7 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     rows = evaluate(sources, None, ("breathers/claims",))
     assert {row["verdict"] for row in rows} <= {"confirmed", "confirmed with a caveat"}
     assert all(control["passes"] for row in rows for control in row["controls"])
-    assert len(rows) == 9
+    assert len(rows) == 10
 
 
 @pytest.mark.parametrize(
@@ -117,6 +122,10 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
         (
             "opposite_signatures_collide", PERIODIC,
             lambda one: one.assign(collision_signature=0 * one["collision_signature"]),
+        ),
+        (
+            "grows_as_floquet_says", PERIODIC,
+            lambda one: one.assign(measured_growth=1.002 * one["measured_growth"]),
         ),
         ("data_below_breathers", PERIODIC, lambda one: one.assign(power=one["power"] * 0.6)),
         ("grows_by_drive", GROWTH, lambda one: one.assign(gained=1.3 * one["gained"])),
@@ -163,6 +172,11 @@ def test_what_a_finite_chain_makes_within_the_waves_is_a_caveat(sources):
             "opposite_signatures_collide",
             PERIODIC,
             lambda one: one.assign(collision_frequency=one["collision_frequency"] * np.nan),
+        ),
+        (
+            "grows_as_floquet_says",
+            PERIODIC,
+            lambda one: one.assign(measured_growth=one["measured_growth"] * np.nan),
         ),
         ("grows_by_drive", GROWTH, lambda one: one.sel(gamma=[1.0])),
         ("spreading_is_an_accident", SENSITIVITY, lambda one: one.isel(size=[0, 1])),

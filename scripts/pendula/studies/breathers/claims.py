@@ -180,6 +180,31 @@ def opposite_signatures_collide(periodic) -> Finding:
     return judge(measured, Below(0.0, "largest_product", says=says))
 
 
+AS_FLOQUET = Cutoff(1e-3, "runs part to 1e-4 of the breather: what is quadratic counts for less")
+
+
+def at_the_next_frequency(periodic):
+    """Return the rates of the flow beside the multipliers of the next frequency."""
+    return periodic.assign(measured_growth=periodic["measured_growth"].roll(frequency=1))
+
+
+@claim(
+    PLACE,
+    "Perturbations of unstable breathers grow in the nonlinear flow at the rates of Floquet.",
+    (PERIODIC,),
+    (Control("rates of the flow at the next frequency", {PERIODIC: at_the_next_frequency}),),
+)
+def grows_as_floquet_says(periodic) -> Finding:
+    """Compare the rates of even perturbations, above the frequencies of waves."""
+    measured = periodic["measured_growth"]
+    off = abs(measured / periodic["parity_growth"].sel(parity="even") - 1.0)
+    found = {"compared": np.isfinite(measured).sum(), "largest_difference": off.max()}
+    if not found["compared"]:
+        raise UndecidableError("no breather is unstable to even perturbations")
+    says = "largest relative difference of the rates"
+    return judge(found, Below(AS_FLOQUET, "largest_difference", says=says))
+
+
 def at_eight(periodic):
     """Return breathers at Omega = 8 under the name of the paper's Fig 3."""
     return at_omega(periodic, 8.0).expand_dims(omega=[OF_PAPER])

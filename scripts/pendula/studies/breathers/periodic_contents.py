@@ -9,12 +9,12 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents
 from pendula.problem import Constants
 
-from . import multipliers, periodic, steady, waves
+from . import multipliers, periodic, perturbed, steady, waves
 from .contents import GROWTH_DIGITS, PARTS, energy_of, kept
 
 MODES = 3
 """Localised modes of one parity that are kept; no breather of the study has more."""
-COLLISION_DIGITS = 6
+COLLISION_DIGITS, MEASURED_DIGITS = 6, 5
 
 
 class Member(NamedTuple):
@@ -59,6 +59,7 @@ class _Table:
         self.amplitude = np.full((parts, 2, *over), np.nan)
         self.power = np.full((2, *over), np.nan)
         self.energy = np.full(over, np.nan)
+        self.measured_growth = np.full(over, np.nan)
         self.growth_half, self.growing = np.full(over, np.nan), np.full((2, *over), np.nan)
         self.growth = np.full((parities, *over), np.nan)
         self.trace = np.full((parts, MODES, parities, *over), np.nan)
@@ -83,6 +84,14 @@ class _Table:
             for m, mode in enumerate(modes[:MODES]):
                 self.trace[(slice(None), m, p, *at)] = mode.trace.real, mode.trace.imag
                 self.signature[(m, p, *at)] = mode.signature
+
+    def measure(self, at: tuple[int, ...], one: Member) -> None:
+        """Write how fast the fastest even perturbation grows in the nonlinear flow, if one does."""
+        traces = one.spectra["even"][0]
+        rates = multipliers.growths(one.breather.frequency, traces)
+        if rates.max() > 0.0:
+            trace = complex(traces[rates.argmax()])
+            self.measured_growth[at] = perturbed.measured_growth(one.breather, trace)
 
     def add_collisions(self, at: tuple[int, ...], one: Member, above: Member) -> None:
         """Write what collides between a member and the one at the next higher frequency."""
@@ -120,6 +129,8 @@ def periodic_contents(
                 at = (i, j, frequencies.index(breather.frequency))
                 one = member_of(breather)
                 table.add(at, one)
+                if breather.frequency > edge:
+                    table.measure(at, one)
                 if above is not None and breather.frequency > edge:
                     table.add_collisions(at, one, above)
                 above = one
@@ -132,6 +143,38 @@ def periodic_contents(
         **_collisions(table),
     }
     return variables, {"title": "Periodic breathers localised at one pair", **about}
+
+
+def perturbed_contents(
+    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
+    half_widths: Mapping[str, int], change: float, end_time: float, tolerance: float,
+) -> Contents:  # fmt: skip
+    """Return how P on the central pair swings early and late in long runs from changed breathers.
+
+    NaN where a breather does not exist or is unstable.
+    """
+    frequencies = sorted(frequencies)
+    shape = (2, len(periodic.FAMILIES), len(omegas), len(frequencies))
+    lowest, highest = np.full(shape, np.nan), np.full(shape, np.nan)
+    for j, omega in enumerate(omegas):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        for i, family in enumerate(periodic.FAMILIES):
+            for breather in periodic.family_of(constants, family, frequencies, half_widths):
+                if not member_of(breather).growing:
+                    at = (slice(None), i, j, frequencies.index(breather.frequency))
+                    found = perturbed.swing(breather, change, end_time, tolerance)
+                    lowest[at], highest[at] = found
+    said = "value of P on the central pair, in a tenth of the run"
+    coordinates = _coordinates(omegas, frequencies)
+    variables = {
+        **{name: coordinates[name] for name in OVER},
+        "span": Variable(("span",), ["first tenth", "last tenth"], "part of the run"),
+        "lowest_power": kept(("span", *OVER), lowest, f"least {said}", MEASURED_DIGITS),
+        "highest_power": kept(("span", *OVER), highest, f"largest {said}", MEASURED_DIGITS),
+    }
+    about = {"epsilon": epsilon, "gamma": gamma, "change": change, "end_time": end_time}
+    title = "How stable periodic breathers move after a change"
+    return variables, {"title": title, **about, "tolerance": tolerance}
 
 
 OVER = ("family", "omega", "frequency")
@@ -196,6 +239,10 @@ def _stability(table: _Table) -> dict[str, Variable]:
         "growth_half": kept(OVER, rates[1], f"{rate} on half of the half-width", GROWTH_DIGITS),
         "parity_growth": kept(
             ("parity", *OVER), rates[2], "largest rate of growth by parity", GROWTH_DIGITS
+        ),
+        "measured_growth": kept(
+            OVER, table.measured_growth,
+            "rate of growth of an even perturbation in the nonlinear flow", MEASURED_DIGITS,
         ),
         "growing": Variable(OVER, table.growing[0], "number of multipliers that grow"),
         "growing_half": Variable(

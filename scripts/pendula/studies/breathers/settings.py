@@ -47,12 +47,22 @@ class HalfWidths(Model):
     most: Count
 
 
+class LongPeriodic(Model):
+    """Long runs from stable breathers with a small relative change."""
+
+    frequencies: Positives
+    change: Tolerance
+    end_time: Positive
+    tolerance: Tolerance
+
+
 class Periodic(Model):
     """Periodic breathers."""
 
     omegas: Numbers
     frequencies: Positives
     half_widths: HalfWidths
+    long: LongPeriodic
 
 
 class GrowthWidths(Model):

@@ -1,0 +1,84 @@
+"""What perturbed breathers do in the nonlinear flow: they grow as Floquet says, or stay for long.
+
+The flow is that of the solvers, and knows nothing of the perturbations in `multipliers`. Two runs,
+one from a breather and one from a slightly changed one, part by d_k after k periods T. Beside its
+own inverse a growing multiplier mu, or a pair of conjugate ones, is all that is left in d_k after a
+while, so that d_{k+1} = s d_k - p d_{k-1} with the sum s and the product p of two multipliers (the
+method of Prony). Stable breathers are changed by more, and followed for thousands of periods: as
+the phase drifts in time, P on the central pair is watched, which swings within each period.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pendula.numerics.elementary import log
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
+
+from .multipliers import growth
+from .periodic import Breather
+
+DECIMALS = 9
+"""Of the data of runs: LAPACK finds breathers, and their last bits differ between processors."""
+SMALLEST, LARGEST = 1e-8, 1e-4
+"""Of the difference of two runs, relative to the breather, while its growth is measured."""
+TOLERANCE = 1e-14
+"""Of the runs whose difference is measured."""
+SAMPLES = 400
+"""Samples of each tenth of a long run: several in each period of a beat."""
+
+
+class Swing(NamedTuple):
+    """The least and the largest P on the central pair early and late in a run, each (span,)."""
+
+    lowest: np.ndarray
+    highest: np.ndarray
+
+
+def run_from(breather: Breather, change: float, end_time: float, step: float, tolerance: float):
+    """Return moduli (component, site, time) from data whose central A is larger by `change`."""
+    half = np.round(breather.data, DECIMALS)
+    half[0, 0] *= 1.0 + change
+    half[1, 0] *= 1.0 - 0.7 * change
+    data = np.concatenate([half[:, :0:-1], half], axis=1).astype(complex)
+    run = simulate(Problem(
+        constants=breather.constants, half_width=half.shape[1] - 1, boundary="dirichlet",
+        initial=data, end_time=end_time, output_step=step, snapshot_every=1,
+        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
+    ))  # fmt: skip
+    return run.modulus
+
+
+def measured_growth(breather: Breather, trace: complex) -> float:
+    """Return the rate of growth in the flow of the even perturbation that grows fastest.
+
+    `trace` is its nu of `multipliers`: the expected rate sets the length of the runs, and
+    a real nu means one growing multiplier, a complex one two.
+    """
+    period = 4.0 * breather.quarter
+    rate = growth(breather.frequency, np.array([trace]))
+    periods = int(np.ceil(log(LARGEST / SMALLEST) / (rate * period))) + 2
+    plain, changed = (
+        run_from(breather, change, periods * period, period, TOLERANCE)
+        for change in (0.0, SMALLEST)
+    )
+    centre = plain.shape[1] // 2
+    parted = (changed - plain)[:, centre : centre + 2].reshape(-1, periods + 1)
+    before, here, after = (parted[:, (periods + 1) // 2 :][:, k : k - 2 or None] for k in range(3))
+    if not trace.imag:
+        return float(log(np.sum(after * here) / np.sum(here * here))) / period
+    # the smallest sum of squares of after - s here + p before
+    squares = [[np.sum(one * two) for two in (here, before)] for one in (here, before)]
+    sums = [np.sum(one * after) for one in (here, before)]
+    determinant = squares[0][0] * squares[1][1] - squares[0][1] * squares[1][0]
+    product = -(squares[0][0] * sums[1] - squares[1][0] * sums[0]) / determinant
+    return float(log(product)) / (2.0 * period)
+
+
+def swing(breather: Breather, change: float, end_time: float, tolerance: float) -> Swing:
+    """Return the swing of P on the central pair in the first and the last tenth of a long run."""
+    moduli = run_from(breather, change, end_time, end_time / (10 * SAMPLES), tolerance)
+    centre = (moduli[:, moduli.shape[1] // 2] ** 2).sum(axis=0)
+    spans = np.stack([centre[:SAMPLES], centre[-SAMPLES:]])
+    return Swing(spans.min(axis=1), spans.max(axis=1))
