@@ -34,8 +34,8 @@ FIGURES = [
     *CHAOS_FIGURES,
     # What stays at one pair, which data reach it, and which spread
     *("breathers", "sensitivity", "fates"),
-    # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula
-    "pendula_threshold",
+    # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula, the expansion
+    *("pendula_threshold", "pendula_remainder"),
     # How far computed curves can be from the true ones, as proved
     "certified_curves",
     # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)

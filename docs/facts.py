@@ -16,6 +16,7 @@ from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.report.words import case_of, number, percent, span, symbols, with_error
+from pendula.studies.pendula.claims_remainder import STABLE, UNSTABLE, common_end
 
 from benchmarks import reproduction
 
@@ -355,6 +356,7 @@ def pendula(baseline: Baseline) -> dict:
                                   for side, omega in (("below", -4.0), ("above", 8.0))}}
             for mu in data["mu"].values
         ],
+        **_expansion(baseline["pendula/remainder"]),
     }  # fmt: skip
 
 
@@ -409,6 +411,31 @@ def _short_case(path: Path) -> dict[str, str]:
         "end": number(float(Fraction(made["end_time"]))),
         "bound": number(1.05 * made["steps"][-1]["bound"] / 2 ** made["bound_bits"], 2),
     }
+
+
+def _expansion(data: xr.Dataset) -> dict[str, str]:
+    """Return orders in mu of the error of the expansion, and from when on it is visible."""
+    end = common_end(data)
+    there = data.sel(case=list(STABLE), end=end)
+    constant = there["constant"].sel(expansion="leading")
+    visible = data["visible_from"].sel(expansion="leading", case=UNSTABLE)
+    times = visible.where(np.isfinite(visible), drop=True)
+    early, late = times.sel(mu=EARLY_MU), times[-1]
+    return {
+        **{name: number(there["order"].sel(expansion=name).mean())
+           for name in ("leading", "corrected")},
+        "common_end": number(end),
+        "least_constant": number(constant.min()),
+        "largest_constant": number(constant.max()),
+        "early_mu": number(early["mu"]),
+        "visible_early": number(early),
+        "late_mu": number(late["mu"]),
+        "visible_late": number(late),
+    }  # fmt: skip
+
+
+EARLY_MU = 0.1
+"""The mu from which on the horizon at Omega = 0 is told."""
 
 
 def unbounded(baseline: Baseline) -> dict:

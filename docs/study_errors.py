@@ -13,6 +13,7 @@ import xarray as xr
 import yaml
 from pendula.measures.confidence import difference_limits
 from pendula.report.words import number
+from pendula.studies.pendula.claims_remainder import STABLE, common_end
 from pendula.studies.pendula.claims_threshold import limit_of, outside, smallest_mus
 from pendula.studies.unbounded.claims import OF_A_SHORT_BULK, exponent_of, stays
 
@@ -132,15 +133,22 @@ def _listed(sizes: list) -> str:
 def pendula(baseline) -> dict[str, float]:
     """Return the errors of the parts of the study of the pendula."""
     beside = outside(smallest_mus(baseline["pendula/threshold"]))
-    return {"threshold": _most(abs(limit_of(beside) / beside["gamma_0_lemma"] - 1.0))}
+    remainder = baseline["pendula/remainder"]
+    order = remainder["order"].sel(case=list(STABLE), end=common_end(remainder))
+    return {
+        "threshold": _most(abs(limit_of(beside) / beside["gamma_0_lemma"] - 1.0)),
+        "remainder": _most(abs(order - order.round())),
+    }
 
 
 def pendula_sizes(given: dict) -> dict[str, str]:
     """Return at how many detunings, and at which mu, by the parts of `pendula`."""
-    threshold = given["threshold"]
+    threshold, remainder = given["threshold"], given["remainder"]
     return {
         "threshold": f"{number(len(threshold['omegas']))} values of Ω, μ = "
         + _listed(threshold["mus"]),
+        "remainder": f"{len(remainder['ends'])} cases, μ = {_listed(remainder['mus'])},"
+        f" tolerance {number(remainder['tolerance'])}",
     }
 
 

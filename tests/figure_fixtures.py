@@ -131,6 +131,33 @@ def pendula_threshold():
     return as_xarray(*threshold_contents(1.0, *grid))
 
 
+def pendula_remainder():
+    """Return made-up errors of the expansion, and horizons of which one is beyond its run."""
+    mus, ends = np.array([0.4, 0.2, 0.1, 0.05]), np.array([0.5, 1.0, 2.0])
+    over = ("expansion", "case", "mu", "end")
+    errors = np.array([mus**3, mus**5])[:, None, :, None] * np.array([[2.0], [9.0]])[..., None]
+    errors = errors * ends
+    horizons = 1.0 / errors[..., 0]
+    horizons[1, 0, 3] = np.inf
+    error = variable(over, errors, "error of an angle")
+    error[2]["units"] = "rad"
+    return xr.Dataset(
+        {
+            "error": error,
+            "order": variable(("expansion", "case", "end"), 3.0 + 0.0 * errors[:, :, 0], "order"),
+            "visible_from": variable(over[:3], horizons, "slow time"),
+            "omega": variable(("case",), [0.0, 8.0], "detuning Omega"),
+        },
+        {
+            "expansion": variable("expansion", ["leading", "corrected"], "order of the expansion"),
+            "case": variable("case", ["fig4_small", "fig2_large"], "case"),
+            "mu": variable("mu", mus, "small parameter mu"),
+            "end": variable("end", ends, "end of the time window"),
+        },
+        {"common_end": 1.0},
+    )  # fmt: skip
+
+
 @pytest.fixture(scope="session")
 def swept_pairs(make_sweep):
     """Return a sweep by two solvers that agree."""
@@ -146,7 +173,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solvers
-    from pendula.studies.pendula import threshold_figure
+    from pendula.studies.pendula import remainder_figure, threshold_figure
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
@@ -188,6 +215,7 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "certified_curves": certified.gather_curves(
             [certified_curve("fig2_small", 8.0), certified_curve("fig3_small", -4.0)]
         ),
+        "pendula_remainder": remainder_figure.gather_remainder(pendula_remainder()),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": bounds_figure.gather_bounds(
             cases(), sweeps(), samples(), worst(), sharpness(), chain_growth()

@@ -219,7 +219,7 @@ def test_every_fact_follows_its_dataset():
         r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
         r".*(end|from|least_omega|largest_omega|error)$|"
         r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
-        r"pendula\.(largest_mu|second_below|rows\.\d+\.mu)$|"
+        r"pendula\.(largest_mu|second_below|early_mu|late_mu|rows\.\d+\.mu)$|"
         r"certified\.(rows\.\d+\.part|contained|certificate\..*)$|"
         r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
     )

@@ -11,7 +11,7 @@ from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
-from pendula.studies.pendula import threshold_figure
+from pendula.studies.pendula import remainder_figure, threshold_figure
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -29,6 +29,7 @@ DRAWN_BY = {
     "growth_rates": theory.draw_rates,
     "pendula_threshold": threshold_figure.draw_threshold,
     "certified_curves": certified.draw_curves,
+    "pendula_remainder": remainder_figure.draw_remainder,
     "bounds": bounds_figure.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,

@@ -20,6 +20,7 @@ DRAWING = {
     "draw_breathers",
     "draw_certified_curves",
     "draw_fates",
+    "draw_remainder",
     "draw_sensitivity",
     "draw_threshold",
     "chaos_figures",

@@ -67,6 +67,7 @@ def makers():
         "measure_sensitivity": ["results/breathers/sensitivity.nc"],
         "map_fates": ["results/breathers/fates.nc"],
         "find_threshold": ["results/pendula/threshold.nc"],
+        "measure_remainder": ["results/pendula/remainder.nc"],
         "certify_curve": certified_curves(),
         "measure_lines": ["results/certified/lines.nc"],
         "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
@@ -325,7 +326,7 @@ def fate_params(breathers, size):
 
 
 # The pendula.
-PENDULA = ["threshold"]
+PENDULA = ["threshold", "remainder"]
 
 
 def threshold_params(given):
@@ -336,6 +337,21 @@ def threshold_params(given):
         "gammas": given.growth.gammas.values,
         "curve_omegas": given.curve.values,
     }
+
+
+def remainder_params(given, run_ends):
+    like = {"end_time": given.end_step, "output_step": given.end_step}
+    return {
+        "problems": followed(given.ends, given.tolerance, "taylor", **like),
+        "run_ends": run_ends,
+        "end_step": given.end_step,
+        "spacing": given.spacing,
+    }
+
+
+def long_remainder_figure():
+    kinds = {**FIGURE_KINDS, "data": "figure.nc"}
+    return {key: f"results/pendula/long/remainder.{kind}" for key, kind in kinds.items()}
 
 
 # Proofs.
@@ -404,7 +420,7 @@ NUMBERS_BY = [
     *("breathers/find_steady.py", "breathers/find_periodic.py"),
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
-    "newton/find_threshold.py",
+    *("newton/find_threshold.py", "newton/measure_remainder.py"),
     *("certified/certify_curve.py", "certified/measure_lines.py", "certified/prove_breathers.py"),
     "certified/enclose_constants.py",
 ]
@@ -480,7 +496,7 @@ def claims_need():
             *checks("trust", *CHAOS_CHECKS),
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
-        "pendula": below(f"pendula/{name}" for name in PENDULA),
+        "pendula": [*below(f"pendula/{name}" for name in PENDULA), *checks("lyapunov")],
         "certified": [
             *(*certified_curves(), *below(["certified/wrong/curve", "certified/lines"])),
             *below(["trajectories/fig2_small", "trajectories/fig3_small"]),

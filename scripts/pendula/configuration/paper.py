@@ -147,7 +147,7 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     if folder == "breathers":
         return _breathers(rest, on)
     if folder == "pendula":
-        return tuple(f"pendula.{rest}.{key}" for key in paper()["pendula"][rest])
+        return _pendula(rest, on)
     if folder == "certified":
         return _certified(rest)
     return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
@@ -201,6 +201,18 @@ def _breathers(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     own = tuple(f"breathers.{part}.{key}" for part in parts for key in given[part] if key != "long")
     cases = [case for case in (given[name].get("case"), *on) if case]
     return ("breathers.epsilon", "breathers.gamma", *own, *_of_all(cases, *FINITE))
+
+
+def _pendula(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what a part of the study of the pendula rests on, but for its longer variant.
+
+    `on` leaves of a part that runs many cases these alone.
+    """
+    given = paper()["pendula"][name]
+    own = tuple(f"pendula.{name}.{key}" for key in given if key not in ("long", "ends"))
+    cases = on or tuple(given.get("ends", ()))
+    ends = tuple(f"pendula.{name}.ends.{case}" for case in cases if "ends" in given)
+    return (*own, *ends, *(key for case in cases for key in _keys(case, *FINITE)))
 
 
 ENCLOSED = ("cases", "theorem_2_case", "theorem_3_constant", "threshold", "chart")

@@ -60,9 +60,12 @@ NAMES = {
     "size": "size of",
     "final": "amplitude at the end time",
     "bound": "bound",
+    "end": "end of the time window",
+    "error": "error",
+    "order": "order in mu of the error",
 }
 """Long names of variables that several datasets share; all of them have the units "1"."""
-ANGLES = ("linf", "l2", "modulus", "final")
+ANGLES = ("linf", "l2", "modulus", "final", "error")
 """Those that are angles in "rad" where the pendula themselves are followed."""
 
 

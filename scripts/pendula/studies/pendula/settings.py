@@ -1,14 +1,30 @@
 """What the configuration says of the pendula, a model for each topic."""
 
+from itertools import pairwise
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field
 
+from pendula.configuration.cases import is_multiple
+from pendula.configuration.cost import Cost, integrated_pairs
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Needs, Number, Positive, Steps, Whole
+from pendula.configuration.values import (
+    Distinct,
+    Model,
+    Name,
+    Needs,
+    Number,
+    Positive,
+    Steps,
+    Whole,
+)
 
 from .mathieu import second_tongue
 from .threshold import squared_frequency
+
+PERIOD_SECONDS = 2e-6
+"""A period of a pair of pendula."""
 
 Count = Annotated[Whole, Field(ge=1)]
 Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
@@ -61,14 +77,79 @@ class Threshold(Model):
                 yield "growth.gammas", f"{where} by the second resonance of the drive: {way_out}"
 
 
+class Remainder(Model):
+    """The error of the expansion (3), and of its next order."""
+
+    mus: Annotated[list[Positive], Field(min_length=3)]
+    ends: Annotated[dict[Name, list[Positive]], Field(min_length=1)]
+    end_step: Positive
+    spacing: Positive
+    tolerance: Annotated[Positive, Field(ge=1e-15, lt=1)]
+    long: Positive
+
+    @property
+    def run_ends(self) -> dict[str, dict[float, float]]:
+        """How far the pendula are run, by case and mu."""
+        return {case: dict(zip(self.mus, ends, strict=True)) for case, ends in self.ends.items()}
+
+    @property
+    def long_ends(self) -> dict[str, dict[float, float]]:
+        """The same of the longer study."""
+        return {case: dict.fromkeys(self.mus, self.long) for case in self.ends}
+
+    def faults(self, settings: Configuration) -> Faults:
+        """Yield what gives no order in mu, is no whole number of steps, or has no case."""
+        if any(abs(2.0 * fine / coarse - 1.0) > 1e-9 for coarse, fine in pairwise(self.mus)):
+            yield "mus", "must each be half of the one before: orders are read off such pairs"
+        if not is_multiple(self.end_step, self.spacing):
+            yield "end_step", f"is not a whole number of `spacing`, {self.spacing:g}"
+        for case, ends in self.ends.items():
+            if len(ends) != len(self.mus):
+                told = f"has {len(ends)} ends for {len(self.mus)} values of mu"
+                yield f"ends.{case}", f"{told}: give one for each"
+            for end in ends:
+                if not is_multiple(end, self.end_step):
+                    yield f"ends.{case}", f"{end:g} is not a whole number of {self.end_step:g}"
+        if not is_multiple(self.long, self.end_step):
+            yield "long", f"is not a whole number of `end_step`, {self.end_step:g}"
+        absent = list(settings.absent("cases", "ends", list(self.ends)))
+        yield from absent
+        for case in () if absent else self.ends:
+            yield from self._too_slow(case, float(settings.cases[case].omega))
+        if not absent and all(len(ends) == len(self.mus) for ends in self.ends.values()):
+            for key, run_ends in (("ends", self.run_ends), ("long", self.long_ends)):
+                yield from settings.excess(key, [self._cost(settings, run_ends)])
+
+    def _cost(self, settings: Configuration, run_ends: dict[str, dict[float, float]]) -> Cost:
+        """Return what all runs take, from the periods of the pendula in them."""
+        seconds = 0.0
+        for case, by_mu in run_ends.items():
+            pairs = integrated_pairs(settings.problem(case))
+            periods = sum(end / (mu * mu) for mu, end in by_mu.items()) / 3.0
+            seconds += PERIOD_SECONDS * periods * pairs
+        return Cost(seconds, 0.0)
+
+    def _too_slow(self, case: str, omega: float) -> Faults:
+        mu = self.mus[0]
+        if not squared_frequency(omega, mu) > 0.0:
+            where = f"has {mu:g}, at which the pendula of {case} have no frequency"
+            way_out = f"take a mu below {np.sqrt(-1.0 / omega):.4g}"
+            yield "mus", f"{where}, since 1 + mu^2 Omega is not positive: {way_out}"
+
+
 class Settings(Model):
     """Section `pendula` of the configuration."""
 
     needs: Needs
     threshold: Threshold
+    remainder: Remainder
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the faults of each topic."""
-        for topic in ("threshold",):
-            for key, text in getattr(self, topic).faults():
+        found = {
+            "threshold": self.threshold.faults(),
+            "remainder": self.remainder.faults(settings),
+        }
+        for topic, faults in found.items():
+            for key, text in faults:
                 yield f"{topic}.{key}", text

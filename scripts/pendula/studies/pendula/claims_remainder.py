@@ -1,0 +1,186 @@
+"""How far the expansion (3) holds: its order, its next order, and for how long."""
+
+import numpy as np
+
+from pendula.ledger.claim import FACTOR, Control, claim
+from pendula.ledger.criterion import (
+    Below,
+    Finding,
+    Near,
+    UndecidableError,
+    WithinFactor,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+from pendula.numerics.elementary import log
+
+SECTION = 7
+PLACE = "Section 2, (3), for the pendula (1)"
+REMAINDER, LYAPUNOV = "pendula/remainder", "checks/lyapunov"
+STABLE = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
+"""Cases whose chain at rest is stable."""
+UNSTABLE = "fig4_small"
+
+WHOLE = Cutoff(0.03, "an order is a whole number if it is so in its first two digits")
+SECULAR = Cutoff(1.5, "growth is nearer to proportion to time than to its square", 1.0)
+LONG = 10.0
+"""A run that tells how the remainder grows goes on to here at least, where the paper takes its
+chains for settled."""
+FEWEST = 3
+"""So many mu at least: any two horizons make a line."""
+
+
+def common_end(remainder) -> float:
+    """Return the last end that every run reaches."""
+    known = remainder["error"].notnull().all(("expansion", "case", "mu"))
+    return float(remainder["end"].where(known).max())
+
+
+def at_common_end(remainder, name: str, expansion: str, cases=STABLE):
+    """Return a variable at the end that every run reaches, by case."""
+    values = remainder[name].sel(expansion=expansion, case=list(cases))
+    values = values.sel(end=common_end(remainder))
+    if not np.isfinite(values).all():
+        raise UndecidableError("an order takes three mu, each half of the one before")
+    return values
+
+
+def of_wrong(reading: str, expansion: str):
+    """Return what gives an expansion the orders of a wrong one."""
+
+    def changed(remainder):
+        wrong = remainder["wrong_order"].sel(wrong_expansion=reading)
+        here = remainder["expansion"] == expansion
+        return remainder.assign(order=remainder["order"].where(~here, wrong))
+
+    return changed
+
+
+def judged_order(remainder, expansion: str, whole: float) -> Finding:
+    """Ask for one order at every case whose chain at rest is stable."""
+    order = at_common_end(remainder, "order", expansion)
+    off = at_common_end(remainder, "order_uncertainty", expansion)
+    constant = at_common_end(remainder, "constant", expansion)
+    measured = {
+        "least_order": order.min(),
+        "largest_order": order.max(),
+        "off_by_at_most": off.max(),
+        "least_constant": constant.min(),
+        "largest_constant": constant.max(),
+        "up_to_tau": common_end(remainder),
+    }
+    says = "order in mu of the error of the angles"
+    return judge(measured, Near(whole, WHOLE, "least_order", "largest_order", says=says))
+
+
+@claim(
+    PLACE,
+    "Over a fixed time of tau the angles of (3) and (4) miss those of the pendula by the order "
+    "mu^3.",
+    (REMAINDER,),
+    (Control("amplitudes with the slow time mu^2 t",
+             {REMAINDER: of_wrong("the slow time mu^2 t", "leading")}),),
+    on=STABLE,
+)  # fmt: skip
+def expansion_order(remainder) -> Finding:
+    return judged_order(remainder, "leading", 3.0)
+
+
+@claim(
+    PLACE,
+    "With its next order the expansion misses the pendula by the order mu^5.",
+    (REMAINDER,),
+    (
+        Control("a third harmonic of the opposite sign",
+                {REMAINDER: of_wrong("P of the opposite sign", "corrected")}),
+        Control("the third harmonic with the amplitudes of (4)",
+                {REMAINDER: of_wrong("P without G", "corrected")}),
+    ),
+    on=STABLE,
+)  # fmt: skip
+def next_order_of_the_expansion(remainder) -> Finding:
+    return judged_order(remainder, "corrected", 5.0)
+
+
+def late_exponents(remainder, cases):
+    """Return, by case, the exponent of time by which the error grows over the late half of a run.
+
+    It is that of the smallest mu whose runs of these cases are long.
+    """
+    some = remainder.sel(case=list(cases), expansion="leading")
+    long = some["pendula_end"].min("case").where(lambda ends: ends >= LONG, drop=True)
+    if not long.size:
+        raise UndecidableError(f"no run of these cases goes to tau = {LONG:g}")
+    mu, end = float(long["mu"].min()), float(long.sel(mu=long["mu"].min()))
+    late = some["error"].sel(mu=mu)
+    ratio = late.sel(end=end) / late.sel(end=0.5 * end, method="nearest")
+    return mu, end, log(ratio.values) / log(2.0)
+
+
+@claim(
+    PLACE,
+    "Where the chain at rest is stable, the remainder of small data grows in proportion to time at "
+    "most.",
+    (REMAINDER,),
+    (
+        Control("errors in proportion to tau^2", {REMAINDER: lambda one: one.assign(
+            error=0.0 * one["error"].fillna(0.0) + one["end"] ** 2)}),
+    ),
+    on=("fig2_small", "fig3_small"),
+)  # fmt: skip
+def remainder_secular(remainder) -> Finding:
+    """Read the exponent of time off the late half of the runs."""
+    mu, end, exponents = late_exponents(remainder, ("fig2_small", "fig3_small"))
+    measured = {"largest_exponent": exponents.max(), "mu": mu, "up_to_tau": end}
+    return judge(measured, Below(SECULAR, "largest_exponent", says="exponent of time"))
+
+
+def slopes(remainder):
+    """Return by expansion how much later the horizon comes at mu / e than at mu."""
+    found = {}
+    for expansion in remainder["expansion"].values:
+        horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion=expansion)
+        known = horizon.where(np.isfinite(horizon), drop=True)
+        if known.size < FEWEST:
+            raise UndecidableError(f"fewer than {FEWEST} runs go on to their horizon")
+        ends = known.sortby("mu", ascending=False)
+        apart = log(float(ends["mu"][0]) / float(ends["mu"][-1]))
+        found[str(expansion)] = float(ends[-1] - ends[0]) / apart
+    return found
+
+
+def by_power(remainder):
+    """Return horizons in proportion to mu^-2, as an error that does not grow would have them."""
+    horizon, mu = remainder["visible_from"], remainder["mu"]
+    return remainder.assign(visible_from=horizon.isel(mu=0) * (mu[0] / mu) ** 2)
+
+
+@claim(
+    PLACE,
+    "At Omega = 0 the expansion holds for a time in proportion to ln(1 / mu) only, by the "
+    "exponent of the chaos.",
+    (REMAINDER, LYAPUNOV),
+    (Control("horizons in proportion to mu^-2", {REMAINDER: by_power}),),
+    on=(UNSTABLE,),
+)
+def horizon_logarithmic(remainder, lyapunov) -> Finding:
+    """An error of mu^3 e^(rate tau) is a part of an angle of the order mu at 2 ln(1 / mu) / rate.
+
+    With the next order it is twice as late.
+    """
+    rate = float(lyapunov["exponent"].sel(case=UNSTABLE).max())
+    if not rate > 0.0:
+        raise UndecidableError("no exponent of the chaos is known")
+    found = slopes(remainder)
+    horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion="leading")
+    known = horizon.where(np.isfinite(horizon), drop=True)
+    measured = {
+        "leading_over_predicted": found["leading"] * rate / 2.0,
+        "corrected_over_predicted": found["corrected"] * rate / 4.0,
+        "rate": rate,
+        "latest": known.max(),
+        "at_mu": known["mu"].min(),
+    }
+    says = "growth of the horizon with ln(1 / mu), over 2 / rate, or 4 / rate with the next order"
+    names = "leading_over_predicted", "corrected_over_predicted"
+    return judge(measured, WithinFactor(FACTOR, *names, says=says))

@@ -1,0 +1,160 @@
+"""The error of the expansion: how it is sampled, its orders, and pendula that are lost."""
+
+from math import log, pi
+
+import numpy as np
+import pytest
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.messages import load
+from pendula.configuration.paper import paper
+from pendula.models.pendula import times_of
+from pendula.problem import PENDULA, Constants, Problem
+from pendula.simulation.lattice import WHOLE
+from pendula.simulation.simulate import simulate
+from pendula.studies.pendula.followed import amplitudes_at, angles_at
+from pendula.studies.pendula.remainder import (
+    PHASES,
+    follow,
+    horizon,
+    measure,
+    orders,
+    peak,
+    samples,
+    up_to,
+    window_maxima,
+)
+
+
+def problem(omega=-4.0, pair=(1.0, 0.1), **changes):
+    """Return a case on five sites."""
+    given = {
+        "constants": Constants(epsilon=1.0, gamma=1.0, omega=omega),
+        "half_width": 2,
+        "boundary": "dirichlet",
+        "initial": np.array(pair)[:, None],
+        "end_time": 1.0,
+        "output_step": 1.0,
+        "solver": {"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
+    }
+    return Problem(**given | changes)
+
+
+# --- Sampling -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mu", [0.4, 0.1, 0.02])
+def test_windows_are_half_periods_that_end_at_multiples_of_the_spacing(mu):
+    found = samples(mu, 8.0, 1.0, 0.05)
+    half_period = PHASES * found.step
+    assert half_period == pytest.approx(0.5 * mu**2 * pi / np.sqrt(1.0 + 8.0 * mu**2))
+    ends = found.steps[:, -1] * found.step
+    assert ends[-1] <= 1.0 < ends[-1] + 1.01 * found.step
+    assert found.apart == (half_period < 0.05)
+    if not found.apart:  # no time is left out
+        assert np.array_equal(np.unique(found.steps), np.arange(found.steps.max() + 1))
+
+
+def test_every_sample_is_found_among_the_times():
+    found = samples(0.1, -4.0, 1.0, 0.05)
+    steps, places = found.times
+    assert steps[0] == 0 and np.all(np.diff(steps) > 0)
+    np.testing.assert_array_equal(steps[places], found.steps)
+
+
+def test_a_peak_is_the_top_of_a_parabola():
+    before, here, after = (2.0 - (x - 0.3) ** 2 for x in (-1.0, 0.0, 1.0))
+    assert peak(before, here, after) == pytest.approx(2.0, rel=1e-15)
+    assert peak(1.0, 2.0, 3.0) == 2.0 and peak(1.0, np.inf, np.inf) == np.inf
+    assert peak(1.0, 1.0, 1.0) == 1.0
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.02])
+def test_the_maximum_of_a_swing_whose_size_changes_is_found(mu):
+    """The error is (2 + sin 9 tau) times a swing of two harmonics; its sup is known."""
+    found = samples(mu, -4.0, 2.0, 0.0125)
+    phase, tau = pi / PHASES * found.steps, found.steps * found.step
+    swing = np.cos(phase + 0.3) + 0.1 * np.cos(3.0 * (phase + 0.3))
+    tau, size = window_maxima(found, np.abs((2.0 + np.sin(9.0 * tau)) * swing))
+    largest = up_to(tau, size, np.array([0.1, 2.0]), 2.0)
+    expected = 1.1 * np.array([2.0 + np.sin(0.9), 3.0])
+    np.testing.assert_allclose(largest, expected, rtol=2e-3 if found.apart else 0.02)
+    assert np.isnan(up_to(tau, size, np.array([0.1, 2.0]), 0.5)).tolist() == [False, True]
+
+
+def test_orders_are_those_of_the_limit():
+    mus = 0.4 * 0.5 ** np.arange(6)
+    errors = (7.0 * mus**3 * (1.0 + mus**2))[:, None]
+    (order,), (off,) = orders(errors)
+    assert order == pytest.approx(3.0, abs=1e-5)
+    assert abs(order - 3.0) < off < 1e-2
+    short = np.where(np.arange(6)[:, None] < 3, errors, np.nan)
+    assert orders(short)[0] == pytest.approx([3.0], abs=0.02)
+    assert np.isnan(orders(np.where(np.arange(6)[:, None] < 2, errors, np.nan))).all()
+
+
+def test_the_horizon_is_the_first_visible_error():
+    tau = np.array([1.0, 2.0, 3.0])
+    assert horizon(tau, np.array([0.0, 0.3, 0.1]), np.array([2.0, 1.0, 1.0]), 0.1) == 2.0
+    assert horizon(tau, np.array([0.0, 0.1, 0.1]), np.array([2.0, 1.0, 1.0]), 0.1) == np.inf
+
+
+# --- Runs -----------------------------------------------------------------------------------------
+
+
+def test_angles_are_those_of_a_simulation():
+    pendula = problem(model=PENDULA, mu=0.2, snapshot_every=1, output_step=0.25)
+    angles = angles_at(pendula, times_of(pendula.times, 0.2), WHOLE)
+    np.testing.assert_array_equal(angles, np.moveaxis(simulate(pendula).snapshots[0], -1, 0))
+
+
+def test_without_the_next_order_the_amplitudes_are_those_of_a_simulation():
+    found = amplitudes_at(problem(), 0.0, np.array([0.0, 0.4, 1.0]), WHOLE)
+    np.testing.assert_allclose(found[-1], simulate(problem()).final, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("omega", [8.0, -4.0])
+def test_the_orders_are_three_and_five(omega):
+    run_ends = dict.fromkeys((0.1, 0.05, 0.025), 0.5)
+    found = measure(problem(omega), run_ends, np.array([0.5]), 0.025)
+    order, off = orders(found.errors)
+    assert order[:, 0] == pytest.approx([3.0, 5.0], abs=0.03) and off.max() < 0.03
+    wrong, _ = orders(found.wrong)
+    assert wrong == pytest.approx([1.0, 3.0, 3.0], abs=0.2)
+
+
+def test_where_the_chain_at_rest_is_unstable_the_error_outruns_every_power_of_time():
+    errors = measure(problem(0.0), {0.1: 4.0}, np.array([1.0, 2.0, 4.0]), 0.05).errors[0, 0]
+    assert log(errors[2] / errors[0]) / log(4.0) > 2.0
+
+
+def test_pendula_that_are_driven_beyond_all_bounds_are_lost():
+    """At mu = 0.4 large data go over the top, and the string then turns them ever faster."""
+    pendula = problem(pair=(5.0, 1.0), model=PENDULA, mu=0.4, half_width=10, end_time=6.0)
+    run = follow(pendula, 0.05, 1.0)
+    assert np.isinf(run.errors[:, -1]).all() and np.isfinite(run.errors[:, 0]).all()
+    assert np.isfinite(run.wrong).all()
+
+
+# --- The configuration ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"mus": [0.4, 0.2, 0.15, 0.05, 0.025, 0.0125]}, r"mus: must each be half"),
+        ({"mus": [0.8, 0.4, 0.2, 0.1, 0.05, 0.025]}, r"mus: has 0.8, at which the pendula of fig3"),
+        ({"ends": {"fig2_small": [1.0]}}, r"ends.fig2_small: has 1 ends for 6 values of mu"),
+        ({"ends": {"fig2": [1.0] * 6}}, r"there is no case 'fig2'"),
+        (
+            {"ends": {"fig2_small": [1.1] * 6}},
+            r"ends.fig2_small: 1.1 is not a whole number",
+        ),
+        ({"spacing": 0.1}, r"end_step: is not a whole number of `spacing`"),
+        ({"long": 1e9}, r"long: its runs together would take"),
+    ],
+)
+def test_what_gives_no_order_is_refused_by_its_key(change, text):
+    given = paper()["pendula"]
+    settings = {"pendula": given | {"remainder": given["remainder"] | change}}
+    with pytest.raises(ConfigurationError, match=text):
+        load(dict(paper()) | {"unbounded": None, "breathers": None} | settings)
