@@ -44,17 +44,16 @@ def test_the_true_state_lies_within_the_radius_and_not_within_a_small_part_of_it
     assert radius < 20.0 * distance
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_the_contraction_is_the_norm_of_a_longer_dense_matrix(family):
-    """1 - A DF on a longer chain, A the inverse on the block and C^-1 beyond, in doubles."""
-    chain, extra, s = HERE._replace(half_width=3), 4, family.drive(HERE.gamma)
-    state = find_state(chain, family)
+def dense(chain, s, u, extra):
+    """Return A and DF(u) on a chain longer by `extra` at both sides, and u there, in doubles.
+
+    A is the inverse on the block, and C^-1 at each site beyond.
+    """
     longer = chain._replace(half_width=chain.half_width + extra)
     sites = 2 * longer.half_width + 1
-    u = np.zeros((2, sites))
-    u[:, extra:-extra] = np.concatenate([state[:, :0:-1], state], axis=1)
-    with balls.precision():
-        slope = existence.slope(longer, s, [arb(float(x)) for x in u.ravel()])
+    wide = np.zeros((2, sites))
+    wide[:, extra:-extra] = u
+    slope = existence.slope(longer, s, [arb(float(x)) for x in wide.ravel()])
     df = np.array([[float(x.mid()) for x in row] for row in slope.tolist()])
     block = np.arange(extra, sites - extra)
     block = np.concatenate([block, block + sites])
@@ -64,8 +63,28 @@ def test_the_contraction_is_the_norm_of_a_longer_dense_matrix(family):
     for n in [*range(extra), *range(sites - extra, sites)]:
         both = np.ix_([n, n + sites], [n, n + sites])
         a[both] = np.linalg.inv([[outer, s], [s, outer]])
-    norm = np.abs(np.eye(2 * sites) - a @ df).sum(axis=1).max()
-    assert proved(family, chain, state).contraction == pytest.approx(norm, rel=1e-9)
+    miss = existence.residual(longer, s, [arb(float(x)) for x in wide.ravel()]).entries()
+    return a, df, wide.ravel(), np.array([float(x.mid()) for x in miss])
+
+
+@pytest.mark.parametrize("s", [1.0, -1.0])
+@pytest.mark.parametrize("scale", [0.3, 1.5, 4.0, 30.0])
+def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale):
+    """Also of what is no state, where now the block and now the outside decides."""
+    chain = HERE._replace(half_width=2)
+    u = scale * np.random.default_rng(3).uniform(-1.0, 1.0, (2, 5))
+    with balls.precision():
+        a, df, wide, miss = dense(chain, s, u, 4)
+        found = existence.estimate(chain, s, [arb(float(x)) for x in u.ravel()], infinite=True)
+        eta, z, bent, cubic = (balls.upper(one) for one in found)
+
+    def norm(matrix):
+        return np.abs(matrix).sum(axis=1).max()
+
+    assert z == pytest.approx(norm(np.eye(len(df)) - a @ df), rel=1e-9)
+    assert eta == pytest.approx(np.abs(a @ miss).max(), rel=1e-9)
+    assert bent == pytest.approx(3.0 * norm(a * wide), rel=1e-9)
+    assert cubic == pytest.approx(1.5 * norm(a), rel=1e-9)
 
 
 def test_uniqueness_stops_before_the_next_state():
@@ -109,6 +128,17 @@ def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
     assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
     with pytest.raises(RefusedError, match="residual"):
         proved(EQUAL, state=1.3 * state)
+
+
+def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
+    """p has its roots at 0.4975 and 0.5025: just below the second one p < 0, but q > 1."""
+    with balls.precision():
+        eta = arb(0.4975) * arb(0.5025) / 2
+        there = existence.Estimates(eta, arb(0.5), arb(1), arb(1e-12))
+        with pytest.raises(RefusedError, match="residual"):
+            existence.radii(there)
+        radius, unique = existence.radii(there._replace(eta=0.9 * eta))
+    assert 0.342 < radius < 0.36 < 0.49 < unique < 0.658
 
 
 def test_zero_is_no_breather():

@@ -74,6 +74,15 @@ class Proof(NamedTuple):
     decay: float  # rho, the factor from site to site beyond the block; 0 on a finite chain
 
 
+class Estimates(NamedTuple):
+    """What the theorem needs, as balls whose upper ends are bounds."""
+
+    eta: arb
+    z: arb  # Z
+    bent: arb  # lambda
+    cubic: arb  # mu
+
+
 class RefusedError(ArithmeticError):
     """There is no proof; the message says which inequality fails."""
 
@@ -87,29 +96,33 @@ def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> P
     with balls.precision():
         whole = np.concatenate([state[:, :0:-1], state], axis=1)
         u = [arb(float(value)) for value in whole.ravel()]
-        k, miss = slope(chain, s, u), residual(chain, s, u)
-        epsilon, away = balls.decimal(chain.epsilon), distance(chain, s)
-        if infinite and not 2 * epsilon < away:
-            raise RefusedError("the outside does not contract: Omega lies in a band of waves")
-        n, size = _near_inverse(k), len(u)
-        ends = _ends(size) if infinite else ()
-        left = _moduli(_unit(size) - n * k) * _columns([1] * size)
-        # row sums of |N E|, |N_ij u_j| and |N|
-        marked = [int(j in ends) for j in range(size)]
-        sums = _moduli(n) * _columns(marked, [abs(x) for x in u], [1] * size)
-        z = _largest(left[i, 0] + epsilon * sums[i, 0] for i in range(size))
-        eta = _largest(abs(x) for x in (n * miss).entries())
-        bent = 3 * _largest(sums[i, 1] for i in range(size))
-        cubic = _largest(sums[i, 2] for i in range(size))
-        if infinite:
-            z = _largest([z, 2 * epsilon / away])
-            eta = _largest([eta, *(epsilon * abs(u[j]) / away for j in ends)])
-            cubic = _largest([cubic, 1 / away])
-        radius, unique = _radii(eta, z, bent, 1.5 * cubic)
+        found = estimate(chain, s, u, infinite)
+        radius, unique = radii(found)
         if not arb(radius) < _largest(map(abs, u)):
             raise RefusedError("the state cannot be told from zero")
-        decay = _decay(epsilon, away, arb(radius)) if infinite else 0.0
-        return Proof(radius, unique, balls.upper(z), decay)
+        decay = _decay(chain, s, arb(radius)) if infinite else 0.0
+        return Proof(radius, unique, balls.upper(found.z), decay)
+
+
+def estimate(chain: Chain, s: float, u: list[arb], infinite: bool) -> Estimates:
+    """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
+    k, miss, size = slope(chain, s, u), residual(chain, s, u), len(u)
+    epsilon, away = balls.decimal(chain.epsilon), distance(chain, s)
+    if infinite and not 2 * epsilon < away:
+        raise RefusedError("the outside does not contract: Omega lies in a band of waves")
+    n, ends = _near_inverse(k), _ends(size) if infinite else ()
+    left = _moduli(_unit(size) - n * k) * _columns([1] * size)
+    # row sums of |N E|, |N_ij u_j| and |N|
+    marked = [int(j in ends) for j in range(size)]
+    sums = _moduli(n) * _columns(marked, [abs(x) for x in u], [1] * size)
+    z = _largest(left[i, 0] + epsilon * sums[i, 0] for i in range(size))
+    eta = _largest(abs(x) for x in (n * miss).entries())
+    bent, plain = (_largest(sums[i, column] for i in range(size)) for column in (1, 2))
+    if infinite:
+        z = _largest([z, 2 * epsilon / away])
+        eta = _largest([eta, *(epsilon * abs(u[j]) / away for j in ends)])
+        plain = _largest([plain, 1 / away])
+    return Estimates(eta, z, 3 * bent, 1.5 * plain)
 
 
 def slope(chain: Chain, s: float, u: list[arb]) -> arb_mat:
@@ -153,12 +166,13 @@ def _near_inverse(k: arb_mat) -> arb_mat:
         raise RefusedError("the slope of the equations has no inverse there") from None
 
 
-def _radii(eta: arb, z: arb, bent: arb, cubic: arb) -> tuple[float, float]:
+def radii(estimates: Estimates) -> tuple[float, float]:
     """Return r and R of the theorem, each shown by its inequalities.
 
     Where to try them is no matter of proof: r a little above the smaller root of p without its last
     term, and R a little below the larger root of p without eta, or further in.
     """
+    eta, z, bent, cubic = estimates
     room = 1 - z
     if not room > 0:
         raise RefusedError("the inverse is not near enough: the slope may be singular")
@@ -176,7 +190,9 @@ def _radii(eta: arb, z: arb, bent: arb, cubic: arb) -> tuple[float, float]:
     return radius, next((out for out in tried if out > radius and p(arb(out)) < 0), radius)
 
 
-def _decay(epsilon: arb, away: arb, r: arb) -> float:
+def _decay(chain: Chain, s: float, r: arb) -> float:
+    """Return an upper bound of rho."""
+    epsilon, away = balls.decimal(chain.epsilon), distance(chain, s)
     ratio = 2 * epsilon / (away - r * r / 2)
     if not (away > r * r / 2 and ratio < 1):
         raise RefusedError("the state may not decay: the radius is too large")
