@@ -44,8 +44,8 @@ from pendula.problem import Constants, Problem
 
 BAND = 5
 """Places beside the diagonal of rho Q - T that may hold a number."""
-HALVINGS = 8
-"""Halvings of the crude rate's interval; the sharp one is off by a 256th of the crude one."""
+HALVINGS = 6
+"""Halvings of the crude rate's interval; the sharp one is off by a 64th of the crude one."""
 CHUNK = 512
 """States whose matrices are factorised at a time: as many as fit into the cache."""
 UP = 1.0 + 1e-9
