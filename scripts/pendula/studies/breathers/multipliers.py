@@ -165,7 +165,7 @@ class Collision(NamedTuple):
     signatures: tuple[int, int]
 
 
-FREQUENCY_ERROR = 1e-7
+FREQUENCY_ERROR = 1e-6
 
 
 def unstable_count(frequency: float, traces: np.ndarray) -> int:
