@@ -152,6 +152,33 @@ def pendula_sizes(given: dict) -> dict[str, str]:
     }
 
 
+def breathers(baseline) -> dict[str, float]:
+    """Return the errors of rates of growth, of thresholds, of the law of drives and of shares."""
+    steady, shares = baseline["breathers/steady"], baseline["breathers/sensitivity"]
+    below, found_to = steady["stable_below"], given("breathers")["steady"]["stability"]["to"]
+    rows = {row["name"]: row["measured"] for row in baseline.claims()}
+    off = abs(steady["growth"] - steady["growth_half"]) / steady["growth"].where(steady["growth"])
+    return {
+        "steady": _most(off),
+        "thresholds": _most(abs(below.diff("chain_half_width"))) + found_to,
+        "law": rows["grows_by_drive"]["largest_difference"],
+        "shares": _most(0.5 * (shares["share_high"] - shares["share_low"])),
+    }
+
+
+def breathers_sizes(given: dict) -> dict[str, str]:
+    """Return how long and how many, by the parts of `breathers`."""
+    steady, growth, shares = given["steady"], given["growth"], given["sensitivity"]
+    chains = f"M = {number(steady['half_width'])} and half of it"
+    return {
+        "steady": f"{number(len(steady['omegas']))} values of Ω, {chains}",
+        "thresholds": f"to {number(steady['stability']['to'])}, {chains}",
+        "law": f"γ = {_listed(growth['end_times'])}, tolerance {number(growth['tolerance'])}",
+        "shares": f"{number(shares['members'])} members of {number(len(shares['sizes']))} sizes,"
+        f" tolerance {number(shares['tolerance'])}",
+    }
+
+
 def unbounded(baseline) -> dict[str, float]:
     """Return the errors of the chains without ends, of their solver, and of the thermal states."""
     growth, front = baseline["unbounded/growth"], baseline["unbounded/front"]
@@ -236,6 +263,7 @@ STUDIES: dict[str, tuple[Callable, Callable]] = {
     "chaos": (chaos, chaos_sizes),
     "theory": (theory, theory_sizes),
     "pendula": (pendula, pendula_sizes),
+    "breathers": (breathers, breathers_sizes),
     "unbounded": (unbounded, unbounded_sizes),
     "certified": (certified, certified_sizes),
 }

@@ -147,9 +147,19 @@ class Fates(Model):
         return [float(one) for one in 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi]
 
 
+class Needs(Model):
+    """The largest error that each part may have."""
+
+    steady: Positive
+    thresholds: Positive
+    law: Positive
+    shares: Positive
+
+
 class Settings(Model):
     """Section `breathers` of the configuration."""
 
+    needs: Needs
     epsilon: Positive
     gamma: Positive
     steady: Steady
