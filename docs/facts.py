@@ -537,7 +537,7 @@ def theory(baseline: Baseline) -> dict:
     sharp, threshold = baseline["checks/sharpness"], baseline["checks/threshold"]
     slow = threshold["spreading_exponent"].mean("omega").isel(decay=1)
     reached = sharp["reached"].isel(sites=-1)
-    remainder, bootstrap = baseline["checks/remainder"], baseline["checks/bootstrap"]
+    bootstrap = baseline["checks/bootstrap"]
     printed, gap = baseline["checks/theorem_3_constant"], baseline["checks/theorem_2_case"]
     measured = {row["name"]: row["measured"] for row in baseline.claims()}
     cases = baseline["checks/cases"]
@@ -556,10 +556,6 @@ def theory(baseline: Baseline) -> dict:
         "reached_ball": number(reached.sel(form="theorem_2_ball"), 2),
         "proof_constant": number(sharp["proof_constant"]),
         "least_constant": number(sharp["least_constant"]),
-        "remainder_end": number(remainder["tau"][-1]),
-        "lost_mu": number(remainder["mu"][-1]),
-        "lost": percent(remainder["lost"][-1].sel(omega=0), 2),
-        "lost_least": percent(remainder["lost"][-1].min(), 2),
         "observed": span(cases["ratio"].values, 2),
         "broken_sites": number(printed["smallest"]),
         "printed_order": number(measured["printed_time"]["order"], 2),

@@ -70,7 +70,6 @@ COUNTED = {
         "speed.fastest_below",
         "theory.cells",
         "theory.decay",
-        "theory.lost_mu",
         "second_solver.step",
         "theory.broken_sites",
         "theory.sites",

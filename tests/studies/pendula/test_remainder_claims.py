@@ -57,6 +57,7 @@ def test_all_are_decided_and_every_control_passes(lyapunov):
     assert {row["name"]: row["verdict"] for row in rows} == {
         "expansion_order": "confirmed",
         "next_order_of_the_expansion": "confirmed",
+        "remainder_bounded": "not reproduced",
         "remainder_secular": "confirmed",
         "horizon_logarithmic": "confirmed",
     }
@@ -79,6 +80,10 @@ def test_all_are_decided_and_every_control_passes(lyapunov):
 )
 def test_a_claim_falls_where_its_measure_does(lyapunov, name, change):
     assert verdicts(change(made()), lyapunov)[name] == "not reproduced"
+
+
+def test_a_remainder_that_hardly_grows_is_bounded(lyapunov):
+    assert verdicts(made(grows=0.2), lyapunov)["remainder_bounded"] == "confirmed"
 
 
 def test_too_few_mu_decide_nothing(lyapunov):

@@ -134,7 +134,6 @@ FLIPS = {
     "gauge_returns": ("checks/conservation", scaled("gauge_defect_alike", 2.0)),
     "inherited": ("checks/inherited_energy", scaled("energy_order", 0.5)),
     "resonance": ("checks/resonance", scaled("driven_rate", 0.5)),
-    "remainder_order": ("checks/remainder", scaled("remainder_order", 0.5)),
     "slow_time": ("checks/expansion", scaled("order", 0.3)),
     "drive_sign": ("checks/expansion", scaled("order", 0.3)),
     "dispersion": ("checks/dispersion", scaled("eigenvalue_error", 2.0)),

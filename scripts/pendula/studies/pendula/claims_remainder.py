@@ -19,13 +19,15 @@ PLACE = "Section 2, (3), for the pendula (1)"
 REMAINDER, LYAPUNOV = "pendula/remainder", "checks/lyapunov"
 STABLE = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
 """Cases whose chain at rest is stable."""
-UNSTABLE = "fig4_small"
+UNSTABLE, UNSTABLE_CASES = "fig4_small", ("fig4_small", "fig4_large")
 
 WHOLE = Cutoff(0.03, "an order is a whole number if it is so in its first two digits")
 SECULAR = Cutoff(1.5, "growth is nearer to proportion to time than to its square", 1.0)
 LONG = 10.0
 """A run that tells how the remainder grows goes on to here at least, where the paper takes its
 chains for settled."""
+SPAN = 4.0
+"""The remainder of all cases is followed to here at least: chaos has grown by a thousand then."""
 FEWEST = 3
 """So many mu at least: any two horizons make a line."""
 
@@ -102,19 +104,57 @@ def next_order_of_the_expansion(remainder) -> Finding:
     return judged_order(remainder, "corrected", 5.0)
 
 
-def late_exponents(remainder, cases):
-    """Return, by case, the exponent of time by which the error grows over the late half of a run.
+def in_square_of_time(remainder):
+    """Return errors that grow like tau^2."""
+    error = remainder["error"]
+    return remainder.assign(error=(0.0 * error.fillna(0.0) + remainder["end"] ** 2))
 
-    It is that of the smallest mu whose runs of these cases are long.
+
+def over_late_half(remainder, cases, long: float):
+    """Return a mu, an end, and by case how much the error grows in the late half up to that end.
+
+    It is the smallest mu whose runs of all `cases` go on to `long`, and the last end of them.
     """
     some = remainder.sel(case=list(cases), expansion="leading")
-    long = some["pendula_end"].min("case").where(lambda ends: ends >= LONG, drop=True)
-    if not long.size:
-        raise UndecidableError(f"no run of these cases goes to tau = {LONG:g}")
-    mu, end = float(long["mu"].min()), float(long.sel(mu=long["mu"].min()))
-    late = some["error"].sel(mu=mu)
-    ratio = late.sel(end=end) / late.sel(end=0.5 * end, method="nearest")
-    return mu, end, log(ratio.values) / log(2.0)
+    ends = some["pendula_end"].min("case")
+    ends = ends.where(ends >= long, drop=True)
+    if not ends.size:
+        raise UndecidableError(f"no mu follows the pendula to tau = {long:g} in all these cases")
+    mu = float(ends["mu"].min())
+    end = float(ends.sel(mu=mu))
+    errors = some["error"].sel(mu=mu)
+    return mu, end, errors.sel(end=end) / errors.sel(end=0.5 * end, method="nearest")
+
+
+def constant_in_time(remainder):
+    """Return the errors of the first end at all ends that are known."""
+    error = remainder["error"]
+    return remainder.assign(error=error.isel(end=0).where(error.notnull()))
+
+
+@claim(
+    "Section 2, before (4)",
+    "The remainder of the expansion stays bounded as the system evolves.",
+    (REMAINDER,),
+    (
+        Control("a remainder that stays what it is at first", {REMAINDER: constant_in_time},
+                confirms=True),
+        Control("errors in proportion to tau^2", {REMAINDER: in_square_of_time}),
+    ),
+    on=(*STABLE, *UNSTABLE_CASES),
+)  # fmt: skip
+def remainder_bounded(remainder) -> Finding:
+    """Compare the largest remainder of all cases with that of the first half of the span."""
+    cases = (*STABLE, *UNSTABLE_CASES)
+    mu, end, growth = over_late_half(remainder, cases, SPAN)
+    measured = {f"growth_{case}": float(growth.sel(case=case)) for case in cases}
+    fails = (
+        f"from the first half of the span to tau = {end:g} to the second the largest remainder"
+        f" grows by {growth.min():.3g} to {growth.max():.3g}, at mu = {mu:g}; so the sentence holds"
+        " on a fixed span only, as mu goes to zero"
+    )
+    says = "growth of the largest remainder from the first half of the span to the second"
+    return judge(measured, Below(FACTOR, *measured, says=says), fails=fails)
 
 
 @claim(
@@ -123,14 +163,14 @@ def late_exponents(remainder, cases):
     "most.",
     (REMAINDER,),
     (
-        Control("errors in proportion to tau^2", {REMAINDER: lambda one: one.assign(
-            error=0.0 * one["error"].fillna(0.0) + one["end"] ** 2)}),
+        Control("errors in proportion to tau^2", {REMAINDER: in_square_of_time}),
     ),
     on=("fig2_small", "fig3_small"),
 )  # fmt: skip
 def remainder_secular(remainder) -> Finding:
     """Read the exponent of time off the late half of the runs."""
-    mu, end, exponents = late_exponents(remainder, ("fig2_small", "fig3_small"))
+    mu, end, growth = over_late_half(remainder, ("fig2_small", "fig3_small"), LONG)
+    exponents = log(growth.values) / log(2.0)
     measured = {"largest_exponent": exponents.max(), "mu": mu, "up_to_tau": end}
     return judge(measured, Below(SECULAR, "largest_exponent", says="exponent of time"))
 

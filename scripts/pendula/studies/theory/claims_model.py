@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pendula.ledger.claim import FACTOR, number
+from pendula.ledger.claim import number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -325,67 +325,3 @@ def drive_sign(expansion) -> Finding:
     least = THIRD - NEAR.value
     criterion = AllOf(Above(least, "order", says=here), Below(least, "order_opposite", says=there))
     return judge(measured, criterion)
-
-
-@decides(
-    "Section 2, before (4)",
-    "On a fixed span of tau the error of the expansion is of the order of mu^3.",
-    "remainder",
-    controls=(wrong("amplitudes that move with another Omega", "remainder"),),
-)
-def remainder_order(check) -> Finding:
-    end, mu = float(check["tau"][-1]), float(check["mu"][-1])
-    largest = check["remainder"].sel(mu=mu).max("tau").values
-    lost, omegas = check["lost"].sel(mu=mu).values, check["omega"].values
-    best, worst = int(largest.argmin()), int(largest.argmax())
-    measured = {"least_order": check["remainder_order"].min(), "largest": largest.max()}
-    measured |= {"least": largest.min(), "lost": lost.max()}
-    caveat = (
-        f"with a factor that depends on Omega: by tau = {end:g} the remainder has reached"
-        f" {largest[best]:.3g} at Omega = {omegas[best]:g} and {largest[worst]:.4g} at"
-        f" Omega = {omegas[worst]:g}, where mu = {mu:g} leaves angles wrong by"
-        f" {lost[worst]:.0%} of the largest"
-    )
-    says = "least order in mu of the error of the angles"
-    return judge(measured, Above(THIRD - NEAR.value, "least_order", says=says), caveat)
-
-
-def late_half(check):
-    """Return the remainder over the late half of its span, with times from its start."""
-    late = check.isel(tau=slice(check.sizes["tau"] // 2, None))
-    return late.assign_coords(tau=late["tau"] - late["tau"][0])
-
-
-@decides(
-    "Section 2, before (4)",
-    "The remainder of the expansion stays bounded as the system evolves.",
-    "remainder",
-    controls=(
-        changed(
-            "the late half of the span, over which the remainder is level",
-            "remainder",
-            late_half,
-            confirms=True,
-        ),
-        changed(
-            "a remainder in proportion to tau^2, at every Omega",
-            "remainder",
-            lambda check: check.assign(remainder=0.0 * check["remainder"] + check["tau"] ** 2),
-        ),
-    ),
-)
-def remainder_bounded(check) -> Finding:
-    found = check["remainder"].sel(mu=float(check["mu"][-1]))
-    middle, end = 0.5 * float(found["tau"][-1]), float(found["tau"][-1])
-    early, late = found.where(found["tau"] <= middle), found.where(found["tau"] > middle)
-    growth = (late.max("tau") / early.max("tau")).values
-    omegas = found["omega"].values
-    names = [f"growth_at_omega_{omega:g}" for omega in omegas]
-    told = ", ".join(f"{g:.3g} at Omega = {o:g}" for g, o in zip(growth, omegas, strict=True))
-    fails = (
-        f"from the first half of the span to tau = {end:g} to the second the largest remainder"
-        f" grows by {told}; so the sentence holds on a fixed span only, as mu goes to zero"
-    )
-    says = "growth of the largest remainder from the first half of the span to the second"
-    measured = dict(zip(names, growth, strict=True))
-    return judge(measured, Below(FACTOR, *names, says=says), fails=fails)

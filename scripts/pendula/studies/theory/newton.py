@@ -121,52 +121,6 @@ def check_expansion(constants: Constants, sites: int, end_time: float, mus, pair
     )
 
 
-def check_remainder(
-    epsilon: float,
-    gamma: float,
-    omegas,
-    sites: int,
-    end_time: float,
-    mus,
-    pair,
-    omega_off: float = 0.0,
-) -> dict:
-    """Follow the remainder X = (x - x of (3)) / mu^3 for a long time, from the paper's small data.
-
-    It is bounded if it does not grow as mu falls, that is if the error of the angle has order
-    three or more. `lost` is the error at the end over the largest angle.
-    """
-    amplitudes, taus = one_pair(sites, pair), np.linspace(0.0, end_time, OUTPUTS)
-    runs = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
-    errors = np.empty((len(mus), len(runs), OUTPUTS))
-    lost = np.empty((len(mus), len(runs)))
-    for i, mu in enumerate(mus):
-        times = fast_times(mu, end_time)
-        angles, _ = pendula_run(runs, mu, amplitudes, times)
-        for j, constants in enumerate(runs):
-            stated = misstated(constants, omega_off)
-            envelope = envelope_run(stated, amplitudes, taus)
-            errors[i, j] = angle_errors(angles[:, j], envelope, constants, mu, times)
-            lost[i, j] = errors[i, j, -1] / np.abs(angles[:, j]).max()
-    dims, cubes = ("mu", "omega", "tau"), np.array([mu * mu * mu for mu in mus])
-    return table(
-        "The remainder of the expansion (3) along Newton's equations (1)",
-        {"mu": mus, "omega": omegas, "tau": taus},
-        remainder=variable(errors / cubes[:, None, None], dims, "largest |X| of the chain", "rad"),
-        remainder_order=variable(
-            order(errors.max(axis=2), mus),
-            ("omega",),
-            "order in mu of the largest error of an angle",
-        ),
-        early_order=variable(
-            order(errors[..., : OUTPUTS // 10 + 1].max(axis=2), mus),
-            ("omega",),
-            "the same over the first tenth of the time",
-        ),
-        lost=variable(lost, dims[:2], "error of an angle at the end over the largest angle"),
-    )
-
-
 def check_pendula_synchrony(
     constants: Constants, sites: int, mu: float, end_time: float, seed: int, sign: float = 1.0
 ) -> dict:

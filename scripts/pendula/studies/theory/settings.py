@@ -103,7 +103,6 @@ CHECKS = {
         "conservation": check("epsilon gamma omegas sites end_time seed"),
         # Newton's equations
         "expansion": check("constants sites end_time mus pair"),
-        "remainder": check("epsilon gamma omegas sites end_time mus pair"),
         "pendula_synchrony": check("constants sites mu end_time seed"),
         "inherited_energy": check("constants sites end_time mus seed"),
         "resonance": check("gamma mus ratios"),
@@ -145,7 +144,7 @@ GROUPS = {group: tuple(checks) for group, checks in CHECKS.items()}
 
 WRONG = (
     *("gradient", "conservation", "no_drive", "phase_turned", "symmetries", "pt_form"),
-    *("expansion", "remainder", "pendula_synchrony", "inherited_energy", "negative_depth"),
+    *("expansion", "pendula_synchrony", "inherited_energy", "negative_depth"),
     *("bootstrap", "dispersion", "chart", "measured_windows", "sharp_threshold"),
     *("unstable_waves", "threshold", "picard", "dependence", "balance", "growth"),
     *("inequalities", "samples", "worst", "sharpness", "chain_growth", "energy_shell"),
