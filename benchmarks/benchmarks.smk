@@ -6,6 +6,7 @@ rule speed:
     input:
         "results/speed/work_precision.md",
         "results/speed/cost.md",
+        "results/speed/pendula.md",
         expand("results/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS.values()),
     message:
         "The measurements of speed are there"
@@ -30,6 +31,26 @@ rule work_precision:
         "Timing every solver and installed peer on the paper's cases"
     script:
         "jobs/measure_work_precision.py"
+
+
+rule speed_pendula:
+    "Part of speed: every solver and installed peer on Newton's equations, timed"
+    input:
+        code=code("benchmarks/jobs/measure_pendula.py"),
+    output:
+        data="results/speed/pendula.nc",
+        table="results/speed/pendula.md",
+    log:
+        "results/logs/speed/pendula.log",
+    conda:
+        "../workflow/envs/pinned.yaml"
+    threads: workflow.cores
+    params:
+        problems={case: SETTINGS.problem(case) for case in REGIMES["regular"].cases},
+    message:
+        "Timing every solver and installed peer on Newton's equations"
+    script:
+        "jobs/measure_pendula.py"
 
 
 rule cost:

@@ -5,8 +5,10 @@ import xarray as xr
 from pendula.report.words import markdown
 
 from .cost import TOLERANCE
+from .pendula import END_TIME, MU, TARGET
 from .problems import REGIMES
 
+POINT = ("accuracy", "seconds", "error")
 COMPARED = 1001, 100_001
 """Numbers of sites whose costs are compared in the last row of their table."""
 
@@ -129,4 +131,28 @@ def _active_row(width: int, seconds: float, evaluations: float, memory: float) -
     return [
         *(f"{2 * int(width) + 1:,}", f"{1e6 * seconds:.3g}", f"{evaluations:.0f}"),
         *(each, f"{memory:.0f}"),
+    ]
+
+
+def tabulate_pendula(measured: xr.Dataset) -> list[str]:
+    """Return the parts of a page: ratios of the peers, and every point of every contestant."""
+    titles = dict(zip(measured["contestant"].values, measured["title"].values, strict=True))
+    cases = list(measured["case"].values)
+    rows = [
+        [titles[peer], *(f"{float(value):.3g}" for value in measured["ratio"].sel(peer=peer))]
+        for peer in measured["peer"].values
+    ]
+    points = [
+        [case, titles[name], *(f"{float(one.isel(point=k)[key]):.2g}" for key in POINT)]
+        for case in cases
+        for name in measured["contestant"].values
+        for one in [measured.sel(case=case, contestant=name)]
+        for k in np.flatnonzero(np.isfinite(one["error"]))
+    ]
+    return [
+        "# Speed against error on the pendula",
+        "Times of the peers over that of the fastest solver here, at an error of "
+        f"{TARGET:.0e} rad, mu = {MU:g}, tau = {END_TIME:g}.",
+        markdown(["peer", *cases], rows),
+        markdown(["case", "solver", "tolerance or step", "seconds", "error"], points),
     ]

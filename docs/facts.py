@@ -88,7 +88,7 @@ def gather(baseline: Baseline, configuration: dict, chaos_study: dict) -> dict[s
         theory,
         references,
     )
-    topics += (speed, full_run, hard_cases, mutation)
+    topics += (speed, pendula_speed, full_run, hard_cases, mutation)
     return {
         **{topic.__name__: topic(baseline) for topic in topics},
         **study_errors.facts(baseline),
@@ -616,6 +616,21 @@ def speed(baseline: Baseline) -> dict:
             {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
         ],
         "long_over_short": {"sites": f"{COMPARED[1]} over {COMPARED[0]}", **_growth(long / short)},
+    }
+
+
+def pendula_speed(baseline: Baseline) -> dict:
+    """Return how many times as long peers take on Newton's equations, at equal error."""
+    measured = baseline["speed/pendula"]
+    titles = measured["title"].to_series()
+    ratios = {str(peer): measured["ratio"].sel(peer=peer) for peer in measured["peer"].values}
+    return {
+        "target": measured.attrs["compared_at"],
+        "peers": [
+            {"peer": titles[peer], "ratio": " and ".join(map(_ratio, found.dropna("case").values))}
+            for peer, found in ratios.items()
+            if found.notnull().any()
+        ],
     }
 
 

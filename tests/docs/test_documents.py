@@ -66,6 +66,7 @@ COUNTED = {
     *("unbounded.members", "unbounded.spans", "unbounded.grown", "unbounded.far"),
     *(
         "speed.processor",
+        "pendula_speed.target",
         "speed.faster",
         "speed.fastest_below",
         "theory.cells",
