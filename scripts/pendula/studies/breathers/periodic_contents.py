@@ -263,7 +263,7 @@ def _collisions(table: _Table) -> dict[str, Variable]:
             over, table.collision, f"{says}frequency lambda", COLLISION_DIGITS
         ),
         "collision_power": kept(
-            over, table.collision_power, f"{says}P of the breather", COLLISION_DIGITS
+            over, table.collision_power, f"{says}P of the breather", MEASURED_DIGITS
         ),
         "collision_multiplier": kept(
             ("part", *over), table.collision_multiplier,
