@@ -20,7 +20,11 @@ def made(grows=1.0):
     horizons = np.array([[2.0], [4.0]]) / RATE * np.log(2.0) * np.arange(6)
     wrong = np.array([1.0, 3.0, 3.0])[:, None] + np.zeros((3, 6))
     reduced = ("expansion", "case", "end")
-    names = ["the slow time mu^2 t", "P of the opposite sign", "P without G"]
+    names = [
+        "the slow time mu^2 t",
+        "a third harmonic of the opposite sign",
+        "a third harmonic alone",
+    ]
     return xr.Dataset(
         {
             "error": (over, np.broadcast_to(powers, (2, 6, 6, 20)).copy()),

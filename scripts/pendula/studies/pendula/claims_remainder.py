@@ -94,9 +94,9 @@ def expansion_order(remainder) -> Finding:
     (REMAINDER,),
     (
         Control("a third harmonic of the opposite sign",
-                {REMAINDER: of_wrong("P of the opposite sign", "corrected")}),
+                {REMAINDER: of_wrong("a third harmonic of the opposite sign", "corrected")}),
         Control("the third harmonic with the amplitudes of (4)",
-                {REMAINDER: of_wrong("P without G", "corrected")}),
+                {REMAINDER: of_wrong("a third harmonic alone", "corrected")}),
     ),
     on=STABLE,
 )  # fmt: skip

@@ -48,8 +48,8 @@ class Reading(NamedTuple):
 READINGS = {"leading": Reading(), "corrected": Reading(corrected=True, third=1.0)}
 WRONG = {
     "the slow time mu^2 t": Reading(clock=2.0),
-    "P of the opposite sign": Reading(corrected=True, third=-1.0),
-    "P without G": Reading(third=1.0),
+    "a third harmonic of the opposite sign": Reading(corrected=True, third=-1.0),
+    "a third harmonic alone": Reading(third=1.0),
 }
 """Expansions that must not have the order of a right one."""
 

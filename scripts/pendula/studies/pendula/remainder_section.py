@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from pendula.report.results import Results
-from pendula.report.words import number, with_error
+from pendula.report.words import number, symbols, with_error
 
 from .claims_remainder import common_end
 
@@ -51,7 +51,10 @@ def _horizons(results: Results, case: str, expansion: str) -> list:
 
 def _wrong(results: Results, name: str) -> list:
     orders = results[DATA]["wrong_order"].sel(wrong_expansion=name).values
-    return [name, *(results.quote(DATA, float(pick(orders))) for pick in (np.nanmin, np.nanmax))]
+    return [
+        symbols(name),
+        *(results.quote(DATA, float(pick(orders))) for pick in (np.nanmin, np.nanmax)),
+    ]
 
 
 def _alt(data) -> str:
