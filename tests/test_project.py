@@ -20,10 +20,13 @@ def test_the_conda_environment_has_the_same_pins():
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
 
 
+ALONE = "certified/check_certificate.py"
+"""A program for strangers, who have neither the library nor Snakemake: no rule runs it."""
 SCRIPTS = sorted(
-    path.relative_to(sources.SCRIPTS).as_posix()
+    name
     for path in sources.SCRIPTS.glob("*/*.py")
     if path.parent.name != "pendula"
+    and (name := path.relative_to(sources.SCRIPTS).as_posix()) != ALONE
 )
 """Every script of a rule, as `folder/name.py`: base names alone repeat."""
 

@@ -154,3 +154,9 @@ def test_faults_are_told_before_any_job(tmp_path, settings, words):
     assert result.returncode != 0 and words in result.stderr
     assert "Traceback (most recent" not in result.stderr
     assert not list(tmp_path.glob("results/**/*.log"))
+
+
+def test_a_case_whose_linear_flow_keeps_no_norm_is_refused_a_proof_before_any_job(tmp_path):
+    result = snakemake_with(SETTINGS, ROOT, tmp_path, "-n", "results/certified/sea.nc")
+    assert result.returncode != 0
+    assert "cases.sea.omega: Omega = 0 lies in [-2, 6], where no norm is kept" in result.stdout
