@@ -18,7 +18,7 @@ ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
     "bounds",
     "draw_breathers",
-    "draw_certified_curves",
+    "certified_curves",
     "draw_fates",
     "draw_remainder",
     "draw_sensitivity",

@@ -30,7 +30,7 @@ rule measure_lines:
         code=code("certified/measure_lines.py"),
         trajectories=trajectories(),
         references=references(*PAPER_CASES),
-        proved=certified_curves(),
+        proved=proved_curves(),
     output:
         data="results/certified/lines.nc",
     log:
@@ -61,11 +61,11 @@ use rule certify_curve as certify_wrong_curve with:
         "Asking the proof about a curve of another equation"
 
 
-rule draw_certified_curves:
+rule certified_curves:
     "Proven bounds of the error of curves, what they are due to, and the error that is known"
     input:
         code=code("certified/draw_curves.py"),
-        curves=certified_curves(),
+        curves=proved_curves(),
     output:
         **figure("certified_curves"),
     log:

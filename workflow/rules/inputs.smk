@@ -68,7 +68,7 @@ def makers():
         "map_fates": ["results/breathers/fates.nc"],
         "find_threshold": ["results/pendula/threshold.nc"],
         "measure_remainder": ["results/pendula/remainder.nc"],
-        "certify_curve": certified_curves(),
+        "certify_curve": proved_curves(),
         "measure_lines": ["results/certified/lines.nc"],
         "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
         "prove_breathers": ["results/certified/breathers.nc"],
@@ -377,7 +377,7 @@ def short_problem(given):
     return {**certified_problem(given.case), **short}
 
 
-def certified_curves():
+def proved_curves():
     return below(f"certified/{case}" for case in SETTINGS.certified.curves.cases)
 
 
@@ -498,7 +498,7 @@ def claims_need():
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
         "pendula": [*below(f"pendula/{name}" for name in PENDULA), *checks("lyapunov")],
         "certified": [
-            *(*certified_curves(), *below(["certified/wrong/curve", "certified/lines"])),
+            *(*proved_curves(), *below(["certified/wrong/curve", "certified/lines"])),
             *below(["trajectories/fig2_small", "trajectories/fig3_small"]),
             *below(["certified/breathers", "certified/constants", "breathers/steady"]),
         ],
