@@ -65,6 +65,12 @@ def test_the_interpolant_has_the_published_coefficients():
     np.testing.assert_array_equal(c[3:, 0, 1:17], published.D)
 
 
+def test_every_stage_stands_where_its_weights_say(matrix):
+    nodes = dop853.NODES[1:]
+    np.testing.assert_allclose(nodes[1:], matrix.sum(axis=1)[1:], rtol=0, atol=2e-14)
+    assert np.array_equal(nodes[:12], published.C[:12])
+
+
 def test_the_solution_is_of_order_eight(matrix):
     assert defect(matrix, matrix[12], 8) < 1e-13
     assert defect(matrix, matrix[12], 9) > 1e-8

@@ -136,11 +136,11 @@ class Case(Model):
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""
-        known = OF_PENDULA if self.model == PENDULA else OF_AMPLITUDES
+        known, what = OF_AMPLITUDES, "does not take the amplitude equations"
+        if self.model == PENDULA:
+            known, what = OF_PENDULA, "does not take Newton's equations"
         if solver.name not in known:
-            whose = "Newton's equations" if self.model == PENDULA else "the amplitude equations"
-            text = f"{solver.name} does not take {whose}; give one of {', '.join(known)}"
-            yield "solver.name", text
+            yield "solver.name", f"{solver.name} {what}; give one of {', '.join(known)}"
 
     def _faults_of_times(self) -> Iterator[tuple[str, str]]:
         step, off_grid = self.output_step, []
