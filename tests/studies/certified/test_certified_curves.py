@@ -70,6 +70,12 @@ def test_a_sharp_rate_is_just_above_the_largest_eigenvalue():
         assert largest <= rates[i] <= largest + crude[i] / 63
 
 
+def test_a_rate_whose_matrix_would_underflow_is_the_crude_one():
+    given = problem()
+    form, states = find_form(given.constants), np.full((1, 2, 2, 9), 1e-140)
+    assert find_rates(states, given, form) == pytest.approx(crude_rates(states, form), rel=1e-8)
+
+
 def test_inside_the_interval_there_is_no_norm():
     for omega in (-2.0, 0.0, 6.0):
         with pytest.raises(NotDefiniteError, match=r"lies in \[-2, 6\]"):

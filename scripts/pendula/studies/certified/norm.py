@@ -46,6 +46,8 @@ BAND = 5
 """Places beside the diagonal of rho Q - T that may hold a number."""
 HALVINGS = 6
 """Halvings of the crude rate's interval; the sharp one is off by a 64th of the crude one."""
+SMALLEST = 1e-100
+"""Below this rate the entries of the matrix may underflow, and the crude rate is small enough."""
 CHUNK = 512
 """States whose matrices are factorised at a time: as many as fit into the cache."""
 UP = 1.0 + 1e-9
@@ -122,7 +124,7 @@ def _sharpen(states: np.ndarray, crude: np.ndarray, problem: Problem, form: Form
         shift = 2.0**-40 * size * (rates + 1.5 * largest)
         proven = _is_positive(rates * quadratic - change, shift)
         low, high = np.where(proven, low, middle), np.where(proven, middle, high)
-    return high
+    return np.where(crude > SMALLEST, high, 1.0)
 
 
 def _is_positive(band: np.ndarray, shift: np.ndarray) -> np.ndarray:
