@@ -283,7 +283,7 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
     unequal = fates["a0"] != fates["b0"]
     rows = []
     for omega in fates["omega"].values:
-        here = fates.sel(omega=omega).where(unequal)
+        here = fates[["fate", "distance", "nearest"]].sel(omega=omega).where(unequal)
         distance = here["distance"].values[np.isfinite(here["distance"].values)]
         alone = here["nearest"].values[np.isfinite(here["distance"].values)] == 1
         breathers = int((here["fate"] == FATES.index("breather")).sum())
@@ -320,11 +320,9 @@ def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
 def _scanned(spread: xr.Dataset) -> dict[str, Variable]:
     """Return the share that spreads of all amplitudes of the scan, and by unit of A_0."""
     amplitude = spread["initial"].values
-    starts = np.arange(np.floor(amplitude.min()), np.ceil(amplitude.max()))
-    shares = [
-        spread["spread"].values[(amplitude >= start) & (amplitude < start + 1)].mean()
-        for start in starts
-    ]
+    unit = np.minimum(np.floor(amplitude), np.ceil(amplitude.max()) - 1.0)
+    starts = np.unique(unit)
+    shares = [spread["spread"].values[unit == start].mean() for start in starts]
     return {
         "from_amplitude": Variable(("from_amplitude",), starts, "least A_0 of a unit of the scan"),
         "scan_share": Variable(("from_amplitude",), shares, "share of its amplitudes that spread"),

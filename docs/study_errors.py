@@ -13,6 +13,7 @@ import xarray as xr
 import yaml
 from pendula.measures.confidence import difference_limits
 from pendula.report.words import number
+from pendula.studies.breathers.fates import shares_of_area
 from pendula.studies.pendula.claims_remainder import STABLE, common_end
 from pendula.studies.pendula.claims_threshold import limit_of, outside, smallest_mus
 from pendula.studies.unbounded.claims import OF_A_SHORT_BULK, exponent_of, stays
@@ -155,6 +156,7 @@ def pendula_sizes(given: dict) -> dict[str, str]:
 def breathers(baseline) -> dict[str, float]:
     """Return the errors of rates of growth, of thresholds, of the law of drives and of shares."""
     steady, shares = baseline["breathers/steady"], baseline["breathers/sensitivity"]
+    maps = baseline["breathers/fates"]["fate"]
     below, found_to = steady["stable_below"], given("breathers")["steady"]["stability"]["to"]
     rows = {row["name"]: row["measured"] for row in baseline.claims()}
     off = abs(steady["growth"] - steady["growth_half"]) / steady["growth"].where(steady["growth"])
@@ -163,12 +165,14 @@ def breathers(baseline) -> dict[str, float]:
         "thresholds": _most(abs(below.diff("chain_half_width"))) + found_to,
         "law": rows["grows_by_drive"]["largest_difference"],
         "shares": _most(0.5 * (shares["share_high"] - shares["share_low"])),
+        "fates": max(shares_of_area(one, mirrored=True).half.max() for one in maps.values),
     }
 
 
 def breathers_sizes(given: dict) -> dict[str, str]:
     """Return how long and how many, by the parts of `breathers`."""
     steady, growth, shares = given["steady"], given["growth"], given["sensitivity"]
+    fates = given["fates"]
     chains = f"M = {number(steady['half_width'])} and half of it"
     return {
         "steady": f"{number(len(steady['omegas']))} values of Ω, {chains}",
@@ -176,6 +180,8 @@ def breathers_sizes(given: dict) -> dict[str, str]:
         "law": f"γ = {_listed(growth['end_times'])}, tolerance {number(growth['tolerance'])}",
         "shares": f"{number(shares['members'])} members of {number(len(shares['sizes']))} sizes,"
         f" tolerance {number(shares['tolerance'])}",
+        "fates": f"{number(fates['points'])} × {number(fates['points'])} data,"
+        f" tolerance {number(fates['tolerance'])}",
     }
 
 

@@ -64,6 +64,8 @@ COUNTED = {
     # counts of rows and words, thresholds, and places in a dataset: no change of a value moves them
     *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
     *("unbounded.members", "unbounded.spans", "unbounded.grown", "unbounded.far"),
+    *("breathers_study.fates.reached", "fates.points", "fates.checked"),
+    *("fates.members", "fates.mixed", "fates.scanned", "fates.terms.0"),
     *(
         "speed.processor",
         "pendula_speed.target",

@@ -68,3 +68,61 @@ def test_the_full_run_is_reduced_to_what_is_quoted(tmp_path):
         assert kept["error"].values.tolist() == [1.0]
     assert (tmp_path / "quoted/reproduction.json").read_text() == "measured"
     assert json.loads((tmp_path / "quoted/claims.json").read_text()) == [{"name": "a"}]
+
+
+@pytest.fixture
+def breathers(tmp_path):
+    """Return a folder with made-up long studies of fates and of sensitivity."""
+    long = tmp_path / "results/breathers/long"
+    long.mkdir(parents=True)
+    nan, over = np.nan, ("omega", "a0", "b0")
+    fate = [[[1, 1, 3], [1, 1, 1], [3, 1, 1]], [[3, 3, 3], [3, 3, 3], [3, 3, 3]]]
+    distance = [[[0.0, 0.05, nan], [0.05, 0.0, 0.4], [nan, 0.4, 0.0]], np.full((3, 3), nan)]
+    area = np.arange(8.0).reshape(1, 2, 4)
+    fates = xr.Dataset(
+        {
+            "fate": (over, np.array(fate, dtype=np.int8)),
+            "distance": (over, distance),
+            "nearest": (over, np.array([[[1, 1, 0], [1, 3, 2], [0, 2, 1]], np.zeros((3, 3))])),
+            **dict.fromkeys(AREAS, (("plane", "omega", "fate_name"), area)),
+            "checked_fate": (("terms", "omega", "checked"), [[[1, 3], [3, 3]], [[1, 1], [3, 3]]]),
+        },
+        {"omega": [-4.0, 0.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0],
+         "plane": ["amplitudes"], "fate_name": ["disperses", "breather", "moves", "spreads"],
+         "terms": ["as on the map", "twice the time"], "phase": [0.0, 1.0]},
+        {"epsilon": 1.0, "gamma": 1.0, "half_width": 30, "end_time": 70.0},
+    )  # fmt: skip
+    spread = xr.Dataset(
+        {
+            **{name: ("size", [1.0, 0.2]) for name in ("share", "share_low", "share_high")},
+            "spread": ("initial", [1, 0, 1, 0, 0]),
+        },
+        {"size": [1e-8, 1e-1], "initial": [3.0, 3.5, 4.0, 4.5, 5.0]},
+        {"members": 400},
+    )
+    for name, data in (("fates", fates), ("sensitivity", spread)):
+        for variable in data.variables.values():
+            variable.attrs |= {"long_name": "made up", "units": "1"}
+        data.to_netcdf(long / f"{name}.nc")
+    return tmp_path / "results"
+
+
+AREAS = ("area", "area_low", "area_high")
+
+
+def test_the_long_studies_of_breathers_are_reduced_to_their_shares(breathers, tmp_path):
+    keep.main(breathers, tmp_path / "quoted")
+    with xr.open_dataset(tmp_path / "quoted/breathers.nc") as kept:
+        here = kept.sel(omega=-4.0)
+        assert float(here["compared"]) == pytest.approx(4 / 4)
+        assert float(here["near"]) == pytest.approx(2 / 4)
+        assert float(here["median_distance"]) == pytest.approx(0.225)
+        assert float(here["nearest_alone"]) == pytest.approx(2 / 4)
+        assert np.isnan(kept["near"].sel(omega=0.0))
+        assert here["changed"].values.tolist() == [0.0, 0.5]
+        assert here["terms_share"].sel(fate_name="breather").values.tolist() == [0.5, 1.0]
+        assert kept["scan_share"].values.tolist() == pytest.approx([1 / 2, 1 / 3])
+        assert float(kept["scan_spread"]) == pytest.approx(0.4)
+        assert float(kept["largest_that_spreads"]) == 4.0
+        assert kept["area"].values.ravel().tolist() == list(range(8))
+        assert kept.attrs["members"] == 400 and kept.attrs["points"] == 3

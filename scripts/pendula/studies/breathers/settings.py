@@ -154,6 +154,7 @@ class Needs(Model):
     thresholds: Positive
     law: Positive
     shares: Positive
+    fates: Positive
 
 
 class Settings(Model):
