@@ -181,10 +181,15 @@ def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
     assert found.high[MOVES] == pytest.approx(nothing.high, rel=1e-5)
 
 
-def test_a_run_spreads_where_nobody_holds_most_of_it():
-    spread, kept = simulate(pair_problem(0.0, 1.0, 0.1, 50.0)), simulate(pair_problem(8.0, 5, 1))
-    assert has_spread(spread)
-    assert not has_spread(kept)
+def test_a_run_spreads_where_nobody_holds_most_of_a_grown_p():
+    sea, breather, waves = (
+        pair_problem(0.0, 1.0, 0.1, 50.0), pair_problem(8.0, 5.0, 1.0), pair_problem(8.0, 1.0, 0.1)
+    )  # fmt: skip
+    assert has_spread(sea, simulate(sea))
+    kept = simulate(breather)
+    assert not has_spread(breather, kept)
+    assert not has_spread(waves, simulate(waves))  # it disperses
+    assert place_of(at_the_end(simulate(waves))) is None
     assert largest_l2(kept) ** 2 == pytest.approx((kept.l2**2).sum(axis=0).max())
 
 

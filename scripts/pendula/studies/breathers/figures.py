@@ -147,7 +147,7 @@ def draw_sensitivity(data: xr.Dataset) -> Figure:
     shares.set_xlabel("relative change of the data")
     shares.set_ylabel("share of runs that spread")
     shares.set_title("(a) random changes", loc="left")
-    for spread, colour, label in ((0, style.BLUE, "stays"), (1, style.RED, "spreads")):
+    for spread, colour, label in ((0, style.BLUE, "does not spread"), (1, style.RED, "spreads")):
         some = data["spread"].values == spread
         scan.plot(
             data["initial"].values[some], data["largest_l2"].values[some], color=colour,

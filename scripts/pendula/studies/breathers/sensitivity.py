@@ -1,8 +1,9 @@
 """Which of almost equal data spread over the chain, and how almost equal they have to be.
 
-A run has spread where no three neighbouring pairs, with their mirror image, hold more than half of
-P at the end, see `fates`. The share of runs that have spread is counted over random relative
-changes of the data of one size, with the exact limits of Clopper and Pearson.
+A run has spread where its fate says so: no three neighbouring pairs, with their mirror image, hold
+more than half of P at the end, and P is larger than waves could have made it, see `fates`. The
+share of runs that have spread is counted over random relative changes of the data of one size, with
+the exact limits of Clopper and Pearson.
 """
 
 from collections.abc import Iterable
@@ -14,12 +15,13 @@ from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 
-from .fates import at_the_end, place_of
+from .fates import SPREADS, at_the_end, fate_of, largest_linear_gain, power_of
 
 
-def has_spread(run: Trajectory) -> bool:
-    """Return whether no three pairs hold more than half of P at the end of a run."""
-    return place_of(at_the_end(run)) is None
+def has_spread(problem: Problem, run: Trajectory) -> bool:
+    """Return whether a run of a problem has spread: neither stayed or moved, nor dispersed."""
+    gain = largest_linear_gain(problem.constants)
+    return fate_of(at_the_end(run), power_of(problem.initial), gain) == SPREADS
 
 
 def largest_l2(run: Trajectory) -> float:
@@ -29,8 +31,8 @@ def largest_l2(run: Trajectory) -> float:
 
 def share_that_spreads(problem: Problem, size: float, members: int, seed: list[int]) -> Limits:
     """Return the share of members that spread, with its limits; all data have relative `size`."""
-    runs = (simulate(member) for member in draw_members(problem, size, members, seed))
-    return share_limits(sum(has_spread(run) for run in runs), members)
+    drawn = draw_members(problem, size, members, seed)
+    return share_limits(sum(has_spread(member, simulate(member)) for member in drawn), members)
 
 
 def shares(problem: Problem, sizes: Iterable[float], members: int, seed: int) -> Limits:
@@ -47,7 +49,7 @@ def scan(problem: Problem, amplitudes: np.ndarray, ratio: float) -> tuple[np.nda
 
     Both are (initial,).
     """
-    runs = [
-        simulate(problem.changed(initial=np.array([[a], [ratio * a]], complex))) for a in amplitudes
-    ]
-    return np.array([largest_l2(run) for run in runs]), np.array([has_spread(run) for run in runs])
+    problems = [problem.changed(initial=np.array([[a], [ratio * a]], complex)) for a in amplitudes]
+    runs = [simulate(one) for one in problems]
+    spread = [has_spread(one, run) for one, run in zip(problems, runs, strict=True)]
+    return np.array([largest_l2(run) for run in runs]), np.array(spread)
