@@ -456,10 +456,16 @@ def certified(baseline: Baseline) -> dict:
     share = lines["largest_distance"] / lines["half_line"]
     return {
         "rows": [_certified_curve(baseline[f"certified/{case}"], case) for case in known],
+        "bound": _upward(max(baseline[f"certified/{case}"]["bound"].max() for case in known)),
         "contained": number(int(whole.sum())),
-        "in_lines": number(1.05 * float(share.where(np.isfinite(share)).max()), 2),
+        "in_lines": _upward(share.where(np.isfinite(share)).max()),
         "certificate": _short_case(baseline.folder / "certified/short_case.json"),
     }
+
+
+def _upward(bound) -> str:
+    """Return two digits of a number that is no smaller than the bound."""
+    return number(1.05 * float(bound), 2)
 
 
 def _certified_curve(curve: xr.Dataset, case: str) -> dict[str, str]:
@@ -468,7 +474,7 @@ def _certified_curve(curve: xr.Dataset, case: str) -> dict[str, str]:
     return {
         "case": case,
         "end": number(float(curve["tau"][-1])),
-        "bound": number(1.05 * float(last["bound"]), 2),
+        "bound": _upward(last["bound"]),
         "part": str(curve["bound_part"].values[int(largest)]),
         "of_part": number(float(last["bound_parts"][largest]), 2),
         "distance": number(float(curve["reference_distance"].max()), 2),
@@ -481,7 +487,7 @@ def _short_case(path: Path) -> dict[str, str]:
         "sites": number(len(made["initial"][0])),
         "steps": number(len(made["steps"])),
         "end": number(float(Fraction(made["end_time"]))),
-        "bound": number(1.05 * made["steps"][-1]["bound"] / 2 ** made["bound_bits"], 2),
+        "bound": _upward(made["steps"][-1]["bound"] / 2 ** made["bound_bits"]),
     }
 
 
