@@ -60,6 +60,11 @@ def test_what_the_end_of_a_run_shows(power, expected):
     assert fate_of(moduli(power, 8), 10.0, 3.0) == expected
 
 
+def test_on_a_short_chain_nothing_is_away_from_the_centre():
+    assert place_of(moduli({0: 1, 1: 9}, 1)) == 0
+    assert place_of(moduli({0: 0}, 0) + 1.0) == 0
+
+
 def test_pairs_are_counted_with_their_mirror_images():
     assert folded_power(moduli({-2: 1, 2: 2, 0: 5, -1: 3})).tolist() == pytest.approx([5, 3, 3, 0])
 

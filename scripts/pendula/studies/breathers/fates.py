@@ -60,8 +60,8 @@ def folded_power(modulus: np.ndarray) -> np.ndarray:
 def held_by_three(modulus: np.ndarray) -> np.ndarray:
     """Return the share of P on a pair, its two neighbours and their images, by (distance,).
 
-    `modulus` is (component, site) on an odd number of sites, of which there are at least five. The
-    first entry is the share of the three at the centre, the next one that of the five there.
+    `modulus` is (component, site) on an odd number of sites. The first entry is the share of the
+    three at the centre, the next one that of the five there.
     """
     power = folded_power(modulus)
     held = power.copy()
@@ -78,6 +78,8 @@ def place_of(modulus: np.ndarray) -> int | None:
     held = held_by_three(modulus)
     if held[0] > MAJORITY:
         return 0
+    if len(held) < 3:
+        return None
     strongest = 2 + int(held[2:].argmax())
     return strongest if held[strongest] > MAJORITY else None
 

@@ -129,7 +129,7 @@ class Fates(Model):
     """What becomes of data on one pair."""
 
     omegas: Numbers
-    half_width: Count
+    half_width: Annotated[Whole, Field(ge=4)]
     end_time: Positive
     largest: Positive
     points: Annotated[Whole, Field(ge=3)]
@@ -191,7 +191,7 @@ class Settings(Model):
                 yield key, f"does not run forward from {steps.first:g} to {steps.last:g}"
         for key, given in (("fates", self.fates), ("fates.long", self.fates.long)):
             if 2 * given.checked > given.points:
-                yield f"{key}.checked", f"leaves less than two of {given.points} amplitudes"
+                yield f"{key}.checked", f"leaves fewer than two of {given.points} amplitudes"
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:

@@ -1,0 +1,64 @@
+"""What the maps of fates show, on made-up maps."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_hex
+from pendula.studies.breathers.fate_figures import FATE_LOOKS, draw_fates, gather_fates
+
+COLOURS = {name: colour for name, (colour, _) in FATE_LOOKS.items()}
+A, TURNED, PHASES = [0.5, 1.5, 2.5, 3.5], [1.0, 3.0], [-np.pi / 2, 0.0, np.pi / 2, np.pi]
+
+
+def maps(fate=1, turned=1):
+    """Return maps of one fate each, with a breather and a run that spreads among the cases."""
+    first, second = ("omega", "a0", "b0"), ("omega", "turned_a0", "phase")
+    return xr.Dataset(
+        {
+            "fate": (first, np.full((1, 4, 4), fate)), "distance": (first, np.zeros((1, 4, 4))),
+            "turned_fate": (second, np.full((1, 2, 4), turned)),
+            "turned_distance": (second, np.zeros((1, 2, 4))),
+            "case_omega": ("case", [8.0, 8.0]), "case_fate": ("case", [1, 3]),
+            "case_a0": ("case", [3.0, 1.0]), "case_b0": ("case", [0.6, 0.1]),
+        },
+        {"omega": [8.0], "a0": A, "b0": A, "turned_a0": TURNED, "phase": PHASES,
+         "case": ["large", "small"]},
+        {"ratio": 0.2},
+    )  # fmt: skip
+
+
+def legend_of(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("fates", "named"),
+    [
+        ((1, 1), ["stays as a breather"]),
+        ((0, 3), ["disperses", "spreads"]),
+        ((2, 1), ["stays as a breather", "moves away"]),
+    ],
+)
+def test_the_legend_names_the_fates_that_occur(fates, named):
+    figure = draw_fates(gather_fates(maps(*fates)))
+    assert legend_of(figure) == [*named, "the paper's data"]
+    assert len(figure.axes) == 2 + (1 in fates)  # a scale for breathers alone
+
+
+def test_the_papers_data_are_marked_in_the_colour_of_their_own_fate():
+    above, below, *_ = draw_fates(gather_fates(maps())).axes
+    marks = [line for line in above.lines if to_hex(line.get_color()) == "#000000"]
+    at = {(float(one.get_xdata()[0]), float(one.get_ydata()[0])): one for one in marks}
+    assert to_hex(at[3.0, 0.6].get_markerfacecolor()) == COLOURS["breather"]
+    assert to_hex(at[1.0, 0.1].get_markerfacecolor()) == COLOURS["spreads"]
+    (turned,) = [line for line in below.lines if to_hex(line.get_color()) == "#000000"]
+    assert [turned.get_xdata()[0], turned.get_ydata()[0]] == [0.0, 3.0]  # the other has less B
+
+
+def test_a_cell_lies_around_its_data_and_the_phase_goes_all_round():
+    above, below, *_ = draw_fates(gather_fates(maps())).axes
+    assert above.images[0].get_extent() == [0.0, 4.0, 0.0, 4.0]
+    left, right, *_ = below.images[0].get_extent()
+    assert left < -np.pi and right > np.pi
+    assert below.get_xlim() == pytest.approx((-np.pi, np.pi))
+    assert below.images[0].get_array().shape == (2, 5)  # the column at pi stands at -pi too
