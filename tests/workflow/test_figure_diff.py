@@ -18,8 +18,8 @@ def change_claims(finished, old: str, new: str) -> None:
     ledger.write_text(text.replace(old, new, 1))
 
 
-def test_accepting_comparing_and_failing(finished, clone):
-    assert snakemake(clone, finished, "accept_figures").returncode == 0
+def test_accepting_comparing_and_failing(accepted):
+    finished, clone = accepted
     result = snakemake(clone, finished, "figure_diff")
     assert result.returncode == 0, said(result)
     assert " identical; see results/figure_diff/index.html" in said(result)
@@ -54,14 +54,13 @@ def test_accepting_comparing_and_failing(finished, clone):
     assert "different: claims.json" not in said(result)
 
 
-def test_everything_that_a_full_run_makes_is_in_the_baseline(finished, clone):
+def test_everything_that_a_full_run_makes_is_in_the_baseline(accepted_once):
     """What is left out is named here: times, logs, records, and what this machine alone makes.
 
     So are the parts of the ledger and its tables, which claims.json and tables/claims.md join.
     """
-    assert snakemake(clone, finished, "accept_figures").returncode == 0
-    accepted = json.loads((clone / "tests/baseline/hashes.json").read_text())
-    results = finished / "results"
+    accepted = json.loads((accepted_once / "clone/tests/baseline/hashes.json").read_text())
+    results = accepted_once / "finished/results"
     made = {path.relative_to(results).as_posix() for path in results.rglob("*") if path.is_file()}
     left = {name for name in made - accepted.keys() if name.split("/")[0] not in ("logs", "code")}
     known = {"report.html", *(name for name in left if name.startswith(("kernels/", "kept/")))}
