@@ -1,9 +1,11 @@
-"""A sweep of one's own: its norms against the half-width, beside the bounds of the theorems."""
+"""A sweep of one's own: its norms against the half-width, beside what is checked of it."""
 
 import xarray
 from pendula.datasets.netcdf import read, save
 from pendula.drawing.style import save as save_figure
 from pendula.own_cases import figures
+from pendula.own_cases.pendula import check_sweep
+from pendula.problem import PENDULA
 from pendula.studies.theory.bounds import check_sweeps
 
 
@@ -19,7 +21,10 @@ def draw_sweep(
     swept = read(sweep)
     drawn = figures.gather_sweep(swept, text_window, caption_window)
     save_figure(figures.draw_sweep(drawn), drawn, *figure)
-    save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
+    if swept.attrs.get("model") == PENDULA:
+        save(checks, check_sweep(name, swept))
+    else:
+        save(checks, xarray.Dataset.from_dict(check_sweeps({name: swept})))
 
 
 if __name__ == "__main__":

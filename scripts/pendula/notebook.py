@@ -178,8 +178,9 @@ def sweep(
 
     Returns an xarray.Dataset with l2 and linf (half_width, quantity, statistic, window), without
     units: quantity is "A", "B" or "pair" (the root of the sum of squares in l2, the larger in
-    linf), statistic "max" or "mean" (over time, trapezoidal), windows are named "[10, 50]".
-    Attributes as in `simulate`. The same as `snakemake results/sweeps/{name}.nc` writes.
+    linf), statistic "max" or "mean" (over time, trapezoidal), windows are named "[10, 50]". Of the
+    pendula quantity is "x", "y" or "pair", in rad. Attributes as in `simulate`. The same as
+    `snakemake results/sweeps/{name}.nc` writes.
 
     Raises ConfigurationError for windows off the grid, initial data outside a chain, or a sweep
     that would take more than `hours` (1 if they are left out); IntegrationError as `simulate`.

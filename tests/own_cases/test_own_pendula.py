@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from pendula import Case, check, draw_norms, draw_spacetime, simulate
+from pendula import Case, check, draw_norms, draw_spacetime, draw_sweep, simulate, sweep
 from pendula.configuration import cost
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
 from pendula.models.pendula import leading_angles
 from pendula.own_cases import section
+from pendula.own_cases.pendula import check_sweep
 from pendula.problem import Problem
 from pendula.simulation import simulate as simulation
 from pendula.simulation.models import MODELS
@@ -100,6 +101,28 @@ def test_its_page_says_what_has_a_meaning(case, said, tmp_path, monkeypatch):
     page = section.write(["mine"], {}, tmp_path)
     assert said in page and "Newton&#39;s equations (1)" in page and "x = y = 0" in page
     assert "Lemma 1" not in page and "The energy H" not in page
+
+
+@pytest.fixture(scope="module")
+def swept():
+    return sweep(OVER, [2, 4], [(0, 1), (1, 2)])
+
+
+def test_a_sweep_of_pendula_is_one_of_angles(swept):
+    assert list(swept["quantity"].values) == ["x", "y", "pair"]
+    assert swept["l2"].attrs["units"] == "rad" and swept.attrs["model"] == "pendula"
+    alone = simulate(OVER.changed(half_width=4))
+    peak = float(swept["linf"].sel(half_width=4, statistic="max", quantity="pair").max())
+    assert peak == float(alone["linf"].max())
+    axes = draw_sweep(swept).axes
+    assert all("(x, y)" in one.get_ylabel() and "(rad)" in one.get_ylabel() for one in axes)
+
+
+def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
+    found = check_sweep("mine", swept)
+    assert int(found["swept_over"]) == 2 and float(found["swept_angle"].min()) > np.pi
+    calm = check_sweep("mine", sweep(SWING, [2, 4], [(0, 1)]))
+    assert int(calm["swept_over"]) == 0 and float(calm["swept_angle"].max()) < 0.3
 
 
 def test_the_configuration_knows_the_solvers_of_each_model():

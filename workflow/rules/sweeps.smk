@@ -29,7 +29,9 @@ use rule sweep as own_sweep with:
     "A sweep of your own, by its own solver: results/sweeps/{sweep}.nc"
     input:
         code=code("sweeps/sweep_case.py"),
-        kernels=lambda wildcards: kernels(own_sweep_solver(wildcards)),
+        kernels=lambda wildcards: own_kernels(
+            SETTINGS.sweeps[wildcards.sweep].case, own_sweep_solver(wildcards)
+        ),
     output:
         datasets=["results/sweeps/{sweep}.nc"],
     wildcard_constraints:

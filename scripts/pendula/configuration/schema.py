@@ -128,7 +128,9 @@ class Configuration(Model):
                 near = difflib.get_close_matches(name, getattr(self, section), 1)
                 hint = f"; did you mean {near[0]!r}?" if near else ""
                 yield key, f"there is no {section.removesuffix('s')} {shown(name)}{hint}"
-            elif section == "cases" and name not in PAPER_CASES:  # `require` tells of those
+            elif section == "sweeps":
+                yield from self._not_amplitudes(key, self.sweeps[name].case)
+            elif name not in PAPER_CASES:  # `require` tells of those
                 yield from self._not_amplitudes(key, name)
 
     def _not_amplitudes(self, key: str, name: str) -> Faults:
@@ -168,7 +170,7 @@ class Configuration(Model):
         sweep = self.sweeps[name]
         if sweep.case not in self.cases:
             return list(self.absent("cases", "case", [sweep.case]))
-        case, found = self.cases[sweep.case], list(self._not_amplitudes("case", sweep.case))
+        case, found = self.cases[sweep.case], []
         reach, shortest = max(map(abs, case.initial)), min(sweep.half_widths)
         if reach > shortest:
             text = f"lies outside the chain of half-width {shortest}"

@@ -8,7 +8,7 @@ import numpy as np
 from pendula.problem import PENDULA, Problem, name_window, write_initial
 from pendula.simulation.models import MODELS
 from pendula.simulation.simulate import Trajectory
-from pendula.simulation.sweep import QUANTITIES, STATISTICS, Sweep
+from pendula.simulation.sweep import STATISTICS, Sweep
 
 from .netcdf import Variable
 from .registry import NAMES
@@ -92,12 +92,16 @@ def sweep_contents(
     axes = ("half_width", "quantity", "statistic", "window")
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
-        "quantity": Variable(("quantity",), list(QUANTITIES)),
+        "quantity": Variable(("quantity",), [*MODELS[problem.model].components, "pair"]),
         "statistic": Variable(("statistic",), list(STATISTICS)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "l2": Variable(axes, sweep.l2),
         "linf": Variable(axes, sweep.linf),
     }
+    if problem.model == PENDULA:
+        for norm in ("l2", "linf"):
+            about = f"{NAMES[norm]}, of the angles"
+            variables[norm] = Variable(axes, variables[norm].values, about, "rad")
     attributes = describe_run(name, problem, problem.solver)
     del attributes["half_width"]
     title = f"Norms of {name} against the half-width, by {problem.solver['name']}"

@@ -125,7 +125,9 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
     half_width_axis(axes)
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
-    axes.set_ylabel(f"{' and '.join(NORMS[name] for name in norms)} of $(A, B)$")
+    said = " and ".join(NORMS[name] for name in norms)
+    pair = "(x, y)" if panel.attrs.get("model") == "pendula" else "(A, B)"
+    axes.set_ylabel(f"{said} of ${pair}${style.name_units(panel[norms[0]])}")
     axes.set_title(style.name_case(panel), loc="left")
 
 

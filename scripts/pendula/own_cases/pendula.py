@@ -48,6 +48,16 @@ def beside_expansion(problem: Problem, run: xr.Dataset) -> dict:
     }
 
 
+def check_sweep(name: str, swept: xr.Dataset) -> xr.Dataset:
+    """Return the largest angle on each chain of a sweep, and on how many one goes over the top."""
+    peaks = swept["linf"].sel(quantity="pair", statistic="max").max("window").values
+    angles = variable(peaks, ("half_width",), "largest angle in the windows", "rad")
+    over = variable(int(np.sum(peaks > np.pi)), (), "chains on which a pendulum goes over the top")
+    coordinates = {"half_width": swept["half_width"].values}
+    found = table(TITLE, coordinates, swept_angle=angles, swept_over=over)
+    return xr.Dataset.from_dict(found).assign_attrs(case=name)
+
+
 def check_pendula(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """Return what is checked of pendula beside a second run, without attributes."""
     return xr.Dataset.from_dict(table(TITLE, {}, **beside_expansion(problem, run)))

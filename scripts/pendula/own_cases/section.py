@@ -172,7 +172,10 @@ def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
     panel = drawn.isel(panel=0)
     read_as = list(zip(panel["statistic"].values, panel["window"].values, strict=True))
     windows = [(STATISTICS[how], window) for how, window in read_as]
+    of_pendula = _is_of_pendula(swept.attrs)
     return {
+        "pendula": of_pendula,
+        **(_went_over if of_pendula else _beside_bounds)(checks, link),
         "name": name,
         "case": case,
         "is_own": case in trusted,
@@ -183,25 +186,37 @@ def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dic
         "parameters": parameters(swept.attrs),
         "picture": _picture_of_sweep(name, panel, windows, folder),
         "windows": windows,
-        "excess": Quote(number(checks["swept_ratio"]), link),
-        "bound_holds": bool(checks["swept_ratio"] <= 1.0 + 1e-6),
         "columns": [
             "M",
             *(f"{word} {how} {window}" for word in NORMS.values() for how, window in read_as),
-            "P over bound",
+            "largest angle" if of_pendula else "P over bound",
         ],
         "rows": _rows(panel, checks, drawn_link, link),
     }
+
+
+def _beside_bounds(checks, link: str) -> dict[str, Any]:
+    ratio = checks["swept_ratio"]
+    return {"excess": Quote(number(ratio), link), "bound_holds": bool(ratio <= 1.0 + 1e-6)}
+
+
+def _went_over(checks, link: str) -> dict[str, Any]:
+    count = checks["swept_over"]
+    return {"over": Quote(number(count), link), "any_over": bool(count > 0)}
 
 
 def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
     rows = []
     for width in panel["half_width"].values:
         at = panel.sel(half_width=width)
-        bound = checks.isel(sweep=0).sel(half_width=width)
+        if "swept_angle" in checks:
+            last = checks["swept_angle"].sel(half_width=width)
+        else:
+            bound = checks.isel(sweep=0).sel(half_width=width)
+            last = bound["swept_observed"] / bound["best"]
         values = [value for norm in NORMS for value in at[norm].values]
-        ratio = Quote(number(bound["swept_observed"] / bound["best"]), link)
-        rows.append([exact(width), *(Quote(number(v), drawn_link) for v in values), ratio])
+        quoted = (Quote(number(v), drawn_link) for v in values)
+        rows.append([exact(width), *quoted, Quote(number(last), link)])
     return rows
 
 
