@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.problem import Constants, Problem
+from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.fates import BREATHER, ends
 from pendula.studies.breathers.nearest import Families, Follower, distances, swing
 from pendula.studies.breathers.periodic import FAMILIES, family_of
@@ -115,3 +116,20 @@ def test_ends_tell_how_the_run_swings(periodic):
     assert found.nearest.tolist() == [1, 0]
     assert found.distance[0] < 5e-3
     assert np.isnan(found.frequency[1]) and np.isnan(found.distance[1])
+
+
+def rates_of(a, b):
+    """Return how fast the phases of A and B fall at the end of a run at Omega = 8."""
+    problem = problem_of(np.pad([[a], [b]], ((0, 0), (30, 30))).astype(complex), 8.0, 40.0)
+    follower, pairs = Follower(problem, simulate(problem).final, np.zeros(1, np.bool_)), []
+    for _ in range(600):
+        follower.go(0.01)
+        pairs.append(follower.pair())
+    phases = np.unwrap(np.angle(pairs), axis=0)
+    return (phases[0] - phases[-1]) / (599 * 0.01)
+
+
+def test_b_follows_near_the_family_and_has_a_frequency_of_its_own_far_from_it():
+    near, far = rates_of(7.0, 0.2), rates_of(6.0, 4.0)
+    assert near[1] == pytest.approx(-near[0], rel=0.01)  # the image of A, by the drive
+    assert 0.3 * far[0] < far[1] < 0.8 * far[0]
