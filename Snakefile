@@ -36,6 +36,8 @@ FIGURES = [
     *("breathers", "sensitivity", "fates"),
     # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula, the expansion
     *("pendula_threshold", "pendula_remainder"),
+    # The paper's phases in the real pendula; the sea, and who leaves it over the top
+    *("pendula_phases", "pendula_over_the_top"),
     # How far computed curves can be from the true ones, as proved
     "certified_curves",
     # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)

@@ -16,6 +16,7 @@ from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.report.words import case_of, number, percent, span, symbols, with_error
+from pendula.studies.pendula.claims_phases import pendula_norms
 from pendula.studies.pendula.claims_remainder import STABLE, UNSTABLE, common_end
 
 from benchmarks import reproduction
@@ -420,7 +421,11 @@ def pendula(baseline: Baseline) -> dict:
     data = baseline["pendula/threshold"]
     largest = float(data["mu"].max())
     taken = (data["curve_gamma_0"].sel(mu=largest) == 0.0) & (data["curve_gamma_0_lemma"] > 0.0)
+    norms = pendula_norms(baseline["pendula/phases"]).measured
     return {
+        **_passages(baseline["quoted/pendula"]),
+        "norms_mu": number(norms["at_mu"]),
+        "orders": f"{number(norms['least_order'])} to {number(norms['largest_order'])}",
         "largest_mu": number(largest),
         "second_below": number(data["curve_omega"].where(taken).max()),
         "rows": [
@@ -430,6 +435,37 @@ def pendula(baseline: Baseline) -> dict:
         ],
         **_expansion(baseline["pendula/remainder"]),
     }  # fmt: skip
+
+
+def _passages(long: xr.Dataset) -> dict:
+    """Return who goes over the top in the long study, and how the angles grow then."""
+    return {
+        "end": number(long.attrs["end_time"]),
+        "passing_members": number(long.attrs["members"]),
+        "passages": [
+            {
+                "mu": number(mu, 4),
+                "share": _with_limits(long.sel(mu=mu), "passed", percent),
+                "median": _median(float(long["passage_median"].sel(mu=mu))),
+                "rate": _with_limits(long.sel(mu=mu), "passage_rate", lambda one: number(one, 2)),
+                "turns": number(long["turns"].sel(mu=mu)),
+            }
+            for mu in long["mu"].values
+        ],
+    }
+
+
+def _median(tau: float) -> str:
+    return number(tau) if np.isfinite(tau) else "later"
+
+
+def _with_limits(one, name: str, write) -> str:
+    """Return a number with its confidence limits; a dash where it is not known."""
+    values = [float(one[f"{name}{end}"]) for end in ("", "_low", "_high")]
+    if np.isnan(values[0]):
+        return "-"
+    value, low, high = map(write, values)
+    return f"{value} ({low} to {high})"
 
 
 def proofs(baseline: Baseline) -> dict:

@@ -1,10 +1,10 @@
 """Keep what the README and docs/ quote of a finished run and tests/baseline does not hold yet.
 
 Run as `python docs/keep.py results` after a full run, after `snakemake reproduction` on a quiet
-machine, and after `snakemake unbounded`, or `snakemake fates sensitivity`, if a long study was made
-anew. It reduces them to what is quoted and writes this to tests/baseline/quoted: the ledger, the
-hard cases, where the time of a reproduction goes (by which `snakemake` says how long a run will
-take), and the long studies of the chain without ends and of breathers.
+machine, and after `snakemake unbounded`, `over_the_top`, or `fates sensitivity`, if a long study
+was made anew. It reduces them to what is quoted and writes this to tests/baseline/quoted: the
+ledger, the hard cases, where the time of a reproduction goes (by which `snakemake` says how long a
+run will take), and the long studies of the chain without ends, of breathers and of the pendula.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -80,6 +80,29 @@ def keep_long_study(results: Path, folder: Path) -> None:
 
 def _write(path: Path, title: str, variables: dict[str, Variable], **attributes) -> None:
     write(path, variables, {"title": title, **attributes, "version": __version__})
+
+
+PASSAGES = ("passage_median", "passage_rate", "passed")
+"""What is kept of first passages over the top, with its limits; of `passed` the last."""
+
+
+def keep_passages(results: Path, folder: Path) -> None:
+    """Keep shares, rates and angles of the long study of pendula that go over the top."""
+    long = read(results / "pendula/long/over_the_top.nc")
+    last, tau = long.isel(tau=-1), long["tau"].values
+    names = [name for name in last if str(name).startswith(PASSAGES)]
+    kept = {
+        str(name): Variable(("mu",), last[name].values, last[name].attrs["long_name"])
+        for name in ["mu", *names]
+    }
+    kept["turns"] = Variable(
+        ("mu",),
+        last["largest_angle"].mean("member").values / (2.0 * np.pi),
+        "largest angle by the end in turns, mean over the members",
+    )
+    about = {"members": long.sizes["member"], "end_time": tau[-1], "settled": long.attrs["settled"]}
+    title = "The long study of pendula that go over the top, reduced to what the documents quote"
+    _write(folder / "pendula.nc", title, kept, **about)
 
 
 OCTAVES = 2
@@ -341,6 +364,7 @@ def main(results: Path, folder: Path = QUOTED) -> None:
         "claims.json": keep_full_run,
         "speed/reproduction.json": keep_reproduction,
         "unbounded/long/tolerances.nc": keep_long_study,
+        "pendula/long/over_the_top.nc": keep_passages,
         "breathers/long/fates.nc": keep_long_breathers,
     }.items():
         if (results / needed).exists():
@@ -359,7 +383,8 @@ def configuration() -> dict:
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
     parts = ("periodic", "sensitivity", "fates")
-    for long in (kept["unbounded"], *(kept["breathers"][name] for name in parts)):
+    breathers = (kept["breathers"][name] for name in parts)
+    for long in (kept["unbounded"], *breathers, kept["pendula"]["over_the_top"]):
         del long["long"]
     return kept
 

@@ -14,6 +14,7 @@ import yaml
 from pendula.measures.confidence import difference_limits
 from pendula.report.words import number
 from pendula.studies.breathers.fates import shares_of_area
+from pendula.studies.pendula.claims_phases import pendula_norms, same_sea
 from pendula.studies.pendula.claims_remainder import STABLE, common_end
 from pendula.studies.pendula.claims_threshold import limit_of, outside, smallest_mus
 from pendula.studies.unbounded.claims import OF_A_SHORT_BULK, exponent_of, stays
@@ -139,17 +140,41 @@ def pendula(baseline) -> dict[str, float]:
     return {
         "threshold": _most(abs(limit_of(beside) / beside["gamma_0_lemma"] - 1.0)),
         "remainder": _most(abs(order - order.round())),
+        **_of_phases(baseline),
     }
+
+
+def _of_phases(baseline) -> dict[str, float]:
+    """Return the errors of what is compared with the paper's phases."""
+    sea = same_sea(baseline["pendula/sea"], baseline["unbounded/thermal"])
+    return {
+        "phases": pendula_norms(baseline["pendula/phases"]).measured["largest_difference"],
+        "sea": sea.measured["its_limits"],
+        "over_the_top": _factor_of_rates(baseline["pendula/over_the_top"]),
+    }
+
+
+def _factor_of_rates(passages: xr.Dataset) -> float:
+    """Return the least factor from a rate of first passages to its lower limit."""
+    some = passages["passage_rate_low"] > 0
+    return float((passages["passage_rate"] / passages["passage_rate_low"]).where(some).min())
 
 
 def pendula_sizes(given: dict) -> dict[str, str]:
     """Return at how many detunings, and at which mu, by the parts of `pendula`."""
-    threshold, remainder = given["threshold"], given["remainder"]
+    threshold, remainder, phases, sea, top = (
+        given[name] for name in ("threshold", "remainder", "phases", "sea", "over_the_top")
+    )
     return {
         "threshold": f"{number(len(threshold['omegas']))} values of Ω, μ = "
         + _listed(threshold["mus"]),
         "remainder": f"{len(remainder['ends'])} cases, μ = {_listed(remainder['mus'])},"
         f" tolerance {number(remainder['tolerance'])}",
+        "phases": f"the cases of Figs 2 to 4, μ = {_listed(phases['mus'])}, tolerance"
+        f" {number(phases['tolerance'])}",
+        "sea": _ensemble(sea, f"members, μ = {_listed(sea['mus'])}"),
+        "over_the_top": _ensemble(top, f"members to τ = {number(top['end_time'])}")
+        + f", {number(len(top['mus']))} values of μ",
     }
 
 

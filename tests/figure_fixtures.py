@@ -17,6 +17,7 @@ from made_up_checks import (
     worst,
 )
 from made_up_unbounded import spread, thermal, window_map
+from problems import problem_of
 
 HALF_WIDTHS = [5, 10, 20]
 PARAMETERS = {
@@ -158,6 +159,33 @@ def pendula_remainder():
     )  # fmt: skip
 
 
+def pendula_phases():
+    """Return norms of two cases as pendula: short runs are as fast as made-up numbers."""
+    from pendula.datasets.netcdf import as_xarray
+    from pendula.studies.pendula.phases import measure_phases
+
+    problems = {name: short_case(name) for name in ("fig2_small", "fig4_large")}
+    return as_xarray(*measure_phases(problems, [0.1, 0.3], 2))
+
+
+def pendula_sea():
+    """Return a sea of two members, and who of them goes over the top."""
+    from pendula.datasets.netcdf import as_xarray
+    from pendula.studies.pendula.over_the_top import measure_over_the_top
+    from pendula.studies.pendula.sea import measure_sea
+
+    problem, few = short_case("fig4_small"), (1e-3, 2, 1)
+    sea = measure_sea(problem, [0.15], (2.0, 5.0), *few)
+    passages = measure_over_the_top(problem, [0.15, 0.3], 8, *few, settled=1.0)
+    return as_xarray(*sea), as_xarray(*passages)
+
+
+def short_case(name):
+    """Return a case of the paper on a short chain and for a short time."""
+    loose = {"name": "taylor", "rtol": 1e-6, "atol": 1e-6}
+    return problem_of(name, half_width=4, end_time=5.0, output_step=0.5, solver=loose)
+
+
 @pytest.fixture(scope="session")
 def swept_pairs(make_sweep):
     """Return a sweep by two solvers that agree."""
@@ -173,7 +201,12 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
     from pendula.studies.chaos import lifetimes_figure
     from pendula.studies.chaos.ensembles import compare
     from pendula.studies.paper import chain_figure, figures, solvers
-    from pendula.studies.pendula import remainder_figure, threshold_figure
+    from pendula.studies.pendula import (
+        over_the_top_figure,
+        phases_figure,
+        remainder_figure,
+        threshold_figure,
+    )
     from pendula.studies.theory import bounds_figure
     from pendula.studies.theory import figures as theory
     from pendula.studies.unbounded import figures as unbounded
@@ -216,6 +249,8 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
             [certified_curve("fig2_small", 8.0), certified_curve("fig3_small", -4.0)]
         ),
         "pendula_remainder": remainder_figure.gather_remainder(pendula_remainder()),
+        "pendula_phases": phases_figure.gather_phases(pendula_phases()),
+        "pendula_over_the_top": over_the_top_figure.gather_over_the_top(*pendula_sea(), thermal()),
         "trust": figures.gather_trust(solvers.trust(trajectories, references)),
         "bounds": bounds_figure.gather_bounds(
             cases(), sweeps(), samples(), worst(), sharpness(), chain_growth()

@@ -87,18 +87,21 @@ def test_the_page_does_not_scroll_sideways(report, width):
     assert run(report, "document.documentElement.clientWidth") == width
 
 
-def test_the_chain_plays_and_stops(report):
-    button = report.find_element("css selector", ".player button")
-    position = "Number(document.querySelector('.player input').value)"
-    run(report, "document.querySelector('.player input').value = 0")
-    button.click()
-    assert button.text == "Pause"
-    wait_for(lambda: run(report, position) > 0)
-    button.click()
-    assert button.text == "Play" and run(report, position) > 0
-    canvas = "document.querySelector('.player canvas')"
-    inked = f"new Set({canvas}.getContext('2d').getImageData(0, 0, {canvas}.width, 480).data).size"
-    assert run(report, inked) > 2
+def test_the_chain_and_the_pendula_play_and_stop(report):
+    players = report.find_elements("css selector", ".player")
+    assert len(players) > 1
+    for place, player in enumerate(players):
+        button = player.find_element("css selector", "button")
+        slider = f"document.querySelectorAll('.player input')[{place}]"
+        run(report, f"{slider}.value = 0")
+        report.execute_script("arguments[0].click()", button)
+        assert button.text == "Pause"
+        wait_for(lambda now=f"Number({slider}.value)": run(report, now) > 0)
+        report.execute_script("arguments[0].click()", button)
+        assert button.text == "Play" and run(report, f"Number({slider}.value)") > 0
+        canvas = f"document.querySelectorAll('.player canvas')[{place}]"
+        pixels = f"{canvas}.getContext('2d').getImageData(0, 0, {canvas}.width, 480).data"
+        assert run(report, f"new Set({pixels}).size") > 2
 
 
 def test_nothing_moves_by_itself(report):

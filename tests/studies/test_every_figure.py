@@ -11,7 +11,12 @@ from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure, figures
-from pendula.studies.pendula import remainder_figure, threshold_figure
+from pendula.studies.pendula import (
+    over_the_top_figure,
+    phases_figure,
+    remainder_figure,
+    threshold_figure,
+)
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -30,6 +35,8 @@ DRAWN_BY = {
     "pendula_threshold": threshold_figure.draw_threshold,
     "certified_curves": certified.draw_curves,
     "pendula_remainder": remainder_figure.draw_remainder,
+    "pendula_phases": phases_figure.draw_phases,
+    "pendula_over_the_top": over_the_top_figure.draw_over_the_top,
     "bounds": bounds_figure.draw_bounds,
     "lyapunov": chaos.draw_lyapunov,
     "symmetry": chaos.draw_symmetry,

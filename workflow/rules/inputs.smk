@@ -68,6 +68,10 @@ def makers():
         "map_fates": ["results/breathers/fates.nc"],
         "find_threshold": ["results/pendula/threshold.nc"],
         "measure_remainder": ["results/pendula/remainder.nc"],
+        "measure_phases": ["results/pendula/phases.nc"],
+        "measure_sea": ["results/pendula/sea.nc"],
+        "measure_over_the_top": ["results/pendula/over_the_top.nc"],
+        "film_pendula": ["results/pendula/film.nc"],
         "certify_curve": proved_curves(),
         "measure_lines": ["results/certified/lines.nc"],
         "certify_wrong_curve": ["results/certified/wrong/curve.nc"],
@@ -326,7 +330,7 @@ def fate_params(breathers, size):
 
 
 # The pendula.
-PENDULA = ["threshold", "remainder"]
+PENDULA = ["threshold", "remainder", "phases", "sea", "over_the_top"]
 
 
 def threshold_params(given):
@@ -352,6 +356,38 @@ def remainder_params(given, run_ends):
 def long_remainder_figure():
     kinds = {**FIGURE_KINDS, "data": "figure.nc"}
     return {key: f"results/pendula/long/remainder.{kind}" for key, kind in kinds.items()}
+
+
+def phases_params(given):
+    changes = {"output_step": given.output_step}
+    problems = followed(PAPER_CASES, given.tolerance, "taylor", **changes)
+    return {"problems": problems, "mus": given.mus, "look_every": given.look_every}
+
+
+def sea_params(given):
+    changes = {"end_time": given.window[1], "output_step": given.output_step}
+    (problem,) = followed([given.case], given.tolerance, "taylor", **changes).values()
+    plain = given.model_dump(include={"mus", "window", "size", "members", "seed"})
+    return {"problem": problem, **plain}
+
+
+def passage_params(given, size):
+    changes = {"end_time": size.end_time}
+    (problem,) = followed([given.case], given.tolerance, "taylor", **changes).values()
+    plain = given.model_dump(include={"mus", "per_period", "size", "seed", "settled"})
+    return {"problem": problem, **plain, "members": size.members}
+
+
+def film_params(given):
+    changes = {"model": "pendula", "mu": given.mu}
+    problems = followed(given.cases, given.tolerance, "taylor", **changes)
+    return {"problems": problems, **given.model_dump(include={"reach", "periods", "per_period"})}
+
+
+def long_passages_figure():
+    kinds = {**FIGURE_KINDS, "data": "figure.nc"}
+    stem = "results/pendula/long/over_the_top"
+    return {key: f"{stem}.{kind}" for key, kind in kinds.items()}
 
 
 # Proofs.
@@ -421,6 +457,8 @@ NUMBERS_BY = [
     *("breathers/measure_growth_by_drive.py", "breathers/measure_sensitivity.py"),
     "breathers/map_fates.py",
     *("newton/find_threshold.py", "newton/measure_remainder.py"),
+    *("newton/measure_phases.py", "newton/measure_sea.py"),
+    *("newton/measure_over_the_top.py", "newton/film_pendula.py"),
     *("certified/certify_curve.py", "certified/measure_lines.py", "certified/prove_breathers.py"),
     "certified/enclose_constants.py",
 ]
@@ -496,7 +534,10 @@ def claims_need():
             *checks("trust", *CHAOS_CHECKS),
         ],
         "breathers": below(f"breathers/{name}" for name in BREATHERS),
-        "pendula": [*below(f"pendula/{name}" for name in PENDULA), *checks("lyapunov")],
+        "pendula": [
+            *below([*(f"pendula/{name}" for name in PENDULA), "unbounded/thermal"]),
+            *checks("lyapunov"),
+        ],
         "certified": [
             *(*proved_curves(), *below(["certified/wrong/curve", "certified/lines"])),
             *below(["trajectories/fig2_small", "trajectories/fig3_small"]),

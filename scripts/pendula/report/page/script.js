@@ -33,32 +33,76 @@ for (const form of document.querySelectorAll("form.filter")) {
   filter();
 }
 
-// A run of the chain: bytes of |A| and |B| on every site, time after time.
+// A picture of |A| upwards and |B| downwards, a bar for each site.
+const drawBars = (pen, { width, height }, sites, colours, bytes) => {
+  const [slot, middle] = [width / sites, height / 2];
+  for (let row = 0; row < 2; row += 1) {
+    pen.fillStyle = colours[row];
+    for (let site = 0; site < sites; site += 1) {
+      const size = (bytes[row * sites + site] / 255) * (middle - 10);
+      pen.fillRect((site + 0.1) * slot, row ? middle : middle - size, 0.8 * slot, size);
+    }
+  }
+  pen.fillStyle = "#4b5364";
+  pen.fillRect(0, middle - 1, width, 2);
+};
+
+// A picture of the pendula, two rows of them; a bar at the left shows the drive, from -1 to 1.
+const drawPendula = (pen, { width, height }, sites, colours, bytes, drive) => {
+  const slot = width / (sites + 6);
+  const length = 0.2 * height;
+  pen.lineWidth = 3;
+  for (let row = 0; row < 2; row += 1) {
+    const hook = (0.27 + 0.5 * row) * height;
+    pen.strokeStyle = "#4b5364";
+    pen.beginPath();
+    pen.moveTo(3 * slot, hook);
+    pen.lineTo(width - 3 * slot, hook);
+    pen.stroke();
+    pen.strokeStyle = pen.fillStyle = colours[row];
+    for (let site = 0; site < sites; site += 1) {
+      const angle = (((bytes[row * sites + site] << 24) >> 24) / 127) * Math.PI;
+      const from = (site + 3.5) * slot;
+      const [x, y] = [from + length * Math.sin(angle), hook + length * Math.cos(angle)];
+      pen.beginPath();
+      pen.moveTo(from, hook);
+      pen.lineTo(x, y);
+      pen.stroke();
+      pen.beginPath();
+      pen.arc(x, y, 7, 0, 2 * Math.PI);
+      pen.fill();
+    }
+  }
+  pen.fillStyle = "#4b5364";
+  pen.fillRect(0.4 * slot, 0.5 * height - Math.max(0, drive) * length, 0.5 * slot, Math.abs(drive) * length);
+};
+
+// A run of the chain: bytes of |A| and |B|, or of angles, on every site, time after time.
 for (const player of document.querySelectorAll(".player")) {
-  const { frames, count, sites, step, still: shown } = player.dataset;
+  const { frames, count, sites, step, still: shown, period } = player.dataset;
   const bytes = Uint8Array.from(atob(frames), (letter) => letter.charCodeAt(0));
   const [last, width] = [Number(count) - 1, Number(sites)];
   const canvas = player.querySelector("canvas");
   const [button, slider, told] = ["button", "input", "output"].map((tag) => player.querySelector(tag));
   const pen = canvas.getContext("2d");
-  const colours = [...player.querySelectorAll("rect")].map((bar) => bar.getAttribute("fill"));
+  const bars = [...player.querySelectorAll("rect, circle")].map((bar) => bar.getAttribute("fill"));
+  const colours = [bars[0], bars[width]];
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
   let timer = null;
 
   const draw = () => {
     const frame = Number(slider.value);
-    const [slot, middle] = [canvas.width / width, canvas.height / 2];
+    const picture = bytes.subarray(2 * width * frame, 2 * width * (frame + 1));
+    const tau = (frame * Number(step)).toFixed(1);
     pen.clearRect(0, 0, canvas.width, canvas.height);
-    for (let row = 0; row < 2; row += 1) {
-      pen.fillStyle = colours[row * width];
-      for (let site = 0; site < width; site += 1) {
-        const size = (bytes[(frame * 2 + row) * width + site] / 255) * (middle - 10);
-        pen.fillRect((site + 0.1) * slot, row ? middle : middle - size, 0.8 * slot, size);
-      }
+    if (period) {
+      const periods = frame / Number(period);
+      drawPendula(pen, canvas, width, colours, picture, Math.cos(4 * Math.PI * periods));
+      told.textContent = `${tau}, ${Math.floor(periods)} periods`;
+    } else {
+      drawBars(pen, canvas, width, colours, picture);
+      told.textContent = tau;
     }
-    pen.fillStyle = "#4b5364";
-    pen.fillRect(0, middle - 1, canvas.width, 2);
-    told.textContent = (frame * Number(step)).toFixed(1);
   };
   const stop = () => {
     clearInterval(timer);

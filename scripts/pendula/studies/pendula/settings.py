@@ -21,6 +21,7 @@ from pendula.configuration.values import (
 )
 
 from .mathieu import second_tongue
+from .settings_phases import Film, OverTheTop, Phases, Sea
 from .threshold import squared_frequency
 
 PERIOD_SECONDS = 2e-6
@@ -143,12 +144,20 @@ class Settings(Model):
     needs: Needs
     threshold: Threshold
     remainder: Remainder
+    phases: Phases
+    sea: Sea
+    over_the_top: OverTheTop
+    film: Film
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the faults of each topic."""
         found = {
             "threshold": self.threshold.faults(),
             "remainder": self.remainder.faults(settings),
+            "phases": self.phases.faults(settings),
+            "sea": self.sea.faults(settings),
+            "over_the_top": self.over_the_top.faults(settings),
+            "film": self.film.faults(settings),
         }
         for topic, faults in found.items():
             for key, text in faults:

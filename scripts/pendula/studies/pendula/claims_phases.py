@@ -1,0 +1,293 @@
+"""The paper's phases in the real pendula: their norms, the sea, and who goes over the top."""
+
+import numpy as np
+
+from pendula.ledger.claim import FACTOR, SETTLED, Control, claim
+from pendula.ledger.criterion import (
+    Above,
+    AllOf,
+    AtLeast,
+    AtMost,
+    Below,
+    Finding,
+    Near,
+    UndecidableError,
+    WithinFactor,
+    judge,
+)
+from pendula.ledger.cutoff import Cutoff
+from pendula.measures.confidence import difference_limits, mean_limits
+from pendula.numerics.elementary import log
+
+SECTION = 7
+PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
+THERMAL = "unbounded/thermal"
+REGULAR = ("fig2_small", "fig2_large", "fig3_small")
+SMALL_ANGLES = 0.15
+"""Up to this mu the angles of the sea stay below a quarter of a turn."""
+LARGE_DATA = 0.2
+"""Up to this mu the larger data of the paper, at 2 mu 5 rad, stay well below the top."""
+
+ORDER = Cutoff(0.5, "an order is nearer to a whole number than to its neighbours")
+SAME = Cutoff(0.05, "P of the thermal state changes by so much where Omega changes by a quarter")
+SAME_LAW = Cutoff(0.05, "so near distributions differ by less than a figure shows")
+
+
+def small(dataset):
+    """Return the dataset at the mu up to SMALL_ANGLES."""
+    return dataset.sel(mu=dataset["mu"] <= SMALL_ANGLES)
+
+
+def late_levels(phases, norm: str = "l2"):
+    """Return the mean norm of the pair from SETTLED on, (case, mu)."""
+    values = phases[norm].sel(tau=phases["tau"] >= SETTLED)
+    if not values.sizes["tau"]:
+        raise UndecidableError(f"the runs end before tau = {SETTLED:g}")
+    pair = np.sqrt((values * values).sum("component")) if norm == "l2" else values.max("component")
+    return pair.mean("tau")
+
+
+def largest_power(phases):
+    """Return the largest P = |A|^2 + |B|^2 of each run, (case, mu)."""
+    return (phases["l2"] ** 2).sum("component").max("tau")
+
+
+def at_finite(values):
+    """Return values at all mu but 0, which stands for the amplitude equations."""
+    return with_some_mu(values.sel(mu=values["mu"] > 0.0))
+
+
+def with_some_mu(dataset):
+    """Return what has a mu at all."""
+    if not dataset.sizes["mu"]:
+        raise UndecidableError("there is no such mu")
+    return dataset
+
+
+@claim(
+    "Section 5, Figs 2 and 3, for the pendula (1)",
+    "Where the motion is regular, the l2 norms of the pendula tend to those of Figs 2 and 3 "
+    "with an error of the order mu^2.",
+    (PHASES,),
+    (
+        Control("norms of another case in the limit", {PHASES: lambda one: one.assign(
+            l2=one["l2"].where(one["mu"] > 0, np.roll(one["l2"], 1, axis=0)))}),
+        Control("norms with an error of the order mu", {PHASES: lambda one: one.assign(
+            l2=one["l2"].sel(mu=0.0) * (1.0 + one["mu"]))}),
+    ),
+    on=REGULAR,
+)  # fmt: skip
+def pendula_norms(phases) -> Finding:
+    """Take the order of the difference of the mean norms between the two smallest mu."""
+    levels = late_levels(phases.sel(case=list(REGULAR))).sortby("mu")
+    mu = levels["mu"].values
+    if mu.size < 3 or mu[0] != 0.0:
+        raise UndecidableError("an order takes two mu, and their limit")
+    off = abs(levels / levels.sel(mu=0.0) - 1.0)
+    fine, coarse = off.isel(mu=1), off.isel(mu=2)
+    if not (fine > 0.0).all():
+        raise UndecidableError("a case has no difference from its limit")
+    order = log(np.asarray(coarse / fine)) / log(mu[2] / mu[1])
+    measured = {
+        "least_order": order.min(),
+        "largest_order": order.max(),
+        "largest_difference": fine.max(),
+        "at_mu": mu[1],
+    }
+    says = "order in mu of the difference"
+    return judge(measured, Near(2.0, ORDER, "least_order", "largest_order", says=says))
+
+
+@claim(
+    "Section 5, Fig 3, for the pendula (1)",
+    "For larger initial conditions at Omega = -4 the l2 norm of the pendula grows, whereas the "
+    "l-infinity norm stays at the same level as the initial data.",
+    (PHASES,),
+    (
+        Control("the smallest mu alone", {PHASES: lambda one: one.sel(
+            mu=[0.0, float(at_finite(one)["mu"].min())])}, confirms=True),
+    ),
+    on=("fig3_large",),
+)  # fmt: skip
+def pendula_spread(phases) -> Finding:
+    """Compare the late norms with those of the data, at each mu."""
+    case = phases.sel(case=["fig3_large"])
+    starts = {name: late_start(case, name) for name in ("l2", "linf")}
+    grown = at_finite(late_levels(case)) / starts["l2"]
+    level = at_finite(late_levels(case, "linf")) / starts["linf"]
+    measured = {
+        "least_growth": grown.min(),
+        "least_level": level.min(),
+        "largest_level": level.max(),
+        "mus": grown.sizes["mu"],
+    }
+    criterion = AllOf(
+        AtLeast(FACTOR, "least_growth", says="late over initial l2 norm"),
+        WithinFactor(
+            FACTOR, "least_level", "largest_level", says="late over initial l-infinity norm"
+        ),
+    )
+    fails = (
+        "these data lie near a border of fates: at another mu the pendula disperse, and at a large"
+        " one they go over the top"
+    )
+    return judge(measured, criterion, fails=fails)
+
+
+def late_start(case, norm: str):
+    """Return the norm of the data of the pair."""
+    first = case[norm].sel(mu=0.0).isel(tau=0)
+    return np.sqrt((first * first).sum("component")) if norm == "l2" else first.max("component")
+
+
+@claim(
+    "Section 4, Theorem 1, for the pendula (1)",
+    "For Omega > 2 gamma + 4 epsilon the bound of Theorem 1 also holds for the pendula.",
+    (PHASES,),
+    (
+        Control("all mu at which the data stay below the top", {PHASES: lambda one: one.sel(
+            mu=one["mu"] <= LARGE_DATA)}, confirms=True),
+    ),
+    on=("fig2_small", "fig2_large"),
+)  # fmt: skip
+def theorem_1_for_the_pendula(phases) -> Finding:
+    """Compare the largest P of the envelopes with Theorem 1's bound by the data's energy."""
+    cases = phases.sel(case=["fig2_small", "fig2_large"])
+    if not np.isfinite(cases["theorem_1_power"]).all():
+        raise UndecidableError("Theorem 1 says nothing of these constants")
+    over = at_finite(largest_power(cases) / cases["theorem_1_power"])
+    worst = over.max("case").values.argmax()
+    measured = {"largest_over_bound": over.max(), "at_mu": over["mu"].values[worst]}
+    fails = "data that start near the top of their swing go over it, and the amplitudes know no top"
+    says = "largest P of the envelopes over its bound"
+    return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
+
+
+@claim(
+    "Section 4, Theorem 3, for the pendula (1)",
+    "On a finite chain P = |A|^2 + |B|^2 of the pendula never exceeds the bound of Theorem 3.",
+    (PHASES, TOP),
+    (
+        Control(f"mu up to {SMALL_ANGLES:g} alone", {PHASES: small, TOP: small}, confirms=True),
+    ),
+)  # fmt: skip
+def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
+    """Compare angles alone, which give no more than P, with the bound by the energy of the data."""
+    bound = phases["theorem_3_power"]
+    cases = at_finite(largest_power(phases) / bound).max("case")
+    sea = with_some_mu(over_the_top)["largest_power"].max("member") / bound.sel(case="fig4_small")
+    measured = {"largest_over_bound": max(cases.max(), sea.max())}
+    measured |= {"smallest_mu_over_it": _least_mu([cases, sea])}
+    fails = (
+        "no energy bounds pendula that are driven: once over the top they turn on and wind up the"
+        " strings"
+    )
+    says = "largest P over its bound"
+    return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
+
+
+def _least_mu(shares) -> float:
+    """Return the least mu at which one of the shares is above one; NaN where none is."""
+    above = [float(one["mu"][(one > 1.0).values].min()) for one in shares if (one > 1.0).any()]
+    return min(above, default=np.nan)
+
+
+def of_power(factor: float):
+    """Return what multiplies P of the pendula's sea by a factor."""
+    return lambda sea: sea.assign(
+        site_power=sea["site_power"].where(sea["mu"] == 0.0, factor * sea["site_power"])
+    )
+
+
+@claim(
+    "Section 5, Fig 4, for the pendula (1)",
+    "At Omega = 0 the pendula come to the same sea as the amplitudes while mu is small.",
+    (SEA, THERMAL),
+    (
+        Control("angles in place of their envelope", {SEA: of_power(0.5)}),
+        Control("the thermal state of another detuning", {THERMAL: lambda one: one.assign(
+            power=one["power"].shift(omega=1))}),
+        Control("distributions of the pendula moved by four cells", {SEA: lambda one: one.assign(
+            modulus_share=one["modulus_share"].where(
+                one["mu"] == 0.0, one["modulus_share"].shift(modulus=4, fill_value=0.0)))}),
+    ),
+)  # fmt: skip
+def same_sea(sea, thermal) -> Finding:
+    """Compare P a site and the distribution of moduli, of ensembles on one chain."""
+    limit, *others = (sea["site_power"].sel(mu=mu).values for mu in sea["mu"].values)
+    if sea.sizes["member"] < 2 or not others:
+        raise UndecidableError("an ensemble takes two members, and pendula")
+    known = thermal["power"].sel(omega=sea.attrs["omega"])
+    away = [difference_limits(one, limit) for one in others]
+    cumulated = sea["modulus_share"].mean("member").cumsum("modulus")
+    apart = at_finite(abs(cumulated - cumulated.sel(mu=0.0)))
+    measured = {
+        "largest_difference": max(abs(one.value) for one in away) / limit.mean(),
+        "its_limits": max(one.half for one in away) / limit.mean(),
+        "from_thermal": max(abs(mean_limits(one).value / float(known) - 1.0) for one in others),
+        "laws_apart": apart.max(),
+    }
+    criterion = AllOf(
+        Below(
+            SAME, "largest_difference", "its_limits", says="relative difference of P a site, limits"
+        ),
+        Below(SAME, "from_thermal", says="relative difference from the thermal P"),
+        Below(SAME_LAW, "laws_apart", says="largest difference of the distributions"),
+    )
+    return judge(measured, criterion)
+
+
+@claim(
+    "Abstract and Section 6, for the pendula (1)",
+    "While the l2 norm of the pendula at Omega = 0 grows, their l-infinity norm remains finite: it "
+    "stays at the level of the amplitudes.",
+    (TOP, SEA),
+    (
+        Control(f"mu up to {SMALL_ANGLES:g} alone", {TOP: small}, confirms=True),
+    ),
+)  # fmt: skip
+def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
+    """Compare the largest angle by the end with 2 mu times the amplitudes' level."""
+    level = sea["linf_level"].sel(mu=0.0).mean("member")
+    angles = with_some_mu(over_the_top)["largest_angle"].isel(tau=-1).mean("member")
+    over = angles / (2.0 * over_the_top["mu"] * level)
+    passed = over_the_top["passed"].isel(tau=-1)
+    measured = {
+        "largest_over_level": over.max(),
+        "largest_share_over_the_top": passed.max(),
+        "least_share_over_the_top": passed.min(),
+        "least_share_upper_limit": over_the_top["passed_high"].isel(tau=-1).min(),
+        "members": over_the_top.sizes["member"],
+    }
+    says = "largest angle so far over 2 mu times the amplitudes' l-infinity level"
+    fails = "at the larger mu pendula of the sea go over the top after a while, and turn on and on"
+    return judge(measured, Below(FACTOR, "largest_over_level", says=says), fails=fails)
+
+
+@claim(
+    "Section 6, for the pendula (1)",
+    "The smaller mu, the longer the pendula of the sea wait before one goes over the top.",
+    (TOP,),
+    (
+        Control("mu in reverse order", {TOP: lambda one: one.assign_coords(
+            mu=one["mu"].values[::-1])}),
+        Control("the same waiting times at all mu", {TOP: lambda one: one.isel(
+            mu=[0] * one.sizes["mu"]).assign_coords(mu=one["mu"].values)}),
+    ),
+)  # fmt: skip
+def waiting_grows(over_the_top) -> Finding:
+    """Compare the rates at the smallest and the largest mu at which anybody waited."""
+    ordered = over_the_top.sortby("mu")
+    rated = ordered.sel(mu=np.isfinite(ordered["passage_rate"]).values)
+    if rated.sizes["mu"] < 2:
+        raise UndecidableError("nobody waited at two of the mu")
+    slow, fast = rated.isel(mu=0), rated.isel(mu=-1)
+    measured = {
+        "rate": fast["passage_rate"],
+        "at_mu": fast["mu"],
+        "slower_rate": slow["passage_rate"],
+        "at_smaller_mu": slow["mu"],
+        "gap_of_limits": fast["passage_rate_low"] - slow["passage_rate_high"],
+    }
+    says = "lower limit of the rate at the larger mu less upper limit at the smaller"
+    return judge(measured, Above(0.0, "gap_of_limits", says=says))

@@ -1,0 +1,61 @@
+"""The phases of the paper in the real pendula: norms, and where they move, for all cases and mu."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases
+from pendula.models.bounds import theorem_1_bound, theorem_3_bound
+from pendula.problem import Problem
+from pendula.simulation.simulate import Trajectory
+
+from .envelope import LIMIT, at_mu, envelopes, norms_of
+
+ENVELOPE = "of the amplitudes got back from angles and velocities"
+
+
+def measure_phases(
+    problems: Mapping[str, Problem], mus: Sequence[float], look_every: int
+) -> Contents:
+    """Return norms of the envelopes of all cases at mu = 0, which is (4), and at each of `mus`.
+
+    All cases are on one chain and end at one time. The larger envelope of each pair is kept at
+    every `look_every`-th output.
+    """
+    every = [LIMIT, *mus]
+    found = [[envelopes(at_mu(one, mu)) for mu in every] for one in problems.values()]
+    tau = found[0][0][0].tau
+    norms = np.array([[norms_of(moduli) for _, moduli in row] for row in found])
+    looks = [[moduli.max(axis=0)[:, ::look_every] for _, moduli in row] for row in found]
+    reach = len(looks[0][0]) // 2
+    described, shared = describe_cases(problems)
+    over = ("case", "mu", "component", "tau")
+    variables = {
+        **described,
+        "mu": Variable(("mu",), every),
+        "tau": Variable(("tau",), tau),
+        "component": COMPONENTS,
+        "site": Variable(("site",), np.arange(-reach, reach + 1)),
+        "snapshot_tau": Variable(("snapshot",), tau[::look_every]),
+        "l2": Variable(over, norms[:, :, 0]),
+        "linf": Variable(over, norms[:, :, 1]),
+        "larger_modulus": Variable(("case", "mu", "site", "snapshot"), np.float32(looks),
+                                   "larger modulus of the two amplitudes on a site"),
+        **_bounds(problems, [row[0][0] for row in found]),
+    }  # fmt: skip
+    title = f"The cases of the paper as pendula: norms {ENVELOPE}; mu = 0 stands for (4)"
+    return variables, {**shared, "title": title}
+
+
+def _bounds(problems: Mapping[str, Problem], runs: Sequence[Trajectory]) -> dict[str, Variable]:
+    """Return what the theorems allow P = |A|^2 + |B|^2 by the data, by case."""
+    pairs = [(float(run.energy[0]), one) for run, one in zip(runs, problems.values(), strict=True)]
+    return {
+        "theorem_1_power": Variable(
+            ("case",), [float(theorem_1_bound(h, one.constants)) for h, one in pairs],
+            "bound C of P by Theorem 1, infinite where it says nothing"),
+        "theorem_3_power": Variable(
+            ("case",), [float(theorem_3_bound(h, one.sites, one.constants)) for h, one in pairs],
+            "bound C_N of P by Theorem 3"),
+    }  # fmt: skip

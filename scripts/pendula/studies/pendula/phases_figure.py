@@ -1,0 +1,126 @@
+"""The paper's phases in the real pendula, in a picture: norms and space-time, case by mu."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, PowerNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from pendula.drawing import style
+
+LOOKS = ("0.55", "#9ecae1", "#4292c6", "#08519c", "#041f42", "#000000")
+"""Colours by mu: grey for the amplitudes, and from light to dark."""
+TURNED = "#35c7b1"
+LETTERS = "abcdefghijkl"
+APART = 1.06
+"""Pictures of neighbouring mu start so far apart, in units of the time that they show."""
+
+
+def gather_phases(phases: xr.Dataset) -> xr.Dataset:
+    """Return norms of the pair, and the larger modulus on each site over time."""
+    l2 = np.sqrt((phases["l2"] ** 2).sum("component"))
+    linf = phases["linf"].max("component")
+    words = {"l2": (l2, "l2 norm of the pair"), "linf": (linf, "l-infinity norm of the pair")}
+    norms = {
+        name: one.assign_attrs(long_name=said, units="1") for name, (one, said) in words.items()
+    }
+    kept = phases[["larger_modulus", "snapshot_tau", "omega", "initial"]]
+    return kept.assign(norms)
+
+
+@style.styled
+def draw_phases(data: xr.Dataset) -> Figure:
+    """Draw a row for each case: its norms by mu, and a space-time picture for each mu."""
+    cases = data["case"].values
+    figure = style.new_figure(style.DOUBLE, 0.4 + 1.12 * len(cases))
+    figure.get_layout_engine().set(w_pad=0.02, h_pad=0.02)
+    grid = figure.subplots(len(cases), 2, width_ratios=(1.9, 1.05 * data.sizes["mu"]),
+                           squeeze=False)  # fmt: skip
+    for letter, (norms, strip), name in zip(LETTERS, grid, cases, strict=False):
+        case = data.sel(case=name)
+        _draw_norms(norms, case)
+        norms.set_title(f"({letter}) {style.name_case(case)}", loc="left", fontsize=7)
+        image = _draw_strip(strip, case)
+    for axes in grid[:-1].flat:
+        axes.tick_params(labelbottom=False)
+    for axes in grid[-1]:
+        axes.set_xlabel(r"$\tau$")
+    _name_strips(grid[0, 1], data)
+    bar = figure.colorbar(image, ax=grid[:, 1].tolist(), location="bottom", aspect=45,
+                          shrink=0.75, pad=0.01)  # fmt: skip
+    bar.set_label(r"modulus over the largest by (4); green: $2 \mu |A| > \pi$, over the top")
+    _name_curves(figure, data["mu"].values)
+    return figure
+
+
+def _name(mu: float) -> str:
+    return rf"$\mu = {mu:g}$" if mu else "equations (4)"
+
+
+def _draw_norms(axes: Axes, case: xr.Dataset) -> None:
+    for colour, mu in zip(LOOKS, case["mu"].values, strict=False):
+        one, wide = case.sel(mu=mu), {"color": colour, "lw": 0.7 if mu else 1.8}
+        # pendula over the top swing the most: they lie behind the others, and (4) behind all
+        place = 3.0 - mu if mu else 2.0
+        axes.plot(case["tau"], one["l2"], zorder=place, **wide)
+        axes.plot(case["tau"], one["linf"], zorder=place, dashes=(3, 1), **wide)
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if _is_wide(case) else (1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlim(0, float(case["tau"].max()))
+    axes.set_ylabel("norms", labelpad=1)
+
+
+def _is_wide(case: xr.Dataset) -> bool:
+    """Return whether the norms of a case differ by more than two powers of ten."""
+    return float(case["l2"].max()) > 100.0 * float(case["linf"].min())
+
+
+def _starts(data: xr.Dataset) -> np.ndarray:
+    """Return where the picture of each mu starts on the common axis of its row."""
+    return APART * float(data["snapshot_tau"][-1]) * np.arange(data.sizes["mu"])
+
+
+def _draw_strip(axes: Axes, case: xr.Dataset):
+    """Draw the pictures of all mu beside each other: panels of their own take far longer."""
+    moduli, end = case["larger_modulus"], float(case["snapshot_tau"][-1])
+    peak, starts = float(moduli.sel(mu=0.0).max()) or 1.0, _starts(case)
+    sites = case["site"].values[0] - 0.5, case["site"].values[-1] + 0.5
+    look = {"origin": "lower", "aspect": "auto", "interpolation": "nearest"}
+    for start, mu in zip(starts, case["mu"].values, strict=True):
+        values = moduli.sel(mu=mu).transpose("site", "snapshot").values
+        look["extent"] = (start, start + end, *sites)
+        image = axes.imshow(values / peak, cmap="inferno", norm=PowerNorm(0.5, 0, 1), **look)
+        turned = np.ma.masked_less_equal(2.0 * mu * values, np.pi)
+        if turned.count():
+            axes.imshow(turned, cmap=ListedColormap([TURNED]), **look)
+    axes.set_xlim(0, starts[-1] + end)
+    axes.set_ylim(*sites)
+    axes.set_ylabel("site $n$", labelpad=-2)
+    shown = [0.0, 0.5 * end]
+    axes.set_xticks([start + one for start in starts for one in shown],
+                    [f"{one:g}" for _ in starts for one in shown])  # fmt: skip
+    return image
+
+
+def _name_strips(axes: Axes, data: xr.Dataset) -> None:
+    middle, top = 0.5 * float(data["snapshot_tau"][-1]), axes.get_ylim()[1]
+    for start, mu in zip(_starts(data), data["mu"].values, strict=True):
+        axes.annotate(_name(mu), (start + middle, top), (0, 3), textcoords="offset points",
+                      ha="center", fontsize=7.5)  # fmt: skip
+
+
+def _name_curves(figure: Figure, mus: np.ndarray) -> None:
+    lines = [
+        Line2D([], [], color=colour, lw=1.6, label=_name(mu))
+        for colour, mu in zip(LOOKS, mus, strict=False)
+    ]
+    lines += [
+        Line2D([], [], color="black", label=r"$\ell^2$"),
+        Line2D([], [], color="black", dashes=(3, 1), label=r"$\ell^\infty$"),
+    ]
+    figure.legend(handles=lines, loc="outside upper center", ncols=len(lines), columnspacing=1.2,
+                  fontsize=7.5)  # fmt: skip

@@ -1,0 +1,153 @@
+"""The paper's phases in the real pendula: envelopes, the sea, passages over the top, and films."""
+
+import numpy as np
+import pytest
+from on_pendula import pendula
+from pendula.datasets.netcdf import as_xarray
+from pendula.models.pendula import angles_of
+from pendula.numerics.elementary import modulus
+from pendula.simulation.simulate import simulate
+from pendula.studies.pendula import envelope, film, over_the_top, phases, sea
+from problems import problem_of
+from scipy.fft import dst
+
+FAST = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
+
+
+def case(name="fig4_small", **changes):
+    return problem_of(name, **{"solver": FAST, "end_time": 2.0, "output_step": 0.25} | changes)
+
+
+def test_the_envelope_of_the_start_is_that_of_the_data():
+    problem = envelope.at_mu(case(initial={0: (1.0 + 2.0j, 0.5j)}), 0.3)
+    _, moduli = envelope.envelopes(problem)
+    assert moduli[:, 30, 0] == pytest.approx([np.sqrt(5.0), 0.5], rel=1e-15)
+    assert not moduli[:, :30, 0].any()
+
+
+def test_the_envelope_tends_to_the_modulus_as_mu_squared():
+    problem = case("fig2_large", end_time=1.0)
+    _, limit = envelope.envelopes(problem)
+    off = [
+        np.abs(envelope.envelopes(envelope.at_mu(problem, mu))[1] - limit).max()
+        for mu in (0.02, 0.01)
+    ]
+    assert off[0] / off[1] == pytest.approx(4.0, rel=0.15)
+
+
+def test_states_of_the_amplitudes_have_the_moduli_of_one_run():
+    problem = case()
+    times, amplitudes = envelope.states(problem)
+    run, moduli = envelope.envelopes(problem)
+    assert times.tolist() == run.tau.tolist()
+    assert modulus(amplitudes) == pytest.approx(moduli, abs=1e-6)
+
+
+def test_norms_of_all_cases_stand_by_mu_with_the_amplitudes_first():
+    problems = {name: case(name) for name in ("fig2_small", "fig4_small")}
+    data = as_xarray(*phases.measure_phases(problems, [0.1, 0.3], 4))
+    assert data["mu"].values.tolist() == [0.0, 0.1, 0.3]
+    run = simulate(problems["fig4_small"])
+    assert data["l2"].sel(case="fig4_small", mu=0.0).values == pytest.approx(run.l2, rel=1e-13)
+    shown = data["larger_modulus"].sel(case="fig4_small", mu=0.1)
+    assert shown.shape == (61, 3)
+    largest = data["linf"].sel(case="fig4_small", mu=0.1).max("component")[::4].values
+    assert shown.max("site").values == pytest.approx(largest, rel=1e-6)
+    assert np.isinf(data["theorem_1_power"].sel(case="fig4_small"))
+    assert (data["theorem_3_power"] > 100.0).all()
+
+
+def test_the_spectrum_is_that_of_the_sine_transform_and_has_the_mean_square():
+    waves, rng = sea.Waves(61), np.random.default_rng(3)
+    half = rng.normal(size=(2, 31, 4)) + 1j * rng.normal(size=(2, 31, 4))
+    even = np.concatenate([half[:, :0:-1], half], axis=1)
+    found = waves.spectrum(even)
+    assert found.mean() == pytest.approx((np.abs(even) ** 2).mean(), rel=1e-12)
+    transformed = dst(even, type=1, axis=1, norm="ortho")
+    expected = (np.abs(transformed) ** 2).mean(axis=(0, 2))[::2]
+    assert found / found.sum() == pytest.approx(expected / expected.sum(), rel=1e-10)
+
+
+def test_members_of_the_sea_are_reduced_over_the_window_alone():
+    data = as_xarray(*sea.measure_sea(case(end_time=8.0), [0.15], (4.0, 8.0), 1e-3, 2, 1))
+    assert dict(data["site_power"].sizes) == {"mu": 2, "member": 2}
+    assert data["modulus_share"].sum("modulus").values == pytest.approx(1.0)
+    l2, power = data["l2_level"].values, data["site_power"].values * 61
+    assert (l2**2 <= power).all() and (l2**2 > 0.8 * power).all()
+    assert data["wave_power"].mean("even_wave").values * 2 * 61 == pytest.approx(power, rel=1e-9)
+
+
+def one_pendulum(angle: float, **changes):
+    """Return a pair that moves as one, which is a pendulum without a drive."""
+    start = {0: (angle / 0.6, angle / 0.6)}
+    return pendula(half_width=0, epsilon=0.0, mu=0.3, omega=0.0, initial=start, **changes)
+
+
+def test_a_period_is_that_of_small_swings():
+    problem = one_pendulum(1e-4, end_time=1.0)
+    period = over_the_top.period_of(problem)
+    run = simulate(problem.changed(end_time=period, output_step=period, snapshot_every=1))
+    assert run.snapshots[0][0, 0, -1] == pytest.approx(1e-4, rel=1e-6)
+
+
+@pytest.mark.parametrize(("share", "goes"), [(0.999, False), (1.001, True)])
+def test_a_pendulum_goes_over_the_top_with_more_energy_than_there(share, goes):
+    """From below with the velocity v it comes to the top if v^2 / 2 > 2."""
+    velocity = -2.0j * share / 0.6
+    moving = one_pendulum(0.0, end_time=3.0).changed(initial=np.full((2, 1), velocity))
+    assert angles_of(moving.initial, 0.0, 0.3)[1, 0, 0] == pytest.approx(2.0 * share)
+    found = over_the_top.passage(moving, 16)
+    assert np.isfinite(found.time) == goes
+    assert (found.angle[-1] > np.pi) == goes and (np.diff(found.angle) >= 0.0).all()
+
+
+def test_shares_and_rates_count_who_was_waiting():
+    times = np.array([5.0, 12.0, 15.0, np.inf])
+    share = over_the_top.passed_by(times, np.array([4.0, 5.0, 14.0, 50.0]))
+    assert share.value.tolist() == [0.0, 0.25, 0.5, 0.75]
+    assert (share.low <= share.value).all() and (share.high >= share.value).all()
+    rate = over_the_top.waiting_rate(times, 10.0, 50.0)
+    assert rate.value == pytest.approx(2.0 / (2.0 + 5.0 + 40.0)) and rate.low < rate.value
+    assert np.isnan(over_the_top.waiting_rate(times[:1], 10.0, 50.0).value)
+
+
+def test_the_rate_of_an_exponential_law_is_found():
+    draws = 10.0 + np.random.default_rng(0).exponential(20.0, 4000)
+    times = np.where(draws > 50.0, np.inf, draws)
+    rate = over_the_top.waiting_rate(times, 10.0, 50.0)
+    assert rate.low < 0.05 < rate.high and rate.high < 1.1 * rate.low
+
+
+def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():
+    problem = case(end_time=6.0)
+    data = as_xarray(
+        *over_the_top.measure_over_the_top(problem, [0.1, 0.3], 8, 1e-6, 2, 1, settled=5.0)
+    )
+    assert np.isinf(data["passage_time"].sel(mu=0.1)).all()
+    assert (data["passage_time"].sel(mu=0.3) < 5.0).all()
+    assert data["passed"].isel(tau=-1).values.tolist() == [0.0, 1.0]
+    assert data["largest_power"].sel(mu=0.3).min() > data["largest_power"].sel(mu=0.1).max()
+
+
+def test_a_film_shows_every_swing_and_leaves_whole_turns_out():
+    swinging = film.filmed(one_pendulum(1.0), 0, 4, 12)
+    assert swinging.shape == (49, 2, 1) and swinging.dtype == np.int8
+    exact = simulate(one_pendulum(1.0).changed(
+        end_time=4 * over_the_top.period_of(one_pendulum(1.0)),
+        output_step=over_the_top.period_of(one_pendulum(1.0)) / 12, snapshot_every=1,
+    )).snapshots[0][0, 0]  # fmt: skip
+    assert swinging[:, 0, 0] * (np.pi / 127) == pytest.approx(exact, abs=0.5 * np.pi / 126)
+    turning = film.filmed(one_pendulum(0.0).changed(initial=np.full((2, 1), -10.0j)), 0, 3, 12)
+    assert np.abs(turning.astype(int)).max() <= 127 and (turning < 0).any() and (turning > 0).any()
+
+
+def test_films_of_all_cases_have_as_many_periods():
+    problems = {
+        name: case(name).changed(model="pendula", mu=0.2) for name in ("fig2_large", "fig3_large")
+    }
+    data = as_xarray(*film.film_pendula(problems, 3, 2, 6))
+    assert dict(data["angle_step"].sizes) == {"case": 2, "picture": 13, "component": 2, "site": 7}
+    assert data["site"].values.tolist() == list(range(-3, 4))
+    assert data["angle_step"].values[:, 0, 0, 3].tolist() == [round(2.0 * 127 / np.pi)] * 2
+    lengths = data["tau_of_period"] * data["pendulum_frequency"]
+    assert lengths.values == pytest.approx(np.pi * 0.04)
