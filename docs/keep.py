@@ -97,7 +97,7 @@ def keep_passages(results: Path, folder: Path) -> None:
     }
     kept["turns"] = Variable(
         ("mu",),
-        last["largest_angle"].mean("member").values / (2.0 * np.pi),
+        last["angle_so_far"].mean("member").values / (2.0 * np.pi),
         "largest angle by the end in turns, mean over the members",
     )
     about = {"members": long.sizes["member"], "end_time": tau[-1], "settled": long.attrs["settled"]}

@@ -126,7 +126,7 @@ def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():
     assert np.isinf(data["passage_time"].sel(mu=0.1)).all()
     assert (data["passage_time"].sel(mu=0.3) < 5.0).all()
     assert data["passed"].isel(tau=-1).values.tolist() == [0.0, 1.0]
-    assert data["largest_power"].sel(mu=0.3).min() > data["largest_power"].sel(mu=0.1).max()
+    assert data["angle_power"].sel(mu=0.3).min() > data["angle_power"].sel(mu=0.1).max()
 
 
 def test_a_film_shows_every_swing_and_leaves_whole_turns_out():

@@ -43,8 +43,8 @@ def over_the_top():
     return xr.Dataset(
         {"passage_rate": ("mu", rates), "passage_rate_low": ("mu", 0.5 * rates),
          "passage_rate_high": ("mu", 2.0 * rates + 0.01),
-         "largest_angle": (("mu", "member", "tau"), angles),
-         "largest_power": (("mu", "member"), np.full((3, 4), 1e3)),
+         "angle_so_far": (("mu", "member", "tau"), angles),
+         "angle_power": (("mu", "member"), np.full((3, 4), 1e3)),
          **{f"passed{end}": (("mu", "tau"), np.zeros((3, 2))) for end in ("", "_low", "_high")}},
         {"mu": mus, "tau": [25.0, 50.0]},
     )  # fmt: skip
@@ -88,10 +88,10 @@ def at(name, factor, **where):
         ("pendula_spread", PHASES, at("linf", 20.0, mu=[0.3])),
         ("theorem_1_for_the_pendula", PHASES, at("l2", 30.0, mu=[0.3], case=["fig2_large"])),
         ("theorem_3_for_the_pendula", PHASES, at("l2", 30.0, mu=[0.3], case=["fig4_large"])),
-        ("theorem_3_for_the_pendula", TOP, at("largest_power", 20.0, mu=[0.225])),
+        ("theorem_3_for_the_pendula", TOP, at("angle_power", 20.0, mu=[0.225])),
         ("same_sea", SEA, at("site_power", 1.08, mu=[0.1])),
         ("same_sea", THERMAL, at("power", 1.2, omega=[0.0])),
-        ("pendula_stay_below_the_top", TOP, at("largest_angle", 20.0, mu=[0.225])),
+        ("pendula_stay_below_the_top", TOP, at("angle_so_far", 20.0, mu=[0.225])),
         ("waiting_grows", TOP, at("passage_rate_low", 0.01, mu=[0.225])),
     ],
 )

@@ -26,14 +26,18 @@ def gather_over_the_top(sea: xr.Dataset, over_the_top: xr.Dataset, thermal: xr.D
     density = (means["modulus_share"] / cell).assign_attrs(
         long_name="probability density of the modulus", units="1"
     )
-    turns = over_the_top["largest_angle"] / (2.0 * np.pi)
+    turns = over_the_top["angle_so_far"] / (2.0 * np.pi)
     known = thermal[["spectrum", "density"]].sel(omega=omega, drop=True)
     return xr.Dataset(
         {
             "wave_power": means["wave_power"].rename(mu="sea_mu"),
             "sea_density": density.rename(mu="sea_mu", modulus="sea_modulus"),
-            "thermal_spectrum": known["spectrum"],
-            "thermal_density": known["density"],
+            **{
+                f"thermal_{name}": known[name].assign_attrs(
+                    long_name=f"{known[name].attrs['long_name']}, thermal state"
+                )
+                for name in ("spectrum", "density")
+            },
             "wave_number": thermal["wave_number"],
             "turns": turns.mean("member").assign_attrs(
                 long_name="largest angle of any pendulum so far in turns, mean over the members",

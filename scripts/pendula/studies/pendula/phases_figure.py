@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from pendula.datasets.registry import NAMES
 from pendula.drawing import style
 
 LOOKS = ("0.55", "#9ecae1", "#4292c6", "#08519c", "#041f42", "#000000")
@@ -22,9 +23,9 @@ def gather_phases(phases: xr.Dataset) -> xr.Dataset:
     """Return norms of the pair, and the larger modulus on each site over time."""
     l2 = np.sqrt((phases["l2"] ** 2).sum("component"))
     linf = phases["linf"].max("component")
-    words = {"l2": (l2, "l2 norm of the pair"), "linf": (linf, "l-infinity norm of the pair")}
     norms = {
-        name: one.assign_attrs(long_name=said, units="1") for name, (one, said) in words.items()
+        name: one.assign_attrs(long_name=f"{NAMES[name]}, of A and B together", units="1")
+        for name, one in {"l2": l2, "linf": linf}.items()
     }
     kept = phases[["larger_modulus", "snapshot_tau", "omega", "initial"]]
     return kept.assign(norms)

@@ -78,7 +78,7 @@ def _passages(results: Results) -> dict[str, Any]:
             results.say(TOP, f"{share[0]} ({share[1]} to {share[2]})"),
             results.say(TOP, _median(float(one["passage_median"]))),
             results.say(TOP, _rate(one)),
-            results.quote(TOP, float(one["largest_angle"].mean("member")) / (2.0 * np.pi)),
+            results.quote(TOP, float(one["angle_so_far"].mean("member")) / (2.0 * np.pi)),
         ])  # fmt: skip
     return {
         "head": ["μ", "gone over the top", "median τ", "rate a unit of τ", "turns"],

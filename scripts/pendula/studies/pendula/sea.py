@@ -76,8 +76,8 @@ def measure_sea(
 
 REDUCED = {
     "site_power": ((), "mean of |A_n|^2 + |B_n|^2 over sites and time"),
-    "l2_level": ((), "mean of the l2 norm of the pair over time"),
-    "linf_level": ((), "mean of the l-infinity norm of the pair over time"),
+    "l2_level": ((), "mean of the l2 norm over the time window"),
+    "linf_level": ((), "mean of the l-infinity norm over the time window"),
     "wave_power": (("even_wave",), "mean |A(k)|^2 over the chain and time"),
     "modulus_share": (("modulus",), "share of moduli in a cell"),
 }
