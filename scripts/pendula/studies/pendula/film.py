@@ -37,8 +37,10 @@ def film_pendula(
     angles = np.array([filmed(one, reach, periods, per_period) for one in problems.values()])
     described, shared = describe_cases(problems)
     lengths = [period_of(one) for one in problems.values()]
-    mus = [one.mu for one in problems.values()]
     own = [frequency(one.constants.omega, one.mu) for one in problems.values()]
+    mu = next(iter(problems.values())).mu
+    about = {"title": "A film of the pendula", "mu": mu}
+    about |= {"per_period": per_period, "half_turn": HALF_TURN}
     return {
         **described,
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
@@ -49,4 +51,4 @@ def film_pendula(
         "pendulum_frequency": Variable(("case",), own, "angular frequency omega of equation (2)"),
         "angle_step": Variable(("case", "picture", "component", "site"), angles,
                                f"angle in steps, {HALF_TURN} of which are half a turn"),
-    }, {**shared, "mu": mus[0], "per_period": per_period, "title": "A film"}  # fmt: skip
+    }, {**shared, **about}  # fmt: skip

@@ -11,7 +11,6 @@ from pendula.report.results import Results
 from pendula.report.words import case_in_words, number, percent, with_error
 
 from .claims_phases import late_levels
-from .film import HALF_TURN
 
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 FILM = "pendula/film"
@@ -145,7 +144,8 @@ def _player(results: Results, one) -> dict[str, Any]:
     tau = one["period"].values * float(one["tau_of_period"])
     still = len(steps) - 1
     swings = np.abs(steps[-int(one.attrs["per_period"]) :]).max(axis=(0, 1))  # by site
-    largest = float(swings.max()) / HALF_TURN * 180.0
+    half_turn = int(one.attrs["half_turn"])
+    largest = float(swings.max()) / half_turn * 180.0
     moving = int((swings > 0.5 * swings.max()).sum())
     return {
         "case": case_in_words(float(one["omega"]), str(one["initial"].values)),
@@ -155,13 +155,15 @@ def _player(results: Results, one) -> dict[str, Any]:
         "still": still,
         "largest": results.say(FILM, f"{largest:.0f}°"),
         "moving": results.quote(FILM, float(moving)),
-        "rows": [_hanging(row, angles) for row, angles in enumerate(steps[still])],
+        "rows": [
+            _hanging(row, np.pi / half_turn * angles) for row, angles in enumerate(steps[still])
+        ],
     }
 
 
-def _hanging(row: int, steps: np.ndarray) -> list[dict[str, float]]:
+def _hanging(row: int, angles: np.ndarray) -> list[dict[str, float]]:
     """Return where each pendulum of a row hangs in the still picture, and where its bob is."""
-    angles, hook = np.pi / HALF_TURN * steps, 65.0 + 120.0 * row
+    hook = 65.0 + 120.0 * row
     return [
         {
             "from": 20.0 * (place + 3.5),
