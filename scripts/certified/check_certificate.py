@@ -122,7 +122,8 @@ def check(certificate):
     h, unit = Fraction(1, certificate["steps_per_tau"]), Fraction(1, 2 ** certificate["bits"])
     low = eq["omega"] - max(0, 4 * eq["epsilon"]) - 2 * abs(eq["gamma"])
     high = eq["omega"] - min(0, 4 * eq["epsilon"]) + 2 * abs(eq["gamma"])
-    if low <= 0 <= high or len(certificate["steps"]) * h != Fraction(certificate["end_time"]):
+    end = len(certificate["steps"]) * h
+    if low <= 0 <= high or end <= 0 or end != Fraction(certificate["end_time"]):
         return "the linear flow keeps no norm, or the steps do not lead to the end"
     k = root(max(abs(low), abs(high)) / min(abs(low), abs(high)))
     state, bound = [Fraction(x) for row in certificate["initial"] for x in row], Fraction(0)
@@ -132,7 +133,7 @@ def check(certificate):
         jump = root(sum((a - b) ** 2 for a, b in zip(terms[0], state, strict=True)))
         rates = [Fraction(rate, 2 ** certificate["rate_bits"]) for rate in step["rates"]]
         factor, a = growth(terms, rates, eq, h, 1 if low > 0 else -1, k)
-        if factor is None:
+        if factor is None or len(rates) < 2:  # they stand at both ends of the step at least
             return f"step {number}: a rate is too small, or too large for one step"
         end = Fraction(step["bound"], 2 ** certificate["bound_bits"])
         off = jump + defect(whole, eq, h, unit) + h * (3 * a * end + end**2) * end / 2

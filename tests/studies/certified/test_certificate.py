@@ -73,6 +73,10 @@ def without(number, shorter):
     return change
 
 
+def backwards(certificate):
+    certificate.update(steps_per_tau=-certificate["steps_per_tau"], end_time="-1/2")
+
+
 def constant(name, text):
     return lambda certificate: certificate.update({name: text})
 
@@ -88,6 +92,8 @@ PLANTED = {
     "the last bound smaller": (of_step(7, bound=lambda b: b * 99 // 100), "bound"),
     "no growth": (of_step(2, rates=lambda rates: [0 for _ in rates]), "rate"),
     "one rate smaller": (of_step(5, rates=lambda r: [*r[:2], int(0.95 * r[2]), *r[3:]]), "rate"),
+    "no rates": (of_step(5, rates=lambda rates: []), "rate"),
+    "steps back in time": (backwards, "end"),
     "another drive": (constant("gamma", "1.0000001"), "bound"),
     "another detuning": (constant("omega", "-4.0000001"), "bound"),
     "where no norm is kept": (constant("omega", "1"), "norm"),

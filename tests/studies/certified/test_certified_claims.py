@@ -99,6 +99,13 @@ def test_a_curve_of_another_case_proves_nothing():
     assert found["contained_until"].isnull().all() and found["measured_until"].isnull().all()
 
 
+def test_a_bound_at_another_time_proves_nothing():
+    """Within a billionth of tau a curve moves further than its bound."""
+    late = certified(8.0).assign_coords(tau=TAU + 1e-10)
+    found = contain({"one": curve(8.0)}, {"one": late}, {"one": curve(8.0)})
+    assert found["contained_until"].isnull().all()
+
+
 def test_no_panel_is_higher_than_the_width_of_a_line_takes_it_for():
     cases = [curve(8.0), curve(-4.0)]
     strip = strips.Strip("", "one run")

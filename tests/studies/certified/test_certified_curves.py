@@ -14,6 +14,7 @@ from pendula.studies.certified.norm import (
     crude_rates,
     find_form,
     find_rates,
+    up,
 )
 from pendula.studies.certified.polynomials import StepError, add_up, find_curve, linear
 from pendula.studies.certified.regular import PARTS, certify
@@ -74,6 +75,11 @@ def test_a_rate_whose_matrix_would_underflow_is_the_crude_one():
     given = problem()
     form, states = find_form(given.constants), np.full((1, 2, 2, 9), 1e-140)
     assert find_rates(states, given, form) == pytest.approx(crude_rates(states, form), rel=1e-8)
+
+
+@pytest.mark.parametrize("roundings", [1, 999_999, 10**6, 10**8 + 1])
+def test_bounds_rise_above_all_roundings(roundings):
+    assert np.log(up(roundings)) > 1.0001 * roundings * 2.0**-53
 
 
 def test_inside_the_interval_there_is_no_norm():

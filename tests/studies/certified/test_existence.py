@@ -69,10 +69,14 @@ def dense(chain, s, u, extra):
 
 @pytest.mark.parametrize("s", [1.0, -1.0])
 @pytest.mark.parametrize("scale", [0.3, 1.5, 4.0, 30.0])
-def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale):
-    """Also of what is no state, where now the block and now the outside decides."""
-    chain = HERE._replace(half_width=2)
-    u = scale * np.random.default_rng(3).uniform(-1.0, 1.0, (2, 5))
+@pytest.mark.parametrize(("epsilon", "half_width"), [(1.0, 2), (-1.0, 2), (1.0, 0)])
+def test_the_estimates_are_norms_of_longer_dense_matrices(s, scale, epsilon, half_width):
+    """Also of what is no state, where now the block and now the outside decides.
+
+    On a block of one site both neighbours beyond act on that site.
+    """
+    chain = HERE._replace(epsilon=epsilon, omega=-4.0 * epsilon, half_width=half_width)
+    u = scale * np.random.default_rng(3).uniform(-1.0, 1.0, (2, 2 * half_width + 1))
     with balls.precision():
         a, df, wide, miss = dense(chain, s, u, 4)
         found = existence.estimate(chain, s, [arb(float(x)) for x in u.ravel()], infinite=True)
@@ -99,6 +103,15 @@ def test_the_tail_decays_as_the_linear_chain_allows():
     """rho + 1 / rho = 2 + 4 for sums at Omega = -4, and 2 + 2 for differences in s = -1."""
     assert proved(EQUAL).decay == pytest.approx(3.0 - np.sqrt(8.0), rel=1e-12)
     assert proved(IMAGINARY).decay == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-9)
+
+
+def test_the_sign_of_epsilon_does_not_open_a_band():
+    """For epsilon = -1 it is [-4, 0]; outside of it, the tail decays as for epsilon = 1."""
+    state, other = find_state(HERE, EQUAL), HERE._replace(epsilon=-1.0)
+    with pytest.raises(RefusedError, match="band"):
+        proved(EQUAL, other._replace(omega=-3.0), state)
+    alone = other._replace(epsilon=-1e-3, omega=-4.0)
+    assert 0.0 < proved(EQUAL, alone, find_state(alone, EQUAL)).decay < 1e-3
 
 
 def test_a_finite_chain_has_a_proof_of_its_own():

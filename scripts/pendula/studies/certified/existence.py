@@ -6,7 +6,7 @@ s = -gamma in the imaginary case, is a zero of F on the space of bounded sequenc
     F(u)_n = epsilon (u_{n+1} - 2 u_n + u_{n-1}) + Omega u_n + s (X u_n - u_n) + u_n^3 / 2,
 
 where X exchanges a and b, powers are taken component by component, and |u| is the largest of all
-|a_n|, |b_n|. So DF(u) = epsilon D + Omega + s (X - 1) + 3 u^2 / 2, with D the second difference.
+|a_n|, |b_n|. In bounds, epsilon stands for its modulus. So DF(u) = epsilon D + Omega + s (X - 1) + 3 u^2 / 2, with D the second difference.
 
 Given: numbers u with u_n = 0 for |n| > M (doubles, so exact), and any matrix N on the block
 |n| <= M, here about the inverse of K, the part of DF(u) within the block.
@@ -39,7 +39,7 @@ Uniqueness further out. If p(r) <= 0 and p(R) < 0 for some R > r, no other zero 
 Proof: p is convex on [0, R], hence negative on (r, R]. A zero v at the distance t in (r, R] would
 give t = |T(v) - u| <= p(t) + t < t.
 
-It is localised. Let q = 2 epsilon / (d - r^2 / 2) < 1 and rho = (1 - sqrt(1 - q^2)) / q. Then the
+It is localised. Let q = 2 epsilon / (d - r^2 / 2) < 1 and rho = q / (1 + sqrt(1 - q^2)). Then the
 true state v has |v_n| <= |v_M| rho^(n - M) for n >= M and lies in l2. Proof: beyond the block
 |v_n| <= r, and C + v_n^2 / 2 has an inverse of at most 1 / (d - r^2 / 2); so
 |v_n| <= (q/2) (|v_{n+1}| + |v_{n-1}|). The sequence z_n = |v_M| rho^(n - M) has equality there. Let
@@ -107,13 +107,13 @@ def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> P
 def estimate(chain: Chain, s: float, u: list[arb], infinite: bool) -> Estimates:
     """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
     k, miss, size = slope(chain, s, u), residual(chain, s, u), len(u)
-    epsilon, away = balls.decimal(chain.epsilon), distance(chain, s)
+    epsilon, away = abs(balls.decimal(chain.epsilon)), distance(chain, s)
     if infinite and not 2 * epsilon < away:
         raise RefusedError("the outside does not contract: Omega lies in a band of waves")
     n, ends = _near_inverse(k), _ends(size) if infinite else ()
     left = _moduli(_unit(size) - n * k) * _columns([1] * size)
     # row sums of |N E|, |N_ij u_j| and |N|
-    marked = [int(j in ends) for j in range(size)]
+    marked = [ends.count(j) for j in range(size)]
     sums = _moduli(n) * _columns(marked, [abs(x) for x in u], [1] * size)
     z = _largest(left[i, 0] + epsilon * sums[i, 0] for i in range(size))
     eta = _largest(abs(x) for x in (n * miss).entries())
@@ -192,11 +192,11 @@ def radii(estimates: Estimates) -> tuple[float, float]:
 
 def _decay(chain: Chain, s: float, r: arb) -> float:
     """Return an upper bound of rho."""
-    epsilon, away = balls.decimal(chain.epsilon), distance(chain, s)
+    epsilon, away = abs(balls.decimal(chain.epsilon)), distance(chain, s)
     ratio = 2 * epsilon / (away - r * r / 2)
     if not (away > r * r / 2 and ratio < 1):
         raise RefusedError("the state may not decay: the radius is too large")
-    return balls.upper((1 - (1 - ratio * ratio).sqrt()) / ratio)
+    return balls.upper(ratio / (1 + (1 - ratio * ratio).sqrt()))
 
 
 def _unit(size: int) -> arb_mat:

@@ -80,7 +80,7 @@ def distance(run: xr.Dataset, proved: xr.Dataset) -> xr.DataArray:
     """
     if not is_of_same_case(run, proved):
         return np.inf * _curves(run)
-    known = proved[[*NORMS, "bound"]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
+    known = proved[[*NORMS, "bound"]].reindex(tau=run["tau"])
     return (abs(_curves(run) - _curves(known)) + known["bound"].drop_attrs()).fillna(np.inf)
 
 

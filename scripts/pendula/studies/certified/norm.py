@@ -55,6 +55,11 @@ UP = 1.0 + 1e-9
 bounds: 1e6 * 2^-53 < 1e-9."""
 
 
+def up(roundings: int) -> float:
+    """Return what makes an upper bound of a number that is the result of so many roundings."""
+    return UP ** (1 + roundings // 10**6)
+
+
 class NotDefiniteError(ValueError):
     """The linear flow keeps no norm: Omega lies in the interval where Q is not definite."""
 

@@ -45,8 +45,8 @@ interval is at most delta ((rho_1 + rho_2) / 2 + (3/2) sqrt(m2 / m1) eta). To et
 states of the two times are off: their rounding, and the jump at the end of a step.
 
 Rounding of the bound itself: it is made of sums, products, quotients and roots of numbers that are
-not negative, of fewer than a million roundings in a row, which the factor `UP` covers; TINY covers
-what underflow may lose.
+not negative, of fewer than a million roundings in a row, which the factor `UP` covers. In the sum
+over all steps there may be more, and `up` covers them. TINY covers what underflow may lose.
 """
 
 from fractions import Fraction
@@ -57,7 +57,7 @@ import numpy as np
 
 from pendula.problem import Problem
 
-from .norm import UP, Form, decimal, find_form, find_rates
+from .norm import UP, Form, decimal, find_form, find_rates, up
 from .polynomials import Curve, add_up, find_curve, linear
 
 UNIT = 2.0**-53
@@ -301,6 +301,7 @@ def _accumulate(inputs, growth: np.ndarray, sizes: Sizes, form: Form, step: floa
     entering = UP * m2 * np.stack([inputs[name] for name in GROWING[:-1]], axis=1)
     largest = np.sum(sizes.modulus, axis=0).max(axis=(1, 2))
     factors = [_exponential(x) for x in growth.tolist()]
+    enough = up(4 * len(factors))  # an interval adds four roundings or fewer
     errors = np.empty((len(entering), SAMPLES + 1, len(GROWING)))
     error = np.zeros(len(GROWING))
     for j, added in enumerate(entering):
@@ -313,10 +314,10 @@ def _accumulate(inputs, growth: np.ndarray, sizes: Sizes, form: Form, step: floa
             rest = m2 * 0.5 * (3.0 * largest[j] * y + y * y) * y * step / SAMPLES
             error = factor * error
             error[-1] += factor * rest
-            if not UP * np.sum(error) <= trial:
+            if not enough * np.sum(error) <= trial:
                 error = np.full(len(GROWING), np.inf)
             errors[j, i + 1] = error
-    return UP * errors
+    return enough * errors
 
 
 # --- The curve at the output times ----------------------------------------------------------------
