@@ -6,7 +6,8 @@ s = -gamma in the imaginary case, is a zero of F on the space of bounded sequenc
     F(u)_n = epsilon (u_{n+1} - 2 u_n + u_{n-1}) + Omega u_n + s (X u_n - u_n) + u_n^3 / 2,
 
 where X exchanges a and b, powers are taken component by component, and |u| is the largest of all
-|a_n|, |b_n|. In bounds, epsilon stands for its modulus. So DF(u) = epsilon D + Omega + s (X - 1) + 3 u^2 / 2, with D the second difference.
+|a_n|, |b_n|. So DF(u) = epsilon D + Omega + s (X - 1) + 3 u^2 / 2, with D the second difference.
+In bounds, epsilon stands for its modulus.
 
 Given: numbers u with u_n = 0 for |n| > M (doubles, so exact), and any matrix N on the block
 |n| <= M, here about the inverse of K, the part of DF(u) within the block.

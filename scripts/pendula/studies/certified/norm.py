@@ -57,7 +57,7 @@ bounds: 1e6 * 2^-53 < 1e-9."""
 
 def up(roundings: int) -> float:
     """Return what makes an upper bound of a number that is the result of so many roundings."""
-    return UP ** (1 + roundings // 10**6)
+    return 1.0 + 1e-9 * (1 + roundings // 1_000_000)
 
 
 class NotDefiniteError(ValueError):
