@@ -105,7 +105,7 @@ def test_a_record_lists_the_modules_that_are_found_by_the_list_of_studies(record
         one for one in STUDIES if (sources.SCRIPTS / f"pendula/studies/{one}/section.py").exists()
     ]
     names = ("section.py", "section.html.j2")
-    parts = {"studies/paper/section_solvers.py"}
+    parts = {f"studies/paper/section_{part}.py" for part in ("breathers", "solvers")}
     assert of_studies == {f"studies/{study}/{name}" for study in told for name in names} | parts
 
 

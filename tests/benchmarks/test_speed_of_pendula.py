@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from helpers import skip
 from pendula.datasets.netcdf import read, write
 from pendula.simulation.simulate import simulate
 from problems import problem_of
@@ -15,7 +16,7 @@ SHORT = problem_of("fig3_small", half_width=3)
 @pytest.mark.parametrize("name", pendula.PEERS)
 def test_a_peer_solves_the_same_problem(name):
     if reason := pendula.PEERS[name].why_absent():
-        pytest.skip(reason)
+        skip(reason, "install that beside environment.txt, in the same environment")
     problem = pendula.as_pendula(SHORT)
     found, seconds = pendula.PEERS[name].prepare(problem)(1e-12)
     tight = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}

@@ -7,7 +7,7 @@ import made_up_report as made_up
 import numpy as np
 import pytest
 import xarray as xr
-from jinja2 import Environment, FileSystemLoader
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from made_up_breathers import sensitivity
 from pendula.ledger import section as claims
 from pendula.report import page
@@ -56,7 +56,8 @@ def norms_results(folder, trust: xr.Dataset, scale: float = 1.0, **attributes) -
 def caption(figure: dict) -> str:
     """Return what the page says of a figure of norms."""
     folders = [page.STUDIES, page.HERE / "templates"]
-    templates = Environment(loader=FileSystemLoader(folders), trim_blocks=True)
+    loader = FileSystemLoader(folders)
+    templates = Environment(loader=loader, trim_blocks=True, undefined=StrictUndefined)
     part = templates.get_template("paper/section.html.j2").module
     visible = {"visible": "1 %", "ensemble": {"share": "90 %", "runs": "32"}}
     shown = {"chain": figure["picture"], "norms": [figure], "sweeps": [], "verdicts": {2: []}}
@@ -259,7 +260,8 @@ def breathers_results(folder, **attributes) -> made_up.MadeUp:
 
 def beside(results: made_up.MadeUp, which: int) -> str:
     folders = [page.STUDIES, page.HERE / "templates"]
-    templates = Environment(loader=FileSystemLoader(folders), trim_blocks=True)
+    loader = FileSystemLoader(folders)
+    templates = Environment(loader=loader, trim_blocks=True, undefined=StrictUndefined)
     part = templates.get_template("paper/section.html.j2").module
     found = beside_breathers(results, which).get("breathers")
     return re.sub(r"<[^>]+>|\s+", " ", str(part.beside_breathers(found)))

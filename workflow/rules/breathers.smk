@@ -171,7 +171,7 @@ rule draw_sensitivity:
 
 
 use rule draw_sensitivity as draw_long_sensitivity with:
-    "The same of the longer study"
+    "The same with more members and a longer scan, drawn"
     input:
         code=code("breathers/draw_sensitivity.py"),
         sensitivity="results/breathers/long/sensitivity.nc",

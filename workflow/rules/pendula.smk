@@ -23,7 +23,7 @@ rule find_threshold:
         "../../scripts/newton/find_threshold.py"
 
 
-rule draw_threshold:
+rule pendula_threshold:
     "The chart of Lemma 1 for the pendula, its correction, and rates of growth"
     input:
         code=code("newton/draw_threshold.py"),
@@ -68,7 +68,7 @@ use rule measure_remainder as measure_long_remainder with:
         **remainder_params(SETTINGS.pendula.remainder, SETTINGS.pendula.remainder.long_ends),
 
 
-rule draw_remainder:
+rule pendula_remainder:
     "Errors of the expansion against time and against mu, and its horizons"
     input:
         code=code("newton/draw_remainder.py"),
@@ -85,8 +85,8 @@ rule draw_remainder:
         "../../scripts/newton/draw_remainder.py"
 
 
-use rule draw_remainder as draw_long_remainder with:
-    "The same of the longer study"
+use rule pendula_remainder as draw_long_remainder with:
+    "The same of runs as long as those of the paper"
     input:
         code=code("newton/draw_remainder.py"),
         remainder="results/pendula/long/remainder.nc",
@@ -182,7 +182,7 @@ rule film_pendula:
         "../../scripts/newton/film_pendula.py"
 
 
-rule draw_phases:
+rule pendula_phases:
     "The paper's phases in the real pendula: norms and space-time"
     input:
         code=code("newton/draw_phases.py"),
@@ -199,7 +199,7 @@ rule draw_phases:
         "../../scripts/newton/draw_phases.py"
 
 
-rule draw_over_the_top:
+rule pendula_over_the_top:
     "The sea of the pendula, and who leaves it over the top"
     input:
         code=code("newton/draw_over_the_top.py"),
@@ -218,8 +218,8 @@ rule draw_over_the_top:
         "../../scripts/newton/draw_over_the_top.py"
 
 
-use rule draw_over_the_top as draw_long_over_the_top with:
-    "The same of the longer study"
+use rule pendula_over_the_top as draw_long_over_the_top with:
+    "The same of many members, followed for long"
     input:
         code=code("newton/draw_over_the_top.py"),
         sea="results/pendula/sea.nc",

@@ -23,8 +23,6 @@ solution that is even in n is given whole or by half. Its loop counts outputs by
 
 from typing import NamedTuple
 
-from pendula.compiled import kernel
-
 DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG, INTERRUPTED = range(6)
 """The status of a run."""
 
@@ -49,9 +47,3 @@ class Outcome(NamedTuple):
     steps: int  # taken
     rejected: int  # tried in vain; for a fixed-point iteration how often a step was halved
     evaluations: int  # of the right-hand side; of the orders of a series for Taylor
-
-
-@kernel
-def at_any_time(system, t):
-    """Return the system itself: the `at_time` of what does not depend on time."""
-    return system

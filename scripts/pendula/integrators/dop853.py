@@ -28,8 +28,8 @@ from . import (
     SMALLEST_PART,
     STEP_TOO_SMALL,
     Outcome,
-    at_any_time,
 )
+from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .tiles import count_tiles, give, take, tile_length, tile_place
 from .weighted_sums import table, write_sum

@@ -12,7 +12,8 @@ import numpy as np
 
 from pendula.compiled import inlined_by_numba, kernel
 
-from . import DONE, INTERRUPTED, Outcome, at_any_time
+from . import DONE, INTERRUPTED, Outcome
+from .autonomous import at_any_time
 
 WORK = 1
 """Work arrays of the size of a state."""

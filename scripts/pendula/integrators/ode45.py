@@ -32,8 +32,8 @@ from . import (
     SMALLEST_PART,
     STEP_TOO_SMALL,
     Outcome,
-    at_any_time,
 )
+from .autonomous import at_any_time
 from .weighted_sums import table, write_sum
 
 WORK = 9

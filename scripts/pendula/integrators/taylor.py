@@ -33,8 +33,8 @@ from . import (
     SMALLEST_PART,
     STEP_TOO_SMALL,
     Outcome,
-    at_any_time,
 )
+from .autonomous import at_any_time
 
 # --- A power series in memory -------------------------------------------------------------------
 

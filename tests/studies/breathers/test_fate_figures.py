@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
+from pendula.studies.breathers import fates
 from pendula.studies.breathers.fate_figures import FATE_LOOKS, draw_fates, gather_fates
 
 COLOURS = {name: colour for name, (colour, _) in FATE_LOOKS.items()}
@@ -62,3 +63,8 @@ def test_a_cell_lies_around_its_data_and_the_phase_goes_all_round():
     assert left < -np.pi and right > np.pi
     assert below.get_xlim() == pytest.approx((-np.pi, np.pi))
     assert below.images[0].get_array().shape == (2, 5)  # the column at pi stands at -pi too
+
+
+def test_the_looks_are_of_the_fates_in_their_order():
+    """A map holds numbers of fates: another order would paint each with the colour of another."""
+    assert tuple(FATE_LOOKS) == fates.FATES

@@ -11,8 +11,6 @@ from matplotlib.patches import Patch
 
 from pendula.drawing import style
 
-from .fates import BREATHER, FATES
-
 FAR = "#bcd0ee"
 FATE_LOOKS = {
     "disperses": ("#e4e4e0", "disperses"),
@@ -22,6 +20,8 @@ FATE_LOOKS = {
 }
 """Grey, blue, green and orange, of lightness so different that they stay apart in grey and for
 people who see two colours."""
+FATES = tuple(FATE_LOOKS)
+BREATHER = FATES.index("breather")
 NEARNESS = LinearSegmentedColormap.from_list("nearness", [style.BLUE, "#4f7cc4", FAR])
 FARTHEST = 1.0
 """The distance that is drawn as the largest: the other amplitude is then as large as the leading

@@ -13,7 +13,8 @@ FATES = "breathers/fates"
 def beside_breathers(results: Results, which: int) -> dict[str, dict[str, Any]]:
     """Return what data on one pair do at the detunings of a figure, as its `breathers`.
 
-    Empty where a run is not of the paper's data.
+    A part that says nothing of the figure is None; all is empty where a run is not of the paper's
+    data.
     """
     names = (SENSITIVITY, PERIODIC, FATES)
     if not all(name in results for name in names) or results.apart(*names):
@@ -26,7 +27,8 @@ def beside_breathers(results: Results, which: int) -> dict[str, dict[str, Any]]:
         5: {"small": (_small, below), "fates": (_fates, "fig4_small")},
         6: {"fates": (_fates, above), "knife": (_knife, SENSITIVITY)},
     }[which]
-    return {"breathers": {name: part(results, of) for name, (part, of) in parts.items()}}
+    found = {name: part(results, of) for name, (part, of) in parts.items()}
+    return {"breathers": {"small": None, "fates": None, "knife": None} | found}
 
 
 def _knife(results: Results, source: str) -> dict[str, Any]:
