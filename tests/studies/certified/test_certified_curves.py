@@ -17,7 +17,7 @@ from pendula.studies.certified.norm import (
     up,
 )
 from pendula.studies.certified.polynomials import StepError, add_up, find_curve, linear
-from pendula.studies.certified.regular import PARTS, certify
+from pendula.studies.certified.regular import PARTS, certify, norms_at, prove
 
 
 def problem(omega=-4.0, half_width=4, end_time=2.0, boundary="dirichlet", scale=1.0, **constants):
@@ -146,6 +146,20 @@ def test_where_no_norm_is_kept_the_bound_is_infinite_and_the_file_says_why():
 def test_no_step_is_short_enough_for_a_polynomial_of_low_order():
     with pytest.raises(StepError, match="of order 2"):
         find_curve(problem(), order=2)
+
+
+def test_within_an_interval_the_bound_is_that_at_its_end():
+    given = problem(end_time=0.5)
+    proof = prove(given, find_curve(given))
+    tau = proof.curve.step * np.array([3.3, 3.5])
+    assert (norms_at(proof, tau).parts[:-1] == proof.errors[3, 2][:, None]).all()
+
+
+def test_an_error_that_no_trial_holds_has_no_bound():
+    """What is quadratic in so large an error is larger than the room that a trial leaves."""
+    given = problem(end_time=0.25)
+    far = find_curve(given.changed(initial=1.3 * given.initial))
+    assert np.isinf(certify(given, far).bound[-1])
 
 
 WRONG = {
