@@ -105,6 +105,15 @@ def test_the_tail_decays_as_the_linear_chain_allows():
     assert proved(IMAGINARY).decay == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-9)
 
 
+def test_a_large_radius_allows_a_slower_decay_or_none():
+    """d = 6 for s = 1: the cubic term takes half of the square of the radius from it."""
+    with balls.precision():
+        found = existence._decay(HERE, 1.0, arb(2))
+        assert found == pytest.approx(2.0 - np.sqrt(3.0), rel=1e-12)
+        with pytest.raises(RefusedError, match="decay"):
+            existence._decay(HERE, 1.0, arb(3))
+
+
 def test_the_sign_of_epsilon_does_not_open_a_band():
     """For epsilon = -1 it is [-4, 0]; outside of it, the tail decays as for epsilon = 1."""
     state, other = find_state(HERE, EQUAL), HERE._replace(epsilon=-1.0)
