@@ -488,11 +488,20 @@ def certified(baseline: Baseline) -> dict:
     """Return the proven bounds of curves, rounded upward, what lines contain, and a short proof."""
     lines = baseline["certified/lines"]
     known = [str(case) for case in lines["case"].values if baseline.has(f"certified/{case}")]
+    curves = {case: baseline[f"certified/{case}"] for case in known}
+    framed = [case for case in known if "solver_outputs_per_frame" in curves[case].attrs]
     whole = lines["contained_until"] == lines["run_end"]
     share = lines["largest_distance"] / lines["half_line"]
     return {
-        "rows": [_certified_curve(baseline[f"certified/{case}"], case) for case in known],
-        "bound": _upward(max(baseline[f"certified/{case}"]["bound"].max() for case in known)),
+        "rows": [_certified_curve(curves[case], case) for case in known if case not in framed],
+        "framed": [
+            {
+                **_certified_curve(curves[case], case),
+                "growth": number(float(curves[case]["error_exponent"][-1]), 2),
+            }
+            for case in framed
+        ],
+        "bound": _upward(max(curves[case]["bound"].max() for case in known if case not in framed)),
         "contained": number(int(whole.sum())),
         "in_lines": _upward(share.where(np.isfinite(share)).max()),
         "certificate": _short_case(baseline.folder / "certified/short_case.json"),
@@ -505,7 +514,7 @@ def _upward(bound) -> str:
 
 
 def _certified_curve(curve: xr.Dataset, case: str) -> dict[str, str]:
-    last = curve.isel(tau=-1)
+    last = curve.isel(tau=int(curve["bound"].argmax("tau")))
     largest = last["bound_parts"].argmax("bound_part")
     return {
         "case": case,

@@ -270,11 +270,12 @@ def unbounded_sizes(given: dict) -> dict[str, str]:
 
 def certified(baseline) -> dict[str, float]:
     """Return the largest proven error of each part of the proofs."""
-    cases = given("certified")["curves"]["cases"]
+    cases, framed = given("certified")["curves"]["cases"], given("certified")["frames"]
     proved = baseline["certified/breathers"]
     radii = [_most(proved[name]) for name in ("radius", "chain_radius")]
     return {
         "curves": max(_most(baseline[f"certified/{case}"]["bound"]) for case in cases),
+        "frames": max(_most(baseline[f"certified/{case}"]["bound"]) for case in framed),
         "breathers": max(radii),
         "constants": _most(baseline["certified/constants"]["stored_error"]),
     }
@@ -284,6 +285,9 @@ def certified_sizes(given: dict) -> dict[str, str]:
     """Return of which cases and states there are proofs."""
     return {
         "curves": ", ".join(f"`{case}`" for case in given["curves"]["cases"]),
+        "frames": ", ".join(
+            f"`{case}` to τ = {number(one['end_time'])}" for case, one in given["frames"].items()
+        ),
         "breathers": f"{number(len(given['breathers']['proofs']))} states, half-widths "
         + " and ".join(number(m) for m in given["breathers"]["half_widths"].values()),
         "constants": "those that the checks of the theory store",

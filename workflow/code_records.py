@@ -68,10 +68,13 @@ def whole_project() -> str:
     return _keep(RECORDS / "whole_project.txt", _lines(files))
 
 
-def committed(file: str) -> str:
-    """Return the path of a copy of a committed file, brought up to date."""
+def committed(file: str, folder: str = "") -> str:
+    """Return the path of a copy of a committed file, brought up to date.
+
+    Files of one name need a `folder` of their own.
+    """
     source = ROOT / file
-    return _hand_out(COPIES / source.name, source.read_bytes())
+    return _hand_out(COPIES / folder / source.name, source.read_bytes())
 
 
 def kept(file: str) -> str:

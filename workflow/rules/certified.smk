@@ -24,13 +24,44 @@ rule certify_curve:
         "../../scripts/certified/certify_curve.py"
 
 
+rule certified:
+    "The proofs of large and chaotic cases, which a full run takes as they are committed (long)"
+    input:
+        framed_curves(),
+    message:
+        "The proofs by frames are there"
+
+
+rule certify_by_frames:
+    "A case whose errors grow, with a proven bound of the error: {case}.nc"
+    input:
+        code=code("certified/certify_by_frames.py"),
+        reference=lambda wildcards: references(wildcards.case),
+    output:
+        data="results/certified/{case}.nc",
+    log:
+        "results/logs/certified/{case}.log",
+    wildcard_constraints:
+        case=one_of(SETTINGS.certified.frames),
+    conda:
+        "../envs/pinned.yaml"
+    params:
+        name="{case}",
+        problem=lambda wildcards: framed_problem(wildcards.case),
+        proof=lambda wildcards: proof_by_frames(wildcards.case),
+    message:
+        "Proving by frames how far the curves of {wildcards.case} are from the true ones"
+    script:
+        "../../scripts/certified/certify_by_frames.py"
+
+
 rule measure_lines:
     "Until when the printed lines of Figs 2 to 4 contain the true curves, as a theorem"
     input:
         code=code("certified/measure_lines.py"),
         trajectories=trajectories(),
         references=references(*PAPER_CASES),
-        proved=proved_curves(),
+        proved=[*proved_curves(), *committed_proofs()],
     output:
         data="results/certified/lines.nc",
     log:
@@ -39,7 +70,7 @@ rule measure_lines:
         "../envs/pinned.yaml"
     params:
         cases=PAPER_CASES,
-        certified=SETTINGS.certified.curves.cases,
+        certified=[*SETTINGS.certified.curves.cases, *SETTINGS.certified.frames],
     message:
         "Finding until when the printed lines contain the true curves"
     script:

@@ -417,6 +417,32 @@ def proved_curves():
     return below(f"certified/{case}" for case in SETTINGS.certified.curves.cases)
 
 
+def framed_curves():
+    return below(f"certified/{case}" for case in SETTINGS.certified.frames)
+
+
+def committed_proofs():
+    proofs = [f"tests/baseline/certified/{case}.nc" for case in SETTINGS.certified.frames]
+    return [committed(proof, "certified") for proof in proofs]
+
+
+def framed_problem(case):
+    from pendula.problem import Problem  # this and the next for a long target alone
+    from pendula.studies.certified.fixed_point import NotEvenError, half_chain
+
+    given = SETTINGS.certified.frames[case]
+    problem = {**certified_problem(case), "end_time": given.end_time}
+    try:
+        half_chain(Problem.of(problem), given.bits)
+    except NotEvenError as error:
+        stop(f"cases.{case}: {error}")
+    return problem
+
+
+def proof_by_frames(case):
+    return SETTINGS.certified.frames[case].model_dump(exclude={"end_time"})
+
+
 def constants_params():
     """Return the cases and the arguments of checks that lead to the constants."""
     given = {

@@ -1,6 +1,6 @@
 """Curves with their proven bounds as datasets."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
 from pendula.measures.difference import NORMS, PARAMETERS
 from pendula.problem import Problem
 
+from . import frames
 from .norm import NotDefiniteError, find_form
 from .polynomials import find_curve
 from .regular import PARTS, Certified, leave_unproved, norms_at, prove
@@ -46,6 +47,27 @@ def curve_contents(
     return variables, attributes
 
 
+def frame_contents(name: str, problem: Problem, proof: Mapping, reference=None) -> Contents:
+    """Return the contents of the dataset on a curve that is certified by frames.
+
+    `proof` are the arguments of `frames.certify` beside the problem.
+    """
+    found = frames.certify(problem, **proof)
+    solver = {"name": "polynomials of integers", **proof}
+    attributes = {
+        "title": f"Norms of {name} against time, with a proven bound of their distance to the "
+        "true ones",
+        **describe_run(name, problem, solver),
+        "parameters_mean": "the printed decimals",
+    }
+    variables = curve_variables(found, frames.PARTS)
+    words = "logarithm of how much the proof lets an error of the start grow"
+    variables["error_exponent"] = Variable(("tau",), found.exponent, words)
+    if reference is not None:
+        variables["reference_distance"] = _distance(found, reference, attributes)
+    return variables, attributes
+
+
 def _distance(found: Certified, reference, attributes: Mapping) -> Variable:
     """Return the largest distance of a norm to the reference, NaN where it has another problem."""
     apart = np.full(found.tau.shape, np.nan)
@@ -57,7 +79,7 @@ def _distance(found: Certified, reference, attributes: Mapping) -> Variable:
     return Variable(("tau",), apart, words)
 
 
-def curve_variables(found: Certified) -> dict[str, Variable]:
+def curve_variables(found: Certified, parts: Sequence[str] = PARTS) -> dict[str, Variable]:
     """Return norms, the bound of their distance to the true ones, and the parts of its sum."""
     norms = ("component", "tau")
     return {
@@ -70,7 +92,7 @@ def curve_variables(found: Certified) -> dict[str, Variable]:
             found.bound,
             "bound, as proved, of the l2 distance to the true state, and so of each norm's error",
         ),
-        "bound_part": Variable(("bound_part",), list(PARTS), "what a part of the bound is due to"),
+        "bound_part": Variable(("bound_part",), list(parts), "what a part of the bound is due to"),
         "bound_parts": Variable(
             ("bound_part", "tau"), found.parts, "part of the bound, which is their sum"
         ),

@@ -284,7 +284,7 @@ def evaluate(terms: np.ndarray, theta) -> tuple[np.ndarray, np.ndarray]:
     return value, UP * UNIT * error
 
 
-def _exponential(x: float) -> float:
+def exponential(x: float) -> float:
     """Return an upper bound of e^x for 0 <= x <= 1: x^3 / 6 (1 + x/4 + x^2/20 + ...) <= x^3 / 4."""
     if not x <= 1.0:
         return np.inf
@@ -300,7 +300,7 @@ def _accumulate(inputs, growth: np.ndarray, sizes: Sizes, form: Form, step: floa
     low = m1 / UP**2
     entering = UP * m2 * np.stack([inputs[name] for name in GROWING[:-1]], axis=1)
     largest = np.sum(sizes.modulus, axis=0).max(axis=(1, 2))
-    factors = [_exponential(x) for x in growth.tolist()]
+    factors = [exponential(x) for x in growth.tolist()]
     enough = up(4 * len(factors))  # an interval adds four roundings or fewer
     errors = np.empty((len(entering), SAMPLES + 1, len(GROWING)))
     error = np.zeros(len(GROWING))

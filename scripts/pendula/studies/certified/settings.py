@@ -4,8 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Number, Positive, Whole
+from pendula.configuration.cases import is_multiple
+from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
+from pendula.configuration.values import Distinct, Model, Name, Number, Positive, Whole, shown
 from pendula.models.pairs import FAMILIES, pair
 
 
@@ -24,6 +25,15 @@ class Curves(Model):
 
     cases: Annotated[list[Name], Field(min_length=1), Distinct]
     wrong: WrongCurve
+
+
+class Frames(Model):
+    """A curve of integers whose distance to the true one is bounded by frames."""
+
+    end_time: Positive
+    bits: Annotated[Whole, Field(ge=32, le=4096)]
+    order: Annotated[Whole, Field(ge=8, le=400)]
+    outputs_per_frame: Annotated[Whole, Field(ge=1)]
 
 
 class State(Model):
@@ -84,6 +94,7 @@ class Needs(Model):
     """The largest error that each part bears."""
 
     curves: Positive
+    frames: Positive
     breathers: Positive
     constants: Positive
 
@@ -92,6 +103,7 @@ class Settings(Model):
     """Section `certified` of the configuration."""
 
     curves: Curves
+    frames: dict[Name, Frames]
     breathers: Breathers
     certificate: ShortCase
     needs: Needs
@@ -99,7 +111,17 @@ class Settings(Model):
     def faults(self, settings: Configuration) -> Faults:
         """Yield the cases that the configuration has not, and states that do not exist."""
         yield from settings.absent("cases", "curves.cases", self.curves.cases)
+        for case, frames in self.frames.items():
+            yield from _frames_faults(case, frames.end_time, settings)
         yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault
         yield from settings.absent("cases", "certificate.case", [self.certificate.case])
+
+
+def _frames_faults(case: str, end_time: float, settings: Configuration) -> Faults:
+    """Yield what a proof by frames cannot do: it is compared with a reference, and kept."""
+    if case not in PAPER_CASES:
+        yield "frames", f"{shown(case)} is no case of the paper: {', '.join(PAPER_CASES)}"
+    elif not is_multiple(end_time, step := settings.cases[case].output_step):
+        yield f"frames.{case}.end_time", f"{end_time:g} is no multiple of output_step, {step:g}"

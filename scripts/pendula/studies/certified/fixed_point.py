@@ -1,0 +1,215 @@
+"""A solution of (4) as polynomials whose coefficients are integers in units of 2^-bits.
+
+The data are even in n, and so is the solution: the chain and its reflection have the same equation
+and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} = u_1.
+
+Each time between two outputs is cut into equal steps, and in each step the curve is a polynomial in
+theta = (tau - start of the step) / step. A step begins with the sum of the coefficients of the one
+before, which is an integer as well: the curve has no jumps.
+
+Nothing here needs to be a good solution, since `defect` measures exactly what a polynomial misses
+of (4). With step = 1 / H and q a common denominator of the constants, the numbers
+
+    2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P,
+
+P being the integer polynomials and L the linear part of (4), are integers: they are those of
+i p' - F(p), times the step, in units of 8^-bits / (2 q H). They are found by products of integer
+polynomials, without rounding, and the sum of their absolute values bounds the integral of the l2
+norm of the defect over the step, since theta^k <= 1 and an l2 norm is no larger than a sum.
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import chain as joined
+from math import lcm
+from operator import mul
+from typing import NamedTuple
+
+import numpy as np
+from flint import fmpz_poly
+
+from pendula.problem import Problem
+
+from .norm import UP, decimal
+
+LAST_TERM = 16
+"""The last term of a polynomial is no larger than so many units, or the step becomes shorter."""
+MOST_STEPS = 64
+"""Steps between two outputs, at most."""
+
+Series = list[list[list[int]]]
+"""By part, and site after site of A, then of B: the coefficients of the powers of theta."""
+
+
+class NotEvenError(ValueError):
+    """The problem is none on half of a chain."""
+
+
+class StepError(ArithmeticError):
+    """No step that is long enough makes the last term of the polynomials small."""
+
+
+class Chain(NamedTuple):
+    """Half of a chain: its constants, exactly, and the units of its numbers."""
+
+    epsilon: Fraction
+    gamma: Fraction
+    omega: Fraction
+    sites: int
+    interval: Fraction  # between two outputs
+    bits: int
+
+
+class Step(NamedTuple):
+    """A polynomial of the curve: step = interval / pieces."""
+
+    pieces: int
+    terms: Series
+
+
+def half_chain(problem: Problem, bits: int) -> Chain:
+    """Return the half of a chain with even data; raises NotEvenError for any other problem."""
+    amplitudes = problem.amplitudes
+    if problem.boundary != "dirichlet" or (amplitudes != amplitudes[:, ::-1]).any():
+        raise NotEvenError(
+            "proofs by frames are for data that are even in n, on a chain at rest beyond its ends"
+        )
+    given = problem.constants
+    epsilon, gamma, omega = map(decimal, (given.epsilon, given.gamma, given.omega))
+    interval = decimal(problem.output_step)
+    return Chain(epsilon, gamma, omega, problem.half_width + 1, interval, bits)
+
+
+def start(problem: Problem, chain: Chain) -> tuple[list[list[int]], float]:
+    """Return the data in units, (part, site of A, then of B), and how far they are off in l2."""
+    half = problem.amplitudes[:, problem.half_width :]
+    state, off = [], Fraction(0)
+    for part in (half.real, half.imag):
+        exact = [decimal(x) * 2**chain.bits for x in part.ravel()]
+        state.append([round(x) for x in exact])
+        off += sum(abs(x - y) for x, y in zip(exact, state[-1], strict=True))
+    return state, as_double(off, Fraction(1, 2**chain.bits))
+
+
+def as_double(count: Fraction | int, unit: Fraction) -> float:
+    """Return an upper bound of a number that is not negative."""
+    return UP * float(count * unit)
+
+
+def follow(state: list[list[int]], chain: Chain, order: int) -> Iterator[list[Step]]:
+    """Yield the steps from each output to the next; raises StepError."""
+    pieces = 1
+    while True:
+        steps: list[Step] = []
+        now = state
+        while len(steps) < pieces:
+            terms = taylor(now, chain, chain.interval / pieces, order)
+            largest = max(abs(own[-1]) for part in terms for own in part)
+            if largest > LAST_TERM:
+                pieces, steps, now = pieces + 1, [], state
+                if pieces > MOST_STEPS:
+                    raise StepError(f"{MOST_STEPS} steps between outputs are too few")
+                continue
+            steps.append(Step(pieces, terms))
+            now = end(terms)
+        yield steps
+        state = now
+        if pieces > 1 and _smaller(steps, pieces, order):
+            pieces -= 1
+
+
+def _smaller(steps: list[Step], pieces: int, order: int) -> bool:
+    """Return whether longer steps would have done, as far as their last terms tell."""
+    last = max(abs(own[-1]) for step in steps for part in step.terms for own in part)
+    return max(last, 1) * pieces**order <= LAST_TERM * (pieces - 1) ** order
+
+
+def end(terms: Series) -> list[list[int]]:
+    """Return the state at the end of a step, exactly."""
+    return [[sum(own) for own in part] for part in terms]
+
+
+def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> Series:
+    """Return the terms of one step."""
+    bits, count = chain.bits, 2 * chain.sites
+    x, y = ([[value] for value in part] for part in state)
+    halves: list[list[int]] = [[] for _ in range(count)]
+    for k in range(order):
+        field = linear([[own[k] for own in x], [own[k] for own in y]], chain)
+        factor = step / (k + 1)
+        for n in range(count):
+            own_x, own_y, half = x[n], y[n], halves[n]
+            half.append(_square(own_x, own_y, k) >> (bits + 1))
+            back = half[::-1]
+            real = field[0][n] + (sum(map(mul, back, own_x)) >> bits)
+            imaginary = field[1][n] + (sum(map(mul, back, own_y)) >> bits)
+            # i A' = F: Re A' = Im F and Im A' = -Re F
+            own_x.append(imaginary * factor.numerator // factor.denominator)
+            own_y.append(-real * factor.numerator // factor.denominator)
+    return [x, y]
+
+
+def _square(x: list[int], y: list[int], k: int) -> int:
+    """Return the coefficient k of x^2 + y^2, equal products once."""
+    half = (k + 1) // 2
+    total = sum(map(mul, x[:half], x[: k - half : -1] if half else []))
+    total += sum(map(mul, y[:half], y[: k - half : -1] if half else []))
+    total *= 2
+    if k % 2 == 0:
+        total += x[k // 2] ** 2 + y[k // 2] ** 2
+    return total
+
+
+def linear(values: list[list[int]], chain: Chain) -> list[list[int]]:
+    """Return the linear terms of (4), rounded to units."""
+    q, exact = scaled_linear(values, chain)
+    return [[value // q for value in part] for part in exact]
+
+
+def scaled_linear(values, chain: Chain) -> tuple[int, list[list]]:
+    """Return q and q times the linear terms of (4), for integers or polynomials of integers."""
+    q = lcm(chain.epsilon.denominator, chain.gamma.denominator, chain.omega.denominator)
+    epsilon, gamma, omega = (int(q * c) for c in (chain.epsilon, chain.gamma, chain.omega))
+    sites, found = chain.sites, []
+    for part, drive in zip(values, (gamma, -gamma), strict=True):
+        own = []
+        for n, value in enumerate(part):
+            site = n % sites
+            left = part[n - 1] if site else (part[n + 1] if sites > 1 else 0)
+            right = part[n + 1] if site < sites - 1 else 0
+            other = part[n - sites] if n >= sites else part[n + sites]
+            total = (left + right) * epsilon + value * (omega - 2 * epsilon - drive)
+            own.append(total + other * drive)
+        found.append(own)
+    return q, found
+
+
+def defect(step: Step, chain: Chain) -> float:
+    """Return a bound of the integral of the defect's l2 norm over a step."""
+    h = chain.interval / step.pieces
+    x, y = ([fmpz_poly(own) for own in part] for part in step.terms)
+    q, field = scaled_linear([x, y], chain)
+    # with h = top / bottom all is multiplied by bottom, and the linear and cubic terms by top
+    shift, total = 4**chain.bits, 0
+    for n, (own_x, own_y) in enumerate(zip(x, y, strict=True)):
+        square = (own_x * own_x + own_y * own_y) * (q * h.numerator)
+        for change, own, part in ((-own_y.derivative(), own_x, 0), (own_x.derivative(), own_y, 1)):
+            slope = change * (2 * q * h.denominator) - field[part][n] * (2 * h.numerator)
+            missed = slope * shift - square * own
+            total += sum(map(abs, missed.coeffs()))
+    unit = Fraction(1, 2 * q * h.denominator * 8**chain.bits)
+    return as_double(int(total), unit)
+
+
+def jump(before: Step, after: Step, chain: Chain) -> float:
+    """Return a bound of the l2 distance from the end of a step to the start of the next."""
+    ends = zip(joined(*end(before.terms)), joined(*after.terms), strict=True)
+    return as_double(sum(abs(last - own[0]) for last, own in ends), Fraction(1, 2**chain.bits))
+
+
+def doubles(step: Step, chain: Chain, order: int) -> np.ndarray:
+    """Return the terms to an order as nearest doubles, (order, part, component, site)."""
+    unit = 2**chain.bits
+    found = np.array([[[value / unit for value in own] for own in part] for part in step.terms])
+    found = np.moveaxis(found, 2, 0)
+    return found[: order + 1].reshape(-1, 2, 2, chain.sites)
