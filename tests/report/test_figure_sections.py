@@ -56,8 +56,7 @@ def norms_results(folder, trust: xr.Dataset, scale: float = 1.0, **attributes) -
 def caption(figure: dict) -> str:
     """Return what the page says of a figure of norms."""
     folders = [page.STUDIES, page.HERE / "templates"]
-    loader = FileSystemLoader(folders)
-    templates = Environment(loader=loader, trim_blocks=True, undefined=StrictUndefined)
+    templates = Environment(loader=FileSystemLoader(folders), trim_blocks=True)
     part = templates.get_template("paper/section.html.j2").module
     visible = {"visible": "1 %", "ensemble": {"share": "90 %", "runs": "32"}}
     shown = {"chain": figure["picture"], "norms": [figure], "sweeps": [], "verdicts": {2: []}}
