@@ -222,7 +222,7 @@ def test_every_fact_follows_its_dataset():
         r".*(end|from|least_omega|largest_omega|error)$|"
         r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
         r"pendula\.(largest_mu|second_below|early_mu|late_mu|rows\.\d+\.mu|norms_mu|passages\.\d+\.mu|passing_members)$|"
-        r"certified\.(rows\.\d+\.part|contained|certificate\..*)$|"
+        r"certified\.((rows|framed)\.\d+\.part|contained|certificate\..*)$|"
         r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
     )
     left = {
