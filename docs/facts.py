@@ -487,9 +487,13 @@ def proofs(baseline: Baseline) -> dict:
 def certified(baseline: Baseline) -> dict:
     """Return the proven bounds of curves, rounded upward, what lines contain, and a short proof."""
     lines = baseline["certified/lines"]
-    known = [str(case) for case in lines["case"].values if baseline.has(f"certified/{case}")]
-    curves = {case: baseline[f"certified/{case}"] for case in known}
-    framed = [case for case in known if "solver_outputs_per_frame" in curves[case].attrs]
+    cases = [str(case) for case in lines["case"].values]
+    framed = [case for case in cases if baseline.has(f"proofs/{case}")]
+    known = [case for case in cases if baseline.has(f"certified/{case}")] + framed
+    curves = {
+        case: baseline[f"proofs/{case}" if case in framed else f"certified/{case}"]
+        for case in known
+    }
     whole = lines["contained_until"] == lines["run_end"]
     share = lines["largest_distance"] / lines["half_line"]
     return {
@@ -504,7 +508,7 @@ def certified(baseline: Baseline) -> dict:
         "bound": _upward(max(curves[case]["bound"].max() for case in known if case not in framed)),
         "contained": number(int(whole.sum())),
         "in_lines": _upward(share.where(np.isfinite(share)).max()),
-        "certificate": _short_case(baseline.folder / "certified/short_case.json"),
+        "certificate": _short_case(baseline.folder / "proofs/short_case.json"),
     }
 
 

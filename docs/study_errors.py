@@ -275,7 +275,7 @@ def certified(baseline) -> dict[str, float]:
     radii = [_most(proved[name]) for name in ("radius", "chain_radius")]
     return {
         "curves": max(_most(baseline[f"certified/{case}"]["bound"]) for case in cases),
-        "frames": max(_most(baseline[f"certified/{case}"]["bound"]) for case in framed),
+        "frames": max(_most(baseline[f"proofs/{case}"]["bound"]) for case in framed),
         "breathers": max(radii),
         "constants": _most(baseline["certified/constants"]["stored_error"]),
     }

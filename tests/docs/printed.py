@@ -26,7 +26,7 @@ HERE = Path(__file__).parent
 ASK, READY = HERE / "ask_ready.py", HERE.parent / "ready_snakemake.py"
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
-MADE_ONCE = ("reference", "speed", "quoted", "tolerances.yaml", "spreads.nc")
+MADE_ONCE = ("reference", "proofs", "speed", "quoted", "tolerances.yaml", "spreads.nc")
 """What of the baseline no acceptance writes."""
 
 

@@ -8,8 +8,8 @@ from helpers import ROOT, snakemake
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
-    *("tests/baseline/reference", "tests/baseline/speed", "tests/baseline/tolerances.yaml"),
-    "tests/baseline/spreads.nc",
+    *("tests/baseline/reference", "tests/baseline/proofs", "tests/baseline/speed"),
+    *("tests/baseline/tolerances.yaml", "tests/baseline/spreads.nc"),
 )
 
 

@@ -422,7 +422,7 @@ def framed_curves():
 
 
 def committed_proofs():
-    proofs = [f"tests/baseline/certified/{case}.nc" for case in SETTINGS.certified.frames]
+    proofs = [f"tests/baseline/proofs/{case}.nc" for case in SETTINGS.certified.frames]
     return [committed(proof, "certified") for proof in proofs]
 
 

@@ -16,7 +16,7 @@ from pendula.problem import Problem
 from pendula.studies.certified.certificate import make_certificate
 
 CHECKER = ROOT / "scripts/certified/check_certificate.py"
-COMMITTED = ROOT / "tests/baseline/certified/short_case.json"
+COMMITTED = ROOT / "tests/baseline/proofs/short_case.json"
 
 
 @pytest.fixture(scope="module")

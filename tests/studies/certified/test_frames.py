@@ -156,7 +156,7 @@ def test_the_data_must_be_even():
             fixed_point.half_chain(wrong, BITS)
 
 
-COMMITTED = sorted(ROOT.glob("tests/baseline/certified/fig?_*.nc"))
+COMMITTED = sorted(ROOT.glob("tests/baseline/proofs/fig?_*.nc"))
 BY_FRAMES = [path for path in COMMITTED if "solver_bits" in read(path).attrs]
 
 
