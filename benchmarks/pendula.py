@@ -257,7 +257,9 @@ def _by_point(found, cases: list[str], names: list[str]) -> dict[str, Variable]:
     return {
         "accuracy": Variable(grid, table[..., 0], "tolerance or step that was asked for"),
         "seconds": Variable(grid, table[..., 1], "median time of a run without outputs", "s"),
-        "error": Variable(grid, table[..., 2], "largest error of an angle or a velocity", "rad"),
+        "error": Variable(
+            grid, table[..., 2], "error of an angle or a velocity, the largest", "rad"
+        ),
     }
 
 

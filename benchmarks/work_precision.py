@@ -17,7 +17,7 @@ POINT_FIELDS = {
     "seconds": ("median time of a run without outputs", "s"),
     "least": ("least time of a run", "s"),
     "most": ("largest time of a run", "s"),
-    "error": ("largest error of an amplitude at the horizon", "1"),
+    "error": ("error of an amplitude at the horizon, the largest", "1"),
 }
 OWN_FIELDS = {
     "steps": ("accepted and rejected steps", "1"),

@@ -544,7 +544,7 @@ def _expansion(data: xr.Dataset) -> dict[str, str]:
     """Return orders in mu of the error of the expansion, and from when on it is visible."""
     end = common_end(data)
     there = data.sel(case=list(STABLE), end=end)
-    constant = there["constant"].sel(expansion="leading")
+    constant = there["error_constant"].sel(expansion="leading")
     visible = data["visible_from"].sel(expansion="leading", case=UNSTABLE)
     times = visible.where(np.isfinite(visible), drop=True)
     early, late = times.sel(mu=EARLY_MU), times[-1]

@@ -306,9 +306,9 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
     unequal = fates["a0"] != fates["b0"]
     rows = []
     for omega in fates["omega"].values:
-        here = fates[["fate", "distance", "nearest"]].sel(omega=omega).where(unequal)
-        distance = here["distance"].values[np.isfinite(here["distance"].values)]
-        alone = here["nearest"].values[np.isfinite(here["distance"].values)] == 1
+        here = fates[["fate", "family_distance", "nearest"]].sel(omega=omega).where(unequal)
+        distance = here["family_distance"].values[np.isfinite(here["family_distance"].values)]
+        alone = here["nearest"].values[np.isfinite(here["family_distance"].values)] == 1
         breathers = int((here["fate"] == FATES.index("breather")).sum())
         shares = ((distance <= NEAR).mean(), alone.mean()) if distance.size else (np.nan, np.nan)
         median = np.median(distance) if distance.size else np.nan
@@ -325,11 +325,11 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
 
 def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
     """Return how many data change their fate on other terms, and the shares of fates there."""
-    checked = fates["checked_fate"]
+    checked = fates["checked_fate"].rename(conditions="terms")
     changed = (checked != checked.isel(terms=0)).mean("checked")
     shares = [(checked == kind).mean("checked").values for kind in range(fates.sizes["fate_name"])]
     return {
-        "terms": _as_it_is(fates["terms"]),
+        "terms": _as_it_is(fates["conditions"].rename(conditions="terms")),
         "changed": Variable(
             ("terms", "omega"), changed.values, "share of data whose fate differs from the map's"
         ),

@@ -121,4 +121,4 @@ def unbounded_runs() -> dict[str, xr.Dataset]:
         "thermal": thermal(),
     }
     runs = {f"unbounded/{name}": data for name, data in made.items()}
-    return runs | {"breathers/sensitivity": sensitivity()}
+    return runs | {"breathers/sensitivity": named(sensitivity())}

@@ -76,7 +76,7 @@ def make(given: Path, made: Path, *every: str) -> None:
         save(str(made / f"{name}.nc"), data)
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
     cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))
-    write(str(made / "thermal.nc"), thermal_variables([cold], [warm]), {})
+    write(str(made / "thermal.nc"), thermal_variables([cold], [warm], NODES), {})
     write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 
 

@@ -82,14 +82,15 @@ def breathers(tmp_path):
     fates = xr.Dataset(
         {
             "fate": (over, np.array(fate, dtype=np.int8)),
-            "distance": (over, distance),
+            "family_distance": (over, distance),
             "nearest": (over, np.array([[[1, 1, 0], [1, 3, 2], [0, 2, 1]], np.zeros((3, 3))])),
             **dict.fromkeys(AREAS, (("plane", "omega", "fate_name"), area)),
-            "checked_fate": (("terms", "omega", "checked"), [[[1, 3], [3, 3]], [[1, 1], [3, 3]]]),
+            "checked_fate": (("conditions", "omega", "checked"),
+                             [[[1, 3], [3, 3]], [[1, 1], [3, 3]]]),
         },
         {"omega": [-4.0, 0.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0],
          "plane": ["amplitudes"], "fate_name": ["disperses", "breather", "moves", "spreads"],
-         "terms": ["as on the map", "twice the time"], "phase": [0.0, 1.0]},
+         "conditions": ["as on the map", "twice the time"], "phase": [0.0, 1.0]},
         {"epsilon": 1.0, "gamma": 1.0, "half_width": 30, "end_time": 70.0},
     )  # fmt: skip
     spread = xr.Dataset(

@@ -16,9 +16,10 @@ def maps(fate=1, turned=1):
     first, second = ("omega", "a0", "b0"), ("omega", "turned_a0", "phase")
     return xr.Dataset(
         {
-            "fate": (first, np.full((1, 4, 4), fate)), "distance": (first, np.zeros((1, 4, 4))),
+            "fate": (first, np.full((1, 4, 4), fate)),
+            "family_distance": (first, np.zeros((1, 4, 4))),
             "turned_fate": (second, np.full((1, 2, 4), turned)),
-            "turned_distance": (second, np.zeros((1, 2, 4))),
+            "turned_family_distance": (second, np.zeros((1, 2, 4))),
             "case_omega": ("case", [8.0, 8.0]), "case_fate": ("case", [1, 3]),
             "case_a0": ("case", [3.0, 1.0]), "case_b0": ("case", [0.6, 0.1]),
         },

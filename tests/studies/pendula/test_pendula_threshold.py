@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from helpers import chosen
 from hill_series import distance_to_edge, growth_over_period
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.messages import load
@@ -192,7 +193,7 @@ def test_the_dataset_holds_what_its_names_say():
     assert {-4.0, 8.0} <= set(data["omega"].values) and list(data["mu"].values) == list(MUS)
     assert data["gamma_0"].dims == ("omega", "mu")
     assert np.all(data["gamma_0"].sel(omega=[0.0, 1.0, 4.0]) == 0.0)
-    assert data["rate"].sel(gamma=0.0).max() == 0.0
+    assert data["wave_rate"].sel(gamma=0.0).max() == 0.0
     assert data["curve_gamma_0"].values[0] == pytest.approx(
         data["gamma_0"].sel(omega=-1.0).values, rel=1e-15
     )
@@ -209,7 +210,7 @@ def test_the_dataset_holds_what_its_names_say():
     ],
 )  # fmt: skip
 def test_what_has_no_threshold_is_refused_by_its_key(change, text):
-    given = paper()["pendula"]
+    given = chosen("pendula").model_dump()
     settings = {"pendula": given | {"threshold": given["threshold"] | change}}
     with pytest.raises(ConfigurationError, match=text):
         load(dict(paper()) | {"unbounded": None, "breathers": None} | settings)

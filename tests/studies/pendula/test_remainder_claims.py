@@ -30,7 +30,7 @@ def made(grows=1.0):
             "error": (over, np.broadcast_to(powers, (2, 6, 6, 20)).copy()),
             "order": (reduced, whole),
             "order_uncertainty": (reduced, 0.0 * whole),
-            "constant": (reduced, 0.0 * whole + 1.0),
+            "error_constant": (reduced, 0.0 * whole + 1.0),
             "pendula_end": (("case", "mu"), np.tile([20.0, 20.0, 20.0, 10.0, 4.0, 1.0], (6, 1))),
             "visible_from": (over[:3], np.broadcast_to(1.0 + horizons[:, None], (2, 6, 6)).copy()),
             "wrong_order": (("wrong_expansion", "case"), wrong),

@@ -40,7 +40,7 @@ def test_all_are_decided_and_every_control_passes(threshold):
         ("lemma_1_is_the_limit", lambda one: one.assign(gamma_0=one["gamma_0"] + 1e-9)),
         ("correction_of_the_threshold",
          lambda one: one.assign(gamma_0=one["gamma_0"] * (1.0 + 0.1 * one["mu"]))),
-        ("rates_of_the_pendula", lambda one: one.assign(rate=1.1 * one["rate"])),
+        ("rates_of_the_pendula", lambda one: one.assign(wave_rate=1.1 * one["wave_rate"])),
     ],
 )  # fmt: skip
 def test_a_claim_falls_where_its_measure_does(threshold, name, change):

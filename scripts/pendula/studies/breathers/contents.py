@@ -70,7 +70,10 @@ def steady_contents(
         "energy": kept(over, energies, "conserved energy H of equation (8)"),
         "growth": kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
         "growth_half": kept(
-            over, rates, "largest rate of growth on half of the half-width", GROWTH_DIGITS
+            over,
+            rates,
+            "largest rate of growth of a perturbation on half of the half-width",
+            GROWTH_DIGITS,
         ),
         **_births(epsilon, gamma, half_width),
         **_thresholds(epsilon, gamma, half_width, searched, digits),

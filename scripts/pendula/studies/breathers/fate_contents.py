@@ -94,7 +94,7 @@ def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Datas
             along, np.array([one.nearest for one in found]),
             f"family of periodic breathers nearest to the final one{about}", attributes=nearest,
         ),
-        f"{start}distance": _kept(
+        f"{start}family_distance": _kept(
             along, [one.distance for one in found],
             f"relative distance from the nearest family of periodic breathers{about}",
         ),
@@ -184,8 +184,9 @@ def _checked(
 
     found = [[one.fate[rows, columns] for one in first], *map(again, OTHERWISE.values())]
     return {
-        "terms": Variable(
-            ("terms",), ["as on the map", *OTHERWISE], "how long, where and how finely data are run"
+        "conditions": Variable(
+            ("conditions",), ["as on the map", *OTHERWISE],
+            "how long, where and how finely data are run"
         ),
         "checked_a0": Variable(
             ("checked",), grid.amplitudes[rows], "A_0 of data that are run on several terms"
@@ -194,7 +195,7 @@ def _checked(
             ("checked",), grid.amplitudes[columns], "B_0 of data that are run on several terms"
         ),
         "checked_fate": Variable(
-            ("terms", "omega", "checked"), np.array(found, dtype=np.int8),
+            ("conditions", "omega", "checked"), np.array(found, dtype=np.int8),
             "fate of data that are run on several terms", attributes=_flags(FATES),
         ),
     }  # fmt: skip

@@ -27,7 +27,7 @@ FARTHEST = 1.0
 """The distance that is drawn as the largest: the other amplitude is then as large as the leading
 one, or a family is too far to name."""
 
-MAPS = ("fate", "distance", "turned_fate", "turned_distance")
+MAPS = ("fate", "family_distance", "turned_fate", "turned_family_distance")
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
 
 
@@ -46,7 +46,7 @@ def draw_fates(data: xr.Dataset) -> Figure:
         here = data.sel(omega=omega)
         above, below = grid[:, column]
         _draw(above, here, ("a0", "b0"), "")
-        turned = _all_round(here[["turned_fate", "turned_distance"]])
+        turned = _all_round(here[["turned_fate", "turned_family_distance"]])
         _draw(below, turned, ("phase", "turned_a0"), "turned_")
         _mark(above, data, omega, lambda a, b: (a, b))
         _mark(below, data, omega, _at_no_phase(data.attrs["ratio"]))
@@ -65,7 +65,7 @@ def _draw(axes: Axes, here: xr.Dataset, over: tuple[str, str], start: str) -> No
     """Draw one map: its fates, and above them how near to a periodic one each breather is."""
     across, up = over
     fate = here[f"{start}fate"].transpose(up, across).values
-    far = here[f"{start}distance"].transpose(up, across).fillna(FARTHEST).values
+    far = here[f"{start}family_distance"].transpose(up, across).fillna(FARTHEST).values
     look = {
         "extent": (*_ends(here[across].values), *_ends(here[up].values)),
         "origin": "lower", "aspect": "auto", "interpolation": "none",

@@ -196,7 +196,7 @@ def _fates(results: Results) -> dict[str, Any]:
         "near": [_near(results, omega) for omega in omegas
                  if np.isfinite(_distances(data, omega)).any()],
         "within": results.quote(MAP, NEAR),
-        "checked": [_checked(results, str(terms)) for terms in data["terms"].values[1:]],
+        "checked": [_checked(results, str(one)) for one in data["conditions"].values[1:]],
         "checked_points": results.quote(MAP, data["checked_fate"][0].size),
         "cases": [_case(results, str(case)) for case in data["case"].values],
     }  # fmt: skip
@@ -219,7 +219,7 @@ def _shares(results: Results, plane: str, omega: float) -> list:
 
 def _distances(data, omega: float) -> np.ndarray:
     here = data.sel(omega=omega)
-    return here["distance"].where(here["a0"] != here["b0"]).values
+    return here["family_distance"].where(here["a0"] != here["b0"]).values
 
 
 def _near(results: Results, omega: float) -> dict[str, Any]:
@@ -236,10 +236,10 @@ def _near(results: Results, omega: float) -> dict[str, Any]:
     }
 
 
-def _checked(results: Results, terms: str) -> dict[str, Any]:
+def _checked(results: Results, conditions: str) -> dict[str, Any]:
     fates = results[MAP]["checked_fate"]
-    changed = (fates.sel(terms=terms) != fates.isel(terms=0)).sum()
-    return {"terms": terms, "changed": results.quote(MAP, int(changed))}
+    changed = (fates.sel(conditions=conditions) != fates.isel(conditions=0)).sum()
+    return {"terms": conditions, "changed": results.quote(MAP, int(changed))}
 
 
 def _case(results: Results, case: str) -> dict[str, Any]:

@@ -14,6 +14,8 @@ from .norm import NotDefiniteError, find_form
 from .polynomials import find_curve
 from .regular import PARTS, Certified, leave_unproved, norms_at, prove
 
+GROWN = "logarithm of how much the proof lets an error of the start grow"
+
 
 def curve_contents(
     name: str, problem: Problem, made_for: Mapping | None = None, reference=None
@@ -61,8 +63,7 @@ def frame_contents(name: str, problem: Problem, proof: Mapping, reference=None) 
         "parameters_mean": "the printed decimals",
     }
     variables = curve_variables(found, frames.PARTS)
-    words = "logarithm of how much the proof lets an error of the start grow"
-    variables["error_exponent"] = Variable(("tau",), found.exponent, words)
+    variables["error_exponent"] = Variable(("tau",), found.exponent, GROWN)
     if reference is not None:
         variables["reference_distance"] = _distance(found, reference, attributes)
     return variables, attributes
@@ -99,6 +100,6 @@ def curve_variables(found: Certified, parts: Sequence[str] = PARTS) -> dict[str,
         "error_exponent": Variable(
             ("tau",),
             np.asarray(found.exponent),
-            "integral of the proven rate at which an error can grow",
+            GROWN,
         ),
     }

@@ -62,7 +62,7 @@ def judged_order(remainder, expansion: str, whole: float) -> Finding:
     """Ask for one order at every case whose chain at rest is stable."""
     order = at_common_end(remainder, "order", expansion)
     off = at_common_end(remainder, "order_uncertainty", expansion)
-    constant = at_common_end(remainder, "constant", expansion)
+    constant = at_common_end(remainder, "error_constant", expansion)
     measured = {
         "least_order": order.min(),
         "largest_order": order.max(),

@@ -153,7 +153,7 @@ def largest_misses(dataset):
     Near a threshold a rate is the root of a small difference, and that threshold itself moves; so
     squares of rates are compared.
     """
-    square, law = dataset["rate"] ** 2, dataset["rate_lemma"] ** 2
+    square, law = dataset["wave_rate"] ** 2, dataset["rate_lemma"] ** 2
     off = abs(square - law) / law.max("gamma")
     return off.max(("growth_omega", "gamma"))
 
@@ -166,7 +166,7 @@ def largest_misses(dataset):
         Control("rates of exchanged detunings", {THRESHOLD: lambda one: one.assign(
             rate_lemma=(one["rate_lemma"].dims, np.roll(one["rate_lemma"].values, 1, axis=0)))}),
         Control("rates with an error of the order mu", {THRESHOLD: lambda one: one.assign(
-            rate=one["rate_lemma"] * (1.0 + one["mu"]))}),
+            wave_rate=one["rate_lemma"] * (1.0 + one["mu"]))}),
     ),
 )  # fmt: skip
 def rates_of_the_pendula(threshold) -> Finding:

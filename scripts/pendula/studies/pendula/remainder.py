@@ -258,7 +258,7 @@ def remainder_contents(
         "error": Variable(over, errors, "error of an angle, the largest up to the end", "rad"),
         "order": Variable(reduced, order, "order in mu of the error as mu goes to zero"),
         "order_uncertainty": Variable(reduced, off, "what the order in mu may be off by"),
-        "constant": Variable(
+        "error_constant": Variable(
             reduced, constant, "error over mu^3, of the corrected expansion mu^5, at the least mu",
             "rad"),
         "largest_angle": Variable(("case", "mu", "end"), np.array([one.angles for one in found]),

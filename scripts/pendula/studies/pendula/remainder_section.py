@@ -39,7 +39,7 @@ def _row(results: Results, case: str) -> list:
         one = data.sel(expansion=expansion)
         order, off = float(one["order"]), float(one["order_uncertainty"])
         told = "unknown" if np.isnan(order) else with_error(order, off)
-        cells += [results.say(DATA, told), results.quote(DATA, float(one["constant"]))]
+        cells += [results.say(DATA, told), results.quote(DATA, float(one["error_constant"]))]
     return [case, number(float(data["omega"])), *cells]
 
 

@@ -105,7 +105,7 @@ def threshold_contents(
                                     "coefficient of mu^4 in the threshold of the pendula"),
         "growth_omega": Variable(("growth_omega",), driven, "detuning Omega of rates of growth"),
         "gamma": Variable(("gamma",), gamma),
-        "rate": Variable(
+        "wave_rate": Variable(
             over, pendula_rate(driven[:, None, None], mu[:, None], gamma, epsilon),
             "rate of growth of the pendula's wave nearest to the resonance, per unit of tau"),
         "rate_lemma": Variable(

@@ -13,7 +13,7 @@ SIDES = (("^", r"$\Omega < 0$: more"), ("v", r"$\Omega > 4\epsilon$: less"))
 BY_LEMMA = {"color": style.RED, "lw": 1.8, "alpha": 0.7, "zorder": 1}
 DRAWN = (
     *("gamma_0", "gamma_0_lemma", "correction", "curve_gamma_0", "curve_gamma_0_lemma"),
-    *("rate", "rate_lemma"),
+    *("wave_rate", "rate_lemma"),
 )
 
 
@@ -87,7 +87,7 @@ def _draw_rates(axes: Axes, data: xr.Dataset) -> None:
     gamma = data["gamma"].values
     axes.plot(gamma, data["rate_lemma"], **BY_LEMMA)
     for mu, look in _by_mu(data):
-        axes.plot(gamma, data["rate"].sel(mu=mu), **look)
+        axes.plot(gamma, data["wave_rate"].sel(mu=mu), **look)
     axes.set_xlim(gamma[0], gamma[-1])
     axes.set_ylim(0, None)
     axes.set(xlabel=r"strength of the drive $\gamma$", ylabel=r"rate per unit of $\tau$")
