@@ -5,10 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from helpers import chosen
 from hill_series import distance_to_edge, growth_over_period
+from on_pendula import load_with
 from pendula.configuration.files import ConfigurationError
-from pendula.configuration.messages import load
 from pendula.configuration.paper import paper
 from pendula.datasets.netcdf import as_xarray
 from pendula.models.linear_chain import gamma_0
@@ -210,7 +209,5 @@ def test_the_dataset_holds_what_its_names_say():
     ],
 )  # fmt: skip
 def test_what_has_no_threshold_is_refused_by_its_key(change, text):
-    given = chosen("pendula").model_dump()
-    settings = {"pendula": given | {"threshold": given["threshold"] | change}}
     with pytest.raises(ConfigurationError, match=text):
-        load(dict(paper()) | {"unbounded": None, "breathers": None} | settings)
+        load_with("threshold", change)

@@ -4,9 +4,8 @@ from math import log, pi
 
 import numpy as np
 import pytest
+from on_pendula import load_with
 from pendula.configuration.files import ConfigurationError
-from pendula.configuration.messages import load
-from pendula.configuration.paper import paper
 from pendula.models.pendula import times_of
 from pendula.problem import PENDULA, Constants, Problem
 from pendula.simulation.lattice import WHOLE
@@ -154,7 +153,5 @@ def test_pendula_that_are_driven_beyond_all_bounds_are_lost():
     ],
 )
 def test_what_gives_no_order_is_refused_by_its_key(change, text):
-    given = paper()["pendula"]
-    settings = {"pendula": given | {"remainder": given["remainder"] | change}}
     with pytest.raises(ConfigurationError, match=text):
-        load(dict(paper()) | {"unbounded": None, "breathers": None} | settings)
+        load_with("remainder", change)
