@@ -36,7 +36,7 @@ from scipy.special import digamma, polygamma
 from .reproduction import LEFT_OUT, ROOT
 
 BASELINE = ROOT / "tests" / "baseline"
-MOVED_LINE = ("scripts/pendula/simulation/simulate.py", "float(constants.epsilon)")
+MOVED_LINE = ("scripts/pendula/simulation/models.py", "float(constants.epsilon)")
 SMALLEST_MOVE = 0.1 * REGULAR_LIMIT
 """A curve has moved, and its horizon has passed, where two runs differ by this fraction."""
 MOST_FREEDOM = 200.0
