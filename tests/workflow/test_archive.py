@@ -20,6 +20,8 @@ DRAWING = {
     "draw_breathers",
     "certified_curves",
     "draw_fates",
+    "pendula_over_the_top",
+    "pendula_phases",
     "pendula_remainder",
     "draw_sensitivity",
     "pendula_threshold",
