@@ -565,7 +565,7 @@ def claims_need():
             *checks("lyapunov"),
         ],
         "certified": [
-            *(*proved_curves(), *below(["certified/wrong/curve", "certified/lines"])),
+            *(*proved_curves(), *below(["certified/wrong/curve"])),
             *below(["trajectories/fig2_small", "trajectories/fig3_small"]),
             *below(["certified/breathers", "certified/constants", "breathers/steady"]),
         ],
