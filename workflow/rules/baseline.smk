@@ -22,6 +22,7 @@ def everything():
         *(f"results/{name}.nc" for name in makers()),
         *rules.hard_cases.output,
         *references(*PAPER_CASES, "fig4_small.double"),
+        *committed_proofs(),
     }
     return sorted(path for path in made if path.endswith((".nc", ".json", ".md", ".png", ".pdf")))
 
