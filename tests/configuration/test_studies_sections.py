@@ -1,6 +1,8 @@
 """The studies' sections of the configuration: all valid, and their faults in words."""
 
 import copy
+import subprocess
+import sys
 
 import pytest
 import yaml
@@ -82,3 +84,12 @@ def test_what_the_chains_without_ends_run_is_said_for_the_full_run_and_the_long_
     given = chosen("unbounded")
     for size in (given.short, given.long):
         assert set(size.runs) == set(given.names)
+
+
+def test_the_configuration_is_read_without_what_computes_or_draws():
+    """Each call of Snakemake reads it, and compilers and plots take longer to import than that."""
+    heavy = ("flint", "matplotlib", "netCDF4", "numba", "scipy", "xarray")
+    code = f"import sys, pendula.configuration.messages; print(sys.modules.keys() & {set(heavy)})"
+    command, here = [sys.executable, "-c", code], ROOT / "scripts"
+    found = subprocess.run(command, cwd=here, capture_output=True, text=True, check=True)
+    assert found.stdout == "set()\n"

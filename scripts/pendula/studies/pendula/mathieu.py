@@ -20,6 +20,11 @@ BEYOND = 4.0
 """The curve a_1(q) has its highest point below this q: what is not met by then never is."""
 
 
+def squared_frequency(omega, mu):
+    """Return omega^2 = 1 + mu^2 Omega, half of the drive's frequency squared."""
+    return 1.0 + mu * mu * np.asarray(omega)
+
+
 def _fraction(square, gaps):
     """Return square / (gaps[0] - square / (gaps[1] - ...)), and its derivative by `square`."""
     found, slope = 0.0, 0.0

@@ -20,9 +20,8 @@ from pendula.configuration.values import (
     Whole,
 )
 
-from .mathieu import second_tongue
+from .mathieu import second_tongue, squared_frequency
 from .settings_phases import Film, OverTheTop, Phases, Sea
-from .threshold import squared_frequency
 
 PERIOD_SECONDS = 2e-6
 """A period of a pair of pendula."""

@@ -15,12 +15,7 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
 from pendula.models.linear_chain import curvatures, finite_threshold, gamma_0, growth_rate
 
-from .mathieu import band_threshold, growth, wave_threshold
-
-
-def squared_frequency(omega, mu):
-    """Return omega^2 = 1 + mu^2 Omega, half of the drive's frequency squared."""
-    return 1.0 + mu * mu * np.asarray(omega)
+from .mathieu import band_threshold, growth, squared_frequency, wave_threshold
 
 
 def pendula_threshold(omega, mu, epsilon: float) -> np.ndarray:
