@@ -282,7 +282,7 @@ def certified(baseline) -> dict[str, float]:
 
 
 def certified_sizes(given: dict) -> dict[str, str]:
-    """Return of which cases and states there are proofs."""
+    """Return the cases and the states that have proofs."""
     return {
         "curves": ", ".join(f"`{case}`" for case in given["curves"]["cases"]),
         "frames": ", ".join(

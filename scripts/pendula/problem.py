@@ -46,11 +46,11 @@ class Constants:
 class Problem:
     """One initial-value problem and how it is integrated.
 
-    `model` says of which equations: "amplitudes" are (4), "pendula" are (1), which have one more
-    constant, `mu`. Data and times are those of (4) for either: pendula start from the angles and
-    velocities that (3) makes of A and B. Time is the slow time tau. `initial` is complex, of shape
-    (2, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest. `half_width`
-    is M, the chain has the sites -M..M; None stands for a chain without ends. `snapshot_every`
+    `model` names the equations: "amplitudes" are (4), "pendula" are (1). The second ones have one
+    more constant, `mu`. Data and times are those of (4) for either: pendula start from the angles
+    and velocities that (3) makes of A and B. Time is the slow time tau. `initial` is complex, of
+    shape (2, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest.
+    `half_width` is M, the chain has the sites -M..M; None stands for a chain without ends. `snapshot_every`
     keeps the size of each component at every site at each so many outputs; 0 keeps none.
 
     Raises ValueError where data lie outside the chain, and where there is no such model, or mu is

@@ -27,7 +27,10 @@ from pendula.simulation.solvers import SOLVERS
 
 HALF_PERIODS = 6
 STRIDE = np.pi / 6.0
-"""The phase of one step towards the next instant; below the largest tangent it is what is left."""
+"""The phase that one run covers on the way to the next instant at which the amplitude is real.
+
+Once the tangent of its phase is at most LARGEST_TANGENT, the phase that is left is known.
+"""
 LARGEST_TANGENT = 1.2
 MOST_STRIDES = 20
 """A leading amplitude that is not real again after so many steps does not swing."""

@@ -11,7 +11,7 @@ since Q' = 2 T(e) + 2 s <L e, -i (r - d)>, and <L e, x> <= sqrt(Q(e)) sqrt(Q(x))
 Schwarz, Q(x) <= m2 |x|^2. Norms |.| are l2 over both components and all sites. At the start of a
 step E rises by at most sqrt(m2) times the jump of p, and |e| <= E / sqrt(m1) at the end of it all.
 
-The parts of the bound, each of which grows by (i), so that their sum is the bound:
+Inequality (i) lets each of these parts grow alike, so that their sum is the bound:
 
 - start: the doubles next to the printed data.
 - polynomial: the terms of d that a polynomial of finite order leaves out.

@@ -50,5 +50,5 @@ def film_pendula(
         "tau_of_period": Variable(("case",), lengths, "slow time in a period 2 pi / omega"),
         "pendulum_frequency": Variable(("case",), own, "angular frequency omega of equation (2)"),
         "angle_step": Variable(("case", "picture", "component", "site"), angles,
-                               f"angle in steps, {HALF_TURN} of which are half a turn"),
+                               f"angle in steps; half a turn has {HALF_TURN} steps"),
     }, {**shared, **about}  # fmt: skip

@@ -103,7 +103,7 @@ def band_threshold(lowest, highest) -> np.ndarray:
 
     It is zero where a = 1 or a = 4 is among them, at which a tongue starts. Between, the first
     tongue meets the band at the end nearest to a = 1, and the second at the highest. NaN where all
-    waves lie above a = 4, of which these curves say nothing.
+    waves lie above a = 4: the two curves say nothing about these.
     """
     lowest, highest = np.asarray(lowest, dtype=float), np.asarray(highest, dtype=float)
     nearest = np.where(lowest > 0.0, lowest, highest)

@@ -6,7 +6,8 @@ seen at its outputs, some of them in each period: who is beyond the top falls to
 that takes longer than a part of a period.
 
 Before the sea has filled the chain no passage comes; later, chaos leaves no memory, and passages
-come at a rate. So its clock starts at `settled`, for who has not passed by then.
+come at a rate. So the rate counts time from `settled` on, and only the members that had no passage
+by then.
 """
 
 from collections.abc import Sequence

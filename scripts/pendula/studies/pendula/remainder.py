@@ -126,7 +126,8 @@ def orders(errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     Each mu is half of the one before. The order between two neighbours is that of the limit plus a
     multiple of mu^2, so two of them, from the three smallest mu that have an error, give the limit.
-    The step to it is what it may be off by. NaN where fewer than three mu have an error.
+    What the second of them differs by from the limit is taken as its error. NaN where fewer than
+    three mu have an error.
     """
     shape = errors.shape[1:]
     order, off = np.full((2, *shape), np.nan)
