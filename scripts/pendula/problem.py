@@ -50,8 +50,9 @@ class Problem:
     more constant, `mu`. Data and times are those of (4) for either: pendula start from the angles
     and velocities that (3) makes of A and B. Time is the slow time tau. `initial` is complex, of
     shape (2, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest.
-    `half_width` is M, the chain has the sites -M..M; None stands for a chain without ends. `snapshot_every`
-    keeps the size of each component at every site at each so many outputs; 0 keeps none.
+    `half_width` is M, the chain has the sites -M..M; None stands for a chain without ends.
+    `snapshot_every` keeps the size of each component at every site at each so many outputs; 0 keeps
+    none.
 
     Raises ValueError where data lie outside the chain, and where there is no such model, or mu is
     missing or means nothing.
