@@ -1,7 +1,7 @@
 """Write the README and the pages of docs/ from their templates and the committed datasets.
 
 Run as `python docs/render.py` from anywhere. The templates are docs/source/*.md.j2, the numbers in
-them come from facts.py, and tests/docs fails where a page is not what its template gives.
+them come from docs/facts, and tests/docs fails where a page is not what its template gives.
 """
 
 import re
@@ -15,7 +15,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / name) for name in ("scripts", "docs", "")]
 
-import facts  # noqa: E402
+from facts.baseline import Baseline  # noqa: E402
+from facts.topics import gather  # noqa: E402
 
 TIED = "\0=\0"
 """Stands for " = " while lines are filled, so that none ends between a symbol and its value."""
@@ -30,16 +31,16 @@ def pages() -> dict[Path, Path]:
     return {folder.get(name, ROOT / "docs") / name: SOURCE / f"{name}.j2" for name in names}
 
 
-def known(baseline: facts.Baseline) -> dict[str, dict]:
+def known(baseline: Baseline) -> dict[str, dict]:
     """Return all facts, from the datasets of a baseline and from the project's configuration."""
     names = ("config", "chaos")
     texts = ((ROOT / f"config/{name}.yaml").read_text(encoding="utf-8") for name in names)
-    return facts.gather(baseline, *map(yaml.safe_load, texts))
+    return gather(baseline, *map(yaml.safe_load, texts))
 
 
 def render() -> dict[Path, str]:
     """Return the text of each page."""
-    values = known(facts.Baseline(BASELINE))
+    values = known(Baseline(BASELINE))
     environment = Environment(
         loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,

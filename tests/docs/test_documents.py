@@ -9,10 +9,10 @@ fact changes with the data.
 import re
 from pathlib import Path
 
-import facts
 import numpy as np
 import pytest
 import render
+from facts.baseline import Baseline
 from pendula.ledger.claim import all_claims
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -147,13 +147,13 @@ def test_an_expression_only_names_a_fact(page):
 
 
 def test_every_fact_is_quoted():
-    known = render.known(facts.Baseline(render.BASELINE))
+    known = render.known(Baseline(render.BASELINE))
     text = "".join(template.read_text(encoding="utf-8") for template in PAGES.values())
     named = set(re.findall(r"\b(\w+\.\w+)", text))
     assert [f"{t}.{n}" for t, of in known.items() for n in of if f"{t}.{n}" not in named] == []
 
 
-class Changed(facts.Baseline):
+class Changed(Baseline):
     """The same datasets with every real number changed by a factor of its own."""
 
     def __init__(self, folder, rng):
@@ -211,8 +211,8 @@ def flat(known, prefix=""):
 
 
 def test_every_fact_follows_its_dataset():
-    """A number typed into facts.py would stay when the datasets change."""
-    before = flat(render.known(facts.Baseline(render.BASELINE)))
+    """A number typed into docs/facts would stay when the datasets change."""
+    before = flat(render.known(Baseline(render.BASELINE)))
     same = set(before)
     for seed in range(6):  # a rounded number may be the same by chance, but not each time
         after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(seed))))
@@ -235,7 +235,7 @@ def test_every_fact_follows_its_dataset():
 
 
 def test_the_ledger_that_is_quoted_has_the_rows_of_the_code():
-    kept = [row["name"] for row in facts.Baseline(render.BASELINE).claims()]
+    kept = [row["name"] for row in Baseline(render.BASELINE).claims()]
     assert kept == [claim.name for claim in all_claims()], "run `python docs/keep.py results`"
 
 

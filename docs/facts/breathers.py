@@ -1,0 +1,106 @@
+"""Facts on breathers, on the sensitivity to the data, and on the fates of data on one pair."""
+
+import xarray as xr
+from pendula.report.words import number, percent
+
+from .baseline import Baseline
+from .words import from_to
+
+
+def breathers(baseline: Baseline) -> dict:
+    """Return what the claims on breathers measured, and the shares of runs that spread."""
+    rows = {row["name"]: row["measured"] for row in baseline.claims()}
+    growth, spread = baseline["breathers/growth"], baseline["breathers/sensitivity"]
+    law, scanned = rows["grows_by_drive"], spread["initial"].values
+    return {
+        "omega": number(spread.attrs["omega"]),
+        "least_power": number(rows["data_below_breathers"]["least_power"]),
+        "weak": number(growth["gamma"].min()),
+        "off": percent(law["largest_difference"]),
+        "strong": number(law["strongest"]),
+        "passed": number(law["passed_by"]),
+        "scanned": str(len(scanned)),
+        "spread": percent(rows["spreading_is_an_accident"]["of_the_scan"]),
+        "first": number(scanned.min()),
+        "last": number(scanned.max()),
+        "step": number(scanned[1] - scanned[0]),
+        "end": number(spread.attrs["end_time"]),
+        "members": str(int(spread.attrs["members"])),
+        "rows": [
+            {
+                "size": number(size),
+                "share": percent(spread["share"].sel(size=size)),
+                "limits": from_to(spread["share_low"], spread["share_high"], size=size),
+            }
+            for size in spread["size"].values
+        ],
+    }
+
+
+def fates(baseline: Baseline) -> dict:
+    """Return shares of fates, and of runs that spread, from the long study of breathers."""
+    long = baseline["quoted/breathers"]
+    start = long["from_amplitude"].values
+    families = long.dropna("omega", subset=["near"])
+    return {
+        "end": number(long.attrs["end_time"]),
+        "members": number(long.attrs["members"]),
+        "points": number(long.attrs["points"]),
+        "spread": ", ".join(
+            f"{percent(long['share'].sel(size=size))} at {number(size)}"
+            for size in long["size"].values
+        ),
+        "scanned": number(long["scanned"]),
+        "scan": ", ".join(
+            f"{percent(part)} between {number(a)} and {number(a + 1)}"
+            for a, part in zip(start, long["scan_share"].values, strict=True)
+        ),
+        "largest": number(long["largest_that_spreads"], 4),
+        "rows": [
+            {"omega": number(omega), "cases": OF_PLANE[str(plane)]}
+            | {str(fate): _area(long, plane, omega, fate) for fate in long["fate_name"].values}
+            for plane in long["plane"].values
+            for omega in long["omega"].values
+        ],
+        "near": [
+            {
+                "omega": number(omega),
+                "share": percent(families["near"].sel(omega=omega)),
+                "alone": percent(families["nearest_alone"].sel(omega=omega)),
+                "median": number(families["median_distance"].sel(omega=omega), 2),
+            }
+            for omega in families["omega"].values
+        ],
+        "checked": number(long["checked"]),
+        "terms": [
+            {
+                "cases": str(terms),
+                "changed": percent(long["changed"].sel(terms=terms).max()),
+                "breather": percent(_at_most_mixed(long, terms, "breather")),
+                "spreads": percent(_at_most_mixed(long, terms, "spreads")),
+            }
+            for terms in long["terms"].values
+        ],
+        "mixed": number(_most_mixed(long)),
+    }
+
+
+OF_PLANE = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and a phase"}
+
+
+def _area(long: xr.Dataset, plane: str, omega: float, fate: str) -> str:
+    """Return the share of an area in per cent with its limits, to three digits."""
+    one = long.sel(plane=plane, omega=omega, fate_name=fate)
+    names = ("area", "area_low", "area_high")
+    value, low, high = (number(100.0 * float(one[name]), 3) for name in names)
+    return f"{value} % ({low} to {high})"
+
+
+def _most_mixed(long: xr.Dataset) -> float:
+    """Return the Omega at which other terms change the most fates."""
+    return float(long["omega"][int(long["changed"].max("terms").argmax("omega"))])
+
+
+def _at_most_mixed(long: xr.Dataset, terms: str, fate: str) -> float:
+    at = {"fate_name": fate, "terms": terms, "omega": _most_mixed(long)}
+    return float(long["terms_share"].sel(at))

@@ -1,0 +1,142 @@
+"""Facts on what solvers, other people's solvers and a full run cost."""
+
+import numpy as np
+import xarray as xr
+from pendula.datasets.registry import SOLVER_NAMES
+from pendula.report.words import number
+
+from benchmarks import reproduction
+
+from .baseline import Baseline
+
+COMPARED = 1001, 100_001
+"""Numbers of sites whose costs are compared."""
+
+
+REGULAR_ERROR = 1e-10
+"""The error at which solvers are compared."""
+
+
+def speed(baseline: Baseline) -> dict:
+    """Return times at equal error, and the growth of the cost."""
+    measured, cost = baseline["speed/work_precision"], baseline["speed/cost"]["seconds"]
+    titles = measured["title"].to_series()
+    ratios = measured["mean_ratio"].dropna("peer").to_series()
+    tight = measured.sel(case=["fig2_small", "fig3_small"], contestant="taylor")
+    errors = tight["error"].where(tight["accuracy"] < 1.5e-14)
+    short, long = (cost.sel(sites=sites) for sites in COMPARED)
+    return {
+        "peers": [
+            {
+                "peer": titles[peer],
+                "ratio": _ratio(ratio),
+                "cases": str(int(measured["reached_cases"].sel(peer=peer))),
+            }
+            for peer, ratio in ratios.items()
+        ],
+        "best": [
+            {"solver": SOLVER_NAMES[name], "time": number(1e3 * seconds, 2)}
+            for name, seconds in _best(measured.sel(case="fig3_small"), REGULAR_ERROR).items()
+        ],
+        "processor": measured.attrs["processor"],
+        "best_error": number(REGULAR_ERROR),
+        "fastest_below": number(_fastest_below(measured, "taylor")),
+        "faster": " and ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
+        "taylor_error": number(float(errors.max()), 2),
+        "sites": [
+            {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
+        ],
+        "long_over_short": {"sites": f"{COMPARED[1]} over {COMPARED[0]}", **_growth(long / short)},
+    }
+
+
+def pendula_speed(baseline: Baseline) -> dict:
+    """Return how many times as long peers take on Newton's equations, at equal error."""
+    measured = baseline["speed/pendula"]
+    titles = measured["title"].to_series()
+    ratios = {str(peer): measured["ratio"].sel(peer=peer) for peer in measured["peer"].values}
+    return {
+        "target": measured.attrs["compared_at"],
+        "peers": [
+            {"peer": titles[peer], "ratio": " and ".join(map(_ratio, found.dropna("case").values))}
+            for peer, found in ratios.items()
+            if found.notnull().any()
+        ],
+    }
+
+
+MANY = 12
+"""So many jobs of a full run are shown, the costliest."""
+
+
+def full_run(baseline: Baseline) -> dict:
+    """Return what the time of a full run went to, with and without kernels compiled before."""
+    if not (measured := baseline.reproduction()):
+        return {"runs": []}
+    full = {name: one for name, one in measured["runs"].items() if one["jobs"]}
+    shares = {
+        kind: [sum(told.get(kind, 0.0) for told in one["jobs"].values()) for one in full.values()]
+        for kind in reproduction.KINDS
+    }
+    shares[reproduction.SNAKEMAKE] = [reproduction.rest(one) for one in full.values()]
+    jobs = full["warm"]["jobs"]
+    costliest = sorted(jobs, key=lambda name: -reproduction.spent(jobs[name]))[:MANY]
+    return {
+        "processor": measured["machine"]["processor"],
+        "cores": str(measured["machine"]["cores"]),
+        "runs": [
+            {
+                "run": reproduction.RUNS[name],
+                **{key: f"{one[key]:.0f}" for key in ("wall", "processor")},
+            }
+            for name, one in measured["runs"].items()
+        ],
+        "columns": [{"run": reproduction.RUNS[name]} for name in full],
+        "kinds": [
+            {"kind": kind, "in_runs": [{"seconds": f"{value:.1f}"} for value in values]}
+            for kind, values in shares.items()
+        ],
+        "jobs": [
+            {
+                "job": name,
+                **{
+                    kind.replace("-", "_"): f"{jobs[name].get(kind, 0.0):.1f}"
+                    for kind in reproduction.KINDS
+                    if kind != "imports"
+                },
+                "sum": f"{reproduction.spent(jobs[name]):.1f}",
+            }
+            for name in costliest
+        ],
+        "number": str(len(jobs) - ("imports" in jobs)),
+        "memory": number(
+            max(told["memory"] for one in full.values() for told in one["jobs"].values())
+        ),
+    }
+
+
+def _growth(cost: xr.DataArray) -> dict[str, str]:
+    return {name: number(float(cost.sel(solver=name))) for name in ("dop853", "taylor")}
+
+
+def _ratio(value: float) -> str:
+    """Return a factor to two or three digits, without a power of ten."""
+    return f"{float(f'{value:.3g}'):.0f}" if value >= 10 else number(value, 2)
+
+
+def _best(case: xr.Dataset, error: float) -> dict[str, float]:
+    """Return the least time, in s, in which each solver comes within an error, the least first."""
+    own = case.sel(contestant=case["solver"].values)
+    least = own["seconds"].where(own["error"] <= error).min("point").dropna("contestant")
+    return least.to_series().sort_values().to_dict()
+
+
+def _fastest_below(measured: xr.Dataset, solver: str) -> float:
+    """Return the largest power of ten below which the solver is the fastest in every case."""
+    below = None
+    for error in 10.0 ** np.arange(-13, 0):
+        found = [_best(measured.sel(case=case), error) for case in measured["case"].values]
+        if any(best and next(iter(best)) != solver for best in found):
+            break
+        below = error
+    return below

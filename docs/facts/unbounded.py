@@ -1,0 +1,114 @@
+"""Facts on chains without ends, and on the growth of the norms there."""
+
+import xarray as xr
+from pendula.report.words import number, percent, span
+
+from .baseline import Baseline
+from .words import with_stored_error
+
+GROWN = 2.0
+"""A norm grows if it grows by this factor, as the ledger has it."""
+
+
+SITE = 0.05
+"""A part of a site that no front can show."""
+
+GROWING_LAWS = {
+    "fourth_root": "fourth_root_of_log_tau",
+    "log": "log_tau",
+    "power": "power_of_tau",
+}
+"""Laws of the largest amplitude that have no bound, by a short name."""
+
+
+def unbounded(baseline: Baseline) -> dict:
+    """Return exponents, fronts and powers of the long study of the chain without ends."""
+    long = baseline["quoted/unbounded"]
+    bulk, large = (long.sel(case=case) for case in ("fig4_small", "fig3_large"))
+    centre = long.sel(varied_omega=0.0)
+    ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
+    furthest = long.isel(varied_omega=int(abs(ratio - 1.0).values.argmax()))
+    off = abs(long["omega_bulk_power"] - long["omega_thermal_power"])
+    missed = abs(float(bulk["bulk_power"]) - float(centre["omega_thermal_power"]))
+    apart = long["varied_omega"].where(off > long["omega_bulk_power_error"], drop=True)
+    speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
+    agree = abs(long["omega_speed"] - long["omega_predicted_speed"]) <= long["omega_speed_error"]
+    grown = long["amplitude"].where(long["amplitude_factor"] > GROWN, drop=True)
+    cut, cost = baseline["quoted/cut_front"], baseline["speed/cost"]
+    return {
+        "end": number(bulk["end"], 4),
+        "from": number(bulk["end"] / 4, 4),
+        "members": str(int(bulk["members"])),
+        "sites": f"{int(bulk['sites']):,}",
+        "exponent": with_stored_error(bulk, "exponent"),
+        "linf": number(bulk["linf"]),
+        "speed": with_stored_error(bulk, "speed"),
+        "predicted": number(bulk["predicted_speed"], 5),
+        "bulk_power": with_stored_error(bulk, "bulk_power"),
+        "slope_power": with_stored_error(bulk, "slope_power"),
+        "bulk_off": percent(missed / float(centre["omega_thermal_power"])),
+        "bulk_limits": percent(float(bulk["bulk_power_error"] / bulk["bulk_power"])),
+        "thermal_power": number(centre["omega_thermal_power"], 5),
+        "omegas": str(long.sizes["varied_omega"]),
+        "least_omega": number(long["varied_omega"].min()),
+        "largest_omega": number(long["varied_omega"].max()),
+        "omega_end": number(long["omega_end"]),
+        "omega_from": number(long["omega_end"] / 4),
+        "omega_exponents": span(long["omega_exponent"].values, 2),
+        "omega_speeds": number(speeds.max(), 2),
+        "told_apart": ", ".join(map(number, apart.values)) or "none of them",
+        "speeds_agree": "agree within it" if agree.all() else "do not all agree within it",
+        "resolution": number((long["omega_speed_error"] / long["omega_speed"]).max(), 2),
+        "furthest": percent(abs(ratio - 1.0).max()),
+        "furthest_omega": number(furthest["varied_omega"]),
+        "furthest_length": number(furthest["omega_correlation_length"], 2),
+        "centre_length": number(centre["omega_correlation_length"], 2),
+        "warm_energy": with_stored_error(long, "warm_energy"),
+        "warm_bulk_power": with_stored_error(large, "bulk_power"),
+        "warm_power": number(long["warm_power"], 4),
+        "cold_power": number(long["cold_power"], 4),
+        "amplitudes": str(long.sizes["amplitude"]),
+        "spreading": " and ".join(number(size) for size in grown.values),
+        "amplitude_end": number(long["amplitude_end"]),
+        "large_speed": number(large["speed"], 2),
+        "large_exponent": with_stored_error(large, "exponent"),
+        "large_from": number(large["end"] / 4, 4),
+        "large_end": number(large["end"], 4),
+        "small_growth": with_stored_error(long.sel(case="fig3_small"), "growth"),
+        "stable_growth": with_stored_error(long.sel(case="fig2_large"), "growth"),
+        "grown": number(GROWN),
+        **_laws(long),
+        "tolerances": ", ".join(
+            with_stored_error(long.isel({"tolerance": i}), "tolerance_bulk_power")
+            + f" at {number(tolerance)}"
+            for i, tolerance in enumerate(long["tolerance"].values)
+        ),
+        "rest": number(long.attrs["rest"]),
+        "cut": number(cut.attrs["cut"]),
+        "cut_lag": number(cut["lag"][-1], 2),
+        "cut_end": number(cut["end"][-1], 4),
+        "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
+        "site_memory": number(cost["active_memory"][-1]),
+        "site_factor": number(cost["active_seconds"].max() / cost["active_seconds"].min(), 2),
+        "site_times": [
+            {"width": f"{int(width):,}", "time": number(1e6 * seconds)}
+            for width, seconds in zip(
+                cost["active_width"].values, cost["active_seconds"].values, strict=True
+            )
+        ],
+    }
+
+
+def _laws(long: xr.Dataset) -> dict[str, str]:
+    """Return how bounded and growing laws of l-infinity fit, and what the growing ones predict."""
+    ahead = long["law_ahead"]
+    return {
+        "spans": str(int(long["law_spans"])),
+        "bounded_off": number(long["law_chi2"].sel(law="limit_less_1_over_root_tau")),
+        **{
+            f"{short}_off": number(long["law_chi2"].sel(law=law), 2)
+            for short, law in GROWING_LAWS.items()
+        },
+        **{f"{short}_ahead": number(ahead.sel(law=law)) for short, law in GROWING_LAWS.items()},
+        "far": number(long["law_tau"]),
+    }
