@@ -77,6 +77,11 @@ def committed(file: str, folder: str = "") -> str:
     return _hand_out(COPIES / folder / source.name, source.read_bytes())
 
 
+def is_committed(file: str) -> bool:
+    """Return whether the project has a file, so that `committed` can hand out a copy."""
+    return (ROOT / file).exists()
+
+
 def kept(file: str) -> str:
     """Return the path of a copy of a result, brought up to date.
 

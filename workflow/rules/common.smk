@@ -17,7 +17,16 @@ import code_records
 import file_times
 import warm
 from benchmarks.problems import REGIMES
-from code_records import code, committed, copies, kept, records, was_made, whole_project
+from code_records import (
+    code,
+    committed,
+    copies,
+    is_committed,
+    kept,
+    records,
+    was_made,
+    whole_project,
+)
 from order import put_in_order
 from pendula import __version__
 from pendula.configuration.files import ConfigurationError, gather
