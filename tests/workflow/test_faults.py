@@ -85,4 +85,4 @@ def test_a_damaged_dataset_is_named_with_the_way_out(finished):
 def test_a_missing_dataset_is_made_again(finished):
     (finished / "results/trajectories/fig3_small.dop853.nc").unlink()
     jobs = planned(ROOT, finished)
-    assert jobs["trajectory"] == 1 and "sweep" not in jobs
+    assert jobs["trajectory_by_solvers"] == 1 and "trajectory" not in jobs

@@ -31,7 +31,7 @@ def test_results_moved_beside_a_new_clone_are_taken_as_they_are(finished, clone,
 def test_a_new_omega_reruns_its_case_and_the_figures_that_show_it(finished, clone):
     edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
     jobs = planned(clone, finished)
-    assert jobs.pop("trajectory") == 1
+    assert jobs.pop("trajectory") == jobs.pop("trajectory_by_solvers") == 1
     shown_in = {"fig4", "solver_figures", "solver_table", "all"}
     assert jobs.keys() >= shown_in
     # the ensembles of all chaotic cases lie in one dataset, which Figs 3 to 6 show
@@ -61,7 +61,8 @@ def test_one_plot_reruns_alone(finished, clone):
 def test_the_equations_rerun_every_simulation(finished, clone, module):
     change(clone / "scripts/pendula" / module)
     jobs = planned(clone, finished)
-    assert jobs["trajectory"] == 6 and jobs["sweep"] == 4
+    assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 6
+    assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 4
 
 
 def test_a_pin_reruns_everything(finished, clone):

@@ -62,7 +62,8 @@ def test_the_ledger_names_the_rules_that_decide(finished):
     rules = {row["name"]: row["rules"] for row in ledger_of(finished)}
     assert rules["hamiltonian"] == ["check_equations"]
     assert rules["growth_bound"] == ["check_bounds", "trajectory"]
-    assert rules["second_solver_sweeps"] == ["sweep", "measure_lyapunov", "measure_ensembles"]
+    swept = ["sweep", "sweep_by_second_solver"]
+    assert rules["second_solver_sweeps"] == [*swept, "measure_lyapunov", "measure_ensembles"]
 
 
 def test_other_cases_than_the_papers_decide_theorems_and_no_figure(finished):

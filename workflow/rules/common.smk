@@ -169,19 +169,11 @@ def references(*cases):
 
 
 def by_solvers(stem, solvers):
-    return [f"{stem}.nc", *(f"{stem}.{solver}.nc" for solver in solvers)]
-
-
-def trajectory_problems(case, solvers=()):
-    return [SETTINGS.problem(case, solver) for solver in (None, *solvers)]
+    return [f"{stem}.{solver}.nc" for solver in solvers]
 
 
 def own_sweep_solver(wildcards):
     return SETTINGS.swept_problem(wildcards.sweep)["solver"]["name"]
-
-
-def sweep_problems(sweep, solvers=()):
-    return [SETTINGS.swept_problem(sweep, solver) for solver in (None, *solvers)]
 
 
 def drawn_windows(sweep):

@@ -53,10 +53,12 @@ def makers():
         "measure_solvers": checks("solvers"),
         "measure_second_solver": checks("second_solver"),
         "measure_trust": checks("trust"),
-        "trajectory": [
-            path for solver in ("", *ALL_SOLVERS) for path in trajectories(solver and f".{solver}")
+        "trajectory": trajectories(),
+        "trajectory_by_solvers": [
+            path for solver in ALL_SOLVERS for path in trajectories(f".{solver}")
         ],
-        "sweep": sweeps() + sweeps(".crank_nicolson"),
+        "sweep": sweeps(),
+        "sweep_by_second_solver": sweeps(".crank_nicolson"),
         "spread": [f"results/unbounded/{study}.nc" for study in SETTINGS.unbounded.names],
         "map_windows": [f"results/unbounded/{name}.nc" for name in map_names()],
         "thermal": ["results/unbounded/thermal.nc"],

@@ -14,13 +14,13 @@ NAMED_FIGURES = {
 }
 NAMED = {name: (text, [*figure(name).values()]) for name, text in NAMED_FIGURES.items()}
 for case in PAPER_CASES:
-    NAMED[case] = f"The case {case} by every solver", by_solvers(
-        f"results/trajectories/{case}", ALL_SOLVERS
-    )
+    stem = f"results/trajectories/{case}"
+    files = [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]
+    NAMED[case] = f"The case {case} by every solver", files
 for sweep in PAPER_SWEEPS:
-    NAMED[sweep] = f"The sweep {sweep} by both solvers of the paper", by_solvers(
-        f"results/sweeps/{sweep}", ["crank_nicolson"]
-    )
+    stem = f"results/sweeps/{sweep}"
+    files = [f"{stem}.nc", *by_solvers(stem, ["crank_nicolson"])]
+    NAMED[sweep] = f"The sweep {sweep} by both solvers of the paper", files
 
 for name, (text, files) in NAMED.items():
 

@@ -22,12 +22,12 @@ rule compile_solver:
 
 
 rule trajectory:
-    "A case of the paper: {case}.nc by its own solver, and {case}.{solver}.nc by each"
+    "A case of the paper by its own solver: results/trajectories/{case}.nc"
     input:
         code=code("trajectories/simulate_case.py"),
-        kernels=kernels(*ALL_SOLVERS),
+        kernels=lambda wildcards: own_kernels(wildcards.case),
     output:
-        datasets=by_solvers("results/trajectories/{case}", ALL_SOLVERS),
+        datasets=["results/trajectories/{case}.nc"],
     log:
         "results/logs/trajectories/{case}.log",
     wildcard_constraints:
@@ -36,11 +36,30 @@ rule trajectory:
         "../envs/pinned.yaml"
     params:
         name="{case}",
-        problems=lambda wildcards: trajectory_problems(wildcards.case, ALL_SOLVERS),
+        problems=lambda wildcards: [SETTINGS.problem(wildcards.case)],
     message:
-        "Integrating {wildcards.case} by every solver"
+        "Integrating {wildcards.case} by its own solver"
     script:
         "../../scripts/trajectories/simulate_case.py"
+
+
+# Apart from the rule above, since the paper's figures show none of these.
+use rule trajectory as trajectory_by_solvers with:
+    "A case of the paper by every solver: results/trajectories/{case}.{solver}.nc of each"
+    input:
+        code=code("trajectories/simulate_case.py"),
+        kernels=kernels(*ALL_SOLVERS),
+    output:
+        datasets=by_solvers("results/trajectories/{case}", ALL_SOLVERS),
+    log:
+        "results/logs/trajectories/{case}.solvers.log",
+    params:
+        name="{case}",
+        problems=lambda wildcards: [
+            SETTINGS.problem(wildcards.case, solver) for solver in ALL_SOLVERS
+        ],
+    message:
+        "Integrating {wildcards.case} by every solver"
 
 
 use rule trajectory as own_trajectory with:
