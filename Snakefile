@@ -147,6 +147,7 @@ onstart:
         SCREEN.begin(run_of_jobs)
     if workflow.local_exec:
         put_in_order(workflow.dag)
+        begin_at_once(workflow.scheduler)
     warm.use(IMPORTED, workflow, RESULTS / "logs/imports.log")
 
 

@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import job
@@ -131,6 +132,17 @@ def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple(returns, calls, status):
     env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
     done = subprocess.run(command, capture_output=True, text=True, env=env)
     assert done.returncode == status, done.stderr
+
+
+def test_a_job_knows_for_how_long_it_has_run():
+    asked = [sys.executable, "-c", "import job, time; print(job._age(), time.time())"]
+    env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
+    earliest = time.time()
+    with subprocess.Popen(asked, stdout=subprocess.PIPE, text=True, env=env) as process:
+        latest = time.time()
+        age, now = map(float, process.communicate()[0].split())
+    tick = 0.02  # systems tell in hundredths of a second when a process began
+    assert earliest - tick < now - age < latest + tick
 
 
 def test_all_steps_of_a_long_job_stand_in_its_log_and_few_on_the_screen(monkeypatch, capsys):

@@ -108,8 +108,12 @@ def copies() -> list[str]:
 
 
 def _lines(files: list[Path]) -> bytes:
-    lines = [f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n" for file in files]
-    return "".join(dict.fromkeys(lines)).encode()
+    return "".join(dict.fromkeys(map(_line, files))).encode()
+
+
+@cache
+def _line(file: Path) -> str:
+    return f"{digest_of(file)}  {file.relative_to(ROOT).as_posix()}\n"
 
 
 def _hand_out(path: Path, content: bytes) -> str:

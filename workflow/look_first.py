@@ -68,9 +68,9 @@ def faults_in(word: str) -> list[str]:
 
 def look(arguments: list[str]) -> None:
     """End Snakemake with the faults of its configuration, if it has any."""
-    own = sorted(map(str, (PROJECT / "config").glob("*.yaml")))
+    own = str(PROJECT / "config/config.yaml")  # the Snakefile's `configfile`
     files = words_of(arguments, ("--configfile", "--configfiles"))
-    faults = [fault for file in [*own, *files] if (fault := fault_of(file))]
+    faults = [fault for file in [own, *files] if (fault := fault_of(file))]
     given = words_of(arguments, ("--config", "-C"))
     faults += [f"--config {word}: {fault}" for word in given for fault in faults_in(word)]
     faults += [

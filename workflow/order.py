@@ -1,4 +1,4 @@
-"""The order of jobs: first comes the one from which the longest way leads to the end of the run.
+"""When jobs begin: at once, and first that with the longest way from it to the end of the run.
 
 With few cores, a run takes longest where a long chain of jobs begins late and ends alone. How long
 a job takes is known from an earlier run, in this folder or of the accepted results.
@@ -8,6 +8,21 @@ from targets import accepted_seconds, seconds_of
 
 UNKNOWN = 1.0
 """Seconds of a job that never ran."""
+
+UNASKED = 100, 1
+"""Snakemake's own limit, where the user gives none: so many jobs may begin in so many seconds."""
+
+
+def begin_at_once(scheduler) -> None:
+    """Let jobs begin as soon as a core is free, unless the user gave a limit for each second.
+
+    To keep to its limit, Snakemake looks for jobs again a second after each time that it looked.
+    After n jobs it therefore looks n times in a second, and when all is done, it waits for the last
+    second to pass. On this machine the number of cores keeps jobs from beginning all together.
+    """
+    limiter = scheduler.job_rate_limiter
+    if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:
+        scheduler.job_rate_limiter = None
 
 
 def put_in_order(dag) -> None:

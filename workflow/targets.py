@@ -83,8 +83,9 @@ def _fault_of_target(word: str, rules: Mapping, own: Iterable[str]) -> str | Non
         text = "makes more than one file: name the file that you want, and not the rule"
         return f"{word} {text}. {patterns[word].docstring}"
     path = word if os.path.isabs(word) else os.path.relpath(word)
-    is_made = any(rule.is_producer(path) for rule in rules.values())
-    if word in rules or is_made or ("/" in word and os.path.exists(path)):
+    if word in rules or any(rule.is_producer(path) for rule in rules.values()):
+        return None
+    if "/" in word and os.path.exists(path):
         return None
     if word in own:
         return (

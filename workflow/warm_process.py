@@ -3,6 +3,9 @@
 A child has the arguments, the folder, the environment, the streams and the signals that its command
 would have had. What a process reads from its environment while it imports is the same in all of
 them, so that a job whose environment differs is refused, and then starts by itself.
+
+The first jobs of a run are ready before all is imported. They do not wait: a child imports what its
+parent has not yet, and most of the first jobs draw nothing, for which the parent imports last.
 """
 
 import atexit
@@ -24,7 +27,9 @@ import tempfile
 import threading
 import time
 import traceback
+from collections.abc import Iterator
 from contextlib import suppress
+from itertools import chain
 from typing import NamedTuple
 
 OF_A_SHELL = {b"_", b"SHLVL", b"PWD", b"OLDPWD", b"PS1", b"TMPDIR", b"TMP", b"TEMPDIR", b"TEMP"}
@@ -47,22 +52,24 @@ class Request(NamedTuple):
     streams: list[int]
 
 
-def prepare(modules: list[str]) -> None:
-    """Import everything, and do what each process that imported it would do at its first use."""
+def prepared(modules: list[str]) -> Iterator[None]:
+    """Import everything, and do what each process that imported it would do at its first use.
+
+    It pauses after each step.
+    """
     for name in modules:
         importlib.import_module(name)
-    if "numba" in sys.modules:
-        from numba.core.registry import cpu_target
+        yield
+        if "numba" in sys.modules:
+            from numba.core.registry import cpu_target
 
-        cpu_target.typing_context.refresh()
-        cpu_target.target_context.refresh()
+            cpu_target.typing_context.refresh()
+            cpu_target.target_context.refresh()
     if "xarray" in sys.modules:
         sys.modules["xarray"].backends.list_engines()
     if "pendula.drawing.style" in sys.modules:
+        yield
         _draw_something(sys.modules["pendula.drawing.style"])
-    gc.collect()
-    gc.freeze()
-    gc.enable()
 
 
 POWERS = range(-16, 5)
@@ -107,29 +114,55 @@ class Server:
             end.setblocking(False)
         signal.set_wakeup_fd(told.fileno(), warn_on_full_buffer=False)
         signal.signal(signal.SIGCHLD, lambda number, frame: None)
-        for source in (sys.stdin, listener, self._died):
+        for source in (sys.stdin, self._died):
             self._selector.register(source, selectors.EVENT_READ)
 
-    def serve(self) -> Request | None:
-        """Return None when Snakemake has ended, and in each child the job that it shall do."""
+    def serve(self, packages: list[str]) -> Request | None:
+        """Return None when Snakemake has ended, and in each child the job that it shall do.
+
+        Import `packages`, and what Snakemake names, while nobody asks for a job.
+        """
+        self._left = prepared(packages)
         lives = True
         while lives or self._children:
-            for key, _ in self._selector.select(self._patience()):
+            prepares = lives and self._prepare()
+            for key, _ in self._selector.select(0 if prepares else self._patience()):
                 if key.fileobj is self._listener:
                     if request := self._take():
                         return request
                 elif key.fileobj is self._died:
                     self._died.recv(4096)
-                elif key.fileobj is sys.stdin:  # Snakemake is gone
-                    lives = False
-                    self._selector.unregister(sys.stdin)
-                    for pid in self._children:
-                        self._end(pid)
+                elif key.fileobj is sys.stdin:
+                    lives = self._hear()
                 else:  # nobody waits for this job any more
                     self._selector.unregister(key.fileobj)
                     self._end(key.data)
             self._bury()
         return None
+
+    def _prepare(self) -> bool:
+        """Do the next step of what is left to prepare; return whether there was one."""
+        try:
+            return next(self._left, "nothing") is None
+        except Exception:  # each job that needs the module will say so
+            traceback.print_exc()
+            return False
+
+    def _hear(self) -> bool:
+        """Take down what jobs import, and listen to them; return False if Snakemake is gone."""
+        if line := sys.stdin.readline():
+            modules, log = json.loads(line)
+            with open(log, "wb") as file:
+                os.dup2(file.fileno(), 1)
+                os.dup2(file.fileno(), 2)
+            self._left = chain(self._left, prepared(modules))
+            self._selector.register(self._listener, selectors.EVENT_READ)
+            signal.pthread_sigmask(signal.SIG_BLOCK, KEPT)
+            return True
+        self._selector.unregister(sys.stdin)
+        for pid in self._children:
+            self._end(pid)
+        return False
 
     def _take(self) -> Request | None:
         """Take the job of the next client, or refuse it; return it in the child only."""
@@ -185,6 +218,8 @@ class Server:
         for number, handler in self._handlers.items():
             signal.signal(number, handler)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, KEPT)
+        gc.freeze()
+        gc.enable()
 
     def _end(self, pid: int) -> None:
         """Ask a job to end; _bury kills it if it does not."""
@@ -274,18 +309,8 @@ def main(listener: int, packages: list[str]) -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, set(KEPT) - {signal.SIGTERM})
     environment, path = dict(os.environb), list(sys.path)
     gc.disable()
-    for name in packages:
-        importlib.import_module(name)
-    line = sys.stdin.readline()
-    if not line:
-        os._exit(0)  # there is nothing to do
-    modules, log = json.loads(line)
-    with open(log, "wb") as file:
-        os.dup2(file.fileno(), 1)
-        os.dup2(file.fileno(), 2)
-    prepare(modules)
-    signal.pthread_sigmask(signal.SIG_BLOCK, KEPT)
-    request = Server(socket.socket(fileno=listener), handlers, environment).serve()
+    server = Server(socket.socket(fileno=listener), handlers, environment)
+    request = server.serve(packages)
     sys.path[:] = path
     if request is None:
         _tell()

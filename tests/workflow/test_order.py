@@ -1,9 +1,13 @@
 """Jobs begin in the order that ends the run soonest."""
 
 from collections import defaultdict
+from types import SimpleNamespace
 
 import order
 import pytest
+from snakemake.cli import get_argument_parser
+from snakemake.scheduling.job_scheduler import JobRateLimiter
+from snakemake.settings.types import MaxJobsPerTimespan
 
 
 class Job:
@@ -56,3 +60,15 @@ def test_what_never_ran_and_what_the_user_asks_for(dag, monkeypatch):
     dag._priority[dag.jobs["c"]] = Job.HIGHEST_PRIORITY
     found = priorities(dag)
     assert found["a"] == order.UNKNOWN + 3.0 and found["c"] == Job.HIGHEST_PRIORITY
+
+
+@pytest.mark.parametrize(
+    ("words", "limited"), [([], False), (["--max-jobs-per-timespan", "2/1m"], True)]
+)
+def test_jobs_wait_for_no_second_to_pass_unless_the_user_asks(words, limited):
+    given = get_argument_parser().parse_args(words).max_jobs_per_timespan
+    if isinstance(given, str):  # the default, as Snakemake's command line leaves it
+        given = MaxJobsPerTimespan.parse_choice(given)
+    scheduler = SimpleNamespace(job_rate_limiter=JobRateLimiter(given))
+    order.begin_at_once(scheduler)
+    assert bool(scheduler.job_rate_limiter) == limited

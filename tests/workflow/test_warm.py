@@ -127,8 +127,39 @@ def test_what_jobs_import_leaves_one_thread(tmp_path):
     assert "pendula.studies.paper.figures" in modules and "job" in modules
     one = Warm(tmp_path, modules)
     try:
-        forked = f"{FORKED}; import sys; print('xarray' in sys.modules)"
-        assert one.run(forked)[1] == "True\nTrue\n"
+        last = modules[-1]
+        forked = f"{FORKED}; import sys; print({last!r} in sys.modules and 'xarray' in sys.modules)"
+        wait_for(lambda: one.run(forked)[1] == "True\nTrue\n")
+    finally:
+        warm.end(one.process)
+
+
+def test_the_first_jobs_do_not_wait_for_all_that_is_imported(tmp_path):
+    """The process waits at two gates while it imports; a client asks while it is at the first."""
+    gates = [tmp_path / "first", tmp_path / "second"]
+    for gate in gates:
+        os.mkfifo(gate)
+        gate.with_suffix(".py").write_text(f"open({str(gate)!r}).read()")
+    one = Warm(tmp_path, ["first", "second"], {**ENVIRONMENT, "PYTHONPATH": str(tmp_path)})
+    try:
+        job = one.start("import sys; print([n in sys.modules for n in ('first', 'second')])")
+        # the listener has a line of this name, and so has each client at its door
+        wait_for(lambda: Path("/proc/net/unix").read_text().count(f"@{one.name}") > 1)
+        gates[0].write_text("open")
+        assert job.stdout.readline() == "[True, False]\n"
+        gates[1].write_text("open")
+        assert job.wait() == 0
+    finally:
+        warm.end(one.process)
+
+
+def test_a_module_that_fails_fails_in_the_jobs_that_need_it(tmp_path):
+    (tmp_path / "broken.py").write_text("1 / 0")
+    one = Warm(tmp_path, ["broken"], {**ENVIRONMENT, "PYTHONPATH": str(tmp_path)})
+    try:
+        assert one.run(FORKED)[:2] == (0, "True\n")
+        status, _, error = one.run("import broken")
+        assert status == 1 and "ZeroDivisionError" in error
     finally:
         warm.end(one.process)
 

@@ -16,29 +16,7 @@ sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts",
 import code_records
 import file_times
 import warm
-from benchmarks.problems import REGIMES
-from code_records import (
-    code,
-    committed,
-    copies,
-    is_committed,
-    kept,
-    records,
-    was_made,
-    whole_project,
-)
-from order import put_in_order
-from pendula import __version__
-from pendula.configuration.files import ConfigurationError, gather
-from pendula.configuration.messages import STUDIES, load, require
-from pendula.configuration.paper import ENCLOSED, concerning, differences, paper, reason
-from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
-from pendula.problem import Constants, name_window
-from pendula.studies.certified.norm import NotDefiniteError, find_form
-from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
-from progress import Run, expected, take_the_screen, what_it_takes
 from stop import stop
-from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
 
 # Snakemake would import pandas, for a fifth of a second, to ask of each parameter whether it is a
 # table of pandas. None is.
@@ -64,7 +42,6 @@ LOOKS = {
 }
 LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
-SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 RESULTS = Path("results").absolute()
 FOLDERS = [
     "archive",
@@ -108,7 +85,33 @@ os.environ.update(
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",
 )
+# It imports what jobs need, while what stands below is read.
 IMPORTED = warm.begin() if RUNS else None
+
+from benchmarks.problems import REGIMES
+from code_records import (
+    code,
+    committed,
+    copies,
+    is_committed,
+    kept,
+    records,
+    was_made,
+    whole_project,
+)
+from order import begin_at_once, put_in_order
+from pendula import __version__
+from pendula.configuration.files import ConfigurationError, gather
+from pendula.configuration.messages import STUDIES, load, require
+from pendula.configuration.paper import ENCLOSED, concerning, differences, paper, reason
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
+from pendula.problem import Constants, name_window
+from pendula.studies.certified.norm import NotDefiniteError, find_form
+from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
+from progress import Run, expected, take_the_screen, what_it_takes
+from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
+
+SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
