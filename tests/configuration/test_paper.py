@@ -1,14 +1,17 @@
 """Where a configuration is not the paper's, and which datasets and claims that concerns."""
 
 import copy
+import json
+from pathlib import Path
 
 import keep
 import pytest
-from pendula.configuration.files import ConfigurationError
-from pendula.configuration.messages import load, require
+from pendula.configuration.files import ConfigurationError, gather
+from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import differences, paper, reason, rests_on
 from pendula.ledger.claim import all_claims, needed
 
+ROOT = Path(__file__).resolve().parents[2]
 EDITS = {
     "omega": 1.0,
     "gamma": 0.5,
@@ -36,6 +39,12 @@ def edited(*place, value) -> dict:
 def test_the_committed_configuration_is_the_papers():
     assert keep.configuration() == paper(), "run `python docs/keep.py config` if this is meant"
     assert differences(paper()) == {}
+
+
+def test_a_run_of_the_committed_files_is_of_the_papers_cases():
+    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
+    whole = json.loads(load(gather(files, {})).model_dump_json())
+    assert "long" in whole["breathers"]["fates"] and differences(whole) == {}
 
 
 def test_cases_beside_the_papers_are_no_difference():
