@@ -117,9 +117,13 @@ def sweeps(right: list[float]) -> dict[str, xr.Dataset]:
 def samples(mean: float) -> dict[str, xr.Dataset]:
     numbers = {"l2_mean": mean, "l2_deviation": 2.0, "swept_run": 7.0}
     numbers["deviations"] = (7.0 - mean) / 2.0
-    drawn = {name: (("sweep", "half_width"), [[value]]) for name, value in numbers.items()}
+    unknown = {"swept_run": 8.0}  # longer chains have a run and no ensemble
+    drawn = {
+        name: (("sweep", "half_width"), [[value, unknown.get(name, np.nan)]])
+        for name, value in numbers.items()
+    }
     drawn |= {"swept_omega": ("sweep", [0.0]), "swept_initial": ("sweep", [made_up.SMALL])}
-    coords = {"sweep": ["fig5_right"], "half_width": [160]}
+    coords = {"sweep": ["fig5_right"], "half_width": [160, 240]}
     members = xr.Dataset({"swept_members": ("sweep", [8])}, {"sweep": ["fig5_right"]})
     return {"checks/ensemble_runs": xr.Dataset(drawn, coords=coords), "checks/ensembles": members}
 
@@ -157,6 +161,7 @@ def test_the_way_of_a_sweep_is_found_from_its_numbers(tmp_path, values, shape, l
 def test_a_chaotic_run_is_set_beside_its_ensemble(tmp_path, mean, off, below):
     (sample,) = paper._sweeps(swept_results(tmp_path, [1] * 6, mean), 5)["samples"]
     assert (str(sample["off"]), sample["below"], str(sample["runs"])) == (off, below, "8")
+    assert str(sample["width"]) == "160"
 
 
 def moving_chain() -> xr.Dataset:

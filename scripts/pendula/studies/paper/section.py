@@ -235,12 +235,10 @@ def levelled(level: float) -> str:
 
 
 def _samples(results: Results, which: int) -> list[dict[str, Any]]:
-    """Return what runs from almost equal data give on the longest chain, of chaotic sweeps."""
+    """Return what runs from almost equal data give on their longest chain, of chaotic sweeps."""
     data = results[SAMPLES]
     names = [str(name) for name in data["sweep"].values if str(name).startswith(f"fig{which}_")]
-    known = {
-        name: data.sel(sweep=name).dropna("half_width", subset=["swept_run"]) for name in names
-    }
+    known = {name: data.sel(sweep=name).dropna("half_width", subset=["l2_mean"]) for name in names}
     return [
         _sample(results, name, shared.isel(half_width=-1))
         for name, shared in known.items()
