@@ -67,6 +67,7 @@ def test_words_of_the_ledger_get_their_symbols():
     assert symbols("l2 <= exp(4 |gamma tau|) at Omega = -4") == "ℓ² ≤ exp(4 |γ τ|) at Ω = −4"
     assert symbols("order of 1e-6, mu^2, mu^1.0, l-infinity") == "order of 10⁻⁶, μ², μ^1.0, ℓ∞"
     assert symbols("a gammaray") == "a gammaray"
+    assert symbols("the slope of l2^2 over 2 v P") == "the slope of (ℓ²)² over 2 v P"
     assert plainly("P_over_C0_delta") == "P / C0 δ"
 
 

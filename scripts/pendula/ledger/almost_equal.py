@@ -43,9 +43,9 @@ def almost_equal(sensitivity, within: float) -> AlmostEqual:
     if lost.any():
         least = int(np.argmin(np.where(lost, sizes, np.inf)))
         caveat = (
-            f"an accident of the digits: of runs from data changed by {sizes[near].max():g} or less"
-            f" at least {share[near].min():.0%} spread, of those changed by {sizes[least]:g}"
-            f" {share[least]:.0%}"
+            f"an accident of the digits: {share[least]:.0%} of runs from data changed by"
+            f" {sizes[least]:g} spread, and {share[near].min():.0%} or more of those from data"
+            f" changed by {sizes[near].max():g} or less"
         )
     elif share[~near].min(initial=1.0) > MAJORITY.value:
         caveat = ""

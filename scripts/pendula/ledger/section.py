@@ -12,6 +12,8 @@ from .claim import controls_of, cutoff_lines
 from .criterion import Verdict, named
 
 LEDGER = "claims.json"
+BEYOND = "Beyond the paper"
+"""The place of a claim that is not the paper's."""
 
 
 def load(results: Results) -> list[dict]:
@@ -29,6 +31,7 @@ def gather(results: Results) -> dict[str, Any]:
     return {
         "rows": [_shown(row, results) for row in rows],
         "total": results.say(LEDGER, str(len(rows))),
+        "own": results.say(LEDGER, str(sum(row["place"] == BEYOND for row in rows))),
         "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in named(counted)],
         "resting": results.say(LEDGER, str(sum(bool(row["rests_on"]) for row in rows))),
         "controls": results.say(LEDGER, str(len(fed))),

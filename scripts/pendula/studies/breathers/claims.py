@@ -131,7 +131,8 @@ def of_another_family(dataset):
 def stable_on_any_chain(steady, periodic) -> Finding:
     """Compare verdicts with those on half of the half-width, above the frequencies of waves.
 
-    Within them the waves of a finite chain are few, and make quartets that come and go with it.
+    Within them the waves of a finite chain are few, and its multipliers leave the unit circle by
+    four at values that change with its length.
     """
     above = periodic["frequency"] > periodic["highest_wave"]
     outside = periodic[["growth", "growth_half"]].where(above)
@@ -147,8 +148,8 @@ def stable_on_any_chain(steady, periodic) -> Finding:
         return judge(measured, criterion)
     longer, shorter = (int(within[name].max()) for name in ("growing", "growing_half"))
     caveat = (
-        f"within the frequencies of waves a breather has {longer} growing multipliers, and"
-        f" {shorter} on half of the chain: quartets that a finite chain makes"
+        f"at a frequency of linear waves a breather has {longer} growing multipliers, and {shorter}"
+        " on half of the chain: they come from the few waves of a finite chain"
     )
     return judge(measured, criterion, caveat)
 

@@ -228,7 +228,7 @@ def rate_is_resolved(lifetimes) -> Finding:
     }
     says = "largest factor between a rate and the mean of all, limits included"
     criterion = Below(FACTOR, "resolution", says=says)
-    caveat = f"so many runs leave room for a factor of {measured['resolution']:.2g}"
+    caveat = f"the limits of these rates allow a factor of {measured['resolution']:.2g}"
     if nearest < FACTOR.value <= measured["resolution"]:
         return undecided(measured, caveat)
     return judge(measured, criterion, caveat)

@@ -354,8 +354,8 @@ def ensemble_fig6_time(even, uneven, sensitivity) -> Finding:
         shorter.append(earlier.mean[-1] / means.mean[-1])
     measured = {**lows, "shorter_over_longer": min(shorter), **near.measured}
     earlier = (
-        f"so does {TEXT_5}, by when the norm has {min(shorter):.0%} of that value on the longest"
-        " chain"
+        f"the shorter span {TEXT_5} does so too: on the longest chain the norm has reached"
+        f" {min(shorter):.0%} of its value by then"
     )
     says = "least lower limit of l2 over the start, at any M"
     criterion = AllOf(Above(FACTOR, *lows, says=says), near.criterion)

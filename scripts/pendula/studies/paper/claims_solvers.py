@@ -70,7 +70,7 @@ def drifts(trajectories, size: str) -> Finding:
     measured = absolute | {f"{name}_relative": value for name, value in relative.items()}
     limits = [_drift_limits(cases, size, end, suffix) for suffix in ("", "_relative")]
     held = [tuple(limit.holds(measured) for limit in pair) for pair in limits]
-    fails = f"at the paper's tolerances |H - H(0)| keeps to {ORDER.value:g} times that order {kept}"
+    fails = f"|H - H(0)| keeps to {ORDER.value:g} times that order {kept}"
     divided = f"|H - H(0)| / |H(0)| keeps to it {kept_relative}"
     if held[0] != held[1]:
         return undecided(measured, f"{fails}, and {divided}; the paper does not say which it means")
@@ -88,6 +88,8 @@ def _kept(trajectories, size: str, relative: bool) -> tuple[dict[str, float], st
         off = off / abs(float(ds["energy"][0])) if relative else off
         measured |= {case: off.max(), f"{case}_early": off[ds["tau"].values <= EARLY].max()}
         until[case] = float(first_above(ds["tau"], off, ORDER.value * STATED_DRIFT[size]))
+    if all(map(np.isinf, until.values())):
+        return measured, "in every case"
     said = (
         f"in {case} to {'the end' if np.isinf(time) else f'tau = {time:.3g}'}"
         for case, time in until.items()
@@ -333,8 +335,8 @@ def coverage(name: str, second, ensembles) -> str:
     worst = max(beyond, key=beyond.get)
     (first, last), (low, high) = sides[worst], means[worst]
     return (
-        f"{said} (the furthest of the others is M = {worst} with l2 = "
-        f"{float(run.sel(half_width=worst)):.3g}, between means of {low:.3g} at M = {first} and "
+        f"{said} (furthest off of the others: M = {worst} with l2 = "
+        f"{float(run.sel(half_width=worst)):.3g}, beside means of {low:.3g} at M = {first} and "
         f"{high:.3g} at M = {last})"
     )
 
@@ -414,7 +416,7 @@ def second_solver_sweeps(*datasets) -> Finding:
         Above(SIGNIFICANT, "chance_text", says=f"{said} the text"),
         Above(SIGNIFICANT, "chance_caption", says=f"{said} the caption"),
     )
-    held = f"runs are compared at {' and '.join(covered)}, where there are ensembles"
+    held = f"there are ensembles at {' and '.join(covered)}"
     return judge(measured, criterion, held if drawn else "", _swept_apart(measured, drawn, held))
 
 
@@ -434,8 +436,7 @@ def _swept_apart(measured, drawn: dict[str, dict], held: str) -> str:
         if low:
             told = " and ".join(f"{chance:.2g} by the {words}" for words, chance in low.items())
             parts.append(
-                f"{name} by the second solver is no likely draw from the ensembles: the chance of "
-                f"a run as far from their means is {told}, which are up to "
-                f"{100 * found['off'][0]:.2g} % off"
+                f"{name} by the second solver is no likely draw from the ensembles, with a chance "
+                f"of {told}, which are up to {100 * found['off'][0]:.2g} % off"
             )
     return "; ".join([*parts, held]) if drawn else "; ".join(parts)

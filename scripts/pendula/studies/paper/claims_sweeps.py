@@ -128,9 +128,9 @@ def fig5_caption(left, right) -> Finding:
         measured[f"rise_of_mean_{side}"] = average[-1] / average[0] - 1.0
     apart = [f"largest_difference_{side}" for side in ("left", "right")]
     fails = (
-        "text and caption disagree: on the left the maximum that the text names changes by"
-        f" {measured['rise_of_maximum_left']:.2%} over all M, the average of the caption by"
-        f" {measured['rise_of_mean_left']:.2%}"
+        f"averages lie up to {max(measured[name] for name in apart):.0%} below maxima; on the left"
+        f" the maximum changes by {measured['rise_of_maximum_left']:.2%} over all M, and the"
+        f" average by {measured['rise_of_mean_left']:.2%}"
     )
     criterion = Below(CONSTANT, *apart, says="average below the maximum, as a part of it")
     return judge(measured, criterion, fails=fails)
@@ -245,7 +245,9 @@ def fig6_caption(left, ensembles) -> Finding:
         measured |= {f"growth_by_{reading}": growth.value, f"low_by_{reading}": growth.low}
         measured[f"high_by_{reading}"] = growth.high
     if flat[1] and any(growth.low <= FACTOR.value <= growth.high for growth in grows):
-        return undecided(measured, f"the limits of a growth with M hold {FACTOR.value:g}")
+        return undecided(
+            measured, f"the growth with M has limits on both sides of {FACTOR.value:g}"
+        )
     grows = [growth.low > FACTOR.value for growth in grows]
     measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}
     if flat[0] == flat[1] and grows[0] == grows[1]:

@@ -149,9 +149,9 @@ def remainder_bounded(remainder) -> Finding:
     mu, end, growth = over_late_half(remainder, cases, SPAN)
     measured = {f"growth_{case}": float(growth.sel(case=case)) for case in cases}
     fails = (
-        f"from the first half of the span to tau = {end:g} to the second the largest remainder"
-        f" grows by {growth.min():.3g} to {growth.max():.3g}, at mu = {mu:g}; so the sentence holds"
-        " on a fixed span only, as mu goes to zero"
+        f"at mu = {mu:g} the largest remainder grows by a factor of {growth.min():.3g} to"
+        f" {growth.max():.3g} from the first half of the span to tau = {end:g} to its second half;"
+        " the sentence holds on a fixed span, as mu goes to zero"
     )
     says = "growth of the largest remainder from the first half of the span to the second"
     return judge(measured, Below(FACTOR, *measured, says=says), fails=fails)

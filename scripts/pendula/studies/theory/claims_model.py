@@ -140,8 +140,8 @@ def one_integral(lyapunov) -> Finding:
         many = [f"{c}, M = {m}" for c, m in pairs["spectrum"].values[pairs.values > 1.0]]
         return undecided(
             measured,
-            "every integral makes a pair of Lyapunov exponents vanish; runs are too short to tell"
-            f" more than one pair from zero in some spectra ({'; '.join(many)})",
+            "every integral makes a pair of Lyapunov exponents vanish, and the runs are too short"
+            f" to exclude that a second pair does in {len(many)} spectra ({'; '.join(many)})",
         )
     caveat = (
         "every integral makes a pair of Lyapunov exponents vanish, and on short chains in chaos"

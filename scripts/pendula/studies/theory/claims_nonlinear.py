@@ -208,10 +208,9 @@ def bootstrap(check) -> Finding:
         name: number(check, name) for name in ("largest_power", "allowed_power", "breaking")
     }
     fails = (
-        "the printed bound on P uses P <= C_0 delta, which it is to prove: a pair with"
-        f" P = {measured['breaking']:.3g} satisfies (25) and has the energy of small data,"
-        f" for which (24) allows {measured['allowed_power']:.3g}; the theorem stands,"
-        " as P is continuous and starts below the barrier of (25)"
+        f"a pair with P = {measured['breaking']:.3g} satisfies (25) and has the energy of data for"
+        f" which (24) allows {measured['allowed_power']:.3g}: the proof assumes P <= C_0 delta,"
+        " which it is to prove; the theorem stands, as P is continuous and starts below the barrier"
     )
     says = "largest P that the premises allow"
     return judge(

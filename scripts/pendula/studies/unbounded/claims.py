@@ -232,10 +232,10 @@ def unbounded_large(run, amplitudes, sensitivity) -> Finding:
     which = ", ".join(f"{size:g}" for size, share in zip(sizes, spread, strict=True) if share == 1)
     end, scanned = float(amplitudes["tau"][-1]), sensitivity["initial"].values
     amplitude = (
-        f"it depends on the data: of |A_0| = 5 |B_0| tried, l2 grew by a factor of"
-        f" {FACTOR.number:g} to tau = {end:g} at {which or 'none'}, and of"
-        f" {scanned.size} amplitudes from {scanned.min():g} to {scanned.max():g}"
-        f" {int(sensitivity['spread'].sum())} spread"
+        f"it depends on the data: of the amplitudes |A_0| = 5 |B_0| that were tried,"
+        f" {which or 'none'} made l2 grow by a factor of {FACTOR.number:g} to tau = {end:g}, and"
+        f" {int(sensitivity['spread'].sum())} of {scanned.size} amplitudes A_0 from"
+        f" {scanned.min():g} to {scanned.max():g} spread"
     )
     caveat = joined("" if min(spread) == 1.0 else amplitude, near.caveat)
     return judge(measured, AllOf(grows(), near.criterion), caveat)

@@ -328,10 +328,9 @@ def _moved(run, rise: float) -> float:
 def _on_its_way(measured: dict[str, float], end: str) -> str:
     """Return why a bulk that moves cannot be told from one that will be in its thermal state."""
     return (
-        f"energy is left behind, but {end} P = {measured['power']:.2f} is off that of its thermal "
-        f"state ({measured['thermal_power']:.2f}) by no more than the last quarter of the run may "
-        f"have moved it ({measured['moved_at_most']:.2f}); the long study (docs/findings.md) says "
-        "what longer runs show"
+        f"{end} P = {measured['power']:.2f} is not yet the {measured['thermal_power']:.2f} of the "
+        f"thermal state, and the last quarter of the run may have moved it by "
+        f"{measured['moved_at_most']:.2f}; docs/findings.md tells of longer runs"
     )
 
 

@@ -158,13 +158,9 @@ def unbounded_maximum(run) -> Finding:
         "scale_error": tail.half,
         "last": linf[:, -1].mean(),
     }
-    ahead = ", ".join(f"{fit.at(FAR_AHEAD):.2f} by {in_words(name)}" for name, fit in left.items())
     if rising and len(left) > len(rising):
-        return undecided(
-            measured,
-            f"bounded laws and growing ones fit; from {means.values[-1]:.2f} in the last span they "
-            f"lead at tau = 1e6 to {ahead}: no figure could show the difference",
-        )
+        return undecided(measured, _both_fit(left, bounded))
+    ahead = ", ".join(f"{fit.at(FAR_AHEAD):.2f} by {in_words(name)}" for name, fit in left.items())
     fails = f"no bounded law that was tried fits; those that fit lead at tau = 1e6 to {ahead}"
     says = "Akaike's criterion of the best bounded law less that of the best growing one"
     criterion = AllOf(
@@ -172,6 +168,16 @@ def unbounded_maximum(run) -> Finding:
         AtMost(0.0, "growing_laws_left", says="growing laws that fit and rise"),
     )
     return judge(measured, criterion, fails=fails)
+
+
+def _both_fit(left: dict[str, Fitted], bounded: dict[str, Fitted]) -> str:
+    """Say which bounded laws fit as growing ones do, and how little all differ far ahead."""
+    ahead = sorted(fit.at(FAR_AHEAD) for fit in left.values())
+    limits = ", ".join(in_words(name) for name in left if name in bounded)
+    return (
+        f"bounded laws ({limits}) fit as growing ones do, and at tau = 1e6 all of them lead to "
+        f"{ahead[0]:.2f} to {ahead[-1]:.2f}: no figure could show the difference"
+    )
 
 
 def supported(bounded: dict[str, Fitted], growing: dict[str, Fitted]) -> dict[str, Fitted]:
