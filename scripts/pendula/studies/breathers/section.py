@@ -124,9 +124,9 @@ def _within(results: Results) -> str:
     data = results[PERIODIC]
     rates = data[["growth", "growth_half"]].where(data["frequency"] <= data["highest_wave"])
     said = [
-        f"{symbols(str(family))} at λ = {number(float(frequency))} grows by"
-        f" {number(float(one['growth']))} and, on half of the chain, by"
-        f" {number(float(one['growth_half']))}"
+        f"at λ = {number(float(frequency))} a perturbation of {symbols(str(family))} grows at the"
+        f" rate {number(float(one['growth']))}, and on half of the chain at"
+        f" {number(float(one['growth_half']))}, per unit of τ"
         for family in data["family"].values
         for frequency in data["frequency"].values
         for one in [rates.sel(family=family, frequency=frequency).max("omega")]
@@ -172,7 +172,7 @@ def _sensitivity(results: Results) -> dict[str, Any]:
     ]
     return {
         "rows": rows,
-        "head": ["relative change of the data", "share that spreads", "at least", "at most"],
+        "head": ["relative change of the data", "share that spreads", "lower limit", "upper limit"],
         "members": results.quote(SENSITIVITY, float(data.attrs["members"])),
         "scanned": results.quote(SENSITIVITY, data.sizes["initial"]),
         "spread": results.quote(SENSITIVITY, int(data["spread"].sum())),

@@ -80,7 +80,13 @@ def _passages(results: Results) -> dict[str, Any]:
             results.quote(TOP, float(one["angle_so_far"].mean("member")) / (2.0 * np.pi)),
         ])  # fmt: skip
     return {
-        "head": ["μ", "gone over the top", "median τ", "rate a unit of τ", "turns"],
+        "head": [
+            "μ",
+            "gone over the top",
+            "median τ",
+            "rate per unit of τ",
+            "largest angle, turns",
+        ],
         "rows": rows,
         "end": results.quote(TOP, float(data["tau"][-1])),
         "members": results.quote(TOP, float(data.sizes["member"])),

@@ -21,7 +21,7 @@ def threshold(results: Results) -> dict[str, Any]:
         "sites": results.quote(DATA, float(data.attrs["sites"])),
         "more": results.quote(DATA, float(_more_of_the_finite(data))),
         "share": results.say(DATA, percent(float(share))),
-        "head": ["Ω", "Lemma 1", *(f"μ = {number(mu)}" for mu in mus)],
+        "head": ["Ω", "γ₀ of Lemma 1", *(f"μ = {number(mu)}" for mu in mus)],
         "rows": [_row(results, float(omega)) for omega in _outside(data)],
         "picture": results.picture("pendula_threshold", _alt(data)),
     }
