@@ -71,23 +71,27 @@ def chaos_sizes(given: dict) -> dict[str, str]:
     """Return how long, how many and how finely, by the parts of `chaos`."""
     lyapunov, swept, lives = given["lyapunov"], given["ensembles"], given["lifetimes"]
     spectrum = lyapunov["spectrum"]
-    chains, times = (_listed(one) for one in (spectrum["lengths"], spectrum["lengths"].values()))
-    short = f"M = {chains} for {times} times the case, tolerance {number(spectrum['tolerance'])}"
+    chains = (f"M = {m} run {number(n)} times" for m, n in spectrum["lengths"].items())
+    short = f"{' and '.join(chains)} {AS_LONG}, tolerance {number(spectrum['tolerance'])}"
     least, undriven = min(spectrum["lengths"]), spectrum["undriven_lengths"]
     return {
-        "exponents": f"{number(lyapunov['lengths'])} times the case, tolerance"
+        "exponents": f"runs {number(lyapunov['lengths'])} times {AS_LONG}, tolerance"
         f" {number(lyapunov['tolerance'])}",
         "divergence": f"tolerances {_listed(lyapunov['diverging_tolerances'])}",
         "spectra": short,
-        "undriven_spectra": f"M = {number(least)} for {number(undriven)} times the case",
+        "undriven_spectra": f"M = {number(least)} run {number(undriven)} times {AS_LONG}",
         "evenness": f"{number(given['symmetry']['members'])} perturbed runs and one unperturbed,"
         f" tolerance {number(given['symmetry']['tolerance'])}",
-        "sweeps": f"{_members(swept['sweeps'])}, even in n, and {_members(swept['uneven'])},"
-        f" uneven, tolerance {number(swept['tolerance'])}",
-        "members": _ensemble(given["members"], "members of two kinds"),
-        "lives": _ensemble(lives, f"members from {len(lives['amplitudes'])} amplitudes"),
-        "rates": f"the same from one amplitude, {len(lives['compared']['choices'])} choices",
+        "sweeps": f"even in n: {_members(swept['sweeps'])}; uneven: {_members(swept['uneven'])};"
+        f" tolerance {number(swept['tolerance'])}",
+        "members": _ensemble(given["members"], "members even in n and as many uneven"),
+        "lives": _ensemble(lives, f"members from each of {len(lives['amplitudes'])} amplitudes"),
+        "rates": f"{number(lives['members'])} members from one amplitude with each of"
+        f" {len(lives['compared']['choices'])} choices of tolerance and evenness",
     }
+
+
+AS_LONG = "as long as the case"
 
 
 def _listed(values) -> str:
@@ -96,8 +100,10 @@ def _listed(values) -> str:
 
 def _members(sweeps: dict[str, dict]) -> str:
     """Return how many members each sweep has, and at how many half-widths."""
-    sizes = [f"{one['members']} × {len(one['half_widths'])}" for one in sweeps.values()]
-    return " and ".join(sizes)
+    return ", ".join(
+        f"`{name}` {one['members']} members at each of {len(one['half_widths'])} half-widths"
+        for name, one in sweeps.items()
+    )
 
 
 def _ensemble(given: dict, words: str) -> str:
@@ -120,16 +126,12 @@ def theory_sizes(given: dict) -> dict[str, str]:
     """Return how many and how long, by the parts of `theory`."""
     worst, growth = given["worst"], given["chain_growth"]
     return {
-        "searches": f"{worst['starts']} searches, {worst['generations']} generations of"
-        f" {worst['population']}",
+        "searches": f"{worst['starts']} searches, {worst['generations']} generations with"
+        f" {worst['population']} data each",
         "thresholds": "chains of " + _listed(given["sharp_threshold"]["sizes"]) + " sites",
         "spreading": "to τ = " + number(given["threshold"]["long_times"][-1]),
         "chain_growth": f"{growth['members']} members on " + _listed(growth["sizes"]) + " sites",
     }
-
-
-def _listed(sizes: list) -> str:
-    return ", ".join(map(number, sizes))
 
 
 def pendula(baseline) -> dict[str, float]:
@@ -172,9 +174,11 @@ def pendula_sizes(given: dict) -> dict[str, str]:
         f" tolerance {number(remainder['tolerance'])}",
         "phases": f"the cases of Figs 2 to 4, μ = {_listed(phases['mus'])}, tolerance"
         f" {number(phases['tolerance'])}",
-        "sea": _ensemble(sea, f"members, μ = {_listed(sea['mus'])}"),
-        "over_the_top": _ensemble(top, f"members to τ = {number(top['end_time'])}")
-        + f", {number(len(top['mus']))} values of μ",
+        "sea": _ensemble(sea, f"members at each μ = {_listed(sea['mus'])}"),
+        "over_the_top": _ensemble(
+            top,
+            f"members to τ = {number(top['end_time'])} at each of {len(top['mus'])} values of μ",
+        ),
     }
 
 
@@ -201,11 +205,12 @@ def breathers_sizes(given: dict) -> dict[str, str]:
     chains = f"M = {number(steady['half_width'])} and half of it"
     return {
         "steady": f"{number(len(steady['omegas']))} values of Ω, {chains}",
-        "thresholds": f"to {number(steady['stability']['to'])}, {chains}",
+        "thresholds": f"Ω to {number(steady['stability']['to'])}, {chains}",
         "law": f"γ = {_listed(growth['end_times'])}, tolerance {number(growth['tolerance'])}",
-        "shares": f"{number(shares['members'])} members of {number(len(shares['sizes']))} sizes,"
+        "shares": f"{number(shares['members'])} members for each of"
+        f" {number(len(shares['sizes']))} sizes of the change,"
         f" tolerance {number(shares['tolerance'])}",
-        "fates": f"{number(fates['points'])} × {number(fates['points'])} data,"
+        "fates": f"{number(fates['points'])} values each of A_0 and B_0,"
         f" tolerance {number(fates['tolerance'])}",
     }
 
@@ -263,7 +268,7 @@ def unbounded_sizes(given: dict) -> dict[str, str]:
         "maps": f"{number(len(maps['half_widths']))} half-widths, τ to {number(maps['end_time'])},"
         f" {number(max(maps['members'].values()))} members at most",
         "energy": f"{solver['name']}, tolerance {number(solver['rtol'])}",
-        "thermal": f"{number(thermal['nodes'])} half-nodes a coordinate,"
+        "thermal": f"{number(thermal['nodes'])} nodes on each side of zero for a coordinate,"
         f" {number(thermal['density_nodes'])} for densities",
     }
 
@@ -288,9 +293,9 @@ def certified_sizes(given: dict) -> dict[str, str]:
         "frames": ", ".join(
             f"`{case}` to τ = {number(one['end_time'])}" for case, one in given["frames"].items()
         ),
-        "breathers": f"{number(len(given['breathers']['proofs']))} states, half-widths "
-        + " and ".join(number(m) for m in given["breathers"]["half_widths"].values()),
-        "constants": "those that the checks of the theory store",
+        "breathers": f"{number(len(given['breathers']['proofs']))} states; half-widths "
+        + ", ".join(f"{m} ({name})" for name, m in given["breathers"]["half_widths"].items()),
+        "constants": "all that the checks of the theory store",
     }
 
 

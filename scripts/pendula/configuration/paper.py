@@ -18,9 +18,8 @@ FREE = {
     *("seed", "draw", "snapshot_step", "needs", "long"),
     *("count", "samples", "generations", "population", "starts", "sites", "points"),
 }
-"""Keys that change no statement: other draws of a case, another look at it, longer studies, which
-no claim reads, and how thoroughly the checks of the theory try what holds of all data. Their
-controls find a test that is too weak."""
+"""Keys that change no statement: other draws of a case, another look at it, longer studies, and how
+thoroughly the theory is tried on data of all kinds. Its controls find a test that is too weak."""
 AT_LEAST = {"members", "swept_members", "nodes"}
 """Sizes of ensembles and grids: larger ones are still about the same case."""
 AT_MOST = {"tolerance"}

@@ -11,15 +11,12 @@ from pendula.report.words import Quote, number, plainly, symbols
 from .claim import controls_of, cutoff_lines
 from .criterion import Verdict, named
 
-LEDGER = "claims.json"
-BEYOND = "Beyond the paper"
-"""The place of a claim that is not the paper's."""
+LEDGER, BEYOND = "claims.json", "Beyond the paper"
 
 
 def load(results: Results) -> list[dict]:
     """Return the rows of the ledger."""
-    path = results.path(LEDGER)
-    with readable(path):
+    with readable(path := results.path(LEDGER)):
         return json.loads(path.read_text(encoding="utf-8"))
 
 

@@ -128,8 +128,7 @@ def measured(value: float, digits: int = 3) -> str:
 
 def symbols(text: str) -> str:
     """Return a text of the ledger with its Greek letters and signs."""
-    text = text.replace("l2^2", "(l2)²")  # two raised twos in a row would be a riddle
-    text = _NAMES.sub(lambda found: SYMBOLS[found[0]], text)
+    text = _NAMES.sub(lambda found: SYMBOLS[found[0]], text.replace("l2^2", "(l2)²"))
     text = _POWERS_OF_TEN.sub(lambda found: number(float(found[0]), len(found[0])), text)
     text = _EXPONENTS.sub(lambda found: raised(found[1]), text)
     text = _MINUS.sub(MINUS, text)
