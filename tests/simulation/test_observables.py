@@ -6,7 +6,7 @@ from hypothesis import given
 from oracle import boundaries, chains, random_chain
 from pendula.models.amplitudes import Chain, energy
 from pendula.simulation.lattice import Reduction, choose_ends, pack
-from pendula.simulation.observables import blank_record, norms, observe
+from pendula.simulation.observables import blank_record, observe
 
 WHOLE = Reduction(even=False, synchronised=False)
 HALF = Reduction(even=True, synchronised=False)
@@ -14,6 +14,13 @@ HALF = Reduction(even=True, synchronised=False)
 
 def chain_for(boundary, reduction):
     return Chain(1.0, 1.0, -4.0, *choose_ends(boundary, reduction))
+
+
+def norms(chain, y, row):
+    """Return the l-infinity and l2 norms of the component whose rows begin at `row`."""
+    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, 1, 0)
+    observe(chain, y, 0, record)
+    return record.linf[row // 2, 0], record.l2[row // 2, 0]
 
 
 @pytest.mark.parametrize("reduction", [WHOLE, HALF])
@@ -100,3 +107,13 @@ def test_a_record_without_moduli_keeps_none():
     observe(chain_for("dirichlet", WHOLE), pack(random_chain(2), WHOLE), 2, record)
     assert record.modulus.shape == (2, 5, 0)
     assert record.scratch.shape == (2, 7)  # of the columns of a state
+
+
+def test_the_energy_is_left_out_where_nobody_asks_for_it():
+    z = random_chain(2)
+    chain, y = chain_for("dirichlet", WHOLE), pack(z, WHOLE)
+    whole, norms_alone = blank_record(2, 5, 1, 0), blank_record(2, 5, 1, 0, energy=False)
+    for record in (whole, norms_alone):
+        observe(chain, y, 0, record)
+    assert norms_alone.energy.size == 0
+    assert (norms_alone.l2 == whole.l2).all() and (norms_alone.linf == whole.linf).all()

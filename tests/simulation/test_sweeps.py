@@ -54,3 +54,20 @@ def test_progress_is_told_for_each_half_width():
     told = []
     sweep(PROBLEM, [3, 4], [(0.0, 0.5)], told.append)
     assert told == ["half-width 3 done (1 of 2)", "half-width 4 done (2 of 2)"]
+
+
+def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
+    followed = []
+
+    def follow(problem, **others):
+        followed.append(problem.half_width)
+        return simulate(problem, **others)
+
+    monkeypatch.setattr("pendula.simulation.sweep.simulate", follow)
+    swept = sweep(PROBLEM, [8, 25, 40, 12, 30], WINDOWS)
+    assert followed == [8, 25, 12]  # by tau = 3 the data have come to M = 12, and to M = 25 not
+    for part in (swept.l2, swept.linf):
+        np.testing.assert_array_equal(part[2], part[1])
+        np.testing.assert_array_equal(part[4], part[1])
+        assert (part[3] != part[1]).any()
+    assert sweep(PROBLEM, [40], WINDOWS).l2.tolist() == swept.l2[2:3].tolist()

@@ -143,16 +143,18 @@ def advance(series, h):
 @kernel
 def evaluate(series, h, y):
     """Write the sum of the series at the time `h` into the state `y`."""
-    # a vector cannot be written site by site: it goes by way of the ghosts, which are written anew
-    # before they are read
+    # a vector cannot be written site by site: that of the last block goes by way of the ghosts,
+    # which are written anew before they are read
     m, spare = series.memory, ghosts_start(series, 0)
     for row in range(y.shape[0]):
-        for block in range(series.blocks):
-            i = block_start(series, row // 2, block) + row % 2 * LANES
-            store(m, spare, sum_at(m, i, h))
-            first = 1 + block * LANES
-            for column in range(first, min(first + LANES, y.shape[1] - 1)):
-                y[row, column] = m[spare + column - first]
+        start, column = row % 2 * LANES, row * y.shape[1] + 1
+        for block in range(series.blocks - 1):
+            value = sum_at(m, block_start(series, row // 2, block) + start, h)
+            store(y, column + block * LANES, value)
+        last = series.blocks - 1
+        store(m, spare, sum_at(m, block_start(series, row // 2, last) + start, h))
+        for j in range(series.sites_in_last):
+            y[row, 1 + last * LANES + j] = m[spare + j]
 
 
 # --- Step control -------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ class Trajectory(NamedTuple):
     tau: np.ndarray  # (time,)
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # (time,), empty where the equations conserve none
+    energy: np.ndarray  # (time,), empty where the equations conserve none, or if not asked for
     modulus: np.ndarray  # (component, site, snapshot), empty unless asked for
     final: np.ndarray  # at the end time: complex (component, site); of the pendula as snapshots are
     outcome: Outcome
@@ -41,24 +41,26 @@ class Trajectory(NamedTuple):
     """Of the pendula: angles and velocities, (part, component, site, snapshot)."""
 
 
-def simulate(problem: Problem, reduction: Reduction | None = None) -> Trajectory:
+def simulate(
+    problem: Problem, reduction: Reduction | None = None, energy: bool = True
+) -> Trajectory:
     """Integrate a problem and reduce it to observables at its output times.
 
     `reduction` says how much of the chain is integrated; by default it is the least that the exact
-    symmetries of the data allow. The solver is one of pendula.simulation.solvers, or
-    {"name": "auto", "error": ...}. Raises IntegrationError where the run would not end, the solver
-    gives up, or the result is not finite.
+    symmetries of the data allow. Without `energy` the trajectory has none. The solver is one of
+    pendula.simulation.solvers, or {"name": "auto", "error": ...}. Raises IntegrationError where the
+    run would not end, the solver gives up, or the result is not finite.
     """
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, reduction)
     if reduction is None:
         reduction = find_reduction(problem.amplitudes)
-    times, record, y, outcome = integrate(problem, reduction, interruptible)
+    times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
     return _collect(problem, times, record, y, reduction, outcome)
 
 
 def integrate(
-    problem: Problem, reduction: Reduction, call: Callable
+    problem: Problem, reduction: Reduction, call: Callable, energy: bool = True
 ) -> tuple[np.ndarray, Any, np.ndarray, Outcome]:
     """Return times, observables of the part that `reduction` leaves, its final state, the outcome.
 
@@ -77,7 +79,8 @@ def integrate(
     method = model.solvers[name]
     y = model.start(problem, reduction)
     times = model.times(problem)
-    record = model.record(y.shape[0] // 2, y.shape[1] - 2, len(times), problem.snapshot_every)
+    size = y.shape[0] // 2, y.shape[1] - 2, len(times)
+    record = model.record(*size, problem.snapshot_every, energy)
     scales = {"atol": model.atol(problem)}
     controls = tuple(
         float(problem.solver[name]) * scales.get(name, 1.0) for name in method.controls

@@ -5,12 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.numerics.elementary import square_modulus
 from pendula.problem import Problem
 
 from .simulate import Trajectory, simulate
 
 QUANTITIES = ("A", "B", "pair")
 STATISTICS = ("max", "mean")
+REACHED = 1e-20
+"""The power at an end of the chain, over the largest of a site, from which on the end counts. What
+an end changes of a norm is of this part: it is far below rounding."""
 
 
 class Sweep(NamedTuple):
@@ -27,16 +31,31 @@ def sweep(
     windows: list[tuple[float, float]],
     progress: Callable[[str], None] = lambda message: None,
 ) -> Sweep:
-    """Integrate `problem` on chains of each half-width."""
+    """Integrate `problem` on chains of each half-width.
+
+    Where a run ends before anything has come to the ends of its chain, longer chains do the same,
+    and those that follow are not run.
+    """
     l2, linf, outcomes = [], [], []
-    half_widths = list(half_widths)
+    half_widths, enough, inside = list(half_widths), np.inf, None
     for done, half_width in enumerate(half_widths, 1):
-        trajectory = simulate(problem.changed(half_width=half_width, snapshot_every=0))
+        trajectory = inside
+        if half_width < enough:
+            own = problem.changed(half_width=half_width, snapshot_every=0)
+            trajectory = simulate(own, energy=False)
+            if _is_inside(trajectory):
+                enough, inside = half_width, trajectory
         l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
         linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
         outcomes.append(trajectory.outcome)
         progress(f"half-width {half_width} done ({done} of {len(half_widths)})")
     return Sweep(np.array(l2), np.array(linf), outcomes)
+
+
+def _is_inside(trajectory: Trajectory) -> bool:
+    """Return whether nothing has come to the ends of the chain."""
+    power = square_modulus(trajectory.final)
+    return bool(power[..., [0, -1]].max() <= REACHED * power.max())
 
 
 def pair_l2(trajectory: Trajectory) -> np.ndarray:

@@ -101,7 +101,7 @@ def early_index(tau: np.ndarray) -> int:
 
 def _run(problem: Problem, tolerance: float, solver: str = "dop853") -> Trajectory:
     solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
-    return simulate(problem.changed(solver=solver, snapshot_every=0))
+    return simulate(problem.changed(solver=solver, snapshot_every=0), energy=False)
 
 
 # --- Datasets -------------------------------------------------------------------------------------

@@ -90,7 +90,7 @@ def measure_case(problem: Problem, windows, size: float, members: int, seed: int
     Spread and mean are those of the last of the `windows`.
     """
     drawn = draw_members(problem, size, members, seed, kind)
-    runs = [simulate(member) for member in drawn]
+    runs = [simulate(member, energy=False) for member in drawn]
     reduced = [reduce_run(run, windows, problem.snapshot_every) for run in runs]
     start, end = windows[-1]
     last = (runs[0].tau >= start) & (runs[0].tau <= end)
