@@ -78,17 +78,28 @@ def widen(state: np.ndarray, half_width: int | None, rest: float) -> np.ndarray:
     return opened
 
 
-def advance(constants: Constants, state: np.ndarray, times: np.ndarray, solver: Mapping) -> Piece:
+def advance(
+    constants: Constants,
+    state: np.ndarray,
+    times: np.ndarray,
+    solver: Mapping,
+    rooms: dict | None = None,
+) -> Piece:
     """Integrate `state` in place over `times` (outputs, both ends included) on its sites 0..W.
 
-    Raises IntegrationError where the solver gives up.
+    `rooms` keeps the solver's work arrays from one piece to the next: to ask the system for them
+    anew takes as long as a tenth of a piece. Raises IntegrationError where the solver gives up.
     """
+    rooms = {} if rooms is None else rooms
     method = SOLVERS[solver["name"]]
     record = blank_record(state.shape[0] // 2, state.shape[1] - 2, len(times), 0)
     controls = tuple(float(solver[name]) for name in method.controls)
     chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
-    work = method.room_for(chain, state)
-    outcome = interruptible(method.run, chain, state, times, controls, work, record)
+    key = solver["name"], state.shape
+    if key not in rooms:
+        rooms.clear()
+        rooms[key] = method.room_for(chain, state)
+    outcome = interruptible(method.run, chain, state, times, controls, rooms[key], record)
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]
         raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {reason}")
@@ -137,10 +148,11 @@ def run_long(
     count = round(problem.end_time / PIECE)
     kept = recall_checkpoint(keep_at, description) if keep_at else None
     series, state = _start(problem) if kept is None else _continue(kept)
+    rooms = {}
     for piece in range(len(series["piece_tau"]), count):
         state = widen(state, problem.half_width, rest)
         times = _times(problem, piece, piece + 1)
-        done = advance(problem.constants, state, times, problem.solver)
+        done = advance(problem.constants, state, times, problem.solver, rooms)
         _add(series, times, done, first=piece == 0)
         means = bulk_means(done.state, problem.constants, series["front"][-1])
         series["bulk"].append(means)

@@ -35,7 +35,8 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
     Beyond the last site is rest, whatever the ghost there holds.
     """
     sites = state[:, 1:-1]
-    steps = np.diff(sites, axis=1, append=0.0)
+    steps = np.empty_like(sites)
+    steps[:, :-1], steps[:, -1] = sites[:, 1:] - sites[:, :-1], 0.0 - sites[:, -1]
     a, b = _of_pair(sites * sites)
     bonds = sum(_of_pair(steps * steps))
     drive = _drive(sites)
@@ -84,7 +85,8 @@ def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> n
     """Return the means of P and of the terms of (8) over the bulk behind each front, (front, 5)."""
     power = sum(_of_pair(state[:, 1:-1] * state[:, 1:-1]))
     values = np.array([power, *energy_terms(state, constants)])
-    return np.array([values[:, bulk_of(state, front)].mean(axis=1) for front in fronts])
+    bulks = [values[:, bulk_of(state, front)] for front in fronts]
+    return np.array([np.add.reduce(bulk, axis=1) / bulk.shape[1] for bulk in bulks])
 
 
 def end_of_bulk(sites: np.ndarray, level: float = 1.0) -> int:
