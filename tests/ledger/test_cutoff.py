@@ -2,7 +2,7 @@
 
 import pytest
 from pendula.ledger.criterion import Below, judge
-from pendula.ledger.cutoff import Cutoff, flips, moving, recorded
+from pendula.ledger.cutoff import Cutoff, flips, moving, once, recorded
 
 HALF = Cutoff(0.5, '"about half"')
 WHOLE = Cutoff(0.9, '"nearly all"', ideal=1.0)
@@ -56,3 +56,28 @@ def test_an_inner_cutoff_counts_though_no_criterion_prints_it():
 
     (flip,) = flips_of(decide)
     assert flip.verdict == "not reproduced" and flip.value == pytest.approx(1 - 0.2 / 3)
+
+
+def test_the_same_datasets_are_measured_once_and_others_anew():
+    asked = []
+
+    @once
+    def measure(data, name):
+        asked.append(name)
+        return [name, *data]
+
+    data, alike = [1.0], [1.0]
+    assert measure(data, "l2") is measure(data, "l2")
+    assert measure(data, "linf") == ["linf", 1.0] and measure(alike, "l2") == ["l2", 1.0]
+    assert asked == ["l2", "linf", "l2"]
+
+
+def test_what_reads_a_cutoff_is_measured_at_each_of_its_values():
+    cutoff = Cutoff(3.0, "a test")
+    share = once(lambda data: data[0] / cutoff.value)
+    data = [6.0]
+    with recorded() as read:
+        assert share(data) == 2.0
+    assert read == {cutoff}
+    with moving(cutoff, 2.0):
+        assert share(data) == 1.0

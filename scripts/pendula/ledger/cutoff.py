@@ -9,7 +9,8 @@ that the ledger can decide the claim again with each of its cut-offs a third sma
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import NamedTuple
+from functools import wraps
+from typing import Any, NamedTuple
 
 MOVES = (2.0 / 3.0, 4.0 / 3.0)
 """A cut-off is moved by a third either way."""
@@ -92,3 +93,27 @@ def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> lis
             if other != verdict:
                 found.append(Flip(cutoff, cutoff.moved(factor), other))
     return found
+
+
+def once(measure: Callable) -> Callable:
+    """Let a deciding function measure the same datasets once, however often it decides.
+
+    Datasets are the same if they are one object; words and numbers are if they are equal. What
+    reads a cut-off changes as that moves, so it is measured each time.
+    """
+    kept: dict[tuple, tuple] = {}
+
+    @wraps(measure)
+    def measured(*given: Any) -> Any:
+        key = tuple(one if isinstance(one, str | float | int) else ("", id(one)) for one in given)
+        if key in kept:
+            return kept[key][0]
+        with recorded() as read:
+            found = measure(*given)
+        for cutoff in read:
+            _ = cutoff.value  # the decision has read it too
+        if not read:
+            kept[key] = found, given  # kept too, so that no other object gets the same id
+        return found
+
+    return measured

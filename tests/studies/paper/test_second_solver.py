@@ -84,10 +84,10 @@ def test_only_a_case_that_was_followed_is_known_to_be_chaotic():
         {"case": ["fig2_small"], "tau": tau},
     )  # fmt: skip
     run = xr.Dataset(attrs=ABOUT)
-    assert claims.is_chaotic(lyapunov, run)
-    assert not claims.is_chaotic(claims.regular(lyapunov), run)
+    assert claims.are_chaotic(lyapunov, [run]) == [True]
+    assert claims.are_chaotic(claims.regular(lyapunov), [run]) == [False]
     with pytest.raises(UndecidableError, match="fig2_small"):
-        claims.is_chaotic(lyapunov, run.assign_attrs(omega=7.0))
+        claims.are_chaotic(lyapunov, [run, run.assign_attrs(omega=7.0)])
 
 
 def members(level):

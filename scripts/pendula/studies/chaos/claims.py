@@ -20,7 +20,7 @@ from pendula.ledger.criterion import (
     WithinFactor,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.cutoff import Cutoff, once
 from pendula.measures.confidence import (
     CONFIDENCE,
     Limits,
@@ -59,9 +59,15 @@ def limits(members, case: str, reduce: Callable) -> dict[str, Limits]:
     if case not in members["case"].values or not known:
         raise UndecidableError(f"there is no ensemble of {case} on {EARLIER} and {LATER}")
     return {
-        str(kind): mean_limits(reduce(members.sel(kind=kind, case=case)), LEVEL.value)
-        for kind in members["kind"].values
+        kind: mean_limits(reduce(members_of(members, kind, case)), LEVEL.value)
+        for kind in map(str, members["kind"].values)
     }
+
+
+@once
+def members_of(members, kind: str, case: str):
+    """Return the dataset of one kind of ensemble of a case."""
+    return members.sel(kind=kind, case=case)
 
 
 def named(found: dict[str, Limits], part: str, name: str = "") -> dict[str, float]:
@@ -75,7 +81,13 @@ def named(found: dict[str, Limits], part: str, name: str = "") -> dict[str, floa
 
 def level(norm: str, window: str = LATER, quantity: str = "pair") -> Callable:
     """Return a function of a case's members: the mean of a norm over a window."""
-    return lambda case: case[f"{norm}_level"].sel(window=window, quantity=quantity).values
+    return lambda case: levels_of(case, norm, window, quantity)
+
+
+@once
+def levels_of(case, norm: str, window: str, quantity: str) -> np.ndarray:
+    """Return the mean of a norm of each member over a window."""
+    return case[f"{norm}_level"].sel(window=window, quantity=quantity).values
 
 
 def over_start(norm: str) -> Callable:
@@ -297,11 +309,9 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
     """Return lower less upper panel of a norm over a window, as a part of the lower, by kind."""
     limits(members, BOTH[0], level(norm, window))  # says what is missing
     found = {}
-    for kind in members["kind"].values:
-        small, large = (level(norm, window)(members.sel(kind=kind, case=case)) for case in BOTH)
-        found[str(kind)] = difference_limits(
-            large / large.mean(), small / large.mean(), LEVEL.value
-        )
+    for kind in map(str, members["kind"].values):
+        small, large = (level(norm, window)(members_of(members, kind, case)) for case in BOTH)
+        found[kind] = difference_limits(large / large.mean(), small / large.mean(), LEVEL.value)
     return found
 
 

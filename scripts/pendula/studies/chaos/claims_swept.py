@@ -35,6 +35,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
+from pendula.ledger.cutoff import once
 from pendula.measures.confidence import Limits, ratio_limits, student
 from pendula.measures.levels import levelling_of_means
 from pendula.models.bounds import theorem_2_constants
@@ -73,6 +74,7 @@ class Means(NamedTuple):
         return levelling_of_means(self.half_width, self.mean, self.error, self.apart, least)
 
 
+@once
 def maxima(ensembles, sweep: str, norm: str, window: str) -> Means:
     """Return the means of the maxima of the pair's norm over a window."""
     text = f"the ensemble has fewer than {FEWEST} half-widths, or not the window"

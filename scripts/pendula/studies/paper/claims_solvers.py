@@ -21,9 +21,10 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
-from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.cutoff import Cutoff, once
+from pendula.measures import difference as differences
 from pendula.measures.confidence import chance_of_draw
-from pendula.measures.difference import VISIBLE, difference, divergence_time, first_above
+from pendula.measures.difference import VISIBLE, divergence_time, first_above
 from pendula.measures.norms import drift, largest, total_power
 
 from .solvers import EARLY, ORDER, STATED_DRIFT
@@ -144,15 +145,23 @@ def energy_large(*trajectories) -> Finding:
 # --- The second solver: Figs 2 to 4 ---------------------------------------------------------------
 
 
-def is_chaotic(lyapunov, dataset) -> bool:
-    """Return whether the case of a trajectory or a sweep, which has its data, is chaotic."""
-    about = dataset.attrs
-    same = (lyapunov["omega"] == about["omega"]) & (lyapunov["initial"] == about["initial"])
-    if not same.any():
-        raise UndecidableError(f"it is not known whether {about['case']} is chaotic")
-    return bool(chaotic(lyapunov).values[same.values][0])
+def are_chaotic(lyapunov, datasets) -> list[bool]:
+    """Return whether the cases of trajectories or sweeps, which have its data, are chaotic."""
+    cases = zip(lyapunov["omega"].values, lyapunov["initial"].values, strict=True)
+    known = dict(zip(cases, chaotic(lyapunov).values, strict=True))
+    found = []
+    for about in (dataset.attrs for dataset in datasets):
+        case = about["omega"], about["initial"]
+        if case not in known:
+            raise UndecidableError(f"it is not known whether {about['case']} is chaotic")
+        found.append(bool(known[case]))
+    return found
 
 
+difference = once(differences.difference)
+
+
+@once
 def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
     """Return by norm and time window the chance that a draw is as far from the mean as a run.
 
@@ -198,10 +207,12 @@ def second_solver(*datasets) -> Finding:
     (lyapunov, members, steps), count = datasets[-3:], len(SECOND)
     steps, chances, off = steps.sel(scheme="crank_nicolson"), [], {}
     measured = {"largest_regular": 0.0, "beyond_step_error": 0.0, "at_half_step": 0.0}
-    for first, second in zip(datasets[:count], datasets[count : 2 * count], strict=True):
+    pairs = zip(datasets[:count], datasets[count : 2 * count], strict=True)
+    chaos = are_chaotic(lyapunov, datasets[:count])
+    for (first, second), is_chaotic in zip(pairs, chaos, strict=True):
         case, apart = str(first.attrs["case"]), difference(first, second)
         time = measured[f"divergence_{case}"] = float(divergence_time(apart))
-        if is_chaotic(lyapunov, first):
+        if is_chaotic:
             if np.isfinite(time):
                 chances.append(of_most(late_chances(second, members, case, time)))
         else:
@@ -268,12 +279,14 @@ def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
     return groups
 
 
-def swept_chances(second, drawn, norms) -> list[float]:
-    """Return by distinct run the chance that a draw is as far from the mean as the second solver.
+@once
+def chances_of(name: str, second, ensembles, statistic: str, window: str):
+    """Return the chance that a draw is as far from the mean as the second solver, and the norms.
 
-    `second` and `drawn` are a sweep and its ensemble at one quantity, statistic and window. The
-    chance of a run is that of the least of its norms and half-widths, by Bonferroni's bound.
+    Chances are (norm, half_width) of the norms that the text draws, the norms all of NORMS.
     """
+    drawn = ensembles.sel(sweep=name, quantity="pair", statistic=statistic, window=window)
+    second = second.sel(quantity="pair", statistic=statistic, window=window)
     drawn = drawn.dropna("half_width", subset=["l2_mean"])
     shared = np.intersect1d(second["half_width"], drawn["half_width"])
     if len(shared) < FEWEST:
@@ -287,11 +300,26 @@ def swept_chances(second, drawn, norms) -> list[float]:
             drawn[f"{norm}_deviation"].values,
             members,
         )
-        for norm in norms
+        for norm in TEXT[name[:4]][1]
     ]
-    found = np.stack(chances)
-    runs = distinct_runs(second[norm].values for norm in NORMS)
-    return [together(found[:, places]) for places in runs]
+    return np.stack(chances), [second[norm].values for norm in NORMS]
+
+
+def swept_chances(name: str, second, ensembles, statistic: str, window: str) -> list[float]:
+    """Return by distinct run the chance that a draw is as far from the mean as the second solver.
+
+    The chance of a run is that of the least of its norms and half-widths, by Bonferroni's bound.
+    """
+    found, norms = chances_of(name, second, ensembles, statistic, window)
+    return [together(found[:, places]) for places in distinct_runs(norms)]
+
+
+@once
+def off_means(name: str, second, ensembles, window: str) -> float:
+    """Return the largest relative difference of l2 from the ensemble's mean, means over time."""
+    at = {"quantity": "pair", "statistic": "mean", "window": window}
+    mean = ensembles["l2_mean"].sel(sweep=name, **at)
+    return float(abs(second["l2"].sel(at) / mean - 1.0).max())
 
 
 def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
@@ -301,19 +329,17 @@ def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
     """
     if name not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {name}")
-    ensemble, (window, norms) = ensembles.sel(sweep=name, quantity="pair"), TEXT[name[:4]]
-    read = {"text": ("max", window), "caption": ("mean", CAPTION[name[:4]])}
+    read = {"text": ("max", TEXT[name[:4]][0]), "caption": ("mean", CAPTION[name[:4]])}
     found = {}
     for reading, (statistic, window) in read.items():
-        if window not in ensemble["window"].values or window not in second["window"].values:
+        if window not in ensembles["window"].values or window not in second["window"].values:
             raise UndecidableError(f"{name} or its ensemble has no window {window}")
-        at = {"statistic": statistic, "window": window}
-        run, drawn = second.sel(quantity="pair", **at), ensemble.sel(at)
-        found[reading] = swept_chances(run, drawn, norms)
-    found["off"] = [float(abs(run["l2"] / drawn["l2_mean"] - 1.0).max())]
+        found[reading] = swept_chances(name, second, ensembles, statistic, window)
+    found["off"] = [off_means(name, second, ensembles, CAPTION[name[:4]])]
     return found
 
 
+@once
 def coverage(name: str, second, ensembles) -> str:
     """Say how many half-widths of a sweep have an ensemble, and which point without is furthest.
 
@@ -364,6 +390,7 @@ def together(chances: list[np.ndarray]) -> float:
     return float(min(1.0, every.size * every.min()))
 
 
+@once
 def regular_difference(first, second) -> float:
     """Return the largest relative difference of the pair's norms over all of a sweep."""
     if first.sizes["half_width"] < FEWEST:
@@ -396,9 +423,11 @@ def regular_difference(first, second) -> float:
 def second_solver_sweeps(*datasets) -> Finding:
     (lyapunov, ensembles), count = datasets[-2:], len(SWEEPS)
     level, drawn, covered = {}, {}, []
-    for first, second in zip(datasets[:count], datasets[count : 2 * count], strict=True):
+    pairs = zip(datasets[:count], datasets[count : 2 * count], strict=True)
+    chaos = are_chaotic(lyapunov, datasets[:count])
+    for (first, second), is_chaotic in zip(pairs, chaos, strict=True):
         name = str(first.attrs["case"])
-        if is_chaotic(lyapunov, first):
+        if is_chaotic:
             drawn[name] = swept_draws(name, second, ensembles)
             covered.append(coverage(name, second, ensembles))
         else:

@@ -31,9 +31,9 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )
-from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.cutoff import Cutoff, once
 from pendula.measures.confidence import Limits, mean_limits
-from pendula.measures.spreading import fit_exponent, fit_line
+from pendula.measures.spreading import exponent_with_offset, fit_line
 from pendula.numerics.elementary import log
 
 SECTION = 5
@@ -62,9 +62,18 @@ def times_of(run) -> np.ndarray:
     return tau
 
 
+@once
 def curves_of(run, name: str, variant: int = 0) -> np.ndarray:
     """Return a norm of one variant of a run, (member, tau)."""
     return run[name].isel(variant=variant).transpose("member", "tau").values
+
+
+@once
+def exponents_of(run, variant: int, octaves: int) -> np.ndarray:
+    """Return the exponent of tau in l2 of each member over the last `octaves`, (member,)."""
+    tau = times_of(run)
+    kept = tau >= tau[-1] * 0.5**octaves
+    return exponent_with_offset(tau[kept], curves_of(run, "l2", variant)[:, kept] ** 2)
 
 
 def exponent_of(run, variant: int = 0, tries: int = 1, octaves: int = OCTAVES) -> Limits:
@@ -72,8 +81,8 @@ def exponent_of(run, variant: int = 0, tries: int = 1, octaves: int = OCTAVES) -
 
     Of all tries together the limits are as sure as those of a single one (Bonferroni).
     """
-    tau, sure = times_of(run), 1.0 - (1.0 - SURE.value) / tries
-    return fit_exponent(tau, curves_of(run, "l2", variant), tau[-1] * 0.5**octaves, sure)
+    sure = 1.0 - (1.0 - SURE.value) / tries
+    return mean_limits(exponents_of(run, variant, octaves), sure)
 
 
 def factors_of(run, variant: int = 0) -> np.ndarray:

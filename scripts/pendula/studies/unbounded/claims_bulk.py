@@ -21,6 +21,7 @@ from pendula.ledger.criterion import (
     judge,
     undecided,
 )
+from pendula.ledger.cutoff import once
 from pendula.measures.confidence import Limits, mean_limits
 from pendula.numerics.elementary import interpolated
 
@@ -37,6 +38,8 @@ from .claims import SURE, times_of
 from .front import BULK, FRONT
 
 SECTION = 5
+
+slopes_of = once(slope_powers)
 
 
 def ratios_of(limits: list[Limits], expected: np.ndarray) -> list[Limits]:
@@ -217,12 +220,12 @@ def unbounded_equilibrium(run, thermal) -> Finding:
 def unbounded_slope(run, band, thermal) -> Finding:
     times_of(run)
     expected = thermal_powers(thermal, run["omega"].values)
-    slope = slope_powers(run, SURE.value)[0]
+    slope = slopes_of(run, SURE.value)[0]
     bulk = mean_limits(mean_powers(run, FRONT)[0], SURE.value)
     centre = ratios_of([slope], expected)[0]
     omegas = band["omega"].values
     sure = 1.0 - (1.0 - SURE.value) / len(omegas)
-    ratios = ratios_of(slope_powers(band, sure), thermal_powers(thermal, omegas))
+    ratios = ratios_of(slopes_of(band, sure), thermal_powers(thermal, omegas))
     measured = {
         "centre": centre.value,
         "centre_at_least": centre.low,
