@@ -10,6 +10,8 @@ K of `steady` is epsilon D + Omega - 2 s + 3 u^2 / 2 from a = b, and of exchange
 which it is epsilon D + Omega + 3 u^2 / 2, from a = -b.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.optimize import brentq
 
@@ -19,8 +21,8 @@ from .steady import (
     ITERATIONS,
     Chain,
     NotFoundError,
-    continued,
     fastest_growth,
+    near_to,
     operators,
     residual,
     second_difference,
@@ -79,40 +81,73 @@ def turning_point(points: list) -> float:
     return float(at + (after - before) ** 2 / (8.0 * (2.0 * at - before - after)))
 
 
-def exchange_eigenvalue(chain: Chain, parent: Family) -> float:
+def exchange_eigenvalue(chain: Chain, parent: Family, state: np.ndarray) -> float:
     """Return the largest eigenvalue of K on the perturbations that break the parent's symmetry."""
     s = parent.drive(chain.gamma)
-    state = continued(chain, parent)[0]
     shift = -2.0 * s if parent.kind == "equal" else 0.0
-    linear = chain.epsilon * second_difference(len(state))
-    matrix = linear + np.diag(chain.omega + shift + 1.5 * state**2)
+    linear = chain.epsilon * second_difference(state.shape[1])
+    matrix = linear + np.diag(chain.omega + shift + 1.5 * state[0] ** 2)
     return float(np.linalg.eigvals(matrix).real.max())
+
+
+class Followed:
+    """The states of a family at one Omega after another, each found from the one before."""
+
+    def __init__(self, chain: Chain, family: Family, state: np.ndarray | None = None):
+        """Begin with a `state` of the family on the chain, if one is known."""
+        self._chain, self._family, self.state = chain, family, state
+
+    def at(self, omega: float) -> tuple[Chain, np.ndarray]:
+        """Return the chain and the state at this Omega."""
+        chain = self._chain._replace(omega=omega)
+        self.state = near_to(self.state, chain, self._family)
+        return chain, self.state
+
+    def is_stable(self, omega: float) -> bool:
+        """Return whether no perturbation of the state at this Omega grows, even or odd."""
+        chain, state = self.at(omega)
+        return not fastest_growth(chain, self._family, state)
 
 
 def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
     """Return the Omega between `low` and `high` where an asymmetric family leaves its parent."""
-    return brentq(
-        lambda omega: exchange_eigenvalue(chain._replace(omega=omega), parent),
-        low,
-        high,
-        xtol=1e-13,
-    )
+    followed = Followed(chain, parent)
+
+    def eigenvalue(omega: float) -> float:
+        here, state = followed.at(omega)
+        return exchange_eigenvalue(here, parent, state)
+
+    return brentq(eigenvalue, low, high, xtol=1e-13)
 
 
-def is_stable(chain: Chain, family: Family) -> bool:
-    """Return whether no perturbation of the family's state grows, even or odd."""
-    return not fastest_growth(chain, family, continued(chain, family))
+def stable_below(followed: Followed, name: str, low: float, high: float, digits: float) -> tuple:
+    """Return the two Omega, no further apart than `digits`, between which a family turns stable.
 
-
-def stable_below(chain: Chain, family: Family, low: float, high: float, digits: float) -> float:
-    """Return the Omega below which a family is stable, between `low` (stable) and `high`."""
-    if not is_stable(chain._replace(omega=low), family):
-        raise NotFoundError(f"{family.name} is not stable at {low:g}")
-    if is_stable(chain._replace(omega=high), family):
-        raise NotFoundError(f"{family.name} is stable at {high:g}")
+    They lie between `low`, where it is stable, and `high`.
+    """
+    if not followed.is_stable(low):
+        raise NotFoundError(f"{name} is not stable at {low:g}")
+    if followed.is_stable(high):
+        raise NotFoundError(f"{name} is stable at {high:g}")
     while high - low > digits:
         middle = 0.5 * (low + high)
-        low, high = (
-            (middle, high) if is_stable(chain._replace(omega=middle), family) else (low, middle)
-        )
-    return 0.5 * (low + high)
+        low, high = (middle, high) if followed.is_stable(middle) else (low, middle)
+    return low, high
+
+
+def thresholds(
+    chains: Sequence[Chain], family: Family, low: float, high: float, digits: float
+) -> list[float]:
+    """Return the Omega below which a family is stable, between `low` (stable) and `high`, by chain.
+
+    If it turns stable between the same two Omega on a longer chain, bisection would find them.
+    """
+    found, state = [], None
+    for chain in chains:
+        followed = Followed(chain, family, state)
+        ends = found[-1] if found else (low, high)
+        if not (found and followed.is_stable(ends[0]) and not followed.is_stable(ends[1])):
+            ends = stable_below(followed, family.name, low, high, digits)
+        found.append(ends)
+        state = followed.state
+    return [0.5 * (below + above) for below, above in found]

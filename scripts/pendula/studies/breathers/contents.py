@@ -51,9 +51,10 @@ def steady_contents(
         for j, omega in enumerate(omegas):
             if pair(family, gamma, omega) is None:
                 continue
+            state = None
             for half, found in ((half_width, rates), (2 * half_width, doubled)):
                 chain = steady.Chain(epsilon, gamma, omega, half)
-                state = steady.continued(chain, family)
+                state = steady.near_to(state, chain, family)
                 found[i, j] = steady.fastest_growth(chain, family, state)
             turned = state * (1j if family.imaginary else 1.0)
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
@@ -83,17 +84,21 @@ def steady_contents(
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
+BESIDE = 0.05
+"""How far from the turning point of the daughter the pitchfork is looked for, in units of gamma."""
+
+
 def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable]:
     """Return the Omega of the two pitchforks, by the eigenvalue, and by the arc of the daughter."""
     found, arcs, names = [], [], []
     for daughter, parent in ((FAMILIES[2], FAMILIES[1]), (FAMILIES[4], FAMILIES[3])):
         highest = -gamma if parent.kind == "equal" else -3.0 * gamma
         chain = steady.Chain(epsilon, gamma, highest - gamma, half_width)
-        # coupling moves the pitchfork from that of one pair towards the end of the parent
-        found.append(branches.pitchfork(chain, parent, highest, highest + 0.9 * gamma))
         s, state = daughter.drive(gamma), steady.continued(chain, daughter)
         points = branches.follow(chain, s, state, 1.0, stop=highest - gamma)
         arcs.append(branches.turning_point(points))
+        near = arcs[-1] - BESIDE * gamma, arcs[-1] + BESIDE * gamma
+        found.append(branches.pitchfork(chain, parent, *near))
         names.append(daughter.name)
     return {
         "born_family": Variable(("born_family",), names, "family born in a pitchfork"),
@@ -107,14 +112,9 @@ def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable
 def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Variable]:
     """Return the Omega below which families are stable, on the chain and on twice as long a one."""
     named = {family.name: family for family in FAMILIES}
+    chains = [steady.Chain(epsilon, gamma, 0.0, half) for half in (half_width, 2 * half_width)]
     found = [
-        [
-            branches.stable_below(
-                steady.Chain(epsilon, gamma, 0.0, half), named[name], *ends, digits
-            )
-            for half in (half_width, 2 * half_width)
-        ]
-        for name, ends in searched.items()
+        branches.thresholds(chains, named[name], *ends, digits) for name, ends in searched.items()
     ]
     return {
         "stable_family": Variable(("stable_family",), list(searched), "family that can be stable"),

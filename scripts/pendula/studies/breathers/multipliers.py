@@ -40,7 +40,7 @@ from scipy.optimize import brentq
 
 from pendula.numerics.elementary import log
 
-from .periodic import Breather, real_data, shoot, widened
+from .periodic import Breather, exchange_sign, real_data, shoot, widened
 from .quarter_period import STEPS, flow
 from .steady import NotFoundError
 from .waves import band_traces
@@ -56,12 +56,16 @@ MARGIN = 1e-4
 
 
 class HalfMap(NamedTuple):
-    """The blocks a, b, c of the map over half a period, each (n, n), and the weights of sums."""
+    """The blocks a, b, c of the map over half a period, each (n, n), and the weights of sums.
+
+    `alike` says whether A = B or A = -B: then the map is the same with A and B exchanged.
+    """
 
     a: np.ndarray
     b: np.ndarray
     c: np.ndarray
     weights: np.ndarray
+    alike: bool = False
 
 
 class Mode(NamedTuple):
@@ -74,29 +78,32 @@ class Mode(NamedTuple):
 def half_map(breather: Breather, parity: str) -> HalfMap:
     """Return the map of even or odd perturbations over half a period, without the sign."""
     sites, first = breather.data.shape[1], PARITIES.index(parity)
-    directions, nothing = _directions(sites, first), np.empty((0, 4, sites))
+    alike = exchange_sign(breather.data) != 0
+    directions, nothing = _directions(sites, first, alike), np.empty((0, 4, sites))
     bundle = (nothing, directions) if first else (directions, nothing)
     steps, state = breather.finer * STEPS, real_data(breather.data)
     ends = flow(breather.constants, state, *bundle, breather.quarter, steps)[1:]
-    real, imaginary = (
-        ends[:, row::2, first:].reshape(len(ends), -1).T.reshape(-1, 2, len(ends) // 2)
-        for row in (0, 1)
-    )
-    (p, q), (s, w) = (real[:, 0], real[:, 1]), (imaginary[:, 0], imaginary[:, 1])
+    ends = ends[:, :, first:].reshape(2, -1, 2, 2, sites - first)  # (part, start, A or B, part, n)
+    if alike:
+        ends = np.concatenate([ends, ends[:, :, ::-1]], axis=1)
+    (p, s), (q, w) = ends.transpose(0, 3, 2, 4, 1).reshape(2, 2, ends.shape[1], -1)
     # a site beside the centre stands for its mirror image too
     weights = np.tile([1.0] * (1 - first) + [2.0] * (sites - 1), 2)[:, None]
 
     def product(left, right):
         return (left.T @ (weights * right)) / weights
 
-    return HalfMap(
-        np.eye(len(p)) + 2.0 * product(q, s), 2.0 * product(w, q), 2.0 * product(p, s), weights
-    )
+    a, b, c = np.eye(len(p)) + 2.0 * product(q, s), 2.0 * product(w, q), 2.0 * product(p, s)
+    return HalfMap(a, b, c, weights, alike)
 
 
-def _directions(sites: int, first: int) -> np.ndarray:
-    """Return unit perturbations on the sites `first`..M: of real parts, then of imaginary ones."""
-    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[:, first:].reshape(-1, 2, sites)
+def _directions(sites: int, first: int, alike: bool) -> np.ndarray:
+    """Return unit perturbations on the sites `first`..M: of real parts, then of imaginary ones.
+
+    Those of B are left out where A and B are `alike`.
+    """
+    units = np.eye(2 * sites).reshape(2, sites, 2, sites)[: 2 - alike, first:]
+    units = units.reshape(-1, 2, sites)
     found = np.zeros((2, len(units), 4, sites))
     found[0][:, ::2] = found[1][:, 1::2] = units
     return found.reshape(-1, 4, sites)
@@ -109,16 +116,36 @@ def spectrum(half: HalfMap, parity: str) -> tuple[np.ndarray, np.ndarray]:
     signature with nearly equal nu, which stay on the circle: nu is made real. The trace of
     the shift along the solution, an even perturbation, is exactly 1.
     """
-    values, vectors = np.linalg.eig(half.a.T)
-    traces = -values.astype(complex)
-    moved = half.b @ (vectors / half.weights)
-    forms = np.sum(vectors.conj() * moved, axis=0).real
-    forms /= np.sqrt(np.sum(np.abs(vectors) ** 2, axis=0) * np.sum(np.abs(moved) ** 2, axis=0))
+    found = [_traces_and_forms(*one) for one in _sectors(half)]
+    traces, forms = (np.concatenate(values) for values in zip(*found, strict=True))
     complex_ones = (traces.imag != 0.0) & (np.abs(forms) < VANISHES)
     traces.imag[~complex_ones] = 0.0
     if parity == "even":
         traces[np.argmin(np.abs(traces - 1.0))] = 1.0
     return traces, np.where(complex_ones, 0, np.sign(forms)).astype(int)
+
+
+def _sectors(half: HalfMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Return the blocks a and b and the weights of perturbations that do not mix.
+
+    Those with b = a and those with b = -a do not where A and B are alike.
+    """
+    if not half.alike:
+        return [(half.a, half.b, half.weights)]
+    n = len(half.a) // 2
+    return [
+        (*(one[:n, :n] + sign * one[:n, n:] for one in half[:2]), half.weights[:n])
+        for sign in (1.0, -1.0)
+    ]
+
+
+def _traces_and_forms(a: np.ndarray, b: np.ndarray, weights: np.ndarray) -> tuple:
+    """Return the eigenvalues of -a, and y^T b y on each eigenvector y of a^T, relative."""
+    values, vectors = np.linalg.eig(a.T)
+    moved = b @ (vectors / weights)
+    forms = np.sum(vectors.conj() * moved, axis=0).real
+    forms /= np.sqrt(np.sum(np.abs(vectors) ** 2, axis=0) * np.sum(np.abs(moved) ** 2, axis=0))
+    return -values.astype(complex), forms
 
 
 def half_traces(breather: Breather, parity: str) -> np.ndarray:

@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.numerics.elementary import geometric, log
+from pendula.numerics.matrices import times
 from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow
@@ -36,7 +37,9 @@ FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
 TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
-ITERATIONS = 20
+ITERATIONS = 30
+SLOWEST = 0.3
+"""An error that falls by less in one iteration asks for another matrix."""
 
 
 class Breather(NamedTuple):
@@ -81,31 +84,51 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
     """Return the breather that Newton's method finds from real data, (component, site).
 
     A start with A = B or A = -B leads to such a breather to the last bit, also where the matrix
-    cannot tell the step that breaks the symmetry from zero. The matrix is kept while a step makes
-    the error a hundred times smaller.
+    cannot tell the step that breaks the symmetry from zero. To find the matrix takes as long as
+    tens of misses, so that it is kept while the error falls, and learns from each step (C. G.
+    Broyden, Math. Comp. 19 (1965) 577).
     """
     data, sites, guess = start, start.shape[1], Breather(constants, frequency, start)
-    quarter, finer = guess.quarter, guess.finer
-    symmetry = next((sign for sign in (1, -1) if np.array_equal(start[0], sign * start[1])), 0)
-    changes = _changes(sites, symmetry)
-    directions = np.array([real_data(one) for one in changes])
-    nothing, largest, matrix = np.empty((0, 4, sites)), np.inf, None
+    quarter, steps = guess.quarter, guess.finer * FINE_STEPS
+    symmetry = exchange_sign(start)
+    nothing, largest, inverse, step = np.empty((0, 4, sites)), np.inf, None, None
     for _ in range(ITERATIONS):
-        miss = flow(constants, real_data(data), nothing, nothing, quarter, finer * FINE_STEPS)
-        miss = miss[0, ::2]
-        last, largest = largest, np.abs(miss).max() / np.abs(data).max()
+        miss = flow(constants, real_data(data), nothing, nothing, quarter, steps)
+        last, largest = largest, np.abs(miss[0, ::2]).max() / np.abs(data).max()
         if largest <= TOLERANCE and largest >= 0.1 * last:
             return Breather(constants, frequency, data)
         if not largest < 10.0:
             break
-        if matrix is None or largest > 0.01 * last:
-            ends = flow(constants, real_data(data), directions, nothing, quarter, finer * STEPS)
-            ends = ends[1:, ::2]
-            matrix = ends.reshape(len(ends), -1)[:, : len(ends)].T
-        steps = np.linalg.solve(matrix, miss.ravel()[: len(matrix)])
-        one = steps.reshape(-1, sites)
-        data = data - (np.concatenate([one, symmetry * one]) if symmetry else one)
+        miss = miss[0, ::2].ravel()[: sites * (1 if symmetry else 2)]
+        if inverse is None or largest > SLOWEST * last:
+            inverse = np.linalg.inv(_matrix(guess._replace(data=data), symmetry))
+        else:
+            _learn(inverse, step, miss)
+        step = -times(inverse, miss)
+        one = step.reshape(-1, sites)
+        data = data + (np.concatenate([one, symmetry * one]) if symmetry else one)
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
+
+
+def exchange_sign(data: np.ndarray) -> int:
+    """Return 1 where A = B, -1 where A = -B, and 0 elsewhere."""
+    return next((sign for sign in (1, -1) if np.array_equal(data[0], sign * data[1])), 0)
+
+
+def _matrix(guess: Breather, symmetry: int) -> np.ndarray:
+    """Return the derivative of the miss by the data; of A alone if A = B or A = -B."""
+    sites = guess.data.shape[1]
+    directions = real_data(_changes(sites, symmetry))
+    steps, nothing = guess.finer * STEPS, np.empty((0, 4, sites))
+    state = real_data(guess.data)
+    ends = flow(guess.constants, state, directions, nothing, guess.quarter, steps)
+    return ends[1:, ::2].reshape(len(directions), -1)[:, : len(directions)].T
+
+
+def _learn(inverse: np.ndarray, step: np.ndarray, miss: np.ndarray) -> None:
+    """Change the inverse so that it explains the `miss` that the last step has left."""
+    wrong, along = times(inverse, miss), times(inverse.T, step)
+    inverse -= wrong[:, None] * along / np.sum(step * (step + wrong))
 
 
 def _changes(sites: int, symmetry: int) -> np.ndarray:
@@ -171,5 +194,7 @@ def _between(edge: float, start: float, end: float) -> list[float]:
 
 
 def real_data(data: np.ndarray) -> np.ndarray:
-    """Return real amplitudes as a state (4, M + 1)."""
-    return np.stack([data[0], 0.0 * data[0], data[1], 0.0 * data[1]])
+    """Return real amplitudes (..., component, M + 1) as states (..., 4, M + 1)."""
+    state = np.zeros((*data.shape[:-2], 4, data.shape[-1]))
+    state[..., ::2, :] = data
+    return state

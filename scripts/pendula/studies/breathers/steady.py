@@ -154,10 +154,32 @@ def _near(chain: Chain, s: float, state: np.ndarray) -> np.ndarray | None:
     return found if near else None
 
 
+def near_to(known: np.ndarray | None, chain: Chain, family: Family) -> np.ndarray | None:
+    """Return the state of a family, by Newton's method from a known state at other constants.
+
+    Where this leads nowhere, or too far away, or no state is known, it returns what `continued`
+    does. The known state may be one on a shorter chain.
+    """
+    if known is not None and pair(family, chain.gamma, chain.omega) is not None:
+        start = np.zeros((2, chain.half_width + 1))
+        start[:, : known.shape[1]] = known
+        found = _near(chain, family.drive(chain.gamma), start)
+        if found is not None:
+            return found
+    return continued(chain, family)
+
+
 def squared_exponents(chain: Chain, s: float, state: np.ndarray, even: bool) -> np.ndarray:
-    """Return the squares of the exponents of even or odd perturbations, complex, (2 N,)."""
+    """Return the squares of the exponents of even or odd perturbations, complex, (2 N,).
+
+    Where A = B or A = -B, perturbations with b = a and with b = -a do not mix.
+    """
     lower, upper = operators(chain, s, state, even)
-    return np.linalg.eigvals(-lower @ upper).astype(complex)
+    if not np.array_equal(state[0] ** 2, state[1] ** 2):
+        return np.linalg.eigvals(-lower @ upper).astype(complex)
+    n = len(lower) // 2
+    sectors = ([one[:n, :n] + sign * one[:n, n:] for one in (lower, upper)] for sign in (1, -1))
+    return np.concatenate([np.linalg.eigvals(-low @ up) for low, up in sectors]).astype(complex)
 
 
 NOISE = 1e-10
