@@ -47,16 +47,18 @@ class FreeBreather(NamedTuple):
 
 
 def free_breathers(constants: Constants, frequencies, half_width: int) -> list[FreeBreather]:
-    """Return the breathers of A alone for gamma = 0 at rising frequencies."""
+    """Return the breathers of A alone for gamma = 0 at rising frequencies.
+
+    A and B do not feel each other there, so that A is that of A = B, which is found sooner.
+    """
     free = Constants(epsilon=constants.epsilon, gamma=0.0, omega=constants.omega)
     found, data = [], None
     for frequency in sorted(frequencies, reverse=True):
         if data is None:
-            data = single_site(free, frequency, "A only", half_width)
-            data[1] = 0.0
+            data = single_site(free, frequency, "A = B", half_width)
         data = shoot(free, frequency, data).data
         kept = np.round(data, DECIMALS)
-        found.append(FreeBreather(frequency, kept[0], float(power(kept).sum())))
+        found.append(FreeBreather(frequency, kept[0], float(power(kept)[0])))
     return found[::-1]
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LinearSegmentedColormap, ListedColormap, Normalize
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap, Normalize, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -26,6 +26,13 @@ NEARNESS = LinearSegmentedColormap.from_list("nearness", [style.BLUE, "#4f7cc4",
 FARTHEST = 1.0
 """The distance that is drawn as the largest: the other amplitude is then as large as the leading
 one, or a family is too far to name."""
+SHADES = NEARNESS.N
+COLOURS = ListedColormap(
+    [*NEARNESS(np.arange(SHADES)), *(to_rgba(colour) for colour, _ in FATE_LOOKS.values())],
+    name="shades of breathers, then fates",
+)
+"""All colours of a map, so that it is one image: first the shades of breathers, the nearest one
+first, then the fates in their order."""
 
 MAPS = ("fate", "family_distance", "turned_fate", "turned_family_distance")
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
@@ -62,19 +69,16 @@ def draw_fates(data: xr.Dataset) -> Figure:
 
 
 def _draw(axes: Axes, here: xr.Dataset, over: tuple[str, str], start: str) -> None:
-    """Draw one map: its fates, and above them how near to a periodic one each breather is."""
+    """Draw one map: its fates, and by its shade how near to a periodic one each breather is."""
     across, up = over
     fate = here[f"{start}fate"].transpose(up, across).values
     far = here[f"{start}family_distance"].transpose(up, across).fillna(FARTHEST).values
-    look = {
-        "extent": (*_ends(here[across].values), *_ends(here[up].values)),
-        "origin": "lower", "aspect": "auto", "interpolation": "none",
-    }  # fmt: skip
-    colours = ListedColormap([colour for colour, _ in FATE_LOOKS.values()])
-    axes.imshow(fate, cmap=colours, vmin=-0.5, vmax=len(FATES) - 0.5, **look)
+    shade = np.rint(np.minimum(far / FARTHEST, 1.0) * (SHADES - 1))
     axes.imshow(
-        np.ma.masked_where(fate != BREATHER, far), cmap=NEARNESS, vmin=0.0, vmax=FARTHEST, **look
-    )
+        np.where(fate == BREATHER, shade, fate + float(SHADES)), cmap=COLOURS, vmin=-0.5,
+        vmax=COLOURS.N - 0.5, extent=(*_ends(here[across].values), *_ends(here[up].values)),
+        origin="lower", aspect="auto", interpolation="none",
+    )  # fmt: skip
 
 
 def _ends(centres: np.ndarray) -> tuple[float, float]:

@@ -142,9 +142,9 @@ def _changes(sites: int, symmetry: int) -> np.ndarray:
 LARGEST_RATIOS = 2.0, 1.5
 """Of the distances of a frequency and the next one from the waves, and of the two, between which
 Newton's method does not lose a family."""
-DECAY = 28.0
-"""A tail falls by this exponent before the chain ends: to 7e-13 of the centre, which the end of the
-chain changes by the square of that."""
+DECAY = 18.0
+"""A tail falls by this exponent before the chain ends: to 1.5e-8 of the centre. The end of the
+chain changes the breather by the square of that, which is about as much as rounding does."""
 
 
 def half_width_for(constants: Constants, frequency: float, least: int, most: int) -> int:
