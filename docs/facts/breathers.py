@@ -85,7 +85,7 @@ def fates(baseline: Baseline) -> dict:
     }
 
 
-OF_PLANE = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and a phase"}
+OF_PLANE = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and the phase of B_0"}
 
 
 def _area(long: xr.Dataset, plane: str, omega: float, fate: str) -> str:

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from pendula.configuration.messages import load
 from pendula.report.words import case_of, number, percent, symbols
+from pendula.studies.paper.claims_solvers import SIGNIFICANT
 
 from .baseline import Baseline
 from .words import time_of_output
@@ -98,6 +99,7 @@ def second_solver(baseline: Baseline) -> dict:
     regular = found.sel(case=chaotic["case"].values[chaotic.values == 0])
     largest = regular["scheme_difference"].max("case")
     drifts = found["scheme_drift"].sel(step=step)
+    (swept,) = (one for one in baseline.claims() if one["name"] == "second_solver_sweeps")
     return {
         "step": number(step),
         "least_drift": number(drifts.sel(scheme="crank_nicolson").min(), 2),
@@ -107,6 +109,9 @@ def second_solver(baseline: Baseline) -> dict:
         "halved": percent(largest.sel(scheme="crank_nicolson")[2]),
         "midpoint": percent(largest.sel(scheme="implicit_midpoint", step=step)),
         "conserving": percent(largest.sel(scheme="delfour_fortin_payre", step=step)),
+        "by_maxima": number(swept["measured"]["chance_text_fig6_right"], 2),
+        "by_averages": number(swept["measured"]["chance_caption_fig6_right"], 2),
+        "least_chance": number(SIGNIFICANT.value),
     }
 
 

@@ -74,6 +74,7 @@ COUNTED = {
         "theory.cells",
         "theory.decay",
         "second_solver.step",
+        "second_solver.least_chance",
         "theory.broken_sites",
         "theory.sites",
     ),
