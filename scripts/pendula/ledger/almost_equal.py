@@ -44,8 +44,8 @@ def almost_equal(sensitivity, within: float) -> AlmostEqual:
         least = int(np.argmin(np.where(lost, sizes, np.inf)))
         caveat = (
             f"an accident of the digits: {share[least]:.0%} of runs from data changed by"
-            f" {sizes[least]:g} spread, and {share[near].min():.0%} or more of those from data"
-            f" changed by {sizes[near].max():g} or less"
+            f" {sizes[least]:g} spread; where data are changed by {sizes[near].max():g} or less,"
+            f" the least share is {share[near].min():.0%}"
         )
     elif share[~near].min(initial=1.0) > MAJORITY.value:
         caveat = ""
