@@ -43,7 +43,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "visible": percent(float(trust["size"].sel(level="visible"))),
         "ends": results.say(TRUST, " to ".join(number(end, 4) for end in sorted(ends))),
         "head": ["case", "rate of even changes", "rate of odd changes",
-                 *(f"{SOLVER_NAMES[name]} leaves at τ" for name in solvers), "visibly uneven from τ"],
+                 *(f"{SOLVER_NAMES[name]} leaves at τ" for name in solvers), "uneven from τ"],
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
         "lost": {name: lost_by(results, name) for name in solvers},
         "ensembles": bands,
