@@ -131,26 +131,34 @@ def write_next_coefficient(pendula, series, k, component, block, drive, turned, 
 
 
 @inlined_by_llvm
+def driven(series, k, i):
+    """Return the sum of D_j (y - x)_{k-j} of a block of x, which is minus that of x - y."""
+    if series.components == 1:  # x = y, and nothing is driven
+        return fill(0.0)
+    m, d, p = series.memory, spare_start(series), partner_of(series, i, 0)
+    if k % 2 == 0:
+        return driven_at_even_order(m, k, i, p, d)
+    return driven_at_odd_order(m, k, i, p, d)
+
+
+@inlined_by_llvm
 def write_next_order(pendula, series, k, first, last):
     """Write all coefficients of order k + 1 of the blocks `first` to `last` - 1."""
-    m, d, both = series.memory, spare_start(series), series.components == 2
-    for component in range(series.components):
-        for block in range(first, last):
+    m = series.memory
+    for block in range(first, last):
+        drive = driven(series, k, block_start(series, 0, block))
+        for component in range(series.components):
             i, o = block_start(series, component, block), cosines_start(series, component, block)
-            p, drive = partner_of(series, i, component), fill(0.0)
             if k == 0:
                 sine, cosine = sine_and_cosine(load(m, i + ANGLE))
                 store(m, i + SINE, sine)
                 store(m, o, cosine)
             if k % 2 == 0:
                 turned = turned_at_even_order(m, k, i, o)
-                if both:  # else x = y, and nothing is driven
-                    drive = driven_at_even_order(m, k, i, p, d)
             else:
                 turned = turned_at_odd_order(m, k, i, o)
-                if both:
-                    drive = driven_at_odd_order(m, k, i, p, d)
             write_next_coefficient(pendula, series, k, component, block, drive, turned, o)
+            drive = fill(0.0) - drive  # of y; a zero keeps its sign
 
 
 continue_in_waves = in_waves(write_next_order)
