@@ -28,7 +28,7 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.numerics import elementary
-from pendula.numerics.elementary import complex_of, product
+from pendula.numerics.elementary import product
 
 from . import amplitudes
 from .amplitudes import Chain, modulus2
@@ -83,30 +83,41 @@ def rates(expansion, y, dy):
     write_rates(expansion, (y, expansion.first, expansion.second), dy)
 
 
-def third_harmonic(gamma: float, z: np.ndarray) -> np.ndarray:
-    """Return P and Q, complex like the amplitudes `z` (..., component, site)."""
-    cubes = product(z, product(z, z))
-    return -0.125 * (cubes / 6.0 + gamma * (z[..., ::-1, :] - z))
+@inlined_by_llvm
+def third_harmonic(gamma, u, v, s, t):
+    """Return Re P and Im P where A = u + i v and B = s + i t; all are numbers, or arrays alike."""
+    square_re, square_im = u * u - v * v, 2.0 * (u * v)
+    cube_re, cube_im = u * square_re - v * square_im, u * square_im + v * square_re
+    sixth = 1.0 / 6.0
+    re = -0.125 * (sixth * cube_re + gamma * (s - u))
+    return re, -0.125 * (sixth * cube_im + gamma * (t - v))
 
 
 def corrected_start(chain: Chain, squared_mu: float, y: np.ndarray) -> np.ndarray:
     """Return the state of A = a + mu^2 d, which has the angles and velocities of a in `y`."""
-    z, slope = complex_of(y[0::2], y[1::2]), np.zeros_like(y)
+    slope, found = np.zeros_like(y), y.copy()
     amplitudes.rates(chain, y.copy(), slope)
-    third, found = third_harmonic(chain.gamma, z), y.copy()
-    found[0::2] -= squared_mu * third.real
-    found[1::2] += squared_mu * (0.5 * slope[0::2] - 3.0 * third.imag)
+    re, im, partners = y[0::2], y[1::2], y[::-1]
+    third = third_harmonic.py_func(chain.gamma, re, im, partners[1::2], partners[0::2])
+    found[0::2] -= squared_mu * third[0]
+    found[1::2] += squared_mu * (0.5 * slope[0::2] - 3.0 * third[1])
     return found
 
 
-def angles(mu: float, gamma: float, z: np.ndarray, phases: np.ndarray, third=1.0) -> np.ndarray:
-    """Return the angles (time, component, site) of amplitudes `z` where omega t is `phases`.
+@inlined_by_llvm
+def angle(mu, gamma, third, turn, u, v, s, t):
+    """Return the angle of a pendulum, whose A = u + i v and whose partner's is B = s + i t.
 
-    `third` is a factor of the third harmonic, which (3) leaves out.
+    `turn` holds Re E, Im E, Re E^3 and Im E^3 (see `turns`), and `third` is a factor of the third
+    harmonic, which (3) leaves out.
     """
-    turn = elementary.turn(phases)[:, None, None]
-    found = 2.0 * mu * product(z, turn).real
-    if third:
-        cubed = product(turn, product(turn, turn))
-        found += 2.0 * third * mu * mu * mu * product(third_harmonic(gamma, z), cubed).real
-    return found
+    re, im = third_harmonic(gamma, u, v, s, t)
+    small = 2.0 * third * mu * mu * mu
+    return 2.0 * mu * (u * turn[0] - v * turn[1]) + small * (re * turn[2] - im * turn[3])
+
+
+def turns(phases: np.ndarray) -> np.ndarray:
+    """Return Re E, Im E, Re E^3 and Im E^3 (phase, 4) where omega t is one of `phases`."""
+    once = elementary.turn(phases)
+    cubed = product(once, product(once, once))
+    return np.stack([once.real, once.imag, cubed.real, cubed.imag], axis=-1)

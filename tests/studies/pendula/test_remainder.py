@@ -6,18 +6,22 @@ import numpy as np
 import pytest
 from on_pendula import load_with
 from pendula.configuration.files import ConfigurationError
+from pendula.models.expansion import turns
 from pendula.models.pendula import times_of
 from pendula.problem import PENDULA, Constants, Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.pendula.followed import amplitudes_at, angles_at
+from pendula.studies.pendula.followed import angles_at, compared, misses
 from pendula.studies.pendula.remainder import (
     PHASES,
+    READINGS,
+    WRONG,
     follow,
     horizon,
     measure,
     orders,
     peak,
+    runs_of,
     samples,
     up_to,
     window_maxima,
@@ -106,9 +110,22 @@ def test_angles_are_those_of_a_simulation():
     np.testing.assert_array_equal(angles, np.moveaxis(simulate(pendula).snapshots[0], -1, 0))
 
 
-def test_without_the_next_order_the_amplitudes_are_those_of_a_simulation():
-    found = amplitudes_at(problem(), 0.0, np.array([0.0, 0.4, 1.0]), WHOLE)
-    np.testing.assert_allclose(found[-1], simulate(problem()).final, rtol=0, atol=1e-11)
+def test_without_the_next_order_the_angles_are_those_of_simulated_amplitudes():
+    """Only the site that is wrong in the angles is missed, by as much as it is wrong."""
+    mu, phases, taus = 0.1, np.array([0.3, 0.7, 2.0]), np.array([0.0, 0.4, 1.0])
+    turned = simulate(problem()).final * np.exp(1j * phases[-1])
+    angles = np.tile(2.0 * mu * turned.real, (3, 1, 1))
+    for wrong in (0.0, 0.01):
+        angles[-1, 1, 3] -= wrong
+        record = compared(angles, turns(phases), mu, np.zeros(1), np.array([3]))
+        missed = misses(problem(), 0.0, taus, record, WHOLE)
+        assert missed[0, -1] == pytest.approx(wrong, rel=1e-9, abs=1e-11)
+
+
+def test_readings_that_share_their_amplitudes_share_a_run():
+    runs = runs_of({**READINGS, **WRONG})
+    assert [len(thirds) for thirds in runs.values()] == [2, 2, 1]
+    assert runs[True, 1.0] == {"corrected": 1.0, "a third harmonic of the opposite sign": -1.0}
 
 
 @pytest.mark.parametrize("omega", [8.0, -4.0])

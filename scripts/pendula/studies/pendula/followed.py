@@ -1,12 +1,14 @@
 """Runs of the pendula, and of the amplitudes behind an expansion, at times of the study's own."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
-from pendula.models import expansion
-from pendula.numerics.elementary import complex_of
+from pendula.models.expansion import Expansion, angle, corrected_start, rates
 from pendula.problem import Problem
+from pendula.simd import largest_magnitude
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import Reduction, aligned, pack
 from pendula.simulation.models import MODELS, make_chain
@@ -16,44 +18,76 @@ TOLERANCE = 1e-12
 """Of the amplitudes, relative and absolute: far below what the expansion leaves at any mu."""
 LOST = 16.0 * np.pi
 """An angle in rad, of eight turns: no expansion about the pendula at rest follows it."""
-PIECE = 48
+PIECE = 168
 """Times between two looks at the angles."""
 
 
+class Compared(NamedTuple):
+    """Angles of pendula, and how far those of an expansion are from them, reading by reading."""
+
+    angles: np.ndarray  # (time, component, site)
+    turns: np.ndarray  # (time, 4), as pendula.models.expansion has them
+    mu: float
+    thirds: np.ndarray  # (reading,): factors of the third harmonic
+    counts: np.ndarray  # (reading,): at so many times each is compared
+    apart: np.ndarray  # (component, site): scratch
+    misses: np.ndarray  # (reading, time): the largest of all pendula
+
+
+def compared(
+    angles: np.ndarray, turns: np.ndarray, mu: float, thirds: np.ndarray, counts: np.ndarray
+) -> Compared:
+    """Return what is compared, with room for what is found."""
+    blank = np.empty(angles.shape[1:]), np.zeros((len(thirds), counts.max()))
+    return Compared(angles, turns, mu, thirds, counts, *blank)
+
+
 @kernel
-def keep_state(system, y, i, states):
-    """Write the state `y` without its ghosts into states[i]."""
-    for row in range(y.shape[0]):
-        for j in range(1, y.shape[1] - 1):
-            states[i, row, j - 1] = y[row, j]
+def compare(expansion, y, i, record):
+    """Write the largest misses of each reading at output `i`, where the amplitudes are `y`."""
+    turn = record.turns[i, 0], record.turns[i, 1], record.turns[i, 2], record.turns[i, 3]
+    one, sites = np.uint64(1), record.apart.shape[1]
+    for reading in range(record.thirds.size):
+        if i >= record.counts[reading]:
+            continue
+        third = record.thirds[reading]
+        for re in range(0, y.shape[0], 2):
+            im, k, other = re + 1, re // 2, y.shape[0] - 2 - re
+            for place in range(sites):
+                site = np.uint64(place)  # so that no code asks whether it counts from the end
+                j = site + one
+                u, v, s, t = y[re, j], y[im, j], y[other, j], y[other + 1, j]
+                expected = angle(record.mu, expansion.chain.gamma, third, turn, u, v, s, t)
+                record.apart[k, site] = record.angles[i, k, site] - expected
+        record.misses[reading, i] = largest_magnitude(record.apart.reshape(-1))
 
 
-solve = dop853.build(expansion.rates, keep_state)
+solve = dop853.build(rates, compare)
 
 
 @kernel
-def run(system, y, times, controls, work, states, stop):
-    return solve(system, y, times, controls, work, states, stop)
+def run(system, y, times, controls, work, record, stop):
+    return solve(system, y, times, controls, work, record, stop)
 
 
-def amplitudes_at(
-    problem: Problem, squared_mu: float, taus: np.ndarray, reduction: Reduction
+def misses(
+    problem: Problem, squared_mu: float, taus: np.ndarray, record: Compared, reduction: Reduction
 ) -> np.ndarray:
-    """Return the amplitudes (time, component, site) of what `reduction` leaves of the chain.
+    """Return `record.misses`, filled in at all times `taus`, which begin with 0.
 
-    They move by F + `squared_mu` G (see pendula.models.expansion), from the data that have the
-    angles and velocities of the problem's data to that order. `taus` begin with 0.
+    The amplitudes of what `reduction` leaves of the chain move by F + `squared_mu` G (see
+    pendula.models.expansion), from the data that have the angles and velocities of the problem's
+    data to that order.
     """
     chain = make_chain(problem.constants, problem.boundary, reduction)
-    y = expansion.corrected_start(chain, squared_mu, pack(problem.amplitudes, reduction))
-    system = expansion.Expansion(chain, squared_mu, np.zeros_like(y), np.zeros_like(y))
-    states = np.empty((taus.size, y.shape[0], y.shape[1] - 2))
+    y = corrected_start(chain, squared_mu, pack(problem.amplitudes, reduction))
+    system = Expansion(chain, squared_mu, np.zeros_like(y), np.zeros_like(y))
     controls, work = (TOLERANCE, TOLERANCE), aligned((dop853.WORK, *y.shape))
-    outcome = interruptible(run, system, y, taus, controls, work, states)
+    outcome = interruptible(run, system, y, taus, controls, work, record)
     if outcome.status != DONE:
         fault = FAULTS[outcome.status]
         raise IntegrationError(f"the amplitudes stopped at tau = {outcome.time:.6g}: {fault}")
-    return complex_of(states[:, 0::2], states[:, 1::2])
+    return record.misses
 
 
 def angles_at(problem: Problem, times: np.ndarray, reduction: Reduction) -> np.ndarray:

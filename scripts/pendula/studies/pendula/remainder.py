@@ -27,7 +27,7 @@ from pendula.numerics.elementary import log
 from pendula.problem import PENDULA, Problem
 from pendula.simulation.lattice import find_reduction
 
-from .followed import amplitudes_at, angles_at
+from .followed import angles_at, compared, misses
 
 PHASES = 12
 """Samples of half a period; with twice as many the maxima change by less than 1e-3."""
@@ -178,22 +178,31 @@ def follow(problem: Problem, spacing: float, wrong_end: float) -> Followed:
     found = samples(mu, omega, problem.end_time, spacing)
     steps, places = found.times
     angles = angles_at(problem, steps * (np.pi / PHASES / frequency(omega, mu)), reduction)
-
-    def missed(one: Reading, count: int) -> np.ndarray:
-        """Return the largest error of an angle at each of the first so many times."""
-        taus = one.clock * found.step * steps[:count]
-        z = amplitudes_at(problem, mu * mu if one.corrected else 0.0, taus, reduction)
-        phases = np.pi / PHASES * (steps[:count] % (2 * PHASES))
-        expected = expansion.angles(mu, problem.constants.gamma, z, phases, one.third)
-        return np.abs(angles[:count] - expected).max(axis=(1, 2))
-
-    pairs = [window_maxima(found, missed(one, steps.size)[places]) for one in READINGS.values()]
+    phases = np.pi / PHASES * np.arange(2 * PHASES)
+    turns = expansion.turns(phases)[steps % phases.size]
     brief = int(np.searchsorted(steps * found.step, wrong_end * (1.0 + 1e-9), side="right"))
+    counts = dict.fromkeys(READINGS, steps.size) | dict.fromkeys(WRONG, brief)
+    missed = {}
+    for (corrected, clock), thirds in runs_of({**READINGS, **WRONG}).items():
+        wanted = np.array([counts[name] for name in thirds])
+        record = compared(angles, turns, mu, np.array(list(thirds.values())), wanted)
+        taus = clock * found.step * steps[: wanted.max()]
+        sizes = misses(problem, mu * mu if corrected else 0.0, taus, record, reduction)
+        missed |= dict(zip(thirds, sizes, strict=True))
+    pairs = [window_maxima(found, missed[name][places]) for name in READINGS]
     return Followed(
         *map(np.array, zip(*pairs, strict=True)),
         window_maxima(found, np.abs(angles).max(axis=(1, 2))[places])[1],
-        np.array([missed(one, brief).max() for one in WRONG.values()]),
+        np.array([missed[name][:brief].max() for name in WRONG]),
     )
+
+
+def runs_of(readings: Mapping[str, Reading]) -> dict[tuple[bool, float], dict[str, float]]:
+    """Return by runs of the amplitudes the readings that share one, with their third harmonic."""
+    runs = {}
+    for name, one in readings.items():
+        runs.setdefault((one.corrected, one.clock), {})[name] = one.third
+    return runs
 
 
 class Case(NamedTuple):
