@@ -40,11 +40,13 @@ def small(dataset):
 
 def late_levels(phases, norm: str = "l2"):
     """Return the mean norm of the pair from SETTLED on, (case, mu)."""
-    values = phases[norm].sel(tau=phases["tau"] >= SETTLED)
-    if not values.sizes["tau"]:
+    late = phases["tau"].values >= SETTLED
+    if not late.any():
         raise UndecidableError(f"the runs end before tau = {SETTLED:g}")
-    pair = np.sqrt((values * values).sum("component")) if norm == "l2" else values.max("component")
-    return pair.mean("tau")
+    first = phases[norm].transpose("case", "mu", "component", "tau")
+    values = first.values[..., late]
+    pair = np.sqrt((values * values).sum(axis=2)) if norm == "l2" else values.max(axis=2)
+    return first[:, :, 0, 0].copy(data=pair.mean(axis=-1))
 
 
 def largest_power(phases):

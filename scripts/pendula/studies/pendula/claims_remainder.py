@@ -34,14 +34,14 @@ FEWEST = 3
 
 def common_end(remainder) -> float:
     """Return the last end that every run reaches."""
-    known = remainder["error"].notnull().all(("expansion", "case", "mu"))
-    return float(remainder["end"].where(known).max())
+    errors = remainder["error"].transpose("end", ...).values
+    return float(remainder["end"].values[~np.isnan(errors).any(axis=(1, 2, 3))].max())
 
 
 def at_common_end(remainder, name: str, expansion: str, cases=STABLE):
     """Return a variable at the end that every run reaches, by case."""
-    values = remainder[name].sel(expansion=expansion, case=list(cases))
-    values = values.sel(end=common_end(remainder))
+    chosen = {"expansion": expansion, "case": list(cases), "end": common_end(remainder)}
+    values = remainder[name].sel(chosen)
     if not np.isfinite(values).all():
         raise UndecidableError("an order takes three mu, each half of the one before")
     return values
@@ -115,14 +115,13 @@ def over_late_half(remainder, cases, long: float):
 
     It is the smallest mu whose runs of all `cases` go on to `long`, and the last end of them.
     """
-    some = remainder.sel(case=list(cases), expansion="leading")
-    ends = some["pendula_end"].min("case")
-    ends = ends.where(ends >= long, drop=True)
-    if not ends.size:
+    ends = remainder["pendula_end"].sel(case=list(cases)).min("case")
+    followed = ends.values >= long
+    if not followed.any():
         raise UndecidableError(f"no mu follows the pendula to tau = {long:g} in all these cases")
-    mu = float(ends["mu"].min())
+    mu = float(ends["mu"].values[followed].min())
     end = float(ends.sel(mu=mu))
-    errors = some["error"].sel(mu=mu)
+    errors = remainder["error"].sel(case=list(cases), expansion="leading", mu=mu)
     return mu, end, errors.sel(end=end) / errors.sel(end=0.5 * end, method="nearest")
 
 
@@ -177,15 +176,15 @@ def remainder_secular(remainder) -> Finding:
 
 def slopes(remainder):
     """Return by expansion how much later the horizon comes at mu / e than at mu."""
-    found = {}
-    for expansion in remainder["expansion"].values:
-        horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion=expansion)
-        known = horizon.where(np.isfinite(horizon), drop=True)
-        if known.size < FEWEST:
+    found, mus = {}, remainder["mu"].values
+    horizons = remainder["visible_from"].sel(case=UNSTABLE).transpose("expansion", "mu")
+    for expansion, horizon in zip(horizons["expansion"].values, horizons.values, strict=True):
+        known = np.isfinite(horizon)
+        if known.sum() < FEWEST:
             raise UndecidableError(f"fewer than {FEWEST} runs go on to their horizon")
-        ends = known.sortby("mu", ascending=False)
-        apart = log(float(ends["mu"][0]) / float(ends["mu"][-1]))
-        found[str(expansion)] = float(ends[-1] - ends[0]) / apart
+        late, early = (pick(mus[known]) for pick in (np.argmin, np.argmax))
+        apart = log(float(mus[known][early]) / float(mus[known][late]))
+        found[str(expansion)] = float(horizon[known][late] - horizon[known][early]) / apart
     return found
 
 
@@ -212,14 +211,14 @@ def horizon_logarithmic(remainder, lyapunov) -> Finding:
     if not rate > 0.0:
         raise UndecidableError("no exponent of the chaos is known")
     found = slopes(remainder)
-    horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion="leading")
-    known = horizon.where(np.isfinite(horizon), drop=True)
+    horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion="leading").values
+    known = np.isfinite(horizon)
     measured = {
         "leading_over_predicted": found["leading"] * rate / 2.0,
         "corrected_over_predicted": found["corrected"] * rate / 4.0,
         "rate": rate,
-        "latest": known.max(),
-        "at_mu": known["mu"].min(),
+        "latest": horizon[known].max(),
+        "at_mu": remainder["mu"].values[known].min(),
     }
     says = "growth of the horizon with ln(1 / mu), over 2 / rate, or 4 / rate with the next order"
     names = "leading_over_predicted", "corrected_over_predicted"

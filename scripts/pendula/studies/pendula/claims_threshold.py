@@ -33,20 +33,21 @@ def smallest_mus(dataset):
     """Return the dataset by falling mu; it must hold enough of them."""
     if dataset.sizes["mu"] < FEWEST:
         raise UndecidableError(f"a limit in mu takes {FEWEST} values of it")
-    return dataset.sortby("mu", ascending=False)
+    return dataset.isel(mu=np.argsort(-dataset["mu"].values))
 
 
 def outside(dataset):
     """Return the detunings outside the band at which each mu has a threshold above zero."""
-    some = (dataset["gamma_0_lemma"] > 0) & (dataset["gamma_0"] > 0).all("mu")
+    everywhere = (dataset["gamma_0"].transpose("mu", "omega").values > 0).all(axis=0)
+    some = everywhere & (dataset["gamma_0_lemma"].values > 0)
     if not some.any():
         raise UndecidableError("no detuning lies outside the band")
-    return dataset.sel(omega=some.values)
+    return dataset.isel(omega=some)
 
 
 def continued(values, mus):
-    """Return `values` at mu = 0, by the polynomial in mu^2 through all of them (Neville)."""
-    row, squares = [values.sel(mu=mu) for mu in mus], [mu * mu for mu in mus]
+    """Return `values` (mu, ...) at mu = 0, by the polynomial in mu^2 through all (Neville)."""
+    row, squares = list(values), [mu * mu for mu in mus]
     for k in range(1, len(row)):
         row = [
             new + (new - old) * (squares[i + k] / (squares[i] - squares[i + k]))
@@ -62,7 +63,7 @@ def order_between(larger, smaller, mus):
 
 def limit_of(dataset):
     """Return the threshold continued to mu = 0, by detuning."""
-    return continued(dataset["gamma_0"], dataset["mu"].values)
+    return continued(dataset["gamma_0"].transpose("mu", "omega").values, dataset["mu"].values)
 
 
 def with_lemma(change):
