@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
 
@@ -125,4 +126,5 @@ def _draw_turns(axes: Axes, data: xr.Dataset) -> None:
     axes.axhline(0.5, color="0.6", dashes=(4, 2), zorder=1)
     axes.set(xscale="log", yscale="log", xlabel=r"$\tau$", ylabel="largest angle so far (turns)")
     axes.set_xlim(FIRST, float(data["tau"].max()))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_title("(d) how far they turn; dashed: the top", loc="left")

@@ -2,21 +2,24 @@
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap, PowerNorm
+from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
 from pendula.datasets.registry import NAMES
 from pendula.drawing import style
 
 LOOKS = ("0.55", "#9ecae1", "#4292c6", "#08519c", "#041f42", "#000000")
 """Colours by mu: grey for the amplitudes, and from light to dark."""
-TURNED = "#35c7b1"
+LARGEST, OVER = 0.999, 2.0
+"""The largest modulus below the top that is told from others, and what stands for one beyond it."""
+MODULI = colormaps["inferno"].with_extremes(bad="white", over="#35c7b1")
 LETTERS = "abcdefghijkl"
-APART = 1.06
-"""Pictures of neighbouring mu start so far apart, in units of the time that they show."""
+APART = 3
+"""Columns between the pictures of neighbouring mu; each snapshot takes one column."""
 
 
 def gather_phases(phases: xr.Dataset) -> xr.Dataset:
@@ -44,10 +47,13 @@ def draw_phases(data: xr.Dataset) -> Figure:
         _draw_norms(norms, case)
         norms.set_title(f"({letter}) {style.name_case(case)}", loc="left", fontsize=7)
         image = _draw_strip(strip, case)
-    for axes in grid[:-1].flat:
+    for axes in grid[:-1, 0]:
         axes.tick_params(labelbottom=False)
+    for axes in grid[:-1, 1]:
+        axes.set_xticks([])  # each tick takes time, and those below serve all rows
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
+    _number_times(grid[-1, 1], data)
     _name_strips(grid[0, 1], data)
     bar = figure.colorbar(image, ax=grid[:, 1].tolist(), location="bottom", aspect=45,
                           shrink=0.75, pad=0.01)  # fmt: skip
@@ -70,7 +76,7 @@ def _draw_norms(axes: Axes, case: xr.Dataset) -> None:
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if _is_wide(case) else (1.0, 2.0, 5.0)))
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlim(0, float(case["tau"].max()))
     axes.set_ylabel("norms", labelpad=1)
 
@@ -80,35 +86,49 @@ def _is_wide(case: xr.Dataset) -> bool:
     return float(case["l2"].max()) > 100.0 * float(case["linf"].min())
 
 
-def _starts(data: xr.Dataset) -> np.ndarray:
-    """Return where the picture of each mu starts on the common axis of its row."""
-    return APART * float(data["snapshot_tau"][-1]) * np.arange(data.sizes["mu"])
-
-
 def _draw_strip(axes: Axes, case: xr.Dataset):
-    """Draw the pictures of all mu beside each other: panels of their own take far longer."""
-    moduli, end = case["larger_modulus"], float(case["snapshot_tau"][-1])
-    peak, starts = float(moduli.sel(mu=0.0).max()) or 1.0, _starts(case)
+    """Draw the moduli of all mu beside each other in one picture, which is drawn far sooner."""
+    moduli = case["larger_modulus"].transpose("mu", "site", "snapshot").values
+    peak = float(moduli[case["mu"].values == 0.0].max()) or 1.0
+    turned = 2.0 * case["mu"].values[:, None, None] * moduli > np.pi
+    shown = np.where(turned, OVER, np.minimum(moduli / peak, LARGEST))
+    apart = np.full((len(shown), case.sizes["site"], APART), np.nan)
+    columns = np.concatenate([shown, apart], axis=2).transpose(1, 0, 2).reshape(len(apart[0]), -1)
     sites = case["site"].values[0] - 0.5, case["site"].values[-1] + 0.5
-    look = {"origin": "lower", "aspect": "auto", "interpolation": "nearest"}
-    for start, mu in zip(starts, case["mu"].values, strict=True):
-        values = moduli.sel(mu=mu).transpose("site", "snapshot").values
-        look["extent"] = (start, start + end, *sites)
-        image = axes.imshow(values / peak, cmap="inferno", norm=PowerNorm(0.5, 0, 1), **look)
-        turned = np.ma.masked_less_equal(2.0 * mu * values, np.pi)
-        if turned.count():
-            axes.imshow(turned, cmap=ListedColormap([TURNED]), **look)
-    axes.set_xlim(0, starts[-1] + end)
-    axes.set_ylim(*sites)
+    last = _starts(case)[-1] + _width(case)
+    image = axes.imshow(
+        columns[:, :-APART], cmap=MODULI, norm=PowerNorm(0.5, 0, 1), extent=(0, last, *sites),
+        origin="lower", aspect="auto", interpolation="none",
+    )  # fmt: skip
     axes.set_ylabel("site $n$", labelpad=-2)
-    shown = [0.0, 0.5 * end]
-    axes.set_xticks([start + one for start in starts for one in shown],
-                    [f"{one:g}" for _ in starts for one in shown])  # fmt: skip
     return image
 
 
+def _step(data: xr.Dataset) -> float:
+    """Return the time that a snapshot stands for: one column, around the time of the snapshot."""
+    times = data["snapshot_tau"].values
+    return float(times[1]) if times.size > 1 else 1.0
+
+
+def _width(data: xr.Dataset) -> float:
+    """Return how wide the picture of one mu is."""
+    return _step(data) * data.sizes["snapshot"]
+
+
+def _starts(data: xr.Dataset) -> np.ndarray:
+    """Return where the picture of each mu starts on the common axis of its row."""
+    return (_width(data) + APART * _step(data)) * np.arange(data.sizes["mu"])
+
+
+def _number_times(axes: Axes, data: xr.Dataset) -> None:
+    """Number the start and the middle of each picture."""
+    shown = [0.0, 0.5 * float(data["snapshot_tau"][-1])]
+    axes.set_xticks([start + 0.5 * _step(data) + one for start in _starts(data) for one in shown],
+                    [f"{one:g}" for _ in _starts(data) for one in shown])  # fmt: skip
+
+
 def _name_strips(axes: Axes, data: xr.Dataset) -> None:
-    middle, top = 0.5 * float(data["snapshot_tau"][-1]), axes.get_ylim()[1]
+    middle, top = 0.5 * _width(data), axes.get_ylim()[1]
     for start, mu in zip(_starts(data), data["mu"].values, strict=True):
         axes.annotate(_name(mu), (start + middle, top), (0, 3), textcoords="offset points",
                       ha="center", fontsize=7.5)  # fmt: skip

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
 from pendula.numerics.elementary import power
@@ -101,6 +102,8 @@ def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
             axes.loglog(data["end"], error, color=look["color"], lw=0.7 + 0.5 * i,
                         alpha=0.4 + 0.6 * i / max(1, len(mus) - 1))  # fmt: skip
     axes.set(xlabel=r"slow time $\tau$", ylabel=r"error of (3) over $\mu^3$, rad")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_locator(NullLocator())  # several decades, whose ticks take time
     axes.set_title("(b) from small data", loc="left")
 
 
