@@ -40,9 +40,10 @@ def angles(mu, z, phases, third=1.0):
     """Return the angles (time, component, site) of amplitudes `z` where omega t is `phases`."""
     found, partners = np.empty(z.shape), z[..., ::-1, :]
     for place in np.ndindex(z.shape):
-        turn, one, other = expansion.turns(phases)[place[0]], z[place], partners[place]
+        e, one, other = np.exp(1j * phases[place[0]]), z[place], partners[place]
+        turn = e.real, e.imag, (e**3).real, (e**3).imag
         parts = one.real, one.imag, other.real, other.imag
-        found[place] = expansion.angle(mu, CONSTANTS[1], third, tuple(turn), *parts)
+        found[place] = expansion.angle(mu, CONSTANTS[1], third, turn, *parts)
     return found
 
 

@@ -366,11 +366,11 @@ def phases_params(given):
     return {"problems": problems, "mus": given.mus, "look_every": given.look_every}
 
 
-def sea_params(given):
+def sea_params(given, size):
     changes = {"end_time": given.window[1], "output_step": given.output_step}
     (problem,) = followed([given.case], given.tolerance, "taylor", **changes).values()
-    plain = given.model_dump(include={"mus", "window", "size", "members", "seed"})
-    return {"problem": problem, **plain}
+    plain = given.model_dump(include={"window", "size", "seed"})
+    return {"problem": problem, **plain, "mus": size.mus, "members": size.members}
 
 
 def passage_params(given, size):

@@ -127,11 +127,21 @@ rule measure_sea:
     conda:
         "../envs/pinned.yaml"
     params:
-        **sea_params(SETTINGS.pendula.sea),
+        **sea_params(SETTINGS.pendula.sea, SETTINGS.pendula.sea),
     message:
         "Measuring the sea of the pendula"
     script:
         "../../scripts/newton/measure_sea.py"
+
+
+use rule measure_sea as measure_long_sea with:
+    "The same with more members, and at a smaller mu"
+    output:
+        data="results/pendula/long/sea.nc",
+    log:
+        "results/logs/pendula/long_sea.log",
+    params:
+        **sea_params(SETTINGS.pendula.sea, SETTINGS.pendula.sea.long),
 
 
 rule measure_over_the_top:
@@ -222,7 +232,7 @@ use rule pendula_over_the_top as draw_long_over_the_top with:
     "The same of many members, followed for long"
     input:
         code=code("newton/draw_over_the_top.py"),
-        sea="results/pendula/sea.nc",
+        sea="results/pendula/long/sea.nc",
         over_the_top="results/pendula/long/over_the_top.nc",
         thermal="results/unbounded/thermal.nc",
     output:
@@ -249,7 +259,7 @@ rule remainder:
 
 
 rule over_the_top:
-    "When pendula go over the top, with many members for long: results/pendula/long/"
+    "The sea, and when pendula go over the top, with many members for long: results/pendula/long/"
     input:
         rules.draw_long_over_the_top.output,
     message:

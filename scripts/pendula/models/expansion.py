@@ -27,8 +27,6 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
-from pendula.numerics import elementary
-from pendula.numerics.elementary import product
 
 from . import amplitudes
 from .amplitudes import Chain, modulus2
@@ -108,16 +106,9 @@ def corrected_start(chain: Chain, squared_mu: float, y: np.ndarray) -> np.ndarra
 def angle(mu, gamma, third, turn, u, v, s, t):
     """Return the angle of a pendulum, whose A = u + i v and whose partner's is B = s + i t.
 
-    `turn` holds Re E, Im E, Re E^3 and Im E^3 (see `turns`), and `third` is a factor of the third
+    `turn` holds Re E, Im E, Re E^3 and Im E^3, and `third` is a factor of the third
     harmonic, which (3) leaves out.
     """
     re, im = third_harmonic(gamma, u, v, s, t)
     small = 2.0 * third * mu * mu * mu
     return 2.0 * mu * (u * turn[0] - v * turn[1]) + small * (re * turn[2] - im * turn[3])
-
-
-def turns(phases: np.ndarray) -> np.ndarray:
-    """Return Re E, Im E, Re E^3 and Im E^3 (phase, 4) where omega t is one of `phases`."""
-    once = elementary.turn(phases)
-    cubed = product(once, product(once, once))
-    return np.stack([once.real, once.imag, cubed.real, cubed.imag], axis=-1)

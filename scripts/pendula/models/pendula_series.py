@@ -144,7 +144,7 @@ def driven(series, k, i):
 @inlined_by_llvm
 def write_next_order(pendula, series, k, first, last):
     """Write all coefficients of order k + 1 of the blocks `first` to `last` - 1."""
-    m = series.memory
+    m, even = series.memory, k % 2 == 0
     for block in range(first, last):
         drive = driven(series, k, block_start(series, 0, block))
         for component in range(series.components):
@@ -153,10 +153,7 @@ def write_next_order(pendula, series, k, first, last):
                 sine, cosine = sine_and_cosine(load(m, i + ANGLE))
                 store(m, i + SINE, sine)
                 store(m, o, cosine)
-            if k % 2 == 0:
-                turned = turned_at_even_order(m, k, i, o)
-            else:
-                turned = turned_at_odd_order(m, k, i, o)
+            turned = turned_at_even_order(m, k, i, o) if even else turned_at_odd_order(m, k, i, o)
             write_next_coefficient(pendula, series, k, component, block, drive, turned, o)
             drive = fill(0.0) - drive  # of y; a zero keeps its sign
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from on_pendula import load_with
 from pendula.configuration.files import ConfigurationError
-from pendula.models.expansion import turns
 from pendula.models.pendula import times_of
 from pendula.problem import PENDULA, Constants, Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.pendula.followed import angles_at, compared, misses
+from pendula.studies.pendula.followed import angles_at, compared, misses, turns
 from pendula.studies.pendula.remainder import (
     PHASES,
     READINGS,
@@ -21,6 +20,7 @@ from pendula.studies.pendula.remainder import (
     measure,
     orders,
     peak,
+    reach,
     runs_of,
     samples,
     up_to,
@@ -126,6 +126,19 @@ def test_readings_that_share_their_amplitudes_share_a_run():
     runs = runs_of({**READINGS, **WRONG})
     assert [len(thirds) for thirds in runs.values()] == [2, 2, 1]
     assert runs[True, 1.0] == {"corrected": 1.0, "a third harmonic of the opposite sign": -1.0}
+
+
+def test_sites_that_nothing_has_reached_change_no_error():
+    """At the last site the amplitudes are some rounding errors large, and 1e-13 three sites on."""
+    given, ends = problem(half_width=24), np.array([0.25, 0.5])
+    assert reach(given, 0.5) == 15 and reach(given.changed(initial=np.ones((2, 5))), 0.5) == 17
+    shorter = given.changed(half_width=15)
+    sizes = np.abs(simulate(given.changed(end_time=0.5, output_step=0.5)).final).max(axis=0)
+    assert 0.0 < sizes[24 + 15] < 1e-15 < sizes[24 + 12]
+    whole, part = (measure(one, {0.1: 0.5}, ends, 0.05) for one in (given, shorter))
+    np.testing.assert_array_equal(whole.errors, part.errors)
+    run = follow(given.changed(model=PENDULA, mu=0.1, end_time=0.5), 0.05, 0.25)
+    assert run.errors.max(axis=1) == pytest.approx(part.errors[0, :, -1], rel=1e-12)
 
 
 @pytest.mark.parametrize("omega", [8.0, -4.0])

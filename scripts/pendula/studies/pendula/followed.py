@@ -7,6 +7,8 @@ import numpy as np
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.expansion import Expansion, angle, corrected_start, rates
+from pendula.numerics import elementary
+from pendula.numerics.elementary import product
 from pendula.problem import Problem
 from pendula.simd import largest_magnitude
 from pendula.simulation.interrupts import interruptible
@@ -26,12 +28,19 @@ class Compared(NamedTuple):
     """Angles of pendula, and how far those of an expansion are from them, reading by reading."""
 
     angles: np.ndarray  # (time, component, site)
-    turns: np.ndarray  # (time, 4), as pendula.models.expansion has them
+    turns: np.ndarray  # (time, 4)
     mu: float
     thirds: np.ndarray  # (reading,): factors of the third harmonic
     counts: np.ndarray  # (reading,): at so many times each is compared
     apart: np.ndarray  # (component, site): scratch
     misses: np.ndarray  # (reading, time): the largest of all pendula
+
+
+def turns(phases: np.ndarray) -> np.ndarray:
+    """Return Re E, Im E, Re E^3 and Im E^3 (phase, 4) where omega t is one of `phases`."""
+    once = elementary.turn(phases)
+    cubed = product(once, product(once, once))
+    return np.stack([once.real, once.imag, cubed.real, cubed.imag], axis=-1)
 
 
 def compared(

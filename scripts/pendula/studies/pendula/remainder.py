@@ -21,16 +21,19 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
 from pendula.measures.difference import VISIBLE
-from pendula.models import expansion
 from pendula.models.pendula import frequency
-from pendula.numerics.elementary import log
+from pendula.numerics.elementary import exp, log
 from pendula.problem import PENDULA, Problem
 from pendula.simulation.lattice import find_reduction
 
-from .followed import angles_at, compared, misses
+from .followed import angles_at, compared, misses, turns
 
 PHASES = 12
 """Samples of half a period; with twice as many the maxima change by less than 1e-3."""
+
+
+ROUNDING = 1e-16
+"""What is smaller than this part of the data makes no difference to them in double precision."""
 
 
 class Reading(NamedTuple):
@@ -179,13 +182,13 @@ def follow(problem: Problem, spacing: float, wrong_end: float) -> Followed:
     steps, places = found.times
     angles = angles_at(problem, steps * (np.pi / PHASES / frequency(omega, mu)), reduction)
     phases = np.pi / PHASES * np.arange(2 * PHASES)
-    turns = expansion.turns(phases)[steps % phases.size]
+    turned = turns(phases)[steps % phases.size]
     brief = int(np.searchsorted(steps * found.step, wrong_end * (1.0 + 1e-9), side="right"))
     counts = dict.fromkeys(READINGS, steps.size) | dict.fromkeys(WRONG, brief)
     missed = {}
     for (corrected, clock), thirds in runs_of({**READINGS, **WRONG}).items():
         wanted = np.array([counts[name] for name in thirds])
-        record = compared(angles, turns, mu, np.array(list(thirds.values())), wanted)
+        record = compared(angles, turned, mu, np.array(list(thirds.values())), wanted)
         taus = clock * found.step * steps[: wanted.max()]
         sizes = misses(problem, mu * mu if corrected else 0.0, taus, record, reduction)
         missed |= dict(zip(thirds, sizes, strict=True))
@@ -205,6 +208,21 @@ def runs_of(readings: Mapping[str, Reading]) -> dict[tuple[bool, float], dict[st
     return runs
 
 
+def reach(problem: Problem, end: float) -> int:
+    """Return the last site that the data have reached by the slow time `end`, but for rounding.
+
+    By (4) the larger modulus of a pair grows by epsilon times those of its neighbours and by
+    2 (gamma + epsilon) times itself at most. So n sites away from the data it is at most
+    e^(2 (gamma + epsilon) tau) (epsilon tau)^n / n! of the largest modulus of the data.
+    """
+    constants, n = problem.constants, 0
+    largest = float(exp(2.0 * (abs(constants.gamma) + abs(constants.epsilon)) * end))
+    while largest > ROUNDING:
+        n += 1
+        largest *= abs(constants.epsilon) * end / n
+    return problem.initial.shape[1] // 2 + n - 1
+
+
 class Case(NamedTuple):
     """What is found for one case: by the right expansions, and by the wrong ones."""
 
@@ -220,7 +238,10 @@ def measure(
     """Return the errors of a case of the amplitudes, whose pendula are run to an end by each mu."""
     errors, angles, horizons, wrong = [], [], [], []
     for mu, end in run_ends.items():
-        pendula = problem.changed(model=PENDULA, mu=mu, end_time=end, output_step=end)
+        moving = min(problem.half_width, reach(problem, end))
+        pendula = problem.changed(
+            model=PENDULA, mu=mu, end_time=end, output_step=end, half_width=moving
+        )
         run = follow(pendula, spacing, min(run_ends.values()))
         pairs = list(zip(run.taus, run.errors, strict=True))
         errors.append([up_to(tau, size, ends, end) for tau, size in pairs])

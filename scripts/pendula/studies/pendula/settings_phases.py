@@ -64,18 +64,27 @@ class Ensemble(Followed):
     seed: Seed
 
 
+class LongSea(Model):
+    """Its longer study."""
+
+    mus: Positives
+    members: Count
+
+
 class Sea(Ensemble):
     """The state that fills the chain."""
 
     window: Window
     output_step: Positive
+    long: LongSea
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the case."""
         if not 0 <= self.window[0] < self.window[1]:
             yield "window", "does not run forward from a time >= 0"
         length = {"end_time": self.window[1], "output_step": self.output_step}
-        yield from self.unfit(settings, [self.case], self.mus, "mus", self.members, **length)
+        for key, size in (("mus", self), ("long.mus", self.long)):
+            yield from self.unfit(settings, [self.case], size.mus, key, size.members, **length)
 
 
 class LongPassages(Model):
