@@ -183,7 +183,7 @@ def pendula_sizes(given: dict) -> dict[str, str]:
 
 
 def breathers(baseline) -> dict[str, float]:
-    """Return the errors of rates of growth, of thresholds, of the law of drives and of shares."""
+    """Return the errors of rates, thresholds, periods, the law of drives, and shares."""
     steady, shares = baseline["breathers/steady"], baseline["breathers/sensitivity"]
     maps = baseline["breathers/fates"]["fate"]
     below, found_to = steady["stable_below"], given("breathers")["steady"]["stability"]["to"]
@@ -192,6 +192,7 @@ def breathers(baseline) -> dict[str, float]:
     return {
         "steady": _most(off),
         "thresholds": _most(abs(below.diff("chain_half_width"))) + found_to,
+        "periodic": float(baseline["breathers/periodic"].attrs["residual"]),
         "law": rows["grows_by_drive"]["largest_difference"],
         "shares": _most(0.5 * (shares["share_high"] - shares["share_low"])),
         "fates": max(shares_of_area(one, mirrored=True).half.max() for one in maps.values),
@@ -201,11 +202,13 @@ def breathers(baseline) -> dict[str, float]:
 def breathers_sizes(given: dict) -> dict[str, str]:
     """Return how long and how many, by the parts of `breathers`."""
     steady, growth, shares = given["steady"], given["growth"], given["sensitivity"]
-    fates = given["fates"]
+    fates, periodic, widths = given["fates"], given["periodic"], given["periodic"]["half_widths"]
     chains = f"M = {number(steady['half_width'])} and half of it"
     return {
         "steady": f"{number(len(steady['omegas']))} values of Ω, {chains}",
         "thresholds": f"Ω to {number(steady['stability']['to'])}, {chains}",
+        "periodic": f"{number(len(periodic['frequencies']))} values of λ at each Ω,"
+        f" M from {number(widths['least'])} to {number(widths['most'])}",
         "law": f"γ = {_listed(growth['end_times'])}, tolerance {number(growth['tolerance'])}",
         "shares": f"{number(shares['members'])} members for each of"
         f" {number(len(shares['sizes']))} sizes of the change,"

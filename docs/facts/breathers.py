@@ -1,5 +1,6 @@
 """Facts on breathers, on the sensitivity to the data, and on the fates of data on one pair."""
 
+import numpy as np
 import xarray as xr
 from pendula.report.words import number, percent
 
@@ -15,6 +16,7 @@ def breathers(baseline: Baseline) -> dict:
     return {
         "omega": number(spread.attrs["omega"]),
         "least_power": number(rows["data_below_breathers"]["least_power"]),
+        "collisions": _collisions(baseline["breathers/periodic"]),
         "weak": number(growth["gamma"].min()),
         "off": percent(law["largest_difference"]),
         "strong": number(law["strongest"]),
@@ -34,6 +36,24 @@ def breathers(baseline: Baseline) -> dict:
             }
             for size in spread["size"].values
         ],
+    }
+
+
+def _collisions(periodic: xr.Dataset) -> dict[str, str]:
+    """Return how many collisions of multipliers were found, of which kind, where, and whose."""
+    frequency = periodic["collision_frequency"]
+    met = np.isfinite(frequency)
+    quartets = int((met & (periodic["collision_multiplier"].sel(part="im") > 0.0)).sum())
+    product = periodic["collision_signature"].astype(float).prod("colliding").where(met)
+    omegas = periodic["omega"].where(met.any([name for name in met.dims if name != "omega"]))
+    return {
+        "count": str(int(met.sum())),
+        "omegas": ", ".join(number(omega) for omega in omegas.dropna("omega").values),
+        "first": number(frequency.min(), 4),
+        "last": number(frequency.max(), 4),
+        "pairs": str(int(met.sum()) - quartets),
+        "quartets": str(quartets),
+        "signatures": "opposite" if (product.max() < 0.0) else "not always opposite",
     }
 
 
@@ -82,6 +102,9 @@ def fates(baseline: Baseline) -> dict:
             for terms in long["terms"].values
         ],
         "mixed": number(_most_mixed(long)),
+        "mixed_are": "most runs that stay are"
+        if families["near"].sel(omega=_most_mixed(long)) > 0.5
+        else "most runs that stay are not",
     }
 
 

@@ -65,6 +65,8 @@ COUNTED = {
     *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
     *("unbounded.members", "unbounded.spans", "unbounded.grown", "unbounded.far"),
     *("breathers_study.fates.reached", "fates.points", "fates.checked"),
+    *(f"breathers.collisions.{name}" for name in ("count", "pairs", "quartets", "omegas")),
+    "breathers.collisions.signatures",
     *("fates.members", "fates.mixed", "fates.scanned", "fates.terms.0"),
     *(
         "speed.processor",

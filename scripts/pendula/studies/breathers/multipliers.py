@@ -207,9 +207,9 @@ Known = tuple[Breather, np.ndarray, np.ndarray]
 def collision(one: Known, other: Known, parity: str) -> Collision | None:
     """Return the collision between two members of a family that differ by one growing trace.
 
-    None where they do not differ. A smooth function of the frequency changes its sign there, and
-    the method of R. P. Brent finds its root. The signatures are those just beside it, on the side
-    where all is on the circle.
+    None where they do not differ: two collisions between them that undo each other are missed. A
+    smooth function of the frequency changes its sign at a collision, and the method of R. P. Brent
+    finds its root. The signatures are those just beside it, on the side where all is on the circle.
     """
     known = {found[0].frequency: found for found in (one, other)}
     counts = {lam: unstable_count(lam, traces) for lam, (_, traces, _) in known.items()}

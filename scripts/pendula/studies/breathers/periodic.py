@@ -144,7 +144,7 @@ LARGEST_RATIOS = 2.0, 1.5
 Newton's method does not lose a family."""
 DECAY = 18.0
 """A tail falls by this exponent before the chain ends: to 1.5e-8 of the centre. The end of the
-chain changes the breather by the square of that, which is about as much as rounding does."""
+chain changes the centre by the square of that, which is about as much as rounding does."""
 
 
 def half_width_for(constants: Constants, frequency: float, least: int, most: int) -> int:

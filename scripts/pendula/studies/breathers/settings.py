@@ -152,6 +152,7 @@ class Needs(Model):
 
     steady: Positive
     thresholds: Positive
+    periodic: Positive
     law: Positive
     shares: Positive
     fates: Positive
