@@ -34,19 +34,20 @@ def accurate(problem) -> np.ndarray:
 
 def sum_of_series(x, v, coupling, drive, powers):
     """Return the state after one step; `drive` holds the coefficients of D."""
-    xs, vs, sines, cosines = (np.zeros((ORDER + 2, *x.shape), Extended) for _ in range(4))
+    xs, vs, sines, cosines = (np.zeros((ORDER + 1, *x.shape), Extended) for _ in range(4))
+    apart, bonds = np.zeros_like(xs), np.zeros_like(x)
     xs[0], vs[0], sines[0], cosines[0] = x, v, np.sin(x), np.cos(x)
     for k in range(ORDER):
-        wide = np.pad(xs[k], ((0, 0), (1, 1)))
-        back = vs[k::-1] if k else vs[:1]
-        apart = xs[k::-1] if k else xs[:1]
-        driven = (drive[: k + 1, None, None] * (apart[:, ::-1] - apart)).sum(axis=0)
-        bonds = coupling * (wide[:, 2:] - 2 * xs[k] + wide[:, :-2])
+        np.subtract(xs[k, ::-1], xs[k], out=apart[k])
+        np.multiply(xs[k], -2, out=bonds)
+        bonds[:, 1:] += xs[k, :, :-1]
+        bonds[:, :-1] += xs[k, :, 1:]
+        driven = np.einsum("k,kci->ci", drive[: k + 1], apart[k::-1])
         xs[k + 1] = vs[k] / (k + 1)
-        vs[k + 1] = (bonds + driven - sines[k]) / (k + 1)
-        sines[k + 1] = (cosines[: k + 1] * back).sum(axis=0) / (k + 1)
-        cosines[k + 1] = -(sines[: k + 1] * back).sum(axis=0) / (k + 1)
-    return (np.tensordot(powers, one[: ORDER + 1], 1) for one in (xs, vs))
+        vs[k + 1] = (coupling * bonds + driven - sines[k]) / (k + 1)
+        sines[k + 1] = np.einsum("kci,kci->ci", cosines[: k + 1], vs[k::-1]) / (k + 1)
+        cosines[k + 1] = -np.einsum("kci,kci->ci", sines[: k + 1], vs[k::-1]) / (k + 1)
+    return (np.einsum("k,kci->ci", powers, one) for one in (xs, vs))
 
 
 def test_every_method_is_exact_to_twelve_digits_at_the_end():
