@@ -12,7 +12,7 @@ from pendula.simulation.observables import blank_record, observe
 from pendula.simulation.solvers import run_dop853
 
 solve_in_one = dop853.build(rates, observe)
-TIMES = np.linspace(0.0, 20.0, 801)  # enough steps that some pass narrowly
+TIMES = np.linspace(0.0, 8.0, 321)  # enough steps that some pass narrowly
 
 
 @uncached

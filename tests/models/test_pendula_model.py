@@ -66,15 +66,15 @@ def test_the_phase_of_the_drive_is_as_exact_late_as_early(t):
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-@pytest.mark.parametrize("solver", TIGHT)
-def test_every_solver_agrees_with_plain_numpy(boundary, solver):
+def test_every_solver_agrees_with_plain_numpy(boundary):
     problem = pendula(boundary=boundary, mu=0.3, end_time=2.0)
     end = 2 * problem.end_time / problem.mu**2
     exact = solve_ivp(
         slope(problem), (0, end), start(problem).ravel(), "DOP853", rtol=1e-13, atol=1e-14
     )
-    found = final(problem, solver)
-    np.testing.assert_allclose(found.ravel(), exact.y[:, -1], rtol=0, atol=2e-11)
+    for solver in TIGHT:
+        found = final(problem, solver).ravel()
+        np.testing.assert_allclose(found, exact.y[:, -1], rtol=0, atol=2e-11, err_msg=solver)
 
 
 @pytest.mark.parametrize("omega", [8.0, -4.0])

@@ -88,7 +88,9 @@ def test_powers_err_by_less_than_they_state():
 def test_fifth_roots_err_by_less_than_one_ulp(root):
     """A result errs by less where the doubles before and after it lie on either side of the root,
     which their fifth powers tell exactly."""
-    for x in map(float, np.concatenate([positive, np.linspace(0.9, 33.0, 2000), [5e-324, 1.7e308]])):
+    for x in map(
+        float, np.concatenate([positive, np.linspace(0.9, 33.0, 2000), [5e-324, 1.7e308]])
+    ):
         found = root(x)
         below, above = (Fraction(nextafter(found, end)) ** 5 for end in (0.0, np.inf))
         assert below < x < above

@@ -1,6 +1,7 @@
-"""Equation (4) on the whole chain by power series in fixed-point integers: slow, plain, exact.
+"""Equation (4) for even data by power series in fixed-point integers: slow, plain, exact.
 
-A number x is the Python integer x 2^bits, rounded down. Nothing here uses the library or heyoka.
+A number x is the Python integer x 2^bits, rounded down. Only the sites from the middle on are held:
+data on the middle site stay even. Nothing here uses the library or heyoka.
 """
 
 from fractions import Fraction
@@ -14,9 +15,9 @@ def fixed(x, bits):
 
 
 def begin(pair, half_width, bits):
-    """Return Re and Im, each (2, 2M + 1), of data `pair` = (A_0, B_0), decimal strings."""
-    re = np.zeros((2, 2 * half_width + 1), object)
-    re[:, half_width] = [fixed(x, bits) for x in pair]
+    """Return Re and Im, each (2, M + 1), of data `pair` = (A_0, B_0), decimal strings."""
+    re = np.zeros((2, half_width + 1), object)
+    re[:, 0] = [fixed(x, bits) for x in pair]
     return re, re * 0
 
 
@@ -26,10 +27,11 @@ def product(x, y, bits):
 
 
 def laplacian(u):
-    """Return u_{n+1} - 2 u_n + u_{n-1} with zeros beyond the ends."""
+    """Return u_{n+1} - 2 u_n + u_{n-1} with u_{-1} = u_1 and a zero beyond the end."""
     result = -2 * u
     result[:, 1:] += u[:, :-1]
     result[:, :-1] += u[:, 1:]
+    result[:, 0] += u[:, 1]
     return result
 
 
@@ -67,4 +69,5 @@ def integrate(pair, omega, end, *, half_width=14, steps_per_unit=40, order=32, b
     re, im = begin(pair, half_width, bits)
     for _ in range(round(end * steps_per_unit)):
         re, im = advance(re, im, omega, steps_per_unit, order, bits)
-    return (re / 2**bits).astype(float) + 1j * (im / 2**bits).astype(float)
+    half = (re / 2**bits).astype(float) + 1j * (im / 2**bits).astype(float)
+    return np.concatenate([half[:, :0:-1], half], axis=1)

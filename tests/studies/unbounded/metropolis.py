@@ -6,7 +6,7 @@ is the standard error over the rings: no autocorrelation enters it.
 
 import numpy as np
 
-RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 400, 600, 8
+RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 300, 400, 4
 
 
 def sample(constants, beta, seed=1):

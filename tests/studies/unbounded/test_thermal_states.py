@@ -22,6 +22,7 @@ from pendula.studies.unbounded.thermal import (
 )
 from pendula.studies.unbounded.transfer import reach_of
 from problems import constants_of
+from scipy.optimize import minimize_scalar
 
 CELLS = np.linspace(0.0, 12.0, 81)
 DENSITY_NODES = 18
@@ -224,7 +225,8 @@ def test_the_grid_reaches_as_far_as_the_deepest_wave_has_weight(numbers):
         wave = np.sqrt(power / 2.0) * (-1.0) ** np.arange(4)
         return hamiltonian(np.array([wave, -wave]).astype(complex), numbers, "periodic") / 4.0
 
-    least = min(energy(power) for power in np.linspace(0.0, 100.0, 10001))
+    found = minimize_scalar(energy, bounds=(0.0, 100.0), method="bounded", options={"xatol": 1e-7})
+    least = min(found.fun, energy(0.0))
     for beta in (0.1, 2.0):
         edges = widest(constants_of(numbers), beta)
         np.testing.assert_array_equal(edges, edges[0])
