@@ -9,6 +9,7 @@ import made_up_results as made_up
 import pytest
 from pendula.datasets.netcdf import read
 from pendula.figure_diff import Finding, Verdict, acceptance, baseline, tolerances
+from pendula.figure_diff.compare_curves import Curve, curves
 
 from benchmarks import spreads
 
@@ -56,6 +57,17 @@ class Run(NamedTuple):
         record = json.loads(path.read_text())
         record["environment"]["matplotlib"] = "1.0"
         path.write_text(json.dumps(record))
+
+
+@pytest.fixture(scope="session")
+def kept_curves() -> list[Curve]:
+    """Return every curve of the datasets that are kept as accepted, which takes seconds to read."""
+    return [
+        curve
+        for name in baseline.recorded(TABLE.parent)["files"]
+        if name.endswith(".nc") and baseline.is_kept(name)
+        for curve in curves(read(TABLE.parent / name), name.removesuffix(".nc"))
+    ]
 
 
 @pytest.fixture(scope="session")

@@ -4,26 +4,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pendula.datasets.netcdf import read
-from pendula.figure_diff.baseline import is_kept, recorded
-from pendula.figure_diff.compare_curves import curves, deviation
+from pendula.figure_diff.compare_curves import deviation
 from pendula.figure_diff.tolerances import read_tolerances, rule_for
 
 BASELINE = Path(__file__).resolve().parents[1] / "baseline"
 
 
 @pytest.fixture(scope="module")
-def moving():
+def moving(kept_curves):
     """Return each curve of numbers that other roundings move, with its rule and its spread."""
     rules, spreads = read_tolerances(BASELINE)
     found = []
-    for name in recorded(BASELINE)["files"]:
-        if name.endswith(".nc") and is_kept(name):
-            for curve in curves(read(BASELINE / name), name.removesuffix(".nc")):
-                rule = rule_for(rules, curve.label, curve.largest)
-                spread = spreads.of(curve.label, rule)
-                if spread is not None and np.isfinite(curve.values).any():
-                    found.append((curve._replace(values=curve.values.astype(float)), rule, spread))
+    for curve in kept_curves:
+        rule = rule_for(rules, curve.label, curve.largest)
+        spread = spreads.of(curve.label, rule)
+        if spread is not None and np.isfinite(curve.values).any():
+            found.append((curve._replace(values=curve.values.astype(float)), rule, spread))
     return found
 
 
