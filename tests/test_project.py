@@ -91,6 +91,25 @@ def test_importing_a_package_drags_in_no_other_room(package):
     assert not [path for path in reached if package not in path.as_posix() and path not in inits]
 
 
+SIMULATING = ["trajectories/simulate_case.py", "sweeps/sweep_case.py"]
+
+
+@pytest.mark.parametrize("script", SIMULATING)
+def test_what_simulates_depends_on_the_equations_and_on_how_they_are_compiled(recorded, script):
+    equations = {"models/amplitudes.py", "models/amplitudes_series.py"}
+    assert equations | {"compiled.py"} <= recorded(script)
+
+
+@pytest.mark.parametrize("script", [s for s in SCRIPTS if re.match("(?!own/).*/draw_", s)])
+def test_what_draws_depends_on_the_style(recorded, script):
+    assert "drawing/style.py" in recorded(script)
+
+
+@pytest.mark.parametrize("script", ["theory/run_checks.py", "theory/check_observed.py"])
+def test_a_check_of_the_theory_depends_on_its_equations(recorded, script):
+    assert "studies/theory/equations.py" in recorded(script)
+
+
 def test_a_record_lists_the_templates_beside_the_modules(recorded):
     files = recorded("report/write_report.py")
     names = ("style.css", "script.js", "templates/base.html.j2")
