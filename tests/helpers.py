@@ -3,6 +3,7 @@
 import importlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -27,6 +28,16 @@ no test hangs on the clock. It is the only limit of time in the tests."""
 
 
 WAY = "; to have it run: "
+
+MY_BASELINE = "my_baseline"
+"""The folder in the accepted quick run that is its baseline."""
+
+PARTS = (
+    *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
+    *("tests/baseline/reference", "tests/baseline/proofs", "tests/baseline/speed"),
+    *("tests/baseline/tolerances.yaml", "tests/baseline/spreads.nc"),
+)
+"""What of the project a run needs."""
 
 
 def skip(reason: str, way: str) -> NoReturn:
@@ -144,6 +155,23 @@ def _jobs(result: subprocess.CompletedProcess) -> dict[str, int]:
         return {}
     table = text[text.index("Job stats:") :].split("\n\n")[0].splitlines()[3:]
     return {row.split()[0]: int(row.split()[1]) for row in table if row.split()[0] != "total"}
+
+
+def copy_of_sources(project: Path) -> Path:
+    """Make a fresh copy of the project's sources, and return it."""
+    for part in PARTS:
+        source = ROOT / part
+        if source.is_dir():
+            shutil.copytree(
+                source,
+                project / part,
+                ignore=shutil.ignore_patterns("__pycache__"),
+                copy_function=shutil.copy,
+            )
+        else:
+            project.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, project / part)
+    return project
 
 
 def edit(path: Path, old: str, new: str) -> None:

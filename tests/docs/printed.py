@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import NamedTuple
+from venv import EnvBuilder
 
 import yaml
 from pendula.archive.contents import code_files
@@ -80,12 +81,26 @@ def shown(text: str, said: str) -> bool:
     return re.search("(?:.*\n)*?.*".join(ways), plain) is not None
 
 
+def only_targets(block: Block) -> list[str]:
+    """Return the targets of a block that is one command and names nothing else."""
+    found = re.fullmatch(r"\.venv/bin/snakemake((?: [a-z]\w*)+)\n", block.text)
+    return found[1].split() if found else []
+
+
+def dry(block: Block) -> Block:
+    """Return the block with each call of Snakemake as a dry run."""
+    return block._replace(
+        text=re.sub(r"(?<=/)snakemake(?= |$)", "snakemake -n", block.text, flags=re.M)
+    )
+
+
 def prepare(project: Path, finished: Path, clone: Path) -> None:
     """Make a clone in which the printed commands take seconds.
 
     It holds what git tracks, the finished quick run as its results, and the quick configuration as
     its own, so that no command has to ask for it. The accepted results, which are those of a full
-    run, are left out: accept the quick run in their place. The packages are those of the tests.
+    run, are left out: the quick run is to be accepted in their place. The packages are those of the
+    tests.
     """
     for name in filter(is_wanted, code_files(project)):
         (clone / name).parent.mkdir(parents=True, exist_ok=True)
@@ -115,14 +130,14 @@ def _take_quick_configuration(folder: Path) -> None:
 
 
 def _share_packages(venv: Path) -> None:
-    """Put into a virtual environment that is made later the packages of this one, and Snakemake."""
+    """Make a virtual environment with the packages of this one, and its own Snakemake."""
+    EnvBuilder(symlinks=True).create(venv)
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     packages = venv / "lib" / version / "site-packages"
-    packages.mkdir(parents=True)
+    packages.mkdir(parents=True, exist_ok=True)
     ours = [path for path in sys.path if path.endswith("site-packages")]
     (packages / "ours.pth").write_text("\n".join(ours) + "\n")
     program = venv / "bin/snakemake"
-    program.parent.mkdir()
     program.write_text(f"#!{venv}/bin/python -IS\n" + ASK.read_text(encoding="utf-8"))
     program.chmod(0o755)
 

@@ -1,55 +1,98 @@
 """Each command of README and docs/ is run as it is printed, and prints what the page shows.
 
 All pages are played once, in one clone, in the order of the README's links. `not_run.yaml` lists
-the blocks that are not run as they are printed, each with its reason.
+the blocks that are not run as they are printed, each with its reason. Those whose work another test
+does are dry runs every day, which miss no target, option, file or key. With PENDULA_AS_PRINTED they
+are run as they are printed, which `.ci/elsewhere commands` asks for.
 """
 
 import ast
 import json
+import os
 import re
+import shutil
 from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 import yaml
-from helpers import ROOT, snakemake
-from printed import KINDS, Block, Done, Reader, blocks, file_of, pages, prepare, ready_for, shown
+from helpers import MY_BASELINE, ROOT, snakemake
+from printed import (
+    KINDS,
+    Block,
+    Done,
+    Reader,
+    blocks,
+    dry,
+    file_of,
+    only_targets,
+    pages,
+    prepare,
+    ready_for,
+    shown,
+)
 
 PAGES = pages(ROOT)
 PRINTED = {page: blocks(ROOT, page) for page in PAGES}
 ALL = [block for found in PRINTED.values() for block in found]
 NOT_RUN = yaml.safe_load((Path(__file__).parent / "not_run.yaml").read_text(encoding="utf-8"))
-LEFT_OUT = {(entry["page"], entry["first"]) for entry in NOT_RUN}
+AS_PRINTED = bool(os.environ.get("PENDULA_AS_PRINTED"))
+EVERY_DAY = {"dry run", "nothing"}
+"""What may be run every day of a block that is run as it is printed elsewhere."""
 
 
-def is_left_out(block: Block) -> bool:
-    return (block.page, block.text.splitlines()[0]) in LEFT_OUT
+def first(block: Block) -> tuple[str, str]:
+    return block.page, block.text.splitlines()[0]
 
 
+def listed(*kinds: str | None) -> set[tuple[str, str]]:
+    """Return the blocks of not_run.yaml of which that is run every day, or ever: None."""
+    return {(one["page"], one["first"]) for one in NOT_RUN if one.get("everyday") in kinds}
+
+
+LEFT_OUT = listed(None) if AS_PRINTED else listed(None, "nothing")
+DRY = set() if AS_PRINTED else listed("dry run")
 INLINE = re.findall(
     r"`(?:\.venv/bin/)?snakemake ([a-z]\w*(?: \w+)*)`",
     "".join((ROOT / page).read_text(encoding="utf-8") for page in PAGES),
 )
 """What a line of text or a table says to ask Snakemake for."""
-ASKED = Block("all pages", 0, "", "", f".venv/bin/snakemake -n {' '.join(INLINE)}")
+RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) not in LEFT_OUT]
+JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
+"""Dry runs of targets alone, which one dry run does together, with those that sentences name."""
+TARGETS = [*INLINE, *(target for block in JOINED for target in only_targets(block))]
+ASKED = Block("all pages", 0, "", "", f".venv/bin/snakemake -n {' '.join(TARGETS)}")
 
-RUN = [block for block in ALL if block.kind in ("", "pycon") and not is_left_out(block)]
+
+def accept_and_pack(clone: Path, accepted: Path, packed: Path) -> None:
+    """Put into the clone what the blocks make that are dry runs and what others begin with."""
+    baseline = clone / "tests/baseline"
+    shutil.copytree(accepted / "finished" / MY_BASELINE, baseline, dirs_exist_ok=True)
+    shutil.copytree(packed / "results/archive", clone / "results/archive")
 
 
 @pytest.fixture(scope="module")
-def played(made_once, full_run) -> dict[str, Done]:
+def played(request, made_once, full_run) -> dict[str, Done]:
     """Return what became of each block, by its name."""
 
     def make(folder):
         clone = folder / "project"
         prepare(ROOT, full_run, clone)
-        accepted = snakemake(clone, clone, "accept_figures")
-        assert accepted.returncode == 0, accepted.stderr
+        if AS_PRINTED:
+            accepted = snakemake(clone, clone, "accept_figures")
+            assert accepted.returncode == 0, accepted.stderr
+        else:
+            accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
         reader = Reader(clone)
         with ready_for(clone):
-            run = {block.name: reader.play(block) for block in [*tried, ASKED]}
+            run = {
+                block.name: reader.play(dry(block) if first(block) in DRY else block)
+                for block in [*tried, ASKED]
+                if block not in JOINED
+            }
+        run |= {block.name: run[ASKED.name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
     found = json.loads((made_once("printed", make) / "played.json").read_text())
@@ -75,7 +118,11 @@ OUTPUTS = [
 ]
 
 
-@pytest.mark.parametrize("pair", OUTPUTS, ids=lambda pair: pair[1].name)
+SHOWN = [pair for pair in OUTPUTS if first(pair[0]) not in DRY]
+"""What a dry run does not say is looked at elsewhere."""
+
+
+@pytest.mark.parametrize("pair", SHOWN, ids=lambda pair: pair[1].name)
 def test_what_a_page_shows_is_what_its_command_prints(played, pair):
     command, output = pair
     said = played[command.name].said
@@ -106,9 +153,26 @@ def test_a_file_that_is_to_be_saved_is_used_on_its_page(block):
 
 def test_what_is_not_run_exists_and_has_a_reason():
     printed = {(block.page, block.text.splitlines()[0]) for block in ALL if block.kind == ""}
-    assert sorted(LEFT_OUT - printed) == [] and len(LEFT_OUT) == len(NOT_RUN)
+    entries = listed(None, *EVERY_DAY)
+    assert sorted(entries - printed) == [] and len(entries) == len(NOT_RUN)
     for entry in NOT_RUN:
         assert entry["reason"].endswith(".") and (ROOT / entry["instead"]).exists(), entry
+
+
+def test_a_run_and_the_tests_begin_with_the_same_command():
+    """CI gives the command of the tests as it is printed, so that the other needs no play."""
+    run, tests = (block for block in PRINTED["README.md"] if block.mark.endswith(" command"))
+    assert run.text.replace("-m snakemake", "-m pytest") == tests.text != run.text
+
+
+def test_a_dry_run_is_of_every_call_and_of_nothing_else():
+    text = ".venv/bin/snakemake\nrm results/snakemake.txt\n../.venv/bin/snakemake own --cores 2\n"
+    block = Block("a.md", 1, "", "", text)
+    calls = ".venv/bin/snakemake -n\n", "../.venv/bin/snakemake -n own --cores 2\n"
+    assert dry(block).text == calls[0] + "rm results/snakemake.txt\n" + calls[1]
+    assert only_targets(block) == []
+    alone = block._replace(text=".venv/bin/snakemake fig2 own\n")
+    assert only_targets(alone) == ["fig2", "own"]
 
 
 @pytest.mark.parametrize(
