@@ -29,6 +29,9 @@ no test hangs on the clock. It is the only limit of time in the tests."""
 
 WAY = "; to have it run: "
 
+NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
+"""What of Snakemake's words tells a person nothing, and must not reach the screen with a fault."""
+
 MY_BASELINE = "my_baseline"
 """The folder in the accepted quick run that is its baseline."""
 
@@ -150,7 +153,11 @@ def planned_with(settings: dict, project: Path, directory: Path, *arguments: str
 
 def _jobs(result: subprocess.CompletedProcess) -> dict[str, int]:
     assert result.returncode == 0, result.stdout + result.stderr
-    text = result.stdout + result.stderr
+    return jobs_in(result.stdout + result.stderr)
+
+
+def jobs_in(text: str) -> dict[str, int]:
+    """Return the number of jobs of each rule in what a dry run said."""
     if "Nothing to be done" in text:
         return {}
     table = text[text.index("Job stats:") :].split("\n\n")[0].splitlines()[3:]

@@ -165,7 +165,9 @@ class Changed(Baseline):
 
     def __getitem__(self, name):
         fresh = name not in self._read
-        data = super().__getitem__(name)
+        if fresh:
+            self._read[name] = self.once[name].copy(deep=True)
+        data = self._read[name]
         if fresh:
             for variable in data.data_vars.values():
                 if variable.dtype.kind == "f":

@@ -6,10 +6,8 @@ The sentences are those of tests/configuration/bad_input.yaml. Here stands what 
 import subprocess
 
 import pytest
-from helpers import ROOT, command_of, snakemake_with
+from helpers import NOISE, ROOT, snakemake, snakemake_with
 from look_first import look
-
-NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
 
 
 def refused(result: subprocess.CompletedProcess) -> str:
@@ -20,34 +18,10 @@ def refused(result: subprocess.CompletedProcess) -> str:
     return said
 
 
-def test_faults_stand_alone_on_the_screen(tmp_path):
-    settings = {"cases": {"mine": {"omgea": 1}}}
-    said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
-    assert (
-        "the configuration has 2 faults:\n  cases.mine.omega: is missing\n  cases.mine.omg" in said
-    )
-
-
 def test_own_without_a_case_is_told(tmp_path):
     settings = {"limits": {"hours": 2}}
     said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
     assert "the configuration has no case and no sweep of your own: give some by --config" in said
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "words"),
-    [
-        ("mine.yaml", "cases: {mine: {omega: 8}}".encode("utf-16"), "is not a text in UTF-8"),
-        ("mine.yaml", b"cases: {mine: {omega: 2001-13-45}}", "2001-13-45 is not a date that can"),
-        ("none.yaml", None, "there is no file"),
-        ("own", None, "targets stand before it: snakemake"),
-    ],
-)
-def test_what_snakemake_cannot_read_is_told_before_it_reads(name, content, words, tmp_path):
-    if content is not None:
-        (tmp_path / name).write_bytes(content)
-    command = command_of(ROOT, tmp_path, tmp_path / name)
-    assert words in refused(subprocess.run(command, capture_output=True, text=True))
 
 
 @pytest.mark.parametrize(
@@ -79,6 +53,26 @@ def test_what_is_right_is_let_pass(tmp_path):
     (tmp_path / "mine.yaml").write_text("cases: {mine: {omega: 8}}")
     look(["own", "--cores", "2", "--configfile", str(tmp_path / "mine.yaml"), "-C", "bits=any"])
     look(["--directory", str(tmp_path / "not/yet"), __file__])
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("cases: {mine: {omega: 8}}".encode("utf-16"), "is not a text in UTF-8"),
+        (b"cases: {mine: {omega: 2001-13-45}}", "2001-13-45 is not a date that can"),
+    ],
+)
+def test_what_snakemake_could_not_read_is_told(content, words, tmp_path, capsys):
+    (tmp_path / "mine.yaml").write_bytes(content)
+    with pytest.raises(SystemExit):
+        look(["own", "--configfile", str(tmp_path / "mine.yaml")])
+    assert words in capsys.readouterr().err
+
+
+def test_it_is_told_before_snakemake_reads(tmp_path):
+    """It ends in a traceback where a file that it is to read is missing."""
+    said = refused(snakemake(ROOT, tmp_path, "--configfile", "own"))
+    assert "targets stand before it: snakemake own --con" in said
 
 
 def test_a_long_run_says_first_what_it_takes(tmp_path):

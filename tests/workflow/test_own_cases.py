@@ -15,7 +15,10 @@ SETTINGS = {
         "fig5": {"omega": 8, "half_width": 6, "end_time": 5},  # a name that a figure has too
         "sea": {"omega": 0, "half_width": 6, "end_time": 30, "initial": {1: [1, "0.1-0.2j"]}},
     },
-    "sweeps": {"fig5": {"case": "fig5", "half_widths": [2, 4, 6], "windows": [[1, 4]]}},
+    "sweeps": {
+        "fig5": {"case": "fig5", "half_widths": [2, 4, 6], "windows": [[1, 4]]},
+        "mine": {"case": "fig3_small", "half_widths": [0, 2], "windows": [[1, 2]]},  # the paper's
+    },
 }
 REPORT = "results/own_report.html"
 
@@ -78,9 +81,13 @@ def test_nothing_of_the_paper_is_made(own_run):
     assert not (own_run / "results/figures").exists()
 
 
+def test_the_page_says_that_a_swept_case_is_the_papers(own_run):
+    assert "The case fig3_small, as it is configured," in (own_run / REPORT).read_text()
+
+
 def test_the_page_holds_its_pictures_and_links_to_what_is_there(own_run):
     page = Page((own_run / REPORT).read_text())
-    assert len(page.pictures) == 5
+    assert len(page.pictures) == 6
     for picture in page.pictures:
         assert picture["src"].startswith("data:image/png;base64,") and len(picture["alt"]) > 60
     for link in page.links:
@@ -99,10 +106,16 @@ def test_the_page_says_what_the_checks_say(own_run):
 
 
 def test_nothing_is_to_be_done_afterwards_even_if_all_is_touched(made):
-    assert planned_with(SETTINGS, ROOT, made, "own") == {}
     for path in made.rglob("results/code/*"):
         os.utime(path)
     assert planned_with(SETTINGS, ROOT, made, "own") == {}
+
+
+def test_sweeps_are_enough(tmp_path):
+    """And so are cases: docs/own_cases.md has no sweep."""
+    sweeps = {"sweeps": {"mine": SETTINGS["sweeps"]["mine"]}}
+    jobs = planned_with(sweeps, ROOT, tmp_path, "own")
+    assert jobs.keys() == {"compile_solver", "own_sweep", "own_sweep_figure", "own_report", "own"}
 
 
 def test_a_new_omega_reruns_that_case_and_the_report(made, changed):
@@ -123,37 +136,6 @@ def test_a_new_omega_reruns_the_sweep_of_its_case(made, changed):
 def test_a_case_taken_out_reruns_the_report_alone(made, changed):
     del changed["cases"]["sea"]
     assert planned_with(changed, ROOT, made, "own") == {"own_report": 1, "own": 1}
-
-
-def test_only_cases_or_only_sweeps_are_enough(tmp_path):
-    cases = {"cases": {"mine": {"omega": 8}}}
-    assert "own_sweep" not in planned_with(cases, ROOT, tmp_path, "own")
-    sweeps = {"sweeps": {"mine": {"case": "fig3_small", "half_widths": [2], "windows": [[1, 2]]}}}
-    jobs = planned_with(sweeps, ROOT, tmp_path, "own")
-    assert jobs.keys() == {"compile_solver", "own_sweep", "own_sweep_figure", "own_report", "own"}
-
-
-def test_a_sweep_of_a_paper_case_has_its_page(tmp_path):
-    sweep = {"case": "fig3_small", "half_widths": [0, 2], "windows": [[1, 2]]}
-    result = snakemake_with({"sweeps": {"mine": sweep}}, ROOT, tmp_path, "own")
-    assert result.returncode == 0, result.stderr
-    assert "The case fig3_small, as it is configured," in (tmp_path / REPORT).read_text()
-
-
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"cases": {"mine": {"omgea": 1}}}, "cases.mine.omgea: is not a known key; did you mean"),
-        ({"cases": {"a": {"omega": 1}}, "sweeps": {"b": {"case": "c", "half_widths": [1]}}},
-         "sweeps.b.case: there is no case 'c'"),
-        ({}, "no case and no sweep of your own"),
-    ],
-)  # fmt: skip
-def test_faults_are_told_before_any_job(tmp_path, settings, words):
-    result = snakemake_with(settings, ROOT, tmp_path, "own")
-    assert result.returncode != 0 and words in result.stderr
-    assert "Traceback (most recent" not in result.stderr
-    assert not list(tmp_path.glob("results/**/*.log"))
 
 
 def test_a_case_whose_linear_flow_keeps_no_norm_is_refused_a_proof_before_any_job(tmp_path):

@@ -4,10 +4,10 @@ from helpers import ROOT, package, planned, snakemake
 from pendula.datasets.netcdf import read
 
 
-def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path):
+def test_the_reference_has_six_cases_and_one_from_doubles(tmp_path, first_plan):
     plan = planned(ROOT, tmp_path, "reference")
     assert plan == {"reference": 1, "reference_case": 6, "longest_reference_case": 1}
-    assert not plan.keys() & planned(ROOT, tmp_path).keys()
+    assert not plan.keys() & first_plan.keys()
 
 
 def test_a_short_reference_by_the_real_snakemake(tmp_path):
