@@ -149,8 +149,14 @@ def test_an_expression_only_names_a_fact(page):
     assert [e for e in expressions if not allowed.fullmatch(e)] == []
 
 
-def test_every_fact_is_quoted():
-    known = render.known(Baseline(render.BASELINE))
+@pytest.fixture(scope="module")
+def once():
+    """Return the baseline, read once."""
+    return Baseline(render.BASELINE)
+
+
+def test_every_fact_is_quoted(once):
+    known = render.known(once)
     text = "".join(template.read_text(encoding="utf-8") for template in PAGES.values())
     named = set(re.findall(r"\b(\w+\.\w+)", text))
     assert [f"{t}.{n}" for t, of in known.items() for n in of if f"{t}.{n}" not in named] == []
@@ -159,23 +165,20 @@ def test_every_fact_is_quoted():
 class Changed(Baseline):
     """The same datasets with every real number changed by a factor of its own."""
 
-    def __init__(self, folder, rng):
-        super().__init__(folder)
-        self.rng = rng
+    def __init__(self, once, rng):
+        super().__init__(once.folder)
+        self.once, self.rng = once, rng
 
     def __getitem__(self, name):
-        fresh = name not in self._read
-        if fresh:
-            self._read[name] = self.once[name].copy(deep=True)
-        data = self._read[name]
-        if fresh:
+        if name not in self._read:
+            data = self._read[name] = self.once[name].copy(deep=True)
             for variable in data.data_vars.values():
                 if variable.dtype.kind == "f":
                     variable.values = variable.values * self._factors(variable.shape)
             for attribute, value in data.attrs.items():
                 if isinstance(value, float):
                     data.attrs[attribute] = value * self._factors(())
-        return data
+        return self._read[name]
 
     def claims(self):
         return [
@@ -215,27 +218,38 @@ def flat(known, prefix=""):
     return found
 
 
-def test_every_fact_follows_its_dataset():
-    """A number typed into docs/facts would stay when the datasets change."""
-    before = flat(render.known(Baseline(render.BASELINE)))
-    same = set(before)
-    for seed in range(6):  # a rounded number may be the same by chance, but not each time
-        after = flat(render.known(Changed(render.BASELINE, np.random.default_rng(seed))))
-        same = {name for name in same if after.get(name) == before[name]}
-    named = re.compile(
-        r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
-        r".*(end|from|least_omega|largest_omega|error)$|"
-        r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
-        r"pendula\.(largest_mu|second_below|early_mu|late_mu|rows\.\d+\.mu|norms_mu|passages\.\d+\.mu|passing_members)$|"
-        r"certified\.((rows|framed)\.\d+\.part|contained|certificate\..*)$|"
-        r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
-    )
-    left = {
+NO_NUMBERS = re.compile(
+    r"configured\.|\w+_study\.\w+\.(needed|sizes)|.*\.(case|stated|omega|solver|peer|cases|sites|width|topic)$|"
+    r".*(end|from|least_omega|largest_omega|error)$|"
+    r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
+    r"pendula\.(largest_mu|second_below|early_mu|late_mu|rows\.\d+\.mu|norms_mu|passages\.\d+\.mu|passing_members)$|"
+    r"certified\.((rows|framed)\.\d+\.part|contained|certificate\..*)$|"
+    r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
+)
+"""Facts that are words, sizes or settings, which no change of a value moves."""
+
+
+def may_be_typed(names: set[str], before: dict[str, str]) -> set[str]:
+    """Return those of the facts with these names that should have changed with the data."""
+    return {
         name
-        for name in same
-        if not named.match(name) and before[name] not in ("never", "none seen", "later", "-")
+        for name in names
+        if not NO_NUMBERS.match(name)
+        and before[name] not in ("never", "none seen", "later", "-")
+        and not any(name.startswith(counted) for counted in COUNTED)
     }
-    left = {name for name in left if not any(name.startswith(counted) for counted in COUNTED)}
+
+
+def test_every_fact_follows_its_dataset(once):
+    """A number typed into docs/facts would stay when the datasets change."""
+    before = flat(render.known(once))
+    left = may_be_typed(set(before), before)
+    assert len(left) > 100
+    for seed in range(6):  # a rounded number may be the same by chance, but not each time
+        after = flat(render.known(Changed(once, np.random.default_rng(seed))))
+        left = {name for name in left if after.get(name) == before[name]}
+        if not left:
+            break
     assert {name: before[name] for name in sorted(left)} == {}
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import warm
-from helpers import ROOT, skip, wait_for
+from helpers import ROOT, run_ready, skip, wait_for
 
 if sys.platform != "linux":
     skip("only Linux has abstract sockets", "run it on Linux")
@@ -222,14 +222,15 @@ onstart:
 JOB = f"{FORKED.replace('print(', 'told = str(')}\nopen(snakemake.output[0], 'w').write(told)"
 
 
-def test_snakemake_asks_for_forks_and_leaves_nothing(tmp_path):
+def test_snakemake_asks_for_forks_and_leaves_nothing(tmp_path, monkeypatch):
     folder = tmp_path / "a 'quoted' folder"
     folder.mkdir()
     path = [str(ROOT / part) for part in ("workflow", "scripts")]
     (folder / "Snakefile").write_text(SNAKEFILE.format(path=path))
     (folder / "job.py").write_text(JOB)
     command = [sys.executable, "-m", "snakemake", "--cores", "1", "all", "shell.txt"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    monkeypatch.chdir(folder)
+    done = run_ready(command)
     assert done.returncode == 0, done.stderr
     assert [(folder / f"{n}.txt").read_text() for n in range(2)] == ["True", "True"]
     spent = json.loads((folder / "logs/imports.log").read_text().removeprefix("spent: "))
