@@ -7,7 +7,7 @@ writes one, `Problem.of` reads it.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
@@ -29,6 +29,10 @@ class Constants:
     epsilon: float  # coupling of neighbours
     gamma: float  # strength of the drive
     omega: float  # detuning Omega
+
+    def __iter__(self) -> Iterator[float]:
+        """Yield epsilon, gamma and omega."""
+        yield from (self.epsilon, self.gamma, self.omega)
 
     @classmethod
     def of(cls, values: Mapping) -> "Constants":

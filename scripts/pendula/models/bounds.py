@@ -17,10 +17,11 @@ epsilon is -epsilon and Omega is Omega - 4 epsilon: see `with_positive_coupling`
 Theorem 3 (N sites): H >= P^2 / (8 N) - c P, hence P <= C_N = 4 N (c + sqrt(c^2 + H / (2 N))).
 """
 
-from dataclasses import astuple, replace
+from dataclasses import replace
 
 import numpy as np
 
+from pendula.compiled import inlined_by_llvm, kernel
 from pendula.problem import Constants
 
 
@@ -87,15 +88,18 @@ def coercivity(power, constants: Constants):
     -H >= |Omega| P - gamma P (1 + s) - P^3 (1 - 3 s^2 / 4) / (64 epsilon), here at its least s.
     Concave in P. Does not hold on a ring or with free ends, where a constant has no gradient.
     """
-    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
+    epsilon, gamma, omega = with_positive_coupling(constants)
     with np.errstate(divide="ignore", over="ignore"):
         return _coercivity(np.asarray(power, dtype=float), epsilon, abs(gamma), abs(omega))
 
 
-def _coercivity(power: np.ndarray, epsilon: float, gamma: float, omega: float):
+def _coercivity(power, epsilon: float, gamma: float, omega: float):
     cubic = power * power / (64.0 * epsilon)
     s = np.minimum(1.0, 2.0 * gamma / (3.0 * cubic))
     return power * (omega - gamma * (1.0 + s) - cubic * (1.0 - 0.75 * s * s))
+
+
+coercivity_at = inlined_by_llvm(_coercivity)
 
 
 def widened_barrier(constants: Constants) -> tuple[float, float]:
@@ -105,7 +109,7 @@ def widened_barrier(constants: Constants) -> tuple[float, float]:
     and else at P^2 = (32 epsilon / 3) (m + sqrt(m^2 + 4 gamma^2)) with m = |Omega| - gamma.
     With epsilon = gamma = 1, Omega = -4 the top is 13.4 at P = 8.4; (25) has 4 at P = 4.
     """
-    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
+    epsilon, gamma, omega = with_positive_coupling(constants)
     a = theorem_2_gap(constants)
     if a == 0 or epsilon == 0:
         return 0.0, 0.0
@@ -128,16 +132,24 @@ def widened_bound(energy, start, constants: Constants):
     top, barrier = widened_barrier(constants)
     energy, start = np.broadcast_arrays(np.asarray(energy, float), np.asarray(start, float))
     inside = (start < top) & (-energy < barrier)
-    low, high, depth = np.zeros(energy.shape), np.full(energy.shape, top), -energy
-    epsilon, gamma, omega = astuple(with_positive_coupling(constants))
-    with np.errstate(divide="ignore", over="ignore"):
+    epsilon, gamma, omega = with_positive_coupling(constants)
+    root = np.empty(energy.shape)
+    bisect(-energy.ravel(), top, epsilon, abs(gamma), abs(omega), root.reshape(-1))
+    return np.where(inside, root, np.inf)
+
+
+@kernel
+def bisect(depths, top, epsilon, gamma, omega, roots):
+    """Write where `coercivity` reaches each of `depths` between 0 and `top`, to the last bit."""
+    for i in range(depths.size):
+        low, high = 0.0, top
         for _ in range(60):
             middle = 0.5 * (low + high)
-            power = np.maximum(middle, 1e-300)
-            below = _coercivity(power, epsilon, abs(gamma), abs(omega)) < depth
-            np.copyto(low, middle, where=below)
-            np.copyto(high, middle, where=~below)
-    return np.where(inside, high, np.inf)
+            if coercivity_at(max(middle, 1e-300), epsilon, gamma, omega) < depths[i]:
+                low = middle
+            else:
+                high = middle
+        roots[i] = high
 
 
 def theorem_3_bound(energy, sites: int, constants: Constants):

@@ -73,16 +73,16 @@ def driven(kappa, gamma: float, tau: float):
 
 
 def flow(
-    amplitudes: np.ndarray, tau: float, epsilon: float, gamma: float, omega: float, boundary: str
+    amplitudes: np.ndarray, tau: float, epsilon: float, gamma: float, omega, boundary: str
 ) -> np.ndarray:
     """Return the amplitudes (A, B), shape (2, N), that the linear equations make of `amplitudes`.
 
     `amplitudes` is complex of shape (2, N), `tau` may be negative, `boundary` is "dirichlet",
-    "free" or "periodic". Exact up to rounding.
+    "free" or "periodic". Exact up to rounding. Of an array of `omega` the result is (..., 2, N).
     """
     sites = amplitudes.shape[1]
     basis = modes(sites, boundary)
-    kappa = epsilon * curvatures(sites, boundary) - omega
+    kappa = epsilon * curvatures(sites, boundary) - np.asarray(omega)[..., None]
     total = times(basis, amplitudes[0] + amplitudes[1])
     difference = times(basis, amplitudes[0] - amplitudes[1])
     total = elementary.product(elementary.turn(kappa * tau), total)
@@ -92,7 +92,7 @@ def flow(
     imaginary = even * q + (2 * gamma + kappa) * odd * p
     total = times(basis.T, total)
     difference = times(basis.T, complex_of(real, imaginary))
-    return 0.5 * np.stack([total + difference, total - difference])
+    return 0.5 * np.stack([total + difference, total - difference], axis=-2)
 
 
 def squared_frequencies(kappa, gamma: float):

@@ -7,8 +7,6 @@ says whether the case is chaotic, and when the digits of double precision end. L
 the chain at rest, and Lemma 2 and Theorems 1 to 3 for the trajectory.
 """
 
-from dataclasses import astuple
-
 import numpy as np
 import xarray as xr
 
@@ -145,7 +143,7 @@ def beside_bounds(run: xr.Dataset) -> dict:
 
 def at_rest(problem: Problem) -> dict:
     """Return thresholds and growth rates of a chain at rest, infinite and of this length."""
-    epsilon, gamma, omega = astuple(problem.constants)
+    epsilon, gamma, omega = problem.constants
     chain = (epsilon, problem.sites, problem.boundary)
     return {
         "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),

@@ -4,7 +4,6 @@ Two runs of different precision and order share no rounding. Their common digits
 rounded once to double, make the dataset of a reference.
 """
 
-from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
@@ -58,7 +57,7 @@ def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool
     where heyoka does not reach the end, ValueError as `start` does.
     """
     numbers = Numbers(bits, decimal)
-    constants = RealConstants(*map(numbers.given, astuple(problem.constants)))
+    constants = RealConstants(*map(numbers.given, problem.constants))
     times = problem.times
     kept = np.isin(times, snapshots)
     stepper = _stepper(numbers, constants, start(problem, numbers))

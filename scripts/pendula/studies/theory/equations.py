@@ -11,17 +11,21 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.datasets.checks import tabulate, variable
+from pendula.feasibility import find_fault
+from pendula.integrators import DONE
 from pendula.measures.norms import power_of
 from pendula.models.amplitudes import energies, energy, rates
 from pendula.models.chain import ENDS
 from pendula.numerics import elementary
 from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import complex_of, modulus, product
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, pack, unpack
 from pendula.simulation.models import make_chain
-from pendula.simulation.simulate import IntegrationError, Trajectory, integrate, simulate
+from pendula.simulation.observables import blank_record
+from pendula.simulation.simulate import Trajectory, simulate
+from pendula.simulation.solvers import SOLVERS
 
 EPS = np.finfo(float).eps
 BOUNDARIES = tuple(ENDS)
@@ -120,24 +124,29 @@ def run_powers(
     chain. Where a solver refuses a run or gives it up, P is infinite at all times after the first:
     such a run breaks every bound, and nothing that is read off it can pass for a number.
     """
-    solver = {"name": "taylor", **tolerances}
-    problems = [
-        _problem(own, boundary, data, end_time, outputs, solver)
-        for own, boundary, data in zip(constants, boundaries, amplitudes, strict=True)
-    ]
-    powers, energies = np.full((len(problems), outputs + 1), np.inf), np.empty(len(problems))
+    solver, method = {"name": "taylor", **tolerances}, SOLVERS["taylor"]
+    controls = tuple(float(solver[name]) for name in method.controls)
+    states, times = _pack(np.array(amplitudes)), output_times(end_time, end_time / outputs)
+    peaks = np.abs(states).max(axis=(1, 2)).tolist()
+    count, rows, columns = states.shape
+    record = blank_record(rows // 2, columns - 2, len(times), 0)
+    powers, energies = np.full((count, outputs + 1), np.inf), np.empty(count)
 
     def follow(stop: np.ndarray) -> None:
-        for i, problem in enumerate(problems):
+        work = None
+        for i, (own, boundary, y) in enumerate(zip(constants, boundaries, states, strict=True)):
             if stop[0]:
                 return
-            try:
-                _, record, _, _ = integrate(problem, WHOLE, lambda run, *given: run(*given, stop))
-            except IntegrationError:
-                powers[i, 0] = power_of(problem.amplitudes)
-                energies[i] = total_energy(problem.constants, problem.boundary, problem.amplitudes)
-            else:
-                powers[i], energies[i] = squared_norm(record.l2), record.energy[0]
+            chain = make_chain(own, boundary, WHOLE)
+            work = method.room_for(chain, y) if work is None else work
+            if not find_fault(own, peaks[i], end_time, solver):
+                outcome = method.run(chain, y, times, controls, work, record, stop)
+                kept = (record.linf, record.l2, record.energy, y[:, 1:-1])
+                if outcome.status == DONE and all(np.isfinite(values).all() for values in kept):
+                    powers[i], energies[i] = squared_norm(record.l2), record.energy[0]
+                    continue
+            powers[i, 0] = power_of(amplitudes[i])
+            energies[i] = total_energy(own, boundary, amplitudes[i])
 
     interruptible(follow)
     return powers, energies

@@ -59,30 +59,35 @@ def decaying(sites: int, decay: float, edge: float) -> np.ndarray:
     return falling * np.where((edge > 0.0) & (n % 2.0 == 1.0), -1.0, 1.0)
 
 
-def spreading_norms(
-    epsilon: float, omega: float, decay: float, times, sites: int, gamma_times: float
-):
+def spreading_norms(epsilon: float, omega: float, decays, times, sites: int, gamma_times: float):
     """Return l2 and l-infinity norms of D on the infinite chain from (1 + i) (1 + |n|)^-decay.
 
-    By the exact flow on a ring so long that no wave returns. Beyond the ring the data are so flat
-    that each site moves as the wave at the edge: what l2 gets from there is added, as an integral.
+    They are (decay, norm, time), by the exact flow on a ring so long that no wave returns. Beyond
+    the ring the data are so flat that each site moves as the wave at the edge: what l2 gets from
+    there is added, as an integral.
     """
     gamma = gamma_times * float(gamma_0(omega, epsilon))
-    data = np.fft.rfft(decaying(sites, decay, omega))
-    theta = 2.0 * np.pi * np.arange(len(data)) / sites
+    starts = [np.fft.rfft(decaying(sites, decay, omega)) for decay in decays]
+    theta = 2.0 * np.pi * np.arange(sites // 2 + 1) / sites
     kappa = 4.0 * epsilon * sin(0.5 * theta) ** 2 - omega
-    norms = []
-    for tau in times:
+    norms = np.empty((len(decays), 2, len(times)))
+    for i, tau in enumerate(times):
         even, odd = driven(kappa, gamma, tau)
-        p = np.fft.irfft((even + (2.0 * gamma - kappa) * odd) * data, sites)
-        q = np.fft.irfft((even + (2.0 * gamma + kappa) * odd) * data, sites)
-        beyond = 0.0
-        if np.isfinite(decay):
-            beyond = 2.0 * power(0.5 * sites, 1.0 - 2.0 * decay) / (2.0 * decay - 1.0)
+        along = even + (2.0 * gamma - kappa) * odd, even + (2.0 * gamma + kappa) * odd
         grown = 1.0 + 4.0 * gamma * tau
-        square = np.sum(p * p + q * q) + (1.0 + grown * grown) * beyond
-        norms.append([np.sqrt(square), np.sqrt((p * p + q * q).max())])
-    return np.array(norms).T
+        for norm, data, decay in zip(norms, starts, decays, strict=True):
+            p, q = (np.fft.irfft(part * data, sites) for part in along)
+            square = p * p + q * q
+            total = np.sum(square) + (1.0 + grown * grown) * beyond_the_ring(sites, decay)
+            norm[:, i] = np.sqrt(total), np.sqrt(square.max())
+    return norms
+
+
+def beyond_the_ring(sites: int, decay: float) -> float:
+    """Return the sum of (1 + |n|)^(-2 decay) over all sites beyond the ring, as an integral."""
+    if not np.isfinite(decay):
+        return 0.0
+    return 2.0 * power(0.5 * sites, 1.0 - 2.0 * decay) / (2.0 * decay - 1.0)
 
 
 def law(decays: np.ndarray) -> np.ndarray:
@@ -130,9 +135,7 @@ def check_threshold(
     found = [threshold_run(epsilon, omega, sites, times, gamma_times) for omega in omegas]
     gammas, ratios = map(np.array, zip(*found, strict=True))
     spread = (long_times, ring_sites, gamma_times)
-    norms = np.array(
-        [[spreading_norms(epsilon, omega, s, *spread) for s in decays] for omega in omegas]
-    )
+    norms = np.array([spreading_norms(epsilon, omega, decays, *spread) for omega in omegas])
     norms = rounded(norms, DIGITS)
     measured = np.array([exponents(own, long_times, decays) for own in norms])
     numbers = {

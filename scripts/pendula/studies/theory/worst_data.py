@@ -13,8 +13,6 @@ infinity the ratio goes to one where all amplitudes are equally large. Here P is
 larger states have H > 0.
 """
 
-from dataclasses import astuple
-
 import numpy as np
 
 from pendula.datasets.checks import table, variable
@@ -190,7 +188,7 @@ def supremum(family: str, constants: Constants, sites: int, boundary: str) -> fl
     Theorem 2 asks for growth, whose linear value is (kappa + 2 gamma) / (kappa - 2 gamma). The
     constant of Theorem 3 is reached by |A_n| = |B_n|, A = -B, alternating, on an even ring.
     """
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     kappa = epsilon * curvatures(sites, boundary) - omega
     if family == "theorem_1":
         return (omega - 2 * gamma - 4 * epsilon) / (np.abs(kappa).min() - 2 * gamma)
@@ -296,7 +294,7 @@ def attained_theorem_3(epsilon: float, gamma: float, gamma_times: float = 1.0) -
 
 def ring_energy(constants: Constants, amplitudes: np.ndarray) -> float:
     """Return H of (8) on a ring with any number of sites, written apart from the library's."""
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     density = square_modulus(amplitudes)
     difference = amplitudes[0] - amplitudes[1]
     bonds = np.sum(square_modulus(np.roll(amplitudes, -1, axis=1) - amplitudes))

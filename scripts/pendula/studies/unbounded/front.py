@@ -13,7 +13,7 @@ Saarloos, Physica D 146 (2000) 1): its place is v tau - delay log tau - rest tau
 offset, with delay = 3 / (2 decay), rest = 3 pi^(1/2) Re(D^(-1/2)) / decay^2 and D = -s''(k) / 2.
 """
 
-from dataclasses import asdict, astuple, replace
+from dataclasses import asdict, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -141,7 +141,7 @@ def _corner(decay: float, constants: Constants) -> tuple[float, float]:
 
 def _growing_branch(wave: float, decay: float, constants: Constants) -> tuple[complex, ...]:
     """Return s, s'(k) and s''(k) of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     cosine = complex_of(cos(wave) * cosh(decay), -sin(wave) * sinh(decay))
     sine = complex_of(sin(wave) * cosh(decay), cos(wave) * sinh(decay))
     kappa = 2.0 * epsilon * (1.0 - cosine) - omega
@@ -154,7 +154,7 @@ def _growing_branch(wave: float, decay: float, constants: Constants) -> tuple[co
 
 def growth_rate(wave, decay, constants: Constants):
     """Return Re s of the growing branch at the complex wave numbers wave + i decay."""
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     kappa = 2.0 * epsilon * (1.0 - cos(wave) * cosh(decay)) - omega
     across = 2.0 * epsilon * sin(wave) * sinh(decay)  # Im kappa
     along = 4.0 * gamma * gamma - kappa * kappa + across * across

@@ -12,7 +12,6 @@ in a million could come out otherwise. The rest is rounded to DIGITS: the grid g
 """
 
 from collections.abc import Callable
-from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
@@ -64,7 +63,7 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
     The energy of a site is above P^2 / 8 - c P with c as below, and beta times that above its least
     value by REACH at the bound.
     """
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     c = 4.0 * epsilon + 2.0 * gamma - omega
     least = 16.0 * min(c, 0.0) * min(c, 0.0)
     return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))

@@ -15,7 +15,6 @@ nodes with s, t, p, q > 0 suffice, with two values at each: that of (s, t, p, q)
 (s, t, p, -q).
 """
 
-from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
@@ -58,7 +57,7 @@ def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray
 
 def site_terms(constants: Constants, nodes: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return P, the quartic energy, and the whole energy of a site after the change of signs."""
-    epsilon, gamma, omega = astuple(constants)
+    epsilon, gamma, omega = constants
     s, t, p, q = np.ix_(*nodes)
     power = s * s + t * t + p * p + q * q
     products = np.array([s * t + p * q, s * t - p * q])
