@@ -66,7 +66,7 @@ def test_spreading_data_follow_the_librarys_own_chain():
     data[1] = -data[0]
     final = run(Constants(epsilon=epsilon, gamma=2.0, omega=omega), "periodic", data, end).final
     parted = np.abs(final[0] - final[1]) / 1e-9
-    largest = spreading_norms(epsilon, omega, 0.6, [end], sites, 1.0)[1, 0]
+    largest = spreading_norms(epsilon, omega, [0.6], [end], sites, 1.0)[0, 1, 0]
     assert parted.max() == pytest.approx(largest, rel=1e-4)
 
 
