@@ -28,6 +28,7 @@ def pendula(baseline: Baseline) -> dict:
             for mu in data["mu"].values
         ],
         **_expansion(baseline["pendula/remainder"]),
+        **_parting(baseline["pendula/remainder"], baseline["checks/lyapunov"]),
     }  # fmt: skip
 
 
@@ -74,5 +75,21 @@ def _expansion(data: xr.Dataset) -> dict[str, str]:
     }  # fmt: skip
 
 
+def _parting(data: xr.Dataset, lyapunov: xr.Dataset) -> dict[str, str]:
+    """Return how the expansion of large data parts from the pendula: by its phase, or by chaos."""
+    end, mu = common_end(data), float(data["mu"].min())
+    large = data.sel(case="fig2_large", mu=mu, end=end)
+    phase = large["error"].sel(expansion="leading") / large["largest_angle"]
+    drift = float(phase) / (mu * mu * end)
+    return {
+        "drift": number(drift, 2),
+        "paper_end": number(PAPER_END),
+        "drift_mu": number((drift * PAPER_END) ** -0.5, 2),
+        "chaotic_exponent": number(lyapunov["exponent"].sel(case="fig3_large").max(), 2),
+    }
+
+
+PAPER_END = 50.0
+"""End of the runs of the paper's figures, and of `snakemake remainder`."""
 EARLY_MU = 0.1
 """The mu from which on the horizon at Omega = 0 is told."""

@@ -251,7 +251,7 @@ rule pendula:
 
 
 rule remainder:
-    "The error of the expansion to the end of the paper's runs, which takes minutes: results/pendula/long/"
+    "The error of the expansion to the end of the paper's runs, which takes a minute: results/pendula/long/"
     input:
         rules.draw_long_remainder.output,
     message:
