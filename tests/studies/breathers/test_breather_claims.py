@@ -49,7 +49,10 @@ def sources():
             "parity_growth": (
                 ("parity", *over, "frequency"), np.stack([growth + 0.1 * np.arange(2), growth]),
             ),
-            "measured_growth": ((*over, "frequency"), 1.0003 * (growth + 0.1 * np.arange(2))),
+            "measured_growth": (
+                ("parity", *over, "frequency"),
+                1.0003 * np.stack([growth + 0.1 * np.arange(2), np.where(growth, growth, np.nan)]),
+            ),
             "growing": ((*over, "frequency"), growth),
             "growing_half": ((*over, "frequency"), growth),
             "highest_wave": ("omega", [8.0, 8.0, 8.0]),

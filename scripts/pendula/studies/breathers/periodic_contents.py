@@ -59,9 +59,8 @@ class _Table:
         self.amplitude = np.full((parts, 2, *over), np.nan)
         self.power = np.full((2, *over), np.nan)
         self.energy = np.full(over, np.nan)
-        self.measured_growth = np.full(over, np.nan)
         self.growth_half, self.growing = np.full(over, np.nan), np.full((2, *over), np.nan)
-        self.growth = np.full((parities, *over), np.nan)
+        self.growth, self.measured_growth = np.full((2, parities, *over), np.nan)
         self.trace = np.full((parts, MODES, parities, *over), np.nan)
         self.signature = np.zeros((MODES, parities, *over), np.int8)
         self.collision = np.full((parities, *over), np.nan)
@@ -86,12 +85,14 @@ class _Table:
                 self.signature[(m, p, *at)] = mode.signature
 
     def measure(self, at: tuple[int, ...], one: Member) -> None:
-        """Write how fast the fastest even perturbation grows in the nonlinear flow, if one does."""
-        traces = one.spectra["even"][0]
-        rates = multipliers.growths(one.breather.frequency, traces)
-        if rates.max() > 0.0:
-            trace = complex(traces[rates.argmax()])
-            self.measured_growth[at] = perturbed.measured_growth(one.breather, trace)
+        """Write how fast the fastest perturbations grow in the nonlinear flow, if some do."""
+        for p, parity in enumerate(multipliers.PARITIES):
+            traces = one.spectra[parity][0]
+            rates = multipliers.growths(one.breather.frequency, traces)
+            if rates.max() > 0.0:
+                trace = complex(traces[rates.argmax()])
+                found = perturbed.measured_growth(one.breather, trace, parity)
+                self.measured_growth[(p, *at)] = found
 
     def add_collisions(self, at: tuple[int, ...], one: Member, above: Member) -> None:
         """Write what collides between a member and the one at the next higher frequency."""
@@ -241,8 +242,8 @@ def _stability(table: _Table) -> dict[str, Variable]:
             ("parity", *OVER), rates[2], "largest rate of growth by parity", GROWTH_DIGITS
         ),
         "measured_growth": kept(
-            OVER, table.measured_growth,
-            "rate of growth of an even perturbation in the nonlinear flow", MEASURED_DIGITS,
+            ("parity", *OVER), table.measured_growth,
+            "largest rate of growth in the nonlinear flow by parity", MEASURED_DIGITS,
         ),
         "growing": Variable(OVER, table.growing[0], "number of multipliers that grow"),
         "growing_half": Variable(

@@ -36,22 +36,49 @@ class Swing(NamedTuple):
     highest: np.ndarray
 
 
-def run_from(breather: Breather, change: float, end_time: float, step: float, tolerance: float):
-    """Return moduli (component, site, time) from data whose central A is larger by `change`."""
-    half = np.round(breather.data, DECIMALS)
-    half[0, 0] *= 1.0 + change
-    half[1, 0] *= 1.0 - 0.7 * change
-    data = np.concatenate([half[:, :0:-1], half], axis=1).astype(complex)
+def run_from(
+    breather: Breather, change: float, end_time: float, step: float, tolerance: float,
+    parity: str = "even",
+):  # fmt: skip
+    """Return moduli (component, site, time) from data whose central A is larger by `change`.
+
+    An odd change is one of the two sites beside the centre, of opposite signs.
+    """
+    half, sizes = np.round(breather.data, DECIMALS), np.array([change, -0.7 * change])
+    data = np.concatenate([half[:, :0:-1], half], axis=1)
+    centre = half.shape[1] - 1
+    if parity == "even":
+        data[:, centre] *= 1.0 + sizes
+    else:
+        data[:, centre + 1] *= 1.0 + sizes
+        data[:, centre - 1] *= 1.0 - sizes
     run = simulate(Problem(
         constants=breather.constants, half_width=half.shape[1] - 1, boundary="dirichlet",
-        initial=data, end_time=end_time, output_step=step, snapshot_every=1,
+        initial=data.astype(complex), end_time=end_time, output_step=step, snapshot_every=1,
         solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
     ))  # fmt: skip
     return run.modulus
 
 
-def measured_growth(breather: Breather, trace: complex) -> float:
-    """Return the rate of growth in the flow of the even perturbation that grows fastest.
+def _parted(breather: Breather, parity: str, periods: int) -> np.ndarray:
+    """Return how far a perturbation has come after each period, (component and site, period).
+
+    A run without a change stays even, so that an odd perturbation is the difference of a run and
+    its own mirror image.
+    """
+    period = 4.0 * breather.quarter
+    given = periods * period, period, TOLERANCE, parity
+    changed = run_from(breather, SMALLEST, *given)
+    centre = changed.shape[1] // 2
+    if parity == "even":
+        found = (changed - run_from(breather, 0.0, *given))[:, centre : centre + 2]
+    else:
+        found = changed[:, centre + 1 : centre + 3] - changed[:, centre - 2 : centre][:, ::-1]
+    return found.reshape(-1, periods + 1)
+
+
+def measured_growth(breather: Breather, trace: complex, parity: str = "even") -> float:
+    """Return the rate of growth in the flow of the perturbation of one parity that grows fastest.
 
     `trace` is its nu of `multipliers`: the expected rate sets the length of the runs, and
     a real nu means one growing multiplier, a complex one two.
@@ -59,12 +86,7 @@ def measured_growth(breather: Breather, trace: complex) -> float:
     period = 4.0 * breather.quarter
     rate = growth(breather.frequency, np.array([trace]))
     periods = int(np.ceil(log(LARGEST / SMALLEST) / (rate * period))) + 2
-    plain, changed = (
-        run_from(breather, change, periods * period, period, TOLERANCE)
-        for change in (0.0, SMALLEST)
-    )
-    centre = plain.shape[1] // 2
-    parted = (changed - plain)[:, centre : centre + 2].reshape(-1, periods + 1)
+    parted = _parted(breather, parity, periods)
     before, here, after = (parted[:, (periods + 1) // 2 :][:, k : k - 2 or None] for k in range(3))
     if not trace.imag:
         return float(log(np.sum(after * here) / np.sum(here * here))) / period
