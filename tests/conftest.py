@@ -15,7 +15,9 @@ from scipy.integrate import solve_ivp
 
 pytest_plugins = ["figure_fixtures"]
 
-settings.register_profile("project", deadline=None, derandomize=True, database=None)
+settings.register_profile(
+    "project", deadline=None, derandomize=True, database=None, max_examples=50
+)
 settings.load_profile("project")
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import verdict_of
 from made_up_breathers import sensitivity
 from pendula.ledger.claim import evaluate
 from pendula.studies.breathers.claims import GROWTH, MAP, PERIODIC, SENSITIVITY, STEADY
@@ -102,8 +103,8 @@ def with_fate(fates, name, omega, number):
     return fates.assign({name: changed})
 
 
-def verdicts(sources):
-    return {row["name"]: row["verdict"] for row in evaluate(sources, None, ("breathers/claims",))}
+def verdict(name, sources):
+    return verdict_of(name, sources, "breathers/claims")
 
 
 def test_all_hold_where_they_should_and_every_control_is_refused(sources):
@@ -149,7 +150,8 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     ],
 )  # fmt: skip
 def test_a_wrong_dataset_is_refused(sources, name, source, change):
-    assert verdicts({**sources, source: change(sources[source])})[name] == "not reproduced"
+    changed = {**sources, source: change(sources[source])}
+    assert verdict(name, changed) == "not reproduced"
 
 
 def test_what_a_finite_chain_makes_within_the_waves_is_a_caveat(sources):
@@ -188,4 +190,5 @@ def test_what_a_finite_chain_makes_within_the_waves_is_a_caveat(sources):
     ],
 )
 def test_without_its_case_a_claim_cannot_be_decided(sources, name, source, change):
-    assert verdicts({**sources, source: change(sources[source])})[name] == "cannot be decided"
+    changed = {**sources, source: change(sources[source])}
+    assert verdict(name, changed) == "cannot be decided"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import verdict_of
 from pendula.ledger.claim import evaluate
 from pendula.studies.pendula.claims_remainder import LYAPUNOV, REMAINDER
 
@@ -83,11 +84,13 @@ def test_all_are_decided_and_every_control_passes(lyapunov):
     ],
 )
 def test_a_claim_falls_where_its_measure_does(lyapunov, name, change):
-    assert verdicts(change(made()), lyapunov)[name] == "not reproduced"
+    sources = {REMAINDER: change(made()), LYAPUNOV: lyapunov}
+    assert verdict_of(name, sources, *MODULES) == "not reproduced"
 
 
 def test_a_remainder_that_hardly_grows_is_bounded(lyapunov):
-    assert verdicts(made(grows=0.2), lyapunov)["remainder_bounded"] == "confirmed"
+    sources = {REMAINDER: made(grows=0.2), LYAPUNOV: lyapunov}
+    assert verdict_of("remainder_bounded", sources, *MODULES) == "confirmed"
 
 
 def test_too_few_mu_decide_nothing(lyapunov):
