@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import verdict_of
 from pendula.ledger.claim import evaluate
 from pendula.studies.pendula.claims_phases import PHASES, SEA, THERMAL, TOP
 
@@ -97,7 +98,7 @@ def at(name, factor, **where):
 )
 def test_a_wrong_case_is_not_confirmed(sources, name, source, change):
     sources[source] = change(sources[source])
-    assert rows(sources)[name]["verdict"] == "not reproduced"
+    assert verdict_of(name, sources, "pendula/claims_phases") == "not reproduced"
 
 
 def test_few_data_decide_nothing(sources):
