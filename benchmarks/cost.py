@@ -11,9 +11,10 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import advance
 
 from . import machine
-from .contestants import controls
+from .contestants import PEERS, controls, find_peers
+from .points import BLOCK, PAIRS
 from .problems import until
-from .timing import clocked, peak_memory, repeat
+from .timing import clocked, in_turns, peak_memory, repeat
 
 SITES = (3, 5, 11, 31, 61, 201, 1001, 10_001, 100_001)
 END_TIMES = (1.0, 10.0, 100.0, 1000.0)
@@ -22,6 +23,8 @@ TOLERANCE = 1e-10
 WORK = 40_000
 """Sites times units of tau of a run, so that short chains run long enough to be timed."""
 REPEAT = 5
+BY_HAND = ("cpp_taylor", "cpp_taylor_contracted", "cpp_taylor_eight")
+"""The method of `taylor` in C++. Short runs compare the calls from Python, long ones kernels."""
 
 ACTIVE_WIDTHS = (1_000, 3_000, 10_000, 100_000, 500_000)
 """W where 2W + 1 sites of a chain without ends are active."""
@@ -45,6 +48,7 @@ def measure(problem: Problem) -> dict[str, Variable]:
         "steps": Variable(grid, by_sites[..., 1], "steps a unit of slow time", "1"),
         "memory": Variable(grid, by_sites[..., 2], "largest memory a site", "byte"),
         "long_seconds": Variable(long, by_time, "time a site and unit of slow time", "s"),
+        **measure_by_hand(problem),
         **measure_active(),
         **machine.measure(),
     }
@@ -79,6 +83,34 @@ def _until(problem: Problem, end: float, name: str) -> float:
     given = until(problem, end, solver=controls(name, TOLERANCE))
     seconds = repeat(clocked(lambda: simulate(given)), REPEAT).median
     return seconds / given.sites / end
+
+
+def measure_by_hand(problem: Problem) -> dict[str, Variable]:
+    """Return how many times as long the method in C++ takes as `taylor`, at the same tolerance.
+
+    Where a program of it cannot be compiled or run, the ratio is not a number.
+    """
+    present, _ = find_peers()
+    ratios = np.full((len(END_TIMES), len(BY_HAND)), np.nan)
+    for place in np.ndindex(ratios.shape):
+        end, name = END_TIMES[place[0]], BY_HAND[place[1]]
+        if name in present:
+            ratios[place] = _by_hand(
+                until(problem, end, solver=controls("taylor", TOLERANCE)), name
+            )
+    said = "time of the method in C++ over that of taylor, median of pairs"
+    return {
+        "by_hand": Variable(
+            ("by_hand",), np.array([PEERS[name].title for name in BY_HAND]), "method in C++"
+        ),
+        "by_hand_ratio": Variable(("end_time", "by_hand"), ratios, said, "1"),
+    }
+
+
+def _by_hand(problem: Problem, name: str) -> float:
+    solve = PEERS[name].prepare(problem)
+    ours = clocked(lambda: simulate(problem))
+    return float(np.median(in_turns(lambda: solve(TOLERANCE)[1], ours, PAIRS, BLOCK)))
 
 
 def active_sites(width: int, seed: int = 2017) -> np.ndarray:

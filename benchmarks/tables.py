@@ -95,6 +95,8 @@ def tabulate_cost(cost: xr.Dataset) -> list[str]:
     one_case = f"Tolerance {TOLERANCE:.0e}, one case, {said}"
     over_time = _over(cost["long_seconds"], "end_time")
     parts += [f"{title}{cost['end_time'].long_name}", one_case, over_time]
+    if "by_hand" in cost:
+        parts += ["## The method of taylor in C++, in times of taylor", _over_by_hand(cost)]
     if "active_width" in cost:
         parts += ["## A chain without ends", _over_active_sites(cost)]
     return parts
@@ -115,6 +117,16 @@ def _over(seconds: xr.DataArray, dim: str, *last: list[str]) -> str:
         for value in seconds[dim].values
     ]
     return markdown([seconds[dim].long_name, *seconds["solver"].values], [*rows, *last])
+
+
+def _over_by_hand(cost: xr.Dataset) -> str:
+    ratios = cost["by_hand_ratio"].dropna("by_hand")
+    head = [ratios["end_time"].long_name, *ratios["by_hand"].values]
+    rows = [
+        [f"{end:g}", *(f"{ratio:.3g}" for ratio in ratios.sel(end_time=end).values)]
+        for end in ratios["end_time"].values
+    ]
+    return markdown(head, rows)
 
 
 def _over_active_sites(cost: xr.Dataset) -> str:

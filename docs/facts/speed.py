@@ -41,12 +41,22 @@ def speed(baseline: Baseline) -> dict:
         "processor": measured.attrs["processor"],
         "best_error": number(REGULAR_ERROR),
         "fastest_below": number(_fastest_below(measured, "taylor")),
-        "faster": " and ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
+        "faster": "; ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
+        "by_hand": _by_hand(baseline["speed/cost"]),
         "taylor_error": number(float(errors.max()), 2),
         "sites": [
             {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
         ],
         "long_over_short": {"sites": f"{COMPARED[1]} over {COMPARED[0]}", **_growth(long / short)},
+    }
+
+
+def _by_hand(cost: xr.Dataset) -> dict:
+    """Return the times of the method in C++ over those of `taylor`, in a long run."""
+    ratios = cost["by_hand_ratio"].isel(end_time=-1).dropna("by_hand").to_series()
+    return {
+        "end": number(float(cost["end_time"][-1])),
+        "peers": [{"peer": peer, "ratio": _ratio(ratio)} for peer, ratio in ratios.items()],
     }
 
 

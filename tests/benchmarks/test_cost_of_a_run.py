@@ -9,6 +9,7 @@ from problems import problem_of
 from scipy.integrate._ivp import dop853_coefficients as published
 
 from benchmarks import cost, figures, machine
+from benchmarks.peer import Peer
 from benchmarks.tables import tabulate_cost
 
 TIGHT = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
@@ -93,6 +94,23 @@ def test_the_table_says_what_was_measured():
     rows = cells_of(tabulate_cost(made_up_cost()))
     assert ["1001", "2", "3"] in rows and ["100001 over 1001", "1.5", "2"] in rows
     assert ["10", "2", "3"] in rows
+
+
+def test_the_table_leaves_out_a_method_in_cpp_that_was_not_run():
+    ratios = (("end_time", "by_hand"), [[np.nan, 1.5]])
+    cost = made_up_cost().assign_coords(by_hand=["contracted", "separate"])
+    rows = cells_of(tabulate_cost(cost.assign(by_hand_ratio=ratios)))
+    assert ["slow time at the end", "separate"] in rows and ["10", "1.5"] in rows
+
+
+def test_a_ratio_above_one_is_of_a_method_in_cpp_that_takes_longer(monkeypatch):
+    peer = Peer("three seconds", lambda: None, lambda problem: lambda tolerance: (None, 3.0))
+    monkeypatch.setattr(cost, "BY_HAND", ("cpp_taylor", "not_here"))
+    monkeypatch.setattr(cost, "PEERS", dict.fromkeys(cost.BY_HAND, peer))
+    monkeypatch.setattr(cost, "find_peers", lambda: ({"cpp_taylor": peer}, {}))
+    monkeypatch.setattr(cost, "clocked", lambda action: lambda: 2.0)
+    ratios = cost.measure_by_hand(PROBLEM)["by_hand_ratio"].values
+    np.testing.assert_array_equal(ratios, [[1.5, np.nan]] * len(cost.END_TIMES))
 
 
 def test_the_table_compares_only_chains_that_were_measured():
