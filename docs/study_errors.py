@@ -173,7 +173,8 @@ def pendula_sizes(given: dict) -> dict[str, str]:
         "remainder": f"{len(remainder['ends'])} cases, μ = {_listed(remainder['mus'])},"
         f" tolerance {number(remainder['tolerance'])}",
         "phases": f"the cases of Figs 2 to 4, μ = {_listed(phases['mus'])}, tolerance"
-        f" {number(phases['tolerance'])}",
+        f" {number(phases['tolerance'])}; {number(phases['ensemble']['members'])} members"
+        f" of `{phases['ensemble']['case']}` at μ = {number(max(phases['mus']))}",
         "sea": _ensemble(sea, f"members at each μ = {_listed(sea['mus'])}"),
         "over_the_top": _ensemble(
             top,

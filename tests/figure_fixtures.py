@@ -165,7 +165,7 @@ def pendula_phases():
     from pendula.studies.pendula.phases import measure_phases
 
     problems = {name: short_case(name) for name in ("fig2_small", "fig4_large")}
-    return as_xarray(*measure_phases(problems, [0.1, 0.3], 2))
+    return as_xarray(*measure_phases(problems, [0.1, 0.3], 2, "fig2_small", 1e-6, 1, 1))
 
 
 def pendula_sea():

@@ -10,10 +10,14 @@ def measure_phases(
     problems: dict[str, dict],
     mus: list[float],
     look_every: int,
+    ensemble: dict,
     kernels: list[str] | tuple = (),
 ) -> None:
-    """Write norms and space-time pictures of each case, by the amplitudes and at each mu."""
-    write(data, *phases.measure_phases(by_name(problems), mus, look_every))
+    """Write norms and space-time pictures of each case, by the amplitudes and at each mu.
+
+    `ensemble` says of which case how many members are held to Theorem 1 at the largest mu.
+    """
+    write(data, *phases.measure_phases(by_name(problems), mus, look_every, **ensemble))
 
 
 if __name__ == "__main__":

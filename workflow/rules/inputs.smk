@@ -363,7 +363,8 @@ def long_remainder_figure():
 def phases_params(given):
     changes = {"output_step": given.output_step}
     problems = followed(PAPER_CASES, given.tolerance, "taylor", **changes)
-    return {"problems": problems, "mus": given.mus, "look_every": given.look_every}
+    plain = given.model_dump(include={"mus", "look_every", "ensemble"})
+    return {"problems": problems, **plain}
 
 
 def sea_params(given, size):

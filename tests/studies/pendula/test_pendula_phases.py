@@ -45,7 +45,7 @@ def test_states_of_the_amplitudes_have_the_moduli_of_one_run():
 
 def test_norms_of_all_cases_stand_by_mu_with_the_amplitudes_first():
     problems = {name: case(name) for name in ("fig2_small", "fig4_small")}
-    data = as_xarray(*phases.measure_phases(problems, [0.1, 0.3], 4))
+    data = as_xarray(*phases.measure_phases(problems, [0.1, 0.3], 4, "fig2_small", 1e-6, 1, 1))
     assert data["mu"].values.tolist() == [0.0, 0.1, 0.3]
     run = simulate(problems["fig4_small"])
     assert data["l2"].sel(case="fig4_small", mu=0.0).values == pytest.approx(run.l2, rel=1e-13)
@@ -55,6 +55,24 @@ def test_norms_of_all_cases_stand_by_mu_with_the_amplitudes_first():
     assert shown.max("site").values == pytest.approx(largest, rel=1e-6)
     assert np.isinf(data["theorem_1_power"].sel(case="fig4_small"))
     assert (data["theorem_3_power"] > 100.0).all()
+
+
+def test_members_are_held_to_the_bound_at_the_largest_mu_by_their_own_data():
+    problems = {"fig2_large": case("fig2_large")}
+    drawn = ("fig2_large", 1e-6, 3, 1)
+    data = as_xarray(*phases.measure_phases(problems, [0.3, 0.1], 4, *drawn))
+    assert data["member_mu"].values.tolist() == [0.3, 0.3, 0.3]
+    one = data.sel(case="fig2_large", mu=0.3)
+    ratio = (one["l2"] ** 2).sum("component").max() / one["theorem_1_power"]
+    found = data["over_theorem_1"].values
+    assert len(set(found)) == 3 and found == pytest.approx(float(ratio), rel=1e-3)
+
+
+def test_what_a_member_may_reach_is_asked_of_its_own_energy():
+    """In one period hardly anything moves: P and the bound are those of the data, 25 and H / 2."""
+    problem = case("fig2_large", initial={0: (5.0, 0.0)}, end_time=0.01, output_step=0.01)
+    energy = simulate(problem).energy[0]
+    assert phases.over_theorem_1(problem, 0.3) == pytest.approx(25.0 / (energy / 2.0), rel=0.02)
 
 
 def test_the_spectrum_is_that_of_the_sine_transform_and_has_the_mean_square():

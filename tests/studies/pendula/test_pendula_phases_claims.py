@@ -12,7 +12,10 @@ MUS = np.array([0.0, 0.05, 0.1, 0.2, 0.3])
 
 
 def phases():
-    """Return norms of 2 that grow by 3 mu^2, and at Omega = -4 by a factor of 3 in time."""
+    """Return norms of 2 that grow by 3 mu^2, and at Omega = -4 by a factor of 3 in time.
+
+    All members stay below the bound of Theorem 1.
+    """
     tau = np.arange(0.0, 51.0, 10.0)
     l2 = np.full((6, 5, 2, 6), 2.0) * (1.0 + 3.0 * MUS[:, None, None] ** 2)
     l2 *= np.arange(1.0, 7.0)[:, None, None, None]
@@ -21,6 +24,8 @@ def phases():
     over = ("case", "mu", "component", "tau")
     bounds = {"theorem_1_power": ("case", [1e4, 1e4, *4 * [np.inf]])}
     bounds["theorem_3_power"] = ("case", 6 * [1e4])
+    bounds["over_theorem_1"] = ("member", [0.9, 0.99, 0.7])
+    bounds["member_mu"] = ("member", [0.3, 0.3, 0.3])
     coordinates = {"case": CASES, "mu": MUS, "component": ["A", "B"], "tau": tau}
     return xr.Dataset({"l2": (over, l2), "linf": (over, linf), **bounds}, coordinates)
 
@@ -88,6 +93,11 @@ def at(name, factor, **where):
         ("pendula_spread", PHASES, at("l2", 0.5, mu=[0.2])),
         ("pendula_spread", PHASES, at("linf", 20.0, mu=[0.3])),
         ("theorem_1_for_the_pendula", PHASES, at("l2", 30.0, mu=[0.3], case=["fig2_large"])),
+        (
+            "theorem_1_for_the_pendula",
+            PHASES,
+            lambda one: one.assign(over_theorem_1=("member", [0.9, 0.99, 1.01])),
+        ),
         ("theorem_3_for_the_pendula", PHASES, at("l2", 30.0, mu=[0.3], case=["fig4_large"])),
         ("theorem_3_for_the_pendula", TOP, at("angle_power", 20.0, mu=[0.225])),
         ("same_sea", SEA, at("site_power", 1.08, mu=[0.1])),
@@ -99,6 +109,14 @@ def at(name, factor, **where):
 def test_a_wrong_case_is_not_confirmed(sources, name, source, change):
     sources[source] = change(sources[source])
     assert verdict_of(name, sources, "pendula/claims_phases") == "not reproduced"
+
+
+def test_theorem_1_counts_the_members_beyond_its_bound(sources):
+    sources[PHASES]["over_theorem_1"][:] = [1.5, 0.8, 1.1]
+    measured = rows(sources)["theorem_1_for_the_pendula"]["measured"]
+    assert measured["largest_over_bound"] == 1.5 and measured["at_mu"] == 0.3
+    assert (measured["members_over_bound"], measured["members"]) == (2, 3)
+    assert measured["median_of_members"] == 1.1
 
 
 def test_few_data_decide_nothing(sources):

@@ -148,19 +148,35 @@ def late_start(case, norm: str):
     (PHASES,),
     (
         Control("all mu at which the data stay below the top", {PHASES: lambda one: one.sel(
-            mu=one["mu"] <= LARGE_DATA)}, confirms=True),
+            mu=one["mu"] <= LARGE_DATA, member=one["member_mu"] <= LARGE_DATA)}, confirms=True),
     ),
     on=("fig2_small", "fig2_large"),
 )  # fmt: skip
 def theorem_1_for_the_pendula(phases) -> Finding:
-    """Compare the largest P of the envelopes with Theorem 1's bound by the data's energy."""
+    """Compare the largest P of the envelopes with Theorem 1's bound by the data's energy.
+
+    Members of an ensemble count as runs: where the pendula are chaotic, rounding decides by how
+    much one run exceeds the bound, if it does, but not whether one of many does.
+    """
     cases = phases.sel(case=["fig2_small", "fig2_large"])
     if not np.isfinite(cases["theorem_1_power"]).all():
         raise UndecidableError("Theorem 1 says nothing of these constants")
-    over = at_finite(largest_power(cases) / cases["theorem_1_power"])
-    worst = over.max("case").values.argmax()
-    measured = {"largest_over_bound": over.max(), "at_mu": over["mu"].values[worst]}
-    fails = "data that start near the top of their swing go over it, and the amplitudes know no top"
+    over = at_finite(largest_power(cases) / cases["theorem_1_power"]).max("case")
+    members = phases["over_theorem_1"].values
+    ratios = np.append(over.values, members)
+    mus = np.append(over["mu"].values, phases["member_mu"].values)
+    beyond = (members > 1.0).sum()
+    measured = {
+        "largest_over_bound": ratios.max(),
+        "at_mu": mus[ratios.argmax()],
+        "members_over_bound": beyond,
+        "members": members.size,
+        "median_of_members": np.median(members) if members.size else np.nan,
+    }
+    fails = (
+        "data that start near the top of their swing go over it, and the amplitudes know no top;"
+        f" {beyond} of {members.size} runs from almost equal data exceed the bound"
+    )
     says = "largest P of the envelopes over its bound"
     return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
 

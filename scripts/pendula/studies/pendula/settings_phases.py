@@ -42,26 +42,38 @@ class Followed(Model):
         yield from settings.excess(key, [estimate(run) for run in runs], times)
 
 
+class Drawn(Model):
+    """Members of one case: how many, and how far apart their data are."""
+
+    case: Name
+    size: Positive
+    members: Count
+    seed: Seed
+
+
 class Phases(Followed):
     """The paper's cases as pendula."""
 
     mus: Positives
     output_step: Positive
     look_every: Count
+    ensemble: Drawn
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the paper's cases."""
         yield from self.unfit(settings, PAPER_CASES, self.mus, "mus")
+        drawn = self.ensemble
+        if drawn.case in PAPER_CASES:
+            key = "ensemble.members"
+            yield from self.unfit(settings, [drawn.case], [max(self.mus)], key, drawn.members)
+        else:
+            yield "ensemble.case", f"is {drawn.case}; take one of {', '.join(PAPER_CASES)}"
 
 
-class Ensemble(Followed):
+class Ensemble(Drawn, Followed):
     """Members of one case at several mu."""
 
-    case: Name
     mus: Positives
-    size: Positive
-    members: Count
-    seed: Seed
 
 
 class LongSea(Model):
