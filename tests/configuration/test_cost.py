@@ -114,10 +114,10 @@ def test_the_key_that_costs_most_is_named(change, key):
 
 def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     long = {"cases": {"mine": {"omega": 1e6, "end_time": 900}}}
-    with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 3 hours"):
+    with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 2 hours"):
         load(long)
     (said,) = load(long | {"limits": {"hours": 5}}).long_runs()
-    assert said.startswith("cases.mine: the run takes about 3 hours and ")
+    assert said.startswith("cases.mine: the run takes about 2 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
 
 

@@ -29,13 +29,13 @@ class Explicit(NamedTuple):
 
 
 EXPLICIT = {
-    "ode45": Explicit(0.18, 5, 2e-7, 4.5e-8, 700),
-    "dop853": Explicit(0.11, 8, 1.5e-6, 9e-8, 800),
-    "taylor": Explicit(0.16, 15, 8e-7, 2.1e-7, 1400),
+    "ode45": Explicit(0.18, 5, 2e-7, 3.8e-8, 700),
+    "dop853": Explicit(0.11, 8, 1.2e-6, 7.5e-8, 800),
+    "taylor": Explicit(0.16, 15, 6e-7, 1.5e-7, 1400),
 }
-ITERATED = {"seconds": 1e-7, "site_seconds": 5e-9}
+ITERATED = {"seconds": 7e-8, "site_seconds": 3.5e-9}
 """Of a step of a scheme that is solved by iteration, beside its evaluations."""
-EVALUATED = {"seconds": 1e-7, "site_seconds": 9e-9}
+EVALUATED = {"seconds": 7e-8, "site_seconds": 5.5e-9}
 """Of an evaluation of such a scheme."""
 ITERATED_BYTES = 1000.0
 SWING = 1.7
