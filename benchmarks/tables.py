@@ -95,7 +95,7 @@ def tabulate_cost(cost: xr.Dataset) -> list[str]:
     one_case = f"Tolerance {TOLERANCE:.0e}, one case, {said}"
     over_time = _over(cost["long_seconds"], "end_time")
     parts += [f"{title}{cost['end_time'].long_name}", one_case, over_time]
-    if "by_hand" in cost:
+    if "by_hand" in cost and cost["by_hand_ratio"].notnull().any():
         parts += ["## The method of taylor in C++, in times of taylor", _over_by_hand(cost)]
     if "active_width" in cost:
         parts += ["## A chain without ends", _over_active_sites(cost)]

@@ -26,6 +26,7 @@ def measured(tmp_path_factory):
         patch.setattr(cost, "ACTIVE_WIDTHS", (4000, 8000, 16_000))
         patch.setattr(cost, "ACTIVE_DURATION", 0.02)
         patch.setattr(machine, "LONG", 10_000)
+        patch.setattr(cost, "find_peers", lambda: ({}, {}))  # nothing is compiled in C++
         variables = cost.measure(PROBLEM)
     path = tmp_path_factory.mktemp("cost") / "cost.nc"
     write(path, variables, describe_machine())
@@ -94,6 +95,11 @@ def test_the_table_says_what_was_measured():
     rows = cells_of(tabulate_cost(made_up_cost()))
     assert ["1001", "2", "3"] in rows and ["100001 over 1001", "1.5", "2"] in rows
     assert ["10", "2", "3"] in rows
+
+
+def test_there_is_no_table_of_methods_in_cpp_where_none_was_run(measured):
+    assert measured["by_hand_ratio"].isnull().all()
+    assert "C++" not in "".join(tabulate_cost(measured))
 
 
 def test_the_table_leaves_out_a_method_in_cpp_that_was_not_run():
