@@ -38,15 +38,21 @@ SNAKEMAKE = "Snakemake"
 
 
 def run(project: Path) -> dict:
-    """Run snakemake in `project`; return wall time, processor time, and those of its jobs."""
+    """Run snakemake in `project`; return its wall time and processor time.
+
+    Where it fails, what it said goes to the log of this measurement, since the copy is removed.
+    """
     environment = {**os.environ, "PENDULA_CACHE": str(project.with_name("kernels"))}
     command = [sys.executable, "-m", "snakemake"]
     before = _processor_time()
-    _, seconds = timed(
+    done, seconds = timed(
         lambda: subprocess.run(
-            command, cwd=project, env=environment, check=True, capture_output=True
+            command, cwd=project, env=environment, capture_output=True, text=True
         )
     )
+    if done.returncode:
+        print(done.stdout, done.stderr, sep="\n", file=sys.stderr)
+        done.check_returncode()
     return {"wall": round(seconds, 2), "processor": round(_processor_time() - before, 2)}
 
 

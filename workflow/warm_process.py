@@ -215,6 +215,7 @@ class Server:
         self._selector.close()
         for end in (connection, self._listener, self._died, self._told, *self._children.values()):
             end.close()
+        _open_anew(".ttf")
         for number, handler in self._handlers.items():
             signal.signal(number, handler)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, KEPT)
@@ -247,6 +248,23 @@ class Server:
                     code = code if code >= 0 else 128 - code
                     with suppress(OSError):  # nobody may wait for it
                         connection.sendall(code.to_bytes(4, "little"))
+
+
+def _open_anew(ending: str) -> None:
+    """Open the files of this ending anew that the parent has open, each where the parent is in it.
+
+    A formula that the parent has read holds its fonts open. All processes that have an open file
+    from one parent have one place in it, so that a job would read what another one was looking for:
+    it draws other letters then, or fails at a letter that is none.
+    """
+    for number in map(int, os.listdir("/proc/self/fd")):
+        with suppress(OSError):  # the one that listed them is closed
+            path = os.readlink(f"/proc/self/fd/{number}")
+            if path.endswith(ending):
+                own = os.open(path, os.O_RDONLY)
+                os.lseek(own, os.lseek(number, 0, os.SEEK_CUR), os.SEEK_SET)
+                os.dup2(own, number, inheritable=False)
+                os.close(own)
 
 
 def _compared(environment: dict[bytes, bytes]) -> dict[bytes, bytes]:

@@ -164,6 +164,20 @@ def test_a_module_that_fails_fails_in_the_jobs_that_need_it(tmp_path):
         warm.end(one.process)
 
 
+def test_a_job_leaves_others_their_place_in_a_font_that_their_parent_holds_open(tmp_path):
+    """Matplotlib's formulas hold fonts open, and read letters from wherever these are."""
+    (tmp_path / "font.ttf").write_text("letters of a font")
+    held = f"FONT = open({str(tmp_path / 'font.ttf')!r}, 'rb', buffering=0); FONT.seek(8)"
+    (tmp_path / "holder.py").write_text(held)
+    one = Warm(tmp_path, ["holder"], {**ENVIRONMENT, "PYTHONPATH": str(tmp_path)})
+    try:
+        wait_for(lambda: one.run("import sys; print('holder' in sys.modules)")[1] == "True\n")
+        read = "import holder; print(holder.FONT.read(9).decode())"
+        assert [one.run(f"{FORKED}; {read}")[1] for _ in range(2)] == ["True\nof a font\n"] * 2
+    finally:
+        warm.end(one.process)
+
+
 WAIT = "import os, threading; print(os.getpid(), flush=True); threading.Event().wait()"
 DEAF = f"import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); {WAIT}"
 
