@@ -42,7 +42,7 @@ def speed(baseline: Baseline) -> dict:
         "best_error": number(REGULAR_ERROR),
         "fastest_below": number(_fastest_below(measured, "taylor")),
         "faster": "; ".join(titles[peer] for peer, ratio in ratios.items() if ratio < 1),
-        "by_hand": _by_hand(baseline["speed/cost"]),
+        "by_hand": _by_hand(baseline["speed/cost"], baseline["speed/cost_avx2"]),
         "taylor_error": number(float(errors.max()), 2),
         "sites": [
             {"sites": str(n), **_growth(1e6 * cost.sel(sites=n))} for n in cost["sites"].values
@@ -51,12 +51,23 @@ def speed(baseline: Baseline) -> dict:
     }
 
 
-def _by_hand(cost: xr.Dataset) -> dict:
-    """Return the times of the method in C++ over those of `taylor`, in a long run."""
-    ratios = cost["by_hand_ratio"].isel(end_time=-1).dropna("by_hand").to_series()
+def _by_hand(cost: xr.Dataset, older: xr.Dataset) -> dict:
+    """Return the times of the method in C++ over those of `taylor` in a long run.
+
+    `older` was measured by code for an older processor, which may lack a method: a dash.
+    """
+    end, measured = cost["end_time"][-1], {"ratio": cost, "older_ratio": older}
+
+    def ratio(data: xr.Dataset, peer: str) -> str:
+        found = float(data["by_hand_ratio"].sel(end_time=end, by_hand=peer))
+        return "-" if np.isnan(found) else _ratio(found)
+
     return {
-        "end": number(float(cost["end_time"][-1])),
-        "peers": [{"peer": peer, "ratio": _ratio(ratio)} for peer, ratio in ratios.items()],
+        "end": number(float(end)),
+        "peers": [
+            {"peer": peer, **{name: ratio(data, peer) for name, data in measured.items()}}
+            for peer in map(str, cost["by_hand"].values)
+        ],
     }
 
 
