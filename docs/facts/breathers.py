@@ -40,7 +40,7 @@ def breathers(baseline: Baseline) -> dict:
 
 
 def _collisions(periodic: xr.Dataset) -> dict[str, str]:
-    """Return how many collisions of multipliers were found, of which kind, where, and whose."""
+    """Return the number of collisions of multipliers by kind, their frequencies and signatures."""
     frequency = periodic["collision_frequency"]
     met = np.isfinite(frequency)
     quartets = int((met & (periodic["collision_multiplier"].sel(part="im") > 0.0)).sum())

@@ -15,7 +15,8 @@ def measure_phases(
 ) -> None:
     """Write norms and space-time pictures of each case, by the amplitudes and at each mu.
 
-    `ensemble` says of which case how many members are held to Theorem 1 at the largest mu.
+    `ensemble` names a case and a number of members. At the largest mu these members are compared
+    with the bound of Theorem 1.
     """
     write(data, *phases.measure_phases(by_name(problems), mus, look_every, **ensemble))
 

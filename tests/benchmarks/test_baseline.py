@@ -5,6 +5,7 @@ import pytest
 from helpers import ROOT
 from pendula.datasets.netcdf import read
 
+from benchmarks.cost import BY_HAND
 from benchmarks.tables import tabulate_cost, tabulate_work_precision
 
 FOLDER = ROOT / "tests/baseline/speed"
@@ -42,6 +43,19 @@ def test_mean_ratios_are_geometric(measured):
         assert int(measured["reached_cases"].sel(peer=peer)) == len(ratios)
         mean = np.prod(ratios) ** (1 / len(ratios)) if len(ratios) else np.nan
         np.testing.assert_allclose(measured["mean_ratio"].sel(peer=peer), mean)
+
+
+def test_no_method_but_that_of_taylor_in_cpp_is_faster_than_the_solvers_here(measured):
+    """The page on speed says so in words."""
+    ratios = measured["mean_ratio"].dropna("peer")
+    faster = ratios["peer"].values[ratios.values < 1.0]
+    assert set(faster) <= set(BY_HAND) and len(faster) > 0
+
+
+def test_the_call_from_python_counts_in_short_runs_and_no_longer_in_long_ones():
+    """The page on speed says so in words: in short runs the method in C++ gains by it."""
+    ratios = read(FOLDER / "cost.nc")["by_hand_ratio"].dropna("by_hand")
+    assert (ratios.isel(end_time=-1) > 2.0 * ratios.isel(end_time=0)).all()
 
 
 def test_the_default_solver_is_the_fastest_below_the_error_that_the_configuration_names(measured):

@@ -47,7 +47,10 @@ def first(block: Block) -> tuple[str, str]:
 
 
 def listed(*kinds: str | None) -> set[tuple[str, str]]:
-    """Return the blocks of not_run.yaml of which that is run every day, or ever: None."""
+    """Return the blocks of not_run.yaml whose key `everyday` is among `kinds`.
+
+    None stands for a block without that key, which is never run as it is printed.
+    """
     return {(one["page"], one["first"]) for one in NOT_RUN if one.get("everyday") in kinds}
 
 

@@ -30,7 +30,7 @@ def test_touching_every_file_changes_nothing(finished, clone):
 
 
 def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(finished, clone):
-    for size in ("large", "small"):  # of which only the small case is swept
+    for size in ("large", "small"):  # a sweep uses the small case, and none uses the large one
         change_of = f"{{<<: *{size}, omega: 0}}", f"{{<<: *{size}, omega: 0.5}}"
         edit(clone / "config/config.yaml", *change_of)
     jobs = planned(clone, finished)

@@ -128,14 +128,9 @@ def read(path: str | Path):
         return xarray.load_dataset(path, engine="netcdf4") if found is None else found
 
 
-DECODED = ("_FillValue", "missing_value", "scale_factor", "add_offset", "_Unsigned", "calendar")
-DECODED += (
-    "coordinates",
-    "bounds",
-    "grid_mapping",
-    "dtype",
-    "_Encoding",
-    "least_significant_digit",
+DECODED = (
+    *("_FillValue", "missing_value", "scale_factor", "add_offset", "_Unsigned", "calendar"),
+    *("coordinates", "bounds", "grid_mapping", "dtype", "_Encoding", "least_significant_digit"),
 )
 """Attributes by which a file of another program says that its numbers stand for others."""
 TIMES = (" since ", "day", "hour", "minute", "second")

@@ -33,8 +33,8 @@ class Model(NamedTuple):
     times: Callable[[Problem], np.ndarray]  # those of the outputs, in the time of the kernels
     slow: Callable[[Problem, float], float]  # tau at a time of the kernels
     atol: Callable[[Problem], float]  # what an absolute tolerance of 1 means for a state
-    # blank arrays for what is observed, from the numbers of components, sites, times, `every`, and
-    # whether the energy is
+    # empty arrays for the observables; the arguments are the numbers of components, sites and
+    # times, `every`, and whether the energy is computed
     record: Callable[[int, int, int, int, bool], Any]
     collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]
     """From record, final state and reduction to what `Trajectory` holds of the whole chain."""

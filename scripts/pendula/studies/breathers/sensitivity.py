@@ -31,9 +31,8 @@ def largest_l2(run: Trajectory) -> float:
 
 def share_that_spreads(problem: Problem, size: float, members: int, seed: list[int]) -> Limits:
     """Return the share of members that spread, with its limits; all data have relative `size`."""
-    at_the_end_alone = problem.changed(
-        output_step=problem.end_time
-    )  # outputs take a third of a run
+    # outputs take a third of a run, and nothing reads those before the end
+    at_the_end_alone = problem.changed(output_step=problem.end_time)
     drawn = draw_members(at_the_end_alone, size, members, seed)
     return share_limits(sum(has_spread(member, simulate(member)) for member in drawn), members)
 

@@ -46,7 +46,7 @@ def turns(phases: np.ndarray) -> np.ndarray:
 def compared(
     angles: np.ndarray, turns: np.ndarray, mu: float, thirds: np.ndarray, counts: np.ndarray
 ) -> Compared:
-    """Return what is compared, with room for what is found."""
+    """Return the record that `compare` reads, with arrays in which it writes its results."""
     blank = np.empty(angles.shape[1:]), np.zeros((len(thirds), counts.max()))
     return Compared(angles, turns, mu, thirds, counts, *blank)
 
