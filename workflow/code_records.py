@@ -46,7 +46,7 @@ def code(script: str, *parts: str, of: str = "") -> str:
         raise ValueError(f"{script} is recorded with {_parts[record.absolute()]} and {parts}")
     folder = ROOT if script.startswith("benchmarks/") else SCRIPTS
     entries = [folder / script, *(path for part in parts for path in _of_studies(part))]
-    modules = sorted({module for entry in entries for module in modules_of(entry)})
+    modules = modules_of(*entries)
     common = [ROOT / "environment.txt", SCRIPTS / "job.py"]
     return _hand_out(record, _lines([*common, *modules, *attached_to(modules)]))
 
