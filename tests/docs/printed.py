@@ -6,6 +6,7 @@ line names the file. A block `pycon` is a session of Python. A comment `<!-- fai
 above a block says that its commands must fail.
 """
 
+import json
 import os
 import re
 import shlex
@@ -25,6 +26,7 @@ from pendula.configuration.files import merge
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 HERE = Path(__file__).parent
 ASK, READY = HERE / "ask_ready.py", HERE.parent / "ready_snakemake.py"
+SESSIONS = HERE / "sessions.py"
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "proofs", "speed", "quoted", "tolerances.yaml", "spreads.nc")
@@ -171,8 +173,6 @@ class Reader:
         if block.kind == "yaml":
             (self.folder / file_of(block)).write_text(block.text, encoding="utf-8")
             return Done(0, "")
-        if block.kind == "pycon":
-            return self._run(self._session(block), PYTHONPATH=str(self.clone / "scripts"))
         reached = self.beside / "folder.txt"
         script = f"{block.text}\npwd > {shlex.quote(str(reached))}"
         done = self._run(["bash", "-euo", "pipefail", "-c", script])
@@ -180,11 +180,17 @@ class Reader:
             self.folder = Path(reached.read_text().rstrip("\n"))
         return done
 
-    def _session(self, block: Block) -> list[str]:
-        session = self.beside / "session.txt"
-        session.write_text(block.text, encoding="utf-8")
-        python = str(self.clone / ".venv/bin/python")
-        return [python, "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
+    def play_sessions(self, found: list[Block]) -> dict[str, Done]:
+        """Run sessions of Python in the folder of the clone, after the commands of their pages."""
+        self.folder, files = self.clone, []
+        for number, block in enumerate(found):
+            files.append(self.beside / f"session{number}.txt")
+            files[-1].write_text(block.text, encoding="utf-8")
+        command = [self.clone / ".venv/bin/python", SESSIONS, *files]
+        done = self._run(list(map(str, command)), PYTHONPATH=str(self.clone / "scripts"))
+        assert not done.code, done.said
+        ends = json.loads(done.said)
+        return {block.name: Done(*end) for block, end in zip(found, ends, strict=True)}
 
     def _run(self, command: list[str], **variables: str) -> Done:
         path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # where `python3` is ours

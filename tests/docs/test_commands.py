@@ -6,14 +6,16 @@ does are dry runs every day, which miss no target, option, file or key. With PEN
 are run as they are printed, which `.ci/elsewhere commands` asks for.
 """
 
-import ast
 import json
 import os
 import re
 import shutil
+from collections.abc import Iterator
+from importlib.machinery import SourceFileLoader
 from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
+from types import CodeType
 
 import pytest
 import yaml
@@ -88,13 +90,15 @@ def played(request, made_once, full_run) -> dict[str, Done]:
         else:
             accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
+        sessions = [block for block in tried if block.kind == "pycon"]
         reader = Reader(clone)
         with ready_for(clone):
             run = {
                 block.name: reader.play(dry(block) if first(block) in DRY else block)
                 for block in [*tried, ASKED]
-                if block not in JOINED
+                if block not in JOINED and block not in sessions
             }
+            run |= reader.play_sessions(sessions)
         run |= {block.name: run[ASKED.name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
@@ -199,17 +203,24 @@ def quoted_messages(page: str) -> list[str]:
     return re.findall(r"^\| `(.+?)` +\|", below, re.MULTILINE)
 
 
+def compiled(path: Path) -> CodeType:
+    """Return the code of a module, which Python has kept if it has imported the module."""
+    return SourceFileLoader(path.stem, str(path)).get_code(path.stem)
+
+
+def strings_in(constant) -> Iterator[str]:
+    """Yield the strings of compiled code: adjacent ones are joined there."""
+    if isinstance(constant, str):
+        yield constant
+    for inner in getattr(constant, "co_consts", constant if isinstance(constant, tuple) else ()):
+        yield from strings_in(inner)
+
+
 @pytest.fixture(scope="module")
 def messages() -> str:
     """Return the strings of our code, what tests of bad input expect, and Snakemake's code."""
     code = [path for room in ("scripts", "workflow") for path in (ROOT / room).rglob("*.py")]
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in code]
-    ours = [
-        node.value
-        for tree in trees
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    ]
+    ours = [text for path in code for text in strings_in(compiled(path))]
     rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
     snakemake_folder = Path(find_spec("snakemake").origin).parent
     theirs = [path.read_text(encoding="utf-8") for path in snakemake_folder.rglob("*.py")]

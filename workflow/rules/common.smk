@@ -40,7 +40,7 @@ LOOKS = {
     "--rulegraph",
     "--filegraph",
 }
-LOOKS |= {"-S", "--summary", "-D", "--detailed-summary"}
+LOOKS |= {"-S", "--summary", "-D", "--detailed-summary", "--unlock"}
 code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
 RESULTS = Path("results").absolute()
 FOLDERS = [
