@@ -38,9 +38,8 @@ def known(baseline: Baseline) -> dict[str, dict]:
     return gather(baseline, *map(yaml.safe_load, texts))
 
 
-def render() -> dict[Path, str]:
-    """Return the text of each page."""
-    values = known(Baseline(BASELINE))
+def render(values: dict[str, dict]) -> dict[Path, str]:
+    """Return the text of each page, which quotes these facts."""
     environment = Environment(
         loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,
@@ -79,7 +78,7 @@ def filled(text: str) -> str:
 
 
 if __name__ == "__main__":
-    for page, text in render().items():
+    for page, text in render(known(Baseline(BASELINE))).items():
         if not page.exists() or page.read_text(encoding="utf-8") != text:
             page.write_text(text, encoding="utf-8")
             print(f"{page.relative_to(ROOT)} is new")

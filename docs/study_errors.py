@@ -6,6 +6,7 @@ Both go into docs/studies.md, and a test holds the reached errors to the needed 
 """
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -319,8 +320,9 @@ def errors(baseline) -> dict[str, dict[str, float]]:
     return {study: reached(baseline) for study, (reached, _) in STUDIES.items()}
 
 
+@cache
 def given(study: str) -> dict:
-    """Return a study's section of the configuration."""
+    """Return a study's section of the configuration, read once; do not change it."""
     return yaml.safe_load((CONFIG / f"{study}.yaml").read_text(encoding="utf-8"))[study]
 
 

@@ -300,6 +300,7 @@ def description(data, plant=lambda figure: None) -> dict:
     """Return the description of the figure with a fault, as it is read from a file."""
     figure = draw(data)
     plant(figure)
+    figure.set_layout_engine("none")  # margins take half of the time, and nobody describes them
     with style.thrifty():
         figure.draw_without_rendering()
     return json.loads(as_text(describe(figure, data)))
