@@ -253,8 +253,8 @@ FAULTS = [
 OF_SAME_DATA = [
     Fault(
         "wrong ticks",
-        f'{PANEL}: x axis: ticks is ["0", "5", "9"] in place of ["0", "25", "50"]',
-        left(lambda axes: axes.set_xticks([0, 25, 50], ["0", "5", "9"])),
+        f'{PANEL}: x axis: ticks is ["0", "5", "9"] in place of ["0", "20", "40"]',
+        left(lambda axes: axes.set_xticks([0, 20, 40], ["0", "5", "9"])),
     ),
     Fault(
         "data of A and B exchanged",
@@ -300,9 +300,8 @@ def description(data, plant=lambda figure: None) -> dict:
     """Return the description of the figure with a fault, as it is read from a file."""
     figure = draw(data)
     plant(figure)
-    figure.set_layout_engine("none")  # margins take half of the time, and nobody describes them
-    with style.thrifty():
-        figure.draw_without_rendering()
+    for axes in figure.axes:  # matplotlib finds ticks when it draws, or when it is asked for them
+        axes.get_xticklabels(), axes.get_yticklabels()
     return json.loads(as_text(describe(figure, data)))
 
 
