@@ -26,9 +26,10 @@ def test_a_planted_fault_is_named_in_one_line(run, fault):
 
 def in_both_environments(run, picture: str) -> list[str]:
     """Return what is found by pixels, or by ink, and what in another environment."""
-    here = run.findings()[picture].line
+    names = [picture, picture.replace(".png", ".nc")]
+    here = run.findings(names)[picture].line
     run.move_to_another_environment()
-    return [here, run.findings()[picture].line]
+    return [here, run.findings(names)[picture].line]
 
 
 @pytest.mark.parametrize("fault", [name for name in FAULTS if name != "lost label"])
@@ -41,12 +42,14 @@ def test_faults_are_found_where_the_curves_have_moved(run, fault):
 
 def _pixels(**changes) -> Picture:
     figure = made_up.draw(regular(), **changes)
-    figure.canvas.draw()
+    with style.thrifty():
+        figure.canvas.draw()
     return Picture(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy(), [], {})
 
 
-def _otherwise(monkeypatch, key, value) -> Picture:
-    monkeypatch.setitem(style._RC, key, value)
+@pytest.fixture(scope="module")
+def was() -> Picture:
+    """Return the accepted picture."""
     return _pixels()
 
 
@@ -58,27 +61,25 @@ def _status(was: Picture, now: Picture, method: Method) -> str:
     ("key", "value"),
     [("text.antialiased", False), ("axes.labelsize", 8.1), ("xtick.labelsize", 7.4)],
 )
-def test_letters_drawn_otherwise_look_the_same(monkeypatch, key, value):
-    was, now = _pixels(), _otherwise(monkeypatch, key, value)
+def test_letters_drawn_otherwise_look_the_same(was, monkeypatch, key, value):
+    monkeypatch.setitem(style._RC, key, value)
+    now = _pixels()
     assert (was.colours != now.colours).any()
     assert _status(was, now, Method.LOOK) == NEARLY
     assert _status(was, now, Method.PIXELS) == DIFFERENT
 
 
 @pytest.mark.parametrize("step", [(0, 1), (1, 0), (2, -2)])
-def test_a_shift_by_a_pixel_looks_the_same(step):
-    was = _pixels()
+def test_a_shift_by_a_pixel_looks_the_same(was, step):
     shifted = Picture(np.roll(was.colours, step, (0, 1)), [], {})
     assert _status(was, shifted, Method.LOOK) == NEARLY
 
 
-def test_other_letters_do_not_look_the_same(monkeypatch):
-    was, now = _pixels(), _pixels(label="energy")
-    assert _status(was, now, Method.LOOK) == DIFFERENT
+def test_other_letters_do_not_look_the_same(was):
+    assert _status(was, _pixels(label="energy"), Method.LOOK) == DIFFERENT
 
 
-def test_a_single_shade_of_a_pixel_is_found_by_pixels():
-    was = _pixels()
+def test_a_single_shade_of_a_pixel_is_found_by_pixels(was):
     colours = was.colours.copy()
     colours[100, 200, 1] -= 1
     found = compare_images.judge(PICTURE, was, Picture(colours, [], {}), Method.PIXELS)
@@ -119,8 +120,7 @@ def test_a_damaged_picture(any_environment, kept):
     assert line.startswith(f"{DAMAGED}: {PICTURE}: the picture cannot be read")
 
 
-def test_another_size():
-    was = _pixels()
+def test_another_size(was):
     found = compare_images.judge(PICTURE, was, Picture(was.colours[:-10], [], {}), Method.LOOK)
     assert found.status == DIFFERENT and "1200 x 530 pixels in place of 1200 x 540" in found.says
 
