@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from pendula.sources import SCRIPTS
+from pendula import sources
 from pendula.studies import STUDIES
 
-LIBRARY = SCRIPTS / "pendula"
+LIBRARY = sources.SCRIPTS / "pendula"
 MODULES = sorted(path.relative_to(LIBRARY) for path in LIBRARY.rglob("*.py"))
 
 STOREYS = (
@@ -46,7 +46,8 @@ def storey_of(room: str) -> int:
 def imports_of(module: Path) -> tuple[tuple[str, ...], ...]:
     """Return what a module imports of the library, each as its parts below pendula."""
     found = []
-    for node in ast.walk(ast.parse((LIBRARY / module).read_text())):
+    # test_project.py holds these trees to have every import
+    for node in sources._statements(sources._tree_of((LIBRARY / module).read_text())):
         if isinstance(node, ast.ImportFrom):
             package = module.parts[: len(module.parts) - node.level] if node.level else ()
             named = tuple(node.module.split(".")) if node.module else ()
