@@ -2,20 +2,99 @@
 
 Nearly half of a dry run is the import of Snakemake and of the packages that it uses. A run here is
 still a process of its own, with its own folder, screen and exit code, and it imports the project
-anew: only what other people wrote is there already. `helpers.py` starts this process and asks it.
+anew: only what other people wrote is there already.
+
+A run with jobs starts `workflow/warm_process.py`, a new Python that imports what jobs need, which
+takes as long again. So each run has a fork in reserve: it waits until the run starts this command,
+and then does what the command says, as a child of the run. `helpers.py` starts this process and
+asks it.
 """
 
 import gc
 import importlib
+import io
 import json
 import os
+import runpy
+import signal
+import socket
+import subprocess
 import sys
+from pathlib import Path
+from types import ModuleType
 
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
-    *("pydantic", "smart_open", "yte"),
+    *("pydantic", "smart_open", "yte", "nbformat", "platformdirs"),
+    *("numba", "netCDF4", "xarray", "matplotlib.figure"),
+    *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
 )
-"""What every run imports, whatever it is asked for."""
+"""What every run or its jobs import, whatever a run is asked for."""
+WARM = "warm_process.py"
+"""The command that the fork in reserve does."""
+LOOKS = {"-n", "--dry-run", "--list"}
+"""Calls of Snakemake without jobs."""
+MOST = 1 << 20
+"""Bytes that are more than a command and its environment have."""
+
+
+class Popen(subprocess.Popen):
+    """What starts processes, but for the command that a fork does."""
+
+    def __new__(cls, args, *others, **options):
+        """Return a new process, or the fork in reserve."""
+        warm = not isinstance(args, str) and [Path(part).name for part in args[1:2]] == [WARM]
+        return object.__new__(WarmProcess if warm else cls)
+
+
+class WarmProcess(Popen):
+    """The fork in reserve, which does the command of the first who asks."""
+
+    reserve: tuple[int, socket.socket]
+    """Its number, and where it waits."""
+
+    def __init__(self, args, *, env, pass_fds, **streams):
+        """Tell it what to do; whatever it says, nobody hears."""
+        self.args, (self.pid, waits), (listener,) = args, self.reserve, pass_fds
+        reads, writes = os.pipe()
+        what = json.dumps([os.getcwd(), dict(env), [str(arg) for arg in args[1:]], listener])
+        socket.send_fds(waits, [what.encode()], [reads, listener])
+        os.close(reads)
+        self.stdin = open(writes, "wb")  # noqa: SIM115, as long as the run lives
+
+    def terminate(self):
+        """End it."""
+        os.kill(self.pid, signal.SIGTERM)
+
+    def wait(self, timeout=None):
+        """Return when it has ended."""
+        os.waitpid(self.pid, 0)
+
+
+def keep_a_fork_in_reserve() -> None:
+    """Fork, and have the fork do the command `WARM` if anybody starts it."""
+    tells, told = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    if not (fork := os.fork()):
+        tells.close()
+        wait_in_reserve(told)
+    told.close()
+    WarmProcess.reserve, subprocess.Popen = (fork, tells), Popen
+
+
+def wait_in_reserve(told: socket.socket) -> None:
+    """Do the command that a run asks for, or end with the run."""
+    for number in range(3):
+        _take(os.open(os.devnull, os.O_RDWR), number)
+    what, opened, _, _ = socket.recv_fds(told, MOST, 2)
+    if what:
+        folder, variables, command, listener = json.loads(what)
+        _be_in(folder, variables)
+        for own, number in zip(opened, (0, listener), strict=True):
+            _take(own, number)
+        sys.argv[:] = command
+        sys.path[:1] = [os.path.dirname(command[0]), *variables["PYTHONPATH"].split(os.pathsep)]
+        runpy.run_path(command[0], run_name="__main__")
+    os._exit(0)
 
 
 def serve() -> list[str]:
@@ -23,9 +102,9 @@ def serve() -> list[str]:
     for line in iter(sys.stdin.readline, ""):
         folder, variables, screens, arguments = json.loads(line)
         if not (child := os.fork()):
-            os.chdir(folder)
-            os.environ.clear()
-            os.environ.update(variables)
+            if not LOOKS & set(arguments):
+                keep_a_fork_in_reserve()
+            _be_in(folder, variables)
             _take(os.open(os.devnull, os.O_RDONLY), 0)
             for number, path in enumerate(screens, 1):
                 _take(os.open(path, os.O_WRONLY), number)
@@ -35,19 +114,42 @@ def serve() -> list[str]:
     sys.exit()
 
 
+def _be_in(folder: str, variables: dict[str, str]) -> None:
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(variables)
+
+
 def _take(opened: int, number: int) -> None:
-    os.dup2(opened, number)
-    os.close(opened)
+    if opened != number:
+        os.dup2(opened, number)
+        os.close(opened)
+
+
+def get_ready() -> ModuleType:
+    """Import what other people wrote, do what it does at its first use, and return `WARM`."""
+    sys.path[0] = str(Path(__file__).resolve().parents[1] / "workflow")
+    warm = importlib.import_module(Path(WARM).stem)
+    for _ in warm.prepared(PACKAGES):
+        pass
+    figure = sys.modules["matplotlib.figure"].Figure()
+    figure.text(0.0, 0.0, r"$\tau$")
+    for kind in ("png", "pdf"):
+        figure.savefig(io.BytesIO(), format=kind)
+    gc.collect()
+    gc.freeze()
+    return warm
 
 
 def main() -> None:
-    """Import once, and in each fork be Snakemake."""
+    """Get ready once, and in each fork be Snakemake."""
+    warm = get_ready()
     sys.path[0] = ""  # as `python -m` does, so that no test's helper is found by a workflow
-    for name in PACKAGES:
-        importlib.import_module(name)
-    gc.freeze()
     sys.argv[:] = ["snakemake", *serve()]
-    importlib.import_module("snakemake.cli").main()
+    try:
+        importlib.import_module("snakemake.cli").main()
+    except SystemExit as status:
+        warm.end(status.code or 0)
 
 
 if __name__ == "__main__":
