@@ -30,9 +30,7 @@ CASES = {  # Omega, (A_0, B_0)
 
 def laplacian(sites, boundary):
     """Return the matrix of u_{n+1} - 2 u_n + u_{n-1}, its corners as the ends of the chain say."""
-    matrix = np.diag(np.full(sites, -2.0))
-    for n in range(sites - 1):
-        matrix[n, n + 1] = matrix[n + 1, n] = 1.0
+    matrix = np.eye(sites, k=1) - 2.0 * np.eye(sites) + np.eye(sites, k=-1)
     if boundary == "free":  # the neighbour beyond an end equals the end
         matrix[0, 0] += 1.0
         matrix[-1, -1] += 1.0
@@ -54,11 +52,11 @@ def power_series(z, constants, boundary, order):
     """Return the power series (order + 1, 2, N) of the solution of equation (4) from z."""
     epsilon, gamma, omega = constants
     matrix = laplacian(z.shape[1], boundary)
-    c = np.zeros((order + 1, *z.shape), complex)
+    c, squares = np.zeros((2, order + 1, *z.shape), complex)
     c[0] = z
     for k in range(order):
-        pairs = [(i, j) for i in range(k + 1) for j in range(k + 1 - i)]
-        cubic = sum(c[i] * c[j] * c[k - i - j].conj() for i, j in pairs)
+        squares[k] = (c[: k + 1] * c[k::-1]).sum(axis=0)
+        cubic = (squares[: k + 1] * c[k::-1].conj()).sum(axis=0)
         linear = epsilon * c[k] @ matrix.T + omega * c[k]
         drive = gamma * (c[k, ::-1] - c[k]).conj()
         c[k + 1] = -1j * (linear + drive + 0.5 * cubic) / (k + 1)

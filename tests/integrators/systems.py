@@ -6,7 +6,7 @@ solutions in closed form, and so have the implicit schemes for q = 0.
 """
 
 import numpy as np
-from pendula.compiled import uncached
+from pendula.compiled import kernel, uncached
 from pendula.integrators import (
     crank_nicolson,
     delfour_fortin_payre,
@@ -69,32 +69,32 @@ solve_implicit_midpoint = crank_nicolson.build_midpoint(riccati, keep)
 solve_delfour_fortin_payre = delfour_fortin_payre.build(mean_riccati, keep)
 
 
-@uncached
+@kernel
 def run_ode45(system, y, times, controls, work, record, stop):
     return solve_ode45(system, y, times, controls, work, record, stop)
 
 
-@uncached
+@kernel
 def run_dop853(system, y, times, controls, work, record, stop):
     return solve_dop853(system, y, times, controls, work, record, stop)
 
 
-@uncached
+@kernel
 def run_taylor(system, y, times, controls, work, record, stop):
     return solve_taylor(system, y, times, controls, work, record, stop)
 
 
-@uncached
+@kernel
 def run_crank_nicolson(system, y, times, controls, work, record, stop):
     return solve_crank_nicolson(system, y, times, controls, work, record, stop)
 
 
-@uncached
+@kernel
 def run_implicit_midpoint(system, y, times, controls, work, record, stop):
     return solve_implicit_midpoint(system, y, times, controls, work, record, stop)
 
 
-@uncached
+@kernel
 def run_delfour_fortin_payre(system, y, times, controls, work, record, stop):
     return solve_delfour_fortin_payre(system, y, times, controls, work, record, stop)
 

@@ -42,8 +42,8 @@ def test_one_step_solves_the_implicit_equation(boundary):
 @pytest.mark.parametrize("case", ["fig2_large", "fig4_small"])
 def test_it_is_the_trapezoidal_rule_as_plain_numpy_has_it(case):
     z, numbers = data_of(case), numbers_of(case)
-    expected = follow(z, 800, STEP, numbers)
-    trajectory = run(z, 2.0, 80, numbers, step=STEP, tolerance=1e-14)
+    expected = follow(z, 200, STEP, numbers)
+    trajectory = run(z, 0.5, 20, numbers, step=STEP, tolerance=1e-14)
     np.testing.assert_allclose(trajectory.final, expected[-1], atol=1e-10)
     l2 = np.sqrt((np.abs(expected[::10]) ** 2).sum(axis=2)).T
     np.testing.assert_allclose(trajectory.l2, l2, atol=1e-10)

@@ -8,7 +8,7 @@ import pytest
 import systems
 from on_chains import WHOLE, data_of, integrate, numbers_of
 from oracle import laplacian, random_chain, slope
-from pendula.compiled import uncached
+from pendula.compiled import kernel, uncached
 from pendula.integrators import DONE, INTERRUPTED, splitting
 from pendula.models.amplitudes import Chain, linear_radius, linear_rates, nonlinear_flow
 from pendula.simulation.lattice import choose_ends, pack, unpack
@@ -177,7 +177,7 @@ def stand_still(y, h):
 solve_spin = splitting.build(spin, unit_radius, stand_still, systems.keep)
 
 
-@uncached
+@kernel
 def run_spin(calls, y, times, controls, work, record, stop):
     return solve_spin(calls, y, times, controls, work, record, stop)
 

@@ -120,8 +120,8 @@ def test_a_system_at_rest_is_done_in_one_step():
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_papers_cases_agree_with_scipy(case, scipy_solution):
-    final = integrate(data_of(case), TIGHT, 5.0, 200, numbers=numbers_of(case)).final
-    assert np.linalg.norm(final - scipy_solution(case, 5.0)) < 1e-9
+    final = integrate(data_of(case), TIGHT, 2.0, 80, numbers=numbers_of(case)).final
+    assert np.linalg.norm(final - scipy_solution(case, 2.0)) < 1e-9
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
@@ -129,8 +129,8 @@ def test_the_error_follows_the_tolerance(case, scipy_solution):
     tolerances, errors = 10.0 ** -np.arange(4.0, 11.0), []
     for tolerance in tolerances:
         solver = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
-        final = integrate(data_of(case), solver, 5.0, numbers=numbers_of(case)).final
-        errors.append(np.abs(final - scipy_solution(case, 5.0)).max())
+        final = integrate(data_of(case), solver, 3.0, numbers=numbers_of(case)).final
+        errors.append(np.abs(final - scipy_solution(case, 3.0)).max())
     slope, _ = np.polyfit(np.log(tolerances), np.log(errors), 1)
     assert slope == pytest.approx(1.0, abs=0.25)
     assert np.all(errors < 2 * tolerances)

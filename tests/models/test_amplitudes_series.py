@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from oracle import BOUNDARIES, boundaries, chains, constants, power_series
-from pendula.compiled import uncached
+from pendula.compiled import kernel
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
 from pendula.models.amplitudes import Chain
 from pendula.models.amplitudes_series import continue_series
@@ -17,7 +17,7 @@ from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, p
 WHOLE = Reduction(even=False, synchronised=False)
 
 
-@uncached
+@kernel
 def fill(chain, y, work):
     series = lay_out(work, y)
     write_state(y, series)

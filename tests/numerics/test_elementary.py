@@ -73,12 +73,13 @@ def digits():
 @pytest.mark.parametrize("name", EXACT)
 def test_functions_err_by_less_than_they_state(name):
     arguments, exact, allowed = EXACT[name]
+    arguments = arguments[::2]
     off = ulps(getattr(e, name)(arguments), [exact(Decimal(float(x))) for x in arguments])
     assert off < allowed
 
 
 def test_powers_err_by_less_than_they_state():
-    x, y = positive[::4], exponents[::4]
+    x, y = positive[::7], exponents[::7]
     exact = [Decimal(float(a)) ** Decimal(float(b)) for a, b in zip(x, y, strict=True)]
     normal = np.array([1e-300 < one < 1e300 for one in exact])
     assert ulps(e.power(x[normal], y[normal]), np.array(exact)[normal]) < 1.0
@@ -89,7 +90,7 @@ def test_fifth_roots_err_by_less_than_one_ulp(root):
     """A result errs by less where the doubles before and after it lie on either side of the root,
     which their fifth powers tell exactly."""
     for x in map(
-        float, np.concatenate([positive, np.linspace(0.9, 33.0, 2000), [5e-324, 1.7e308]])
+        float, np.concatenate([positive[::4], np.linspace(0.9, 33.0, 500), [5e-324, 1.7e308]])
     ):
         found = root(x)
         below, above = (Fraction(nextafter(found, end)) ** 5 for end in (0.0, np.inf))

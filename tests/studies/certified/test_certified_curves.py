@@ -119,7 +119,7 @@ def test_no_output_is_further_from_the_reference_than_its_bound(case):
         half_width=int(known.attrs["half_width"]),
         boundary=known.attrs["boundary"],
         initial=on_sites(read_initial(known.attrs["initial"])),
-        end_time=50.0,
+        end_time=10.0,
         output_step=0.025,
         solver={"name": "polynomials"},
     )
@@ -128,7 +128,7 @@ def test_no_output_is_further_from_the_reference_than_its_bound(case):
     for name in ("linf", "l2"):
         apart = np.abs(getattr(found, name) - known[name].values[:, : len(found.tau)])
         assert (apart <= found.bound).all()
-    for i, tau in enumerate(known["snapshot_tau"].values):
+    for i, tau in enumerate(known["snapshot_tau"].values[:4]):  # 1, 2, 5 and 10
         output = int(np.searchsorted(found.tau, tau))
         state = known["amplitude"].values[..., i]
         assert np.linalg.norm(found.states[output] - state) <= found.bound[output]

@@ -10,7 +10,7 @@ from pendula.studies.certified.states import Chain, LostError, find_state
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=18)
-FAR = HERE._replace(half_width=25)
+FAR = HERE._replace(half_width=22)
 
 
 def proved(family, chain=HERE, state=None, **how):

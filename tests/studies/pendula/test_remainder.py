@@ -158,7 +158,8 @@ def test_where_the_chain_at_rest_is_unstable_the_error_outruns_every_power_of_ti
 
 def test_pendula_that_are_driven_beyond_all_bounds_are_lost():
     """At mu = 0.4 large data go over the top, and the string then turns them ever faster."""
-    pendula = problem(pair=(5.0, 1.0), model=PENDULA, mu=0.4, half_width=10, end_time=6.0)
+    driven = Constants(epsilon=1.0, gamma=0.6, omega=-4.0)  # by more drive they turn faster
+    pendula = problem(pair=(5.0, 1.0), model=PENDULA, mu=0.4, end_time=7.0, constants=driven)
     run = follow(pendula, 0.05, 1.0)
     assert np.isinf(run.errors[:, -1]).all() and np.isfinite(run.errors[:, 0]).all()
     assert np.isfinite(run.wrong).all()

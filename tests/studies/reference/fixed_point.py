@@ -61,10 +61,11 @@ def advance(re, im, omega, steps_per_unit, order, bits):
     return totals
 
 
-def integrate(pair, omega, end, *, half_width=14, steps_per_unit=40, order=32, bits=128):
+def integrate(pair, omega, end, *, steps_per_unit, order, half_width=14, bits=128):
     """Return complex amplitudes (2, 2M + 1) at time `end`, each rounded once to double.
 
-    To tau = 1 the defaults give the sites -4..4 of a longer chain to 1e-22, the norms too.
+    To tau = 1 the sites -4..4 are those of a longer chain to 1e-22, the norms too: of small data
+    by 20 steps of order 24, of large data by 40 of order 32.
     """
     re, im = begin(pair, half_width, bits)
     for _ in range(round(end * steps_per_unit)):

@@ -51,23 +51,33 @@ CONSISTENT = {
 def asked():
     """Return a process that takes folders of mutants; without a compiler, as mutants are small."""
     command = [sys.executable, "-W", "ignore", str(MUTANTS)]
-    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1"}
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, env=environment, **pipes) as process:
         yield process
         process.stdin.close()
 
 
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory):
+    """Return a folder with the library, and the bytecode of what does not change."""
+    folder = tmp_path_factory.mktemp("mutants")
+    shutil.copytree(LIBRARY, folder / "pendula", ignore=shutil.ignore_patterns("drawing"))
+    for name in (MODEL, CHAIN):
+        shutil.rmtree((folder / "pendula" / name).parent / "__pycache__", ignore_errors=True)
+    return folder
+
+
 @pytest.fixture
-def failing_check(asked, tmp_path):
+def failing_check(asked, copied):
     """Return a function: the first check that fails on a library with these edits."""
 
     def find(edits) -> str:
-        skip = shutil.ignore_patterns("__pycache__", "drawing")
-        shutil.copytree(LIBRARY, tmp_path / "pendula", ignore=skip)
+        for name in (MODEL, CHAIN):
+            shutil.copy(LIBRARY / name, copied / "pendula" / name)
         for name, old, new in edits:
-            edit(tmp_path / "pendula" / name, old, new)
-        asked.stdin.write(f"{tmp_path}\n")
+            edit(copied / "pendula" / name, old, new)
+        asked.stdin.write(f"{copied}\n")
         asked.stdin.flush()
         found = asked.stdout.readline().rstrip("\n")
         assert found and not found.startswith("no check")

@@ -6,13 +6,13 @@ is the standard error over the rings: no autocorrelation enters it.
 
 import numpy as np
 
-RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 300, 400, 4
+RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 100, 100, 4
 
 
 def sample(constants, beta, seed=1):
     """Return means of each ring: power and energy a site, and moduli (ring, kept, site) of A."""
     rng = np.random.default_rng(seed)
-    a, b = 0.5 * rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
+    a, b = rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
     step, powers, energies, moduli = 1.0, [], [], []
     for count in range(SETTLING + KEPT):
         taken = [offer_moves(constants, beta, a, b, parity, step, rng) for parity in (0, 1)]

@@ -69,7 +69,7 @@ def widest(constants: Constants, beta: float) -> np.ndarray:
     return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))
 
 
-def state_of_energy(constants: Constants, energy: float = 0.0, nodes: int = 16) -> ThermalState:
+def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalState:
     """Return the thermal state with an energy per site, on `nodes` half-nodes a coordinate.
 
     Three grids follow each other: one with half of the nodes finds beta roughly and how far the
@@ -187,7 +187,7 @@ def spectrum_of(products: np.ndarray) -> np.ndarray:
     return 2.0 * (waves * shares).sum(axis=1) - shares[0]
 
 
-def density_of(state: ThermalState, cells: np.ndarray, finer: int = 28) -> np.ndarray:
+def density_of(state: ThermalState, cells: np.ndarray, finer: int) -> np.ndarray:
     """Return the probability density of |A|, means between `cells`; that of |B| is the same.
 
     The integral over k of the mean of exp(i k A) times r J_1(k r) / (2 pi k) is the probability of
