@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from helpers import MY_BASELINE, ROOT, copy_of_sources, skips_in_words, snakemake
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
 
@@ -19,6 +20,9 @@ settings.register_profile(
     "project", deadline=None, derandomize=True, database=None, max_examples=50
 )
 settings.load_profile("project")
+# It would parse the whole library, in every worker, to draw the numbers that stand there as well:
+# this takes seconds, and whoever edits one of them would have all tests draw other data.
+providers._get_local_constants = lambda: providers._local_constants
 
 
 LONGEST = ("docs/test_commands.py", "workflow/test_figure_diff.py", "workflow/test_interrupted.py")
