@@ -60,15 +60,19 @@ class WarmProcess(Popen):
         what = json.dumps([os.getcwd(), dict(env), [str(arg) for arg in args[1:]], listener])
         socket.send_fds(waits, [what.encode()], [reads, listener])
         os.close(reads)
+        self.returncode = None
         self.stdin = open(writes, "wb")  # noqa: SIM115, as long as the run lives
 
     def terminate(self):
-        """End it."""
-        os.kill(self.pid, signal.SIGTERM)
+        """End it, unless it has ended."""
+        if self.returncode is None:
+            os.kill(self.pid, signal.SIGTERM)
 
     def wait(self, timeout=None):
         """Return when it has ended."""
-        os.waitpid(self.pid, 0)
+        if self.returncode is None:
+            _, status = os.waitpid(self.pid, 0)
+            self.returncode = os.waitstatus_to_exitcode(status)
 
 
 def keep_a_fork_in_reserve() -> None:
