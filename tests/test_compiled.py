@@ -7,7 +7,7 @@ import sys
 
 from pendula.sources import SCRIPTS
 
-LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(80))
+LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(30))
 MADE = f"""
 from pendula.compiled import kernel, uncached
 
@@ -38,22 +38,28 @@ def of_products(x):
 """
 
 
-def say(folder, *names):
-    """Return what these kernels give in a process of its own, which keeps and loads them."""
-    calls = ", ".join(f"made.{name}(0.5)" for name in names)
-    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{folder}", "PENDULA_CACHE": str(folder)}
-    command = [sys.executable, "-c", f"import made; print([{calls}])"]
-    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+FORKS = """
+import os, sys
+import numba
+
+numba.njit(lambda x: x)(0.5)  # what every process does first; all number their functions from here
+for names in sys.argv[1:]:
+    if not os.fork():
+        import made
+        print([getattr(made, name)(0.5) for name in names.split()], flush=True)
+        os._exit(0)
+    os.wait()
+"""
 
 
 def test_kernels_that_two_processes_kept_stay_apart_in_a_third(tmp_path):
     """Each process numbers its functions alike, so `long` had the same name in both."""
     (tmp_path / "made.py").write_text(MADE)
-    apart = say(tmp_path, "of_sums") + say(tmp_path, "of_products")
-    assert apart[0] != apart[1]
-    assert say(tmp_path, "of_sums", "of_products") == apart
+    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{tmp_path}", "PENDULA_CACHE": str(tmp_path)}
+    command = [sys.executable, "-c", FORKS, "of_sums", "of_products", "of_sums of_products"]
+    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True)
+    first, second, third = map(json.loads, done.stdout.splitlines())
+    assert first != second and third == first + second
 
 
 def test_the_forks_of_a_process_name_their_functions_apart(tmp_path):

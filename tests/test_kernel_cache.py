@@ -7,7 +7,6 @@ import sys
 import threading
 import time
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numba
 import pytest
@@ -141,9 +140,12 @@ def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
 HELD = """
 import sys
 from pathlib import Path
+import numba
 sys.path[:0] = sys.argv[1:3]
-from test_kernel_cache import compile_anew
-compiled = compile_anew(*map(Path, sys.argv[3:]))
+import made
+from pendula.kernel_cache import KernelCache
+compiled = numba.njit(made.double)
+compiled._cache = KernelCache(made.double, Path(sys.argv[3]))
 compile_now = compiled._compiler.compile
 def compile_when_told(*arguments):
     print("compiling", flush=True)
@@ -159,8 +161,7 @@ def other(module, kept):
     """Return another process that compiles `double`, and goes on when it is told to."""
     if kernel_cache.fcntl is None:
         skip("this system has no locks on files", "run the tests on Linux or macOS")
-    folders = Path(__file__).parent, sources.SCRIPTS
-    command = [sys.executable, "-c", HELD, *map(str, (*folders, module, kept))]
+    command = [sys.executable, "-c", HELD, *map(str, (sources.SCRIPTS, module.parent, kept))]
     with subprocess.Popen(command, stdin=-1, stdout=-1, text=True) as process:
         assert process.stdout.readline() == "compiling\n"
         yield process
