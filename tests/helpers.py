@@ -22,6 +22,7 @@ from pendula.configuration.messages import load
 from pendula.ledger.claim import _row, all_claims
 
 ROOT = Path(__file__).resolve().parents[1]
+Finished = subprocess.CompletedProcess
 
 HANGS = 600
 """Seconds after which something hangs: far more than anything takes on the slowest machine, so that
@@ -119,15 +120,20 @@ def snakemake_with(
     return run_ready(command_of(project, directory, mine, *arguments))
 
 
-def run_ready(command: list[str]) -> subprocess.CompletedProcess:
-    """Run `python -m snakemake ...` as a fork of a process that has imported Snakemake."""
+def run_ready(command: list[str], folder: Path | None = None, **variables: str) -> Finished:
+    """Run `python -m snakemake ...`, or `doctest`, as a fork of a process that has imported it."""
     with NamedTemporaryFile("r") as out, NamedTemporaryFile("r") as err:
-        request = [os.getcwd(), dict(os.environ), [out.name, err.name], command[3:]]
-        process = _ready()
-        process.stdin.write(json.dumps(request) + "\n")
-        process.stdin.flush()
-        code = int(process.stdout.readline())
-        return subprocess.CompletedProcess(command, code, out.read(), err.read())
+        environment = {**os.environ, **variables}
+        request = [str(folder or Path.cwd()), environment, [out.name, err.name], command[2:]]
+        return Finished(command, ask_ready(json.dumps(request)), out.read(), err.read())
+
+
+def ask_ready(request: str) -> int:
+    """Have that process do what `request` says, in one line, and return the exit code."""
+    process = _ready()
+    process.stdin.write(f"{request}\n")
+    process.stdin.flush()
+    return int(process.stdout.readline())
 
 
 @cache

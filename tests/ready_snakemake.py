@@ -7,7 +7,7 @@ anew: only what other people wrote is there already.
 A run with jobs starts `workflow/warm_process.py`, a new Python that imports what jobs need, which
 takes as long again. So each run has a fork in reserve: it waits until the run starts this command,
 and then does what the command says, as a child of the run. `helpers.py` starts this process and
-asks it.
+asks it. It asks for `python -m doctest` too, for which the same packages are imported.
 """
 
 import gc
@@ -32,8 +32,8 @@ PACKAGES = (
 """What every run or its jobs import, whatever a run is asked for."""
 WARM = "warm_process.py"
 """The command that the fork in reserve does."""
-LOOKS = {"-n", "--dry-run", "--list"}
-"""Calls of Snakemake without jobs."""
+LOOKS = {"-n", "--dry-run", "--list", "doctest"}
+"""Calls without jobs."""
 MOST = 1 << 20
 """Bytes that are more than a command and its environment have."""
 
@@ -102,7 +102,7 @@ def wait_in_reserve(told: socket.socket) -> None:
 
 
 def serve() -> list[str]:
-    """Fork for each line of standard input; return the arguments in a fork."""
+    """Fork for each line of standard input; in a fork return a module's name and its arguments."""
     for line in iter(sys.stdin.readline, ""):
         folder, variables, screens, arguments = json.loads(line)
         if not (child := os.fork()):
@@ -146,10 +146,13 @@ def get_ready() -> ModuleType:
 
 
 def main() -> None:
-    """Get ready once, and in each fork be Snakemake."""
+    """Get ready once, and in each fork be Snakemake or doctest."""
     warm = get_ready()
     sys.path[0] = ""  # as `python -m` does, so that no test's helper is found by a workflow
-    sys.argv[:] = ["snakemake", *serve()]
+    sys.argv[:] = serve()
+    if sys.argv[0] == "doctest":
+        sys.path[1:1] = os.environ["PYTHONPATH"].split(os.pathsep)
+        runpy.run_module("doctest", run_name="__main__")
     try:
         importlib.import_module("snakemake.cli").main()
     except SystemExit as status:

@@ -1,7 +1,8 @@
 """Stands for the program `snakemake` in the clone in which the printed commands are run.
 
 It asks for a fork of tests/ready_snakemake.py with its own folder, variables and screen, and ends
-as that fork did: nearly half of most commands would be imports.
+as that fork did: nearly half of most commands would be imports. `printed.py` passes on what this
+program asks for.
 """
 
 import json
@@ -14,7 +15,7 @@ BESIDE = Path(__file__).resolve().parents[3]
 
 if __name__ == "__main__":
     screens = [f"/proc/{os.getpid()}/fd/{number}" for number in (1, 2)]
-    request = [os.getcwd(), dict(os.environ), screens, sys.argv[1:]]
+    request = [os.getcwd(), dict(os.environ), screens, ["snakemake", *sys.argv[1:]]]
     with open(BESIDE / "asked", "w") as asked, open(BESIDE / "answered") as answered:
         asked.write(json.dumps(request) + "\n")
         asked.flush()

@@ -6,7 +6,7 @@ line names the file. A block `pycon` is a session of Python. A comment `<!-- fai
 above a block says that its commands must fail.
 """
 
-import json
+import io
 import os
 import re
 import shlex
@@ -16,17 +16,18 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from threading import Thread
 from typing import NamedTuple
 from venv import EnvBuilder
 
 import yaml
+from helpers import ask_ready, run_ready
 from pendula.archive.contents import code_files
 from pendula.configuration.files import merge
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-HERE = Path(__file__).parent
-ASK, READY = HERE / "ask_ready.py", HERE.parent / "ready_snakemake.py"
-SESSIONS = HERE / "sessions.py"
+ASK = Path(__file__).with_name("ask_ready.py")
+PIPES = "asked", "answered"
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "proofs", "speed", "quoted", "tolerances.yaml", "spreads.nc")
@@ -146,17 +147,26 @@ def _share_packages(venv: Path) -> None:
 
 @contextmanager
 def ready_for(clone: Path) -> Iterator[None]:
-    """Keep the process ready that the program `snakemake` of a clone asks."""
+    """Pass on what the program `snakemake` of a clone asks for, and the answers."""
     with ExitStack() as opened:
-        ends = []
-        for name in ("asked", "answered"):
-            os.mkfifo(clone.parent / name)
-            ends.append(os.open(clone.parent / name, os.O_RDWR))
-            opened.callback(os.close, ends[-1])
-        process = subprocess.Popen([sys.executable, str(READY)], stdin=ends[0], stdout=ends[1])
-        opened.callback(process.wait)
-        opened.callback(process.terminate)
-        yield
+        asked, answered = (opened.enter_context(_pipe(clone.parent / name)) for name in PIPES)
+
+        def pass_on():
+            for request in iter(asked.readline, b"\n"):
+                answered.write(b"%d\n" % ask_ready(request.decode().rstrip("\n")))
+
+        passing = Thread(target=pass_on)
+        passing.start()
+        try:
+            yield
+        finally:
+            asked.write(b"\n")
+            passing.join()
+
+
+def _pipe(path: Path) -> io.FileIO:
+    os.mkfifo(path)
+    return open(path, "r+b", buffering=0)
 
 
 class Reader:
@@ -173,6 +183,8 @@ class Reader:
         if block.kind == "yaml":
             (self.folder / file_of(block)).write_text(block.text, encoding="utf-8")
             return Done(0, "")
+        if block.kind == "pycon":
+            return self._session(block.text)
         reached = self.beside / "folder.txt"
         script = f"{block.text}\npwd > {shlex.quote(str(reached))}"
         done = self._run(["bash", "-euo", "pipefail", "-c", script])
@@ -180,24 +192,20 @@ class Reader:
             self.folder = Path(reached.read_text().rstrip("\n"))
         return done
 
-    def play_sessions(self, found: list[Block]) -> dict[str, Done]:
-        """Run sessions of Python in the folder of the clone, after the commands of their pages."""
-        self.folder, files = self.clone, []
-        for number, block in enumerate(found):
-            files.append(self.beside / f"session{number}.txt")
-            files[-1].write_text(block.text, encoding="utf-8")
-        command = [self.clone / ".venv/bin/python", SESSIONS, *files]
-        done = self._run(list(map(str, command)), PYTHONPATH=str(self.clone / "scripts"))
-        assert not done.code, done.said
-        ends = json.loads(done.said)
-        return {block.name: Done(*end) for block, end in zip(found, ends, strict=True)}
+    def _session(self, text: str) -> Done:
+        session = self.beside / "session.txt"
+        session.write_text(text, encoding="utf-8")
+        python = str(self.clone / ".venv/bin/python")
+        command = [python, "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
+        done = run_ready(command, self.folder, PYTHONPATH=str(self.clone / "scripts"))
+        return Done(done.returncode, done.stdout + done.stderr)
 
-    def _run(self, command: list[str], **variables: str) -> Done:
+    def _run(self, command: list[str]) -> Done:
         path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # where `python3` is ours
         run = subprocess.run(
             command,
             cwd=self.folder,
-            env={**os.environ, "PATH": path, "PYTHONPATH": "", **variables},
+            env={**os.environ, "PATH": path, "PYTHONPATH": ""},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

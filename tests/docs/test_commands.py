@@ -90,15 +90,13 @@ def played(request, made_once, full_run) -> dict[str, Done]:
         else:
             accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
-        sessions = [block for block in tried if block.kind == "pycon"]
         reader = Reader(clone)
         with ready_for(clone):
             run = {
                 block.name: reader.play(dry(block) if first(block) in DRY else block)
                 for block in [*tried, ASKED]
-                if block not in JOINED and block not in sessions
+                if block not in JOINED
             }
-            run |= reader.play_sessions(sessions)
         run |= {block.name: run[ASKED.name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
