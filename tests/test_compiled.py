@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+from pendula.compiled import FunctionIdentity
 from pendula.sources import SCRIPTS
 
 LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(30))
@@ -62,22 +63,14 @@ def test_kernels_that_two_processes_kept_stay_apart_in_a_third(tmp_path):
     assert first != second and third == first + second
 
 
-def test_the_forks_of_a_process_name_their_functions_apart(tmp_path):
-    code = """
-import os
-from pendula.compiled import FunctionIdentity
-for _ in range(2):
-    if os.fork() == 0:
-        print(next(FunctionIdentity._unique_ids), flush=True)
-        os._exit(0)
-    os.wait()
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    first, second = done.stdout.split()
+def test_the_forks_of_a_process_name_their_functions_apart():
+    reads, writes = os.pipe()
+    for _ in range(2):
+        if not (child := os.fork()):
+            os.write(writes, b"%d\n" % next(FunctionIdentity._unique_ids))
+            os._exit(0)
+        os.waitpid(child, 0)
+    os.close(writes)
+    with open(reads) as said:
+        first, second = said.read().split()
     assert first != second

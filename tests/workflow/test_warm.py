@@ -125,11 +125,15 @@ def test_a_process_with_two_threads_forks_nothing(tmp_path):
 def test_what_jobs_import_leaves_one_thread(tmp_path):
     modules = warm.imports_of([ROOT / "scripts/paper/draw_norms.py"])
     assert "pendula.studies.paper.figures" in modules and "job" in modules
-    one = Warm(tmp_path, modules)
+    gate, last = tmp_path / "gate", modules[-1]
+    os.mkfifo(gate)
+    gate.with_suffix(".py").write_text(f"open({str(gate)!r}).read()")
+    paths = {"PYTHONPATH": f"{ENVIRONMENT['PYTHONPATH']}{os.pathsep}{tmp_path}"}
+    one = Warm(tmp_path, [*modules, "gate"], ENVIRONMENT | paths)
     try:
-        last = modules[-1]
+        gate.write_text("open")  # as soon as the process, which has imported all, is at the gate
         forked = f"{FORKED}; import sys; print({last!r} in sys.modules and 'xarray' in sys.modules)"
-        wait_for(lambda: one.run(forked)[1] == "True\nTrue\n")
+        assert one.run(forked)[1] == "True\nTrue\n"
     finally:
         warm.end(one.process)
 
