@@ -90,6 +90,12 @@ def only_targets(block: Block) -> list[str]:
     return found[1].split() if found else []
 
 
+def is_within(part: Block, whole: Block) -> bool:
+    """Return whether the words of a block stand in another one, in their order."""
+    words = iter(whole.text.split())
+    return part != whole and all(word in words for word in part.text.split())
+
+
 def dry(block: Block) -> Block:
     """Return the block with each call of Snakemake as a dry run."""
     return block._replace(

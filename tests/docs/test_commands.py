@@ -28,6 +28,7 @@ from printed import (
     blocks,
     dry,
     file_of,
+    is_within,
     only_targets,
     pages,
     prepare,
@@ -65,9 +66,18 @@ INLINE = re.findall(
 """What a line of text or a table says to ask Snakemake for."""
 RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) not in LEFT_OUT]
 JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
-"""Dry runs of targets alone, which one dry run does together, with those that sentences name."""
 TARGETS = [*INLINE, *(target for block in JOINED for target in only_targets(block))]
 ASKED = Block("all pages", 0, "", "", f".venv/bin/snakemake -n {' '.join(TARGETS)}")
+PLAYED = {block: dry(block) if first(block) in DRY else block for block in [*RUN, ASKED]}
+DONE_BY = dict.fromkeys(JOINED, ASKED) | {
+    part: whole
+    for part in PLAYED
+    if first(part) in DRY and part not in JOINED
+    for whole in PLAYED
+    if is_within(PLAYED[part], PLAYED[whole])
+}
+"""The dry runs that another one does: of targets alone, which one does together with those that
+sentences name, and of words that all stand in another."""
 
 
 def accept_and_pack(clone: Path, accepted: Path, packed: Path) -> None:
@@ -93,11 +103,11 @@ def played(request, made_once, full_run) -> dict[str, Done]:
         reader = Reader(clone)
         with ready_for(clone):
             run = {
-                block.name: reader.play(dry(block) if first(block) in DRY else block)
+                block.name: reader.play(PLAYED.get(block, block))
                 for block in [*tried, ASKED]
-                if block not in JOINED
+                if block not in DONE_BY
             }
-        run |= {block.name: run[ASKED.name] for block in JOINED}
+        run |= {block.name: run[other.name] for block, other in DONE_BY.items()}
         (folder / "played.json").write_text(json.dumps(run))
 
     found = json.loads((made_once("printed", make) / "played.json").read_text())
@@ -178,6 +188,13 @@ def test_a_dry_run_is_of_every_call_and_of_nothing_else():
     assert only_targets(block) == []
     alone = block._replace(text=".venv/bin/snakemake fig2 own\n")
     assert only_targets(alone) == ["fig2", "own"]
+
+
+def test_one_dry_run_does_for_another_if_it_has_its_words():
+    texts = "snakemake -n fig2 --configfile a", "snakemake -n fig2 -d b --configfile a"
+    part, whole = (Block("a.md", 1, "", "", text) for text in texts)
+    assert is_within(part, whole) and not is_within(whole, part) and not is_within(part, part)
+    assert not is_within(part._replace(text="snakemake fig2 -n"), whole)
 
 
 @pytest.mark.parametrize(
