@@ -80,6 +80,7 @@ MADE_OF_THEM = {
     *("logspace", "geomspace", "interp", "polyfit", "polyval", "angle", "unwrap", "sinc", "i0"),
     *("linalg", "fft", "polynomial", "emath"),
 }
+OF_NUMPY = INEXACT | MADE_OF_THEM
 OF_C = {"sqrt", "floor", "ceil", "trunc", "fabs", "copysign", "frexp", "ldexp", "nextafter", "ulp"}
 OF_C |= {"prod", "fsum", "factorial", "comb", "perm", "gcd", "lcm", "isqrt", "fmod", "modf"}
 OF_C |= {"isfinite", "isinf", "isnan", "isclose", "inf", "nan", "pi", "e", "tau"}
@@ -93,10 +94,10 @@ EXACT_BASES = (-1, 0.5, 2)
 """Numbers whose whole powers are exact."""
 
 
-def names_of(tree: ast.AST) -> dict[str, str]:
+def names_of(nodes: list[ast.AST]) -> dict[str, str]:
     """Return what each imported name of a module stands for, as a path of packages."""
     found = {}
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Import):
             for alias in node.names:
                 first = alias.name.split(".")[0]
@@ -126,7 +127,7 @@ def refused(path: str) -> str:
         return package
     if package == "math" and rest and rest[0] not in OF_C:
         return path
-    if package == "numpy" and rest and rest[0] in INEXACT | MADE_OF_THEM:
+    if package == "numpy" and rest and rest[0] in OF_NUMPY:
         return ".".join([package, rest[0]])
     return ""
 
@@ -154,10 +155,10 @@ PARTS = ("real", "imag", "shape", "size")
 
 def uses(source: str) -> Iterator[str]:
     """Yield what a module uses whose bits differ between processors."""
-    tree = ast.parse(source)
-    names = names_of(tree)
+    nodes = list(ast.walk(ast.parse(source)))
+    names = names_of(nodes)
     yield from filter(None, map(refused, names.values()))
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Name | ast.Attribute):
             yield from filter(None, [refused(path_of(node, names))])
         if isinstance(node, ast.Attribute) and node.attr in METHODS and not path_of(node, names):

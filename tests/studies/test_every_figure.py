@@ -91,7 +91,8 @@ def test_saved_data_alone_give_the_same_figure_whatever_the_users_style(plot):
 def margins(figure):
     """Return how far the figure stays from the left, lower, right and upper edge of its page."""
     with style.thrifty():
-        figure.draw_without_rendering()
+        if layout := figure.get_layout_engine():
+            layout.execute(figure)
         page, needed = figure.bbox_inches, figure.get_tightbbox()
     return needed.x0 - page.x0, needed.y0 - page.y0, page.x1 - needed.x1, page.y1 - needed.y1
 
