@@ -92,16 +92,15 @@ def test_waves_along_a_long_chain_give_the_bits_of_its_half_order_by_order(bound
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-@pytest.mark.parametrize("sites", [1, 3, 5, 7, 9, 11, 13, 15, 17])
-def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks_end(
-    boundary, sites
-):
-    half = np.random.default_rng(sites).normal(size=(1, (sites + 1) // 2, 2)) @ (1.0, 1j)
-    z = np.repeat(np.concatenate([half[:, :0:-1], half], axis=1), 2, axis=0)
-    whole = coefficients(z, (1.0, 0.7, -4.0), boundary, WHOLE)
-    for even, synchronised in [(sites > 1, False), (False, True), (sites > 1, True)]:
-        kept = Reduction(even=even, synchronised=synchronised)
-        np.testing.assert_array_equal(coefficients(z, (1.0, 0.7, -4.0), boundary, kept), whole)
+def test_halves_and_single_components_have_the_bits_of_the_whole_wherever_blocks_end(boundary):
+    for sites in (1, 3, 5, 7, 9, 11, 13, 15, 17):
+        half = np.random.default_rng(sites).normal(size=(1, (sites + 1) // 2, 2)) @ (1.0, 1j)
+        z = np.repeat(np.concatenate([half[:, :0:-1], half], axis=1), 2, axis=0)
+        whole = coefficients(z, (1.0, 0.7, -4.0), boundary, WHOLE)
+        for even, synchronised in [(sites > 1, False), (False, True), (sites > 1, True)]:
+            kept = Reduction(even=even, synchronised=synchronised)
+            found = coefficients(z, (1.0, 0.7, -4.0), boundary, kept)
+            np.testing.assert_array_equal(found, whole, err_msg=f"{sites} sites, {kept}")
 
 
 @pytest.mark.parametrize("sites", [LANES * CACHED_BLOCKS - 7, LANES * CACHED_BLOCKS + 45])

@@ -164,12 +164,12 @@ def test_simulate_gives_components_sites_and_times():
 
 
 @each_solver
-@pytest.mark.parametrize("value", [np.nan, np.inf, complex(0, np.nan), 1e100, 1e200])
-def test_data_that_cannot_be_integrated_end_in_an_error(name, value):
-    z = random_chain(2)
-    z[1, 3] = value
-    with pytest.raises(IntegrationError, match=rf"^{name} stopped at tau = 0: the "):
-        run(name, z)
+def test_data_that_cannot_be_integrated_end_in_an_error(name):
+    for value in (np.nan, np.inf, complex(0, np.nan), 1e100, 1e200):
+        z = random_chain(2)
+        z[1, 3] = value
+        with pytest.raises(IntegrationError, match=rf"^{name} stopped at tau = 0: the "):
+            run(name, z)
 
 
 @pytest.mark.parametrize("name", ["taylor", "dop853"])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import verdict_of
 from pendula.drawing import strips, style
 from pendula.ledger.claim import evaluate
 from pendula.studies.certified.claims_curves import EIGHT, MINUS_FOUR, WRONG
@@ -11,6 +12,7 @@ from pendula.studies.certified.lines import contain
 from pendula.studies.certified.regular import PARTS
 
 TAU = np.linspace(0.0, 2.0, 81)
+MODULE = "certified/claims_curves"
 
 
 def attributes(omega):
@@ -54,13 +56,8 @@ def sources():
     }
 
 
-def verdicts(sources):
-    rows = evaluate(sources, None, ("certified/claims_curves",))
-    return {row["name"]: row["verdict"] for row in rows}
-
-
 def test_all_hold_where_they_should_and_every_control_is_refused(sources):
-    rows = evaluate(sources, None, ("certified/claims_curves",))
+    rows = evaluate(sources, None, (MODULE,))
     assert {row["verdict"] for row in rows} == {"confirmed"} and len(rows) == 3
     assert all(control["passes"] for row in rows for control in row["controls"])
 
@@ -77,7 +74,7 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
 def test_a_wrong_number_is_refused(sources, name, source, change):
     with xr.set_options(keep_attrs=True):
         changed = change(sources[source])
-    assert verdicts({**sources, source: changed})[name] == "not reproduced"
+    assert verdict_of(name, {**sources, source: changed}, MODULE) == "not reproduced"
 
 
 def test_a_line_contains_its_curve_until_it_leaves_it_and_what_is_not_proved_is_not_known():

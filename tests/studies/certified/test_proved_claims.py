@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
+from helpers import verdict_of
 from pendula.datasets.netcdf import as_xarray
 from pendula.ledger.claim import evaluate
 from pendula.studies.certified.claims_breathers import CONSTANTS, PROVED, STEADY
 from pendula.studies.certified.proved_breathers import breathers_contents
 
+MODULE = "certified/claims_breathers"
 PROOFS = [
     {"family": "A = B real", "omega": -8.0, "epsilon": 1.0},
     {"family": "A = B real", "omega": -4.0, "epsilon": 1.0},
@@ -37,15 +39,11 @@ def sources(proved):
     return {PROVED: proved, STEADY: steady, CONSTANTS: constants}
 
 
-def rows_of(sources):
-    return {row["name"]: row for row in evaluate(sources, None, ("certified/claims_breathers",))}
-
-
 def test_all_hold_where_they_should_and_every_control_is_refused(sources):
-    rows = rows_of(sources)
+    rows = evaluate(sources, None, (MODULE,))
     assert len(rows) == 4
-    assert {row["verdict"] for row in rows.values()} == {"confirmed"}
-    assert all(control["passes"] for row in rows.values() for control in row["controls"])
+    assert {row["verdict"] for row in rows} == {"confirmed"}
+    assert all(control["passes"] for row in rows for control in row["controls"])
 
 
 @pytest.mark.parametrize(
@@ -64,9 +62,8 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     ],
 )  # fmt: skip
 def test_a_wrong_dataset_is_refused(sources, name, source, change):
-    assert (
-        rows_of({**sources, source: change(sources[source])})[name]["verdict"] == "not reproduced"
-    )
+    changed = {**sources, source: change(sources[source])}
+    assert verdict_of(name, changed, MODULE) == "not reproduced"
 
 
 @pytest.mark.parametrize(
@@ -79,8 +76,8 @@ def test_a_wrong_dataset_is_refused(sources, name, source, change):
     ],
 )
 def test_without_a_state_in_both_studies_rates_are_not_compared(sources, change):
-    rows = rows_of({**sources, STEADY: change(sources[STEADY])})
-    assert rows["growth_as_proved"]["verdict"] == "cannot be decided"
+    changed = {**sources, STEADY: change(sources[STEADY])}
+    assert verdict_of("growth_as_proved", changed, MODULE) == "cannot be decided"
 
 
 def test_what_is_refused_is_said_in_the_dataset(proved):

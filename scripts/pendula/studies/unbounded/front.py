@@ -33,6 +33,7 @@ from pendula.numerics.elementary import (
     product,
     quotient,
     sin,
+    sine_and_cosine,
     sinh,
     square_root,
 )
@@ -142,8 +143,8 @@ def _corner(decay: float, constants: Constants) -> tuple[float, float]:
 def _growing_branch(wave: float, decay: float, constants: Constants) -> tuple[complex, ...]:
     """Return s, s'(k) and s''(k) of the growing branch, from s^2 = 4 gamma^2 - kappa^2."""
     epsilon, gamma, omega = constants
-    cosine = complex_of(cos(wave) * cosh(decay), -sin(wave) * sinh(decay))
-    sine = complex_of(sin(wave) * cosh(decay), cos(wave) * sinh(decay))
+    (s, c), (along, across) = sine_and_cosine(wave), (cosh(decay), sinh(decay))
+    cosine, sine = complex_of(c * along, -s * across), complex_of(s * along, c * across)
     kappa = 2.0 * epsilon * (1.0 - cosine) - omega
     of_kappa, curvature = 2.0 * epsilon * sine, 2.0 * epsilon * cosine
     s = square_root(4.0 * gamma * gamma - product(kappa, kappa))
@@ -155,8 +156,9 @@ def _growing_branch(wave: float, decay: float, constants: Constants) -> tuple[co
 def growth_rate(wave, decay, constants: Constants):
     """Return Re s of the growing branch at the complex wave numbers wave + i decay."""
     epsilon, gamma, omega = constants
-    kappa = 2.0 * epsilon * (1.0 - cos(wave) * cosh(decay)) - omega
-    across = 2.0 * epsilon * sin(wave) * sinh(decay)  # Im kappa
+    s, c = sine_and_cosine(wave)
+    kappa = 2.0 * epsilon * (1.0 - c * cosh(decay)) - omega
+    across = 2.0 * epsilon * s * sinh(decay)  # Im kappa
     along = 4.0 * gamma * gamma - kappa * kappa + across * across
     return square_root(complex_of(along, -2.0 * kappa * across)).real
 
