@@ -26,7 +26,7 @@ from types import ModuleType
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
     *("pydantic", "smart_open", "yte", "nbformat", "platformdirs"),
-    *("numba", "netCDF4", "xarray", "matplotlib.figure"),
+    *("numba", "netCDF4", "xarray", "scipy.special", "matplotlib.figure"),
     *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
 )
 """What every run or its jobs import, whatever a run is asked for."""
