@@ -1,6 +1,7 @@
 """Fixtures of several tests, and how hypothesis draws: the same data every time, no time limit."""
 
 import fcntl
+import gc
 import os
 import shutil
 from functools import cache
@@ -15,6 +16,7 @@ from oracle import CASES, slope
 from scipy.integrate import solve_ivp
 
 pytest_plugins = ["figure_fixtures"]
+gc.disable()  # while modules are imported and tests are collected, all of which stay
 
 settings.register_profile(
     "project", deadline=None, derandomize=True, database=None, max_examples=50
@@ -47,6 +49,13 @@ def pytest_collection_modifyitems(items):
     """Put the tests of the longest files before all others, and give all workers one order."""
     first = [ROOT / "tests" / name for name in LONGEST]
     items.sort(key=lambda item: (item.path not in first, item.path))
+
+
+def pytest_collection_finish():
+    """From now on look for garbage, but not among all that has been imported and collected."""
+    gc.collect()
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_terminal_summary(terminalreporter):
