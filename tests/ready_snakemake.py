@@ -136,6 +136,7 @@ def get_ready() -> ModuleType:
     warm = importlib.import_module(Path(WARM).stem)
     for _ in warm.prepared(PACKAGES):
         pass
+    sys.modules["snakemake.cli"].get_argument_parser()  # it looks for plugins in all folders
     figure = sys.modules["matplotlib.figure"].Figure()
     figure.text(0.0, 0.0, r"$\tau$")
     for kind in ("png", "pdf"):
