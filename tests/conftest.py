@@ -1,34 +1,22 @@
-"""Fixtures of several tests, and how hypothesis draws: the same data every time, no time limit."""
+"""How pytest runs the tests: where fixtures are loaded, what begins first, what was skipped."""
 
-import fcntl
 import gc
 import os
-import shutil
-from functools import cache
 from pathlib import Path
 
-import numpy as np
 import pytest
-from helpers import MY_BASELINE, ROOT, copy_of_sources, skips_in_words, snakemake
-from hypothesis import settings
-from hypothesis.internal.conjecture import providers
-from oracle import CASES, slope
-from scipy.integrate import solve_ivp
-
-pytest_plugins = ["figure_fixtures"]
-gc.disable()  # while modules are imported and tests are collected, all of which stay
-
-settings.register_profile(
-    "project", deadline=None, derandomize=True, database=None, max_examples=50
-)
-settings.load_profile("project")
-# It would parse the whole library, in every worker, to draw the numbers that stand there as well:
-# this takes seconds, and whoever edits one of them would have all tests draw other data.
-providers._get_local_constants = lambda: providers._local_constants
-
+from skipped import skips_in_words
 
 LONGEST = ("docs/test_commands.py", "workflow/test_figure_diff.py", "workflow/test_interrupted.py")
 """Files that begin first: at the end, the other workers would wait for one of their tests."""
+
+
+def pytest_configure(config):
+    """Load fixtures where tests run: the process that only hands tests out imports no SciPy."""
+    if config.option.dist == "no":
+        gc.disable()  # while modules are imported and tests are collected, all of which stay
+        for name in ("shared_fixtures", "figure_fixtures"):
+            config.pluginmanager.import_plugin(name)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -47,7 +35,7 @@ def pytest_make_collect_report(collector):
 
 def pytest_collection_modifyitems(items):
     """Put the tests of the longest files before all others, and give all workers one order."""
-    first = [ROOT / "tests" / name for name in LONGEST]
+    first = [Path(__file__).parent / name for name in LONGEST]
     items.sort(key=lambda item: (item.path not in first, item.path))
 
 
@@ -65,87 +53,3 @@ def pytest_terminal_summary(terminalreporter):
         terminalreporter.section("not run")
     for line in lines:
         terminalreporter.line(line)
-
-
-@pytest.fixture(scope="session")
-def scipy_solution():
-    """Return a function: the amplitudes (2, 61) of a case of the paper at some tau, by SciPy."""
-
-    @cache
-    def solve(case, tau):
-        omega, pair = CASES[case]
-        start = np.zeros((2, 61), complex)
-        start[:, 30] = pair
-
-        def right_hand_side(_, z):
-            return slope(z.reshape(2, 61), (1.0, 1.0, omega), "dirichlet").ravel()
-
-        run = solve_ivp(
-            right_hand_side, (0, tau), start.ravel(), method="DOP853", rtol=3e-14, atol=1e-14
-        )
-        return run.y[:, -1].reshape(2, 61)
-
-    return solve
-
-
-@pytest.fixture(scope="session")
-def made_once(tmp_path_factory):
-    """Return a function: a folder that `make` fills, by one of all workers for the others too.
-
-    PENDULA_FULL_RUN names a folder for them that outlives the session, so that another takes over.
-    """
-    parallel = "PYTEST_XDIST_WORKER" in os.environ
-    base = tmp_path_factory.getbasetemp()
-    kept = os.environ.get("PENDULA_FULL_RUN")
-    shared = Path(kept) if kept else (base.parent if parallel else base)
-
-    def provide(name, make):
-        directory = shared / name
-        directory.mkdir(parents=True, exist_ok=True)
-        with open(shared / f"{name}.lock", "w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            if not (shared / f"{name}.done").exists():
-                make(directory)
-                (shared / f"{name}.done").touch()
-        return directory
-
-    return provide
-
-
-@pytest.fixture(scope="session")
-def full_run(made_once) -> Path:
-    """Return a folder with the results of a full run of config/quick.yaml."""
-
-    def make(directory):
-        result = snakemake(ROOT, directory)
-        assert result.returncode == 0, result.stdout + result.stderr
-
-    return made_once("full_run", make)
-
-
-@pytest.fixture(scope="session")
-def accepted_once(full_run, made_once) -> Path:
-    """Return a folder with a clone and a finished run with a baseline in it, not to be changed."""
-
-    def make(folder):
-        clone = copy_of_sources(folder / "clone")
-        for name in ("accepted.json", "hashes.json"):  # which this run cannot replace
-            shutil.copy(ROOT / "tests/baseline" / name, clone / "tests/baseline")
-        finished = shutil.copytree(full_run, folder / "finished")
-        command = ("accept_figures", "--config", f"baseline={MY_BASELINE}")
-        result = snakemake(clone, finished, *command)
-        assert result.returncode == 0, result.stdout + result.stderr
-
-    return made_once("accepted", make)
-
-
-@pytest.fixture(scope="session")
-def packed(full_run, made_once) -> Path:
-    """Return a copy of the finished run with its archive."""
-
-    def make(folder):
-        shutil.copytree(full_run, folder, dirs_exist_ok=True)
-        result = snakemake(ROOT, folder, "archive")
-        assert result.returncode == 0, result.stderr
-
-    return made_once("packed", make)

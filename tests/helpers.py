@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from tempfile import NamedTemporaryFile
@@ -64,18 +64,6 @@ def package(module: str, install: str) -> ModuleType:
         return importlib.import_module(module)
     except ImportError:
         skip(f"{module.split('.')[0]} is not installed", f"pip install {install}")
-
-
-def skips_in_words(skipped: Iterable) -> list[str]:
-    """Return what was skipped, from the reports of pytest: each reason once, then its tests."""
-    tests: dict[str, dict] = {}
-    for report in skipped:
-        said = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
-        tests.setdefault(said.removeprefix("Skipped: "), {})[report.nodeid] = None
-    lines = []
-    for said, names in sorted(tests.items()):
-        lines += [f"{len(names)} skipped: {said}", *(f"    {name}" for name in names)]
-    return lines
 
 
 def wait_for(happened: Callable[[], object]) -> None:

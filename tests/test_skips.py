@@ -5,7 +5,8 @@ import re
 
 import pytest
 from _pytest.outcomes import Skipped
-from helpers import ROOT, package, skip, skips_in_words
+from helpers import ROOT, package, skip
+from skipped import skips_in_words
 
 TESTS = ROOT / "tests"
 FORMS = {"skip", "importorskip", "skipif", "skipIf", "skipUnless", "skipTest", "SkipTest", "xfail"}
