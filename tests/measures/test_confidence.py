@@ -123,7 +123,7 @@ def test_an_exponential_law_is_told_from_a_dead_time():
 
 
 def test_every_chance_of_an_exponential_law_is_alike_where_it_holds():
-    lives = np.random.default_rng(4).exponential(3.0, size=(3000, 30))
+    lives = np.random.default_rng(4).exponential(3.0, size=(1500, 30))
     chances = [confidence.chance_of_law(draw, 1e9) for draw in lives]
     for level in (0.05, 0.2, 0.5):
         assert np.mean(np.array(chances) < level) == pytest.approx(level, abs=0.03)

@@ -21,7 +21,7 @@ def proved(family, chain=HERE, state=None, **how):
 def refined(chain, s, whole):
     """Return the state of a finite chain to some sixty digits, by Newton's method."""
     u = arb_mat([[arb(float(x))] for x in whole])
-    for _ in range(3):
+    for _ in range(2):
         values = u.entries()
         k, miss = existence.slope(chain, s, values), existence.residual(chain, s, values)
         u = (u - k.mid().solve(miss.mid())).mid()

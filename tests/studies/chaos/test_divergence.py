@@ -7,13 +7,13 @@ from pendula.studies.chaos import lyapunov
 from pendula.studies.chaos.lyapunov import follow_parity
 from problems import problem_of
 
-TAU, SEED = np.linspace(0.0, 20.0, 2001), 20170817
+TAU, SEED = np.linspace(0.0, 20.0, 1001), 20170817
 
 
 def test_errors_made_all_along_grow_to_their_integral():
     rate = 1.5
     log = lyapunov.amplification(TAU, rate * TAU, np.ones_like(TAU))
-    np.testing.assert_allclose(log[10:], np.log(np.expm1(rate * TAU[10:]) / rate), atol=0.02)
+    np.testing.assert_allclose(log[5:], np.log(np.expm1(rate * TAU[5:]) / rate), atol=0.02)
 
 
 def test_a_solution_that_grows_like_its_errors_keeps_their_relative_size():
@@ -87,4 +87,4 @@ def test_published_divergence_times_are_those_of_errors_seen_early_and_of_roundi
 
 
 def test_errors_are_read_off_at_two():
-    assert lyapunov.early_index(TAU) == 200
+    assert lyapunov.early_index(TAU) == 100

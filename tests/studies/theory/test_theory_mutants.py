@@ -1,16 +1,13 @@
 """Wrong equations make checks fail: each mutant changes one place of the library's text."""
 
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from helpers import edit
+from mutants import first_failing_of
 
 LIBRARY = Path(__file__).parents[3] / "scripts" / "pendula"
-MUTANTS = Path(__file__).parent / "mutants.py"
 MODEL, CHAIN = "models/amplitudes.py", "models/chain.py"
 
 MUTATIONS = {
@@ -48,17 +45,6 @@ CONSISTENT = {
 
 
 @pytest.fixture(scope="module")
-def asked():
-    """Return a process that takes folders of mutants; without a compiler, as mutants are small."""
-    command = [sys.executable, "-W", "ignore", str(MUTANTS)]
-    environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1"}
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen(command, env=environment, **pipes) as process:
-        yield process
-        process.stdin.close()
-
-
-@pytest.fixture(scope="module")
 def copied(tmp_path_factory):
     """Return a folder with the library, and the bytecode of what does not change."""
     folder = tmp_path_factory.mktemp("mutants")
@@ -69,7 +55,7 @@ def copied(tmp_path_factory):
 
 
 @pytest.fixture
-def failing_check(asked, copied):
+def failing_check(copied):
     """Return a function: the first check that fails on a library with these edits."""
 
     def find(edits) -> str:
@@ -77,10 +63,8 @@ def failing_check(asked, copied):
             shutil.copy(LIBRARY / name, copied / "pendula" / name)
         for name, old, new in edits:
             edit(copied / "pendula" / name, old, new)
-        asked.stdin.write(f"{copied}\n")
-        asked.stdin.flush()
-        found = asked.stdout.readline().rstrip("\n")
-        assert found and not found.startswith("no check")
+        found = first_failing_of(str(copied))
+        assert found, "no check: it ended in an error"
         return found
 
     return find

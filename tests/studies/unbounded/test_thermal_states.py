@@ -137,7 +137,7 @@ def test_power_spectrum_and_density_tell_one_power():
     assert state.operator.nodes.shape == (4, NODES)
     assert spectrum_of(products_of(state, 64)).mean() == pytest.approx(state.power / 2.0, rel=1e-9)
     fine = np.linspace(0.0, 8.0, 801)
-    density, middle = density_of(state, fine, 28), 0.5 * (fine[1:] + fine[:-1])
+    density, middle = density_of(state, fine, 22), 0.5 * (fine[1:] + fine[:-1])
     assert density.sum() * 0.01 == pytest.approx(1.0, abs=1e-8)
     assert (density * middle**2).sum() * 0.01 == pytest.approx(state.power / 2.0, rel=1e-4)
     waves = np.exp(2j * np.pi * np.arange(64) / 64)
