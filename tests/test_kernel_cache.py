@@ -1,8 +1,8 @@
 """Where kernels are kept: found wherever the project lies, never stale, torn, or of other types."""
 
+import multiprocessing
 import os
 import shutil
-import subprocess
 import sys
 import threading
 import time
@@ -137,56 +137,55 @@ def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
     assert not list(kept.rglob("*.kernel"))
 
 
-HELD = """
-import sys
-from pathlib import Path
-import numba
-sys.path[:0] = sys.argv[1:3]
-import made
-from pendula.kernel_cache import KernelCache
-compiled = numba.njit(made.double)
-compiled._cache = KernelCache(made.double, Path(sys.argv[3]))
-compile_now = compiled._compiler.compile
-def compile_when_told(*arguments):
-    print("compiling", flush=True)
-    sys.stdin.readline()
-    return compile_now(*arguments)
-compiled._compiler.compile = compile_when_told
-print(compiled(3))
-"""
+def compile_when_told(told, module, kept):
+    """Compile `double` as this process does, but wait before the compiler begins."""
+    compiled = compile_anew(module, kept)
+    compile_now = compiled._compiler.compile
+
+    def wait_and_compile(*arguments):
+        told.send("compiling")
+        told.recv()
+        return compile_now(*arguments)
+
+    compiled._compiler.compile = wait_and_compile
+    told.send(compiled(3))
 
 
 @pytest.fixture
 def other(module, kept):
-    """Return another process that compiles `double`, and goes on when it is told to."""
+    """Return another process that compiles `double`, and what tells it to go on."""
     if kernel_cache.fcntl is None:
         skip("this system has no locks on files", "run the tests on Linux or macOS")
-    command = [sys.executable, "-c", HELD, *map(str, (sources.SCRIPTS, module.parent, kept))]
-    with subprocess.Popen(command, stdin=-1, stdout=-1, text=True) as process:
-        assert process.stdout.readline() == "compiling\n"
-        yield process
-        process.kill()
+    forks = multiprocessing.get_context("fork")
+    ours, theirs = forks.Pipe()
+    process = forks.Process(target=compile_when_told, args=(theirs, module, kept))
+    process.start()
+    assert ours.recv() == "compiling"
+    yield process, ours
+    process.kill()
+    process.join()
 
 
 def test_two_processes_that_need_a_kernel_at_once_compile_it_once(other, module, kept, monkeypatch):
+    _, tell = other
     looked = threading.Event()
 
     def tell_the_other_to_go_on(seconds):
         if not looked.is_set():
             looked.set()
-            other.stdin.write("\n")
-            other.stdin.flush()
+            tell.send("go on")
 
     monkeypatch.setattr(kernel_cache.time, "sleep", tell_the_other_to_go_on)
     compiled = compile_anew(module, kept)
     assert compiled(3) == 6 and found(compiled) == 1
-    assert looked.is_set() and other.stdout.readline() == "6\n"
+    assert looked.is_set() and tell.recv() == 6
     assert [path.suffix for path in kept.rglob("*.*")] == [".kernel"]
 
 
 def test_a_process_that_was_killed_while_it_compiled_keeps_nobody_waiting(other, module, kept):
-    other.kill()
-    other.wait()
+    process, _ = other
+    process.kill()
+    process.join()
     compiled = compile_anew(module, kept)
     assert compiled(3) == 6 and found(compiled) == 0
 
