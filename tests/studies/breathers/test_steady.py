@@ -99,7 +99,7 @@ def test_the_phase_of_equal_amplitudes_costs_nothing():
     (ASYMMETRIC, -13.0, True), (IMAGINARY, -13.0, False),
 ])  # fmt: skip
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, omega, stable):
-    for half_width in (30, 60):
+    for half_width in (20, 40):
         chain = HERE._replace(omega=omega, half_width=half_width)
         state, s = continued(chain, family), family.drive(chain.gamma)
         rate = max(growth(squared_exponents(chain, s, state, even)) for even in (True, False))
