@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from skipped import skips_in_words
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: threads wait for each other busily
+
 LONGEST = ("docs/test_commands.py", "workflow/test_figure_diff.py", "workflow/test_interrupted.py")
 """Files that begin first: at the end, the other workers would wait for one of their tests."""
 
