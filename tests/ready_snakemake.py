@@ -26,8 +26,8 @@ from types import ModuleType
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
     *("pydantic", "smart_open", "yte", "nbformat", "platformdirs"),
-    *("numba", "netCDF4", "xarray", "scipy.special", "matplotlib.figure"),
-    *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
+    *("numba", "netCDF4", "xarray", "scipy.special", "scipy.optimize"),
+    *(f"matplotlib.{name}" for name in ("figure", "backends.backend_agg", "backends.backend_pdf")),
 )
 """What every run or its jobs import, whatever a run is asked for."""
 WARM = "warm_process.py"
@@ -143,6 +143,7 @@ def get_ready() -> ModuleType:
         figure.savefig(io.BytesIO(), format=kind)
     gc.collect()
     gc.freeze()
+    gc.disable()  # no run of a test makes garbage that is worth the time
     return warm
 
 
