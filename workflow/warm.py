@@ -30,8 +30,6 @@ from snakemake.shell import shell
 
 HERE = Path(__file__).resolve().parent
 PROCESS, CLIENT = HERE / "warm_process.py", HERE / "ask_warm.py"
-FEW = 2
-"""With fewer jobs, importing everything beforehand saves nothing."""
 PACKAGES = (
     *("snakemake.logging", "snakemake.iocontainers", "numpy", "numba", "netCDF4", "xarray"),
     *("matplotlib.figure", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"),
@@ -64,7 +62,7 @@ def use(process: subprocess.Popen | None, workflow, log: Path) -> None:
     """
     scripts = scripts_of(workflow.dag.needrun_jobs())
     here = workflow.local_exec and not workflow.deployment_settings.deployment_method
-    if process and here and not workflow.touch and len(scripts) >= FEW:
+    if process and here and not workflow.touch and scripts:
         log.parent.mkdir(parents=True, exist_ok=True)
         _tell(process, imports_of(scripts), log)
         shell.prefix(_prefix(process.args[-1]).replace("{", "{{").replace("}", "}}"))
