@@ -9,8 +9,8 @@ from skipped import skips_in_words
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: threads wait for each other busily
 
-LONGEST = ("docs/test_commands.py", "workflow/test_figure_diff.py", "workflow/test_interrupted.py")
-"""Files that begin first: at the end, the other workers would wait for one of their tests."""
+FIRST = ("docs/test_commands.py", "workflow/")
+"""Tests that begin first: they take seconds each, and at the end a worker would wait for another."""
 
 
 def pytest_configure(config):
@@ -36,9 +36,9 @@ def pytest_make_collect_report(collector):
 
 
 def pytest_collection_modifyitems(items):
-    """Put the tests of the longest files before all others, and give all workers one order."""
-    first = [Path(__file__).parent / name for name in LONGEST]
-    items.sort(key=lambda item: (item.path not in first, item.path))
+    """Put long tests before all others, and give all workers one order."""
+    first = tuple(str(Path(__file__).parent / name) for name in FIRST)
+    items.sort(key=lambda item: (not str(item.path).startswith(first), item.path))
 
 
 def pytest_collection_finish():

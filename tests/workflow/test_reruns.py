@@ -80,7 +80,8 @@ def test_a_pin_reruns_everything(finished, clone):
 
 DRIFT = """
 from pendula import Case, simulate
-run = simulate(Case(omega=8, half_width=10, initial={0: [1, 0.1]}, end_time=1, solver="dop853"))
+case = Case(omega=8, half_width=10, initial={0: [1, 0.1]}, end_time=1, solver="crank_nicolson")
+run = simulate(case)
 print(float(abs(run["energy"] - run["energy"][0]).max()))
 """
 
@@ -98,4 +99,4 @@ def test_an_edit_of_the_equations_reaches_the_numbers(clone):
     before = drift()
     equations = clone / "scripts/pendula/models/amplitudes.py"
     edit(equations, "+ 0.5 * squared_modulus", "+ 0.25 * squared_modulus")
-    assert before < 1e-6 < 1e-3 < drift()
+    assert before < 1e-4 < 1e-3 < drift()
