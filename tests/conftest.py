@@ -10,7 +10,7 @@ from skipped import skips_in_words
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: threads wait for each other busily
 
 FIRST = ("docs/test_commands.py", "workflow/")
-"""Tests that begin first: they take seconds each, and at the end a worker would wait for another."""
+"""Tests of seconds each begin first: at the end, one worker would wait for another."""
 
 
 def pytest_configure(config):
