@@ -64,7 +64,7 @@ def use(process: subprocess.Popen | None, workflow, log: Path) -> None:
     here = workflow.local_exec and not workflow.deployment_settings.deployment_method
     if process and here and not workflow.touch and scripts:
         log.parent.mkdir(parents=True, exist_ok=True)
-        _tell(process, imports_of(scripts), log)
+        _tell(process, imports_of(scripts), len(scripts), log)
         shell.prefix(_prefix(process.args[-1]).replace("{", "{{").replace("}", "}}"))
     elif process:
         end(process)
@@ -106,9 +106,9 @@ def _serve(name: str, environment: Mapping[str, str], packages=PACKAGES) -> subp
         )
 
 
-def _tell(process: subprocess.Popen, modules: list[str], log: Path) -> None:
+def _tell(process: subprocess.Popen, modules: list[str], jobs: int, log: Path) -> None:
     with suppress(BrokenPipeError):  # it failed to import: jobs start by themselves
-        process.stdin.write(json.dumps([modules, str(log)]).encode() + b"\n")
+        process.stdin.write(json.dumps([modules, jobs, str(log)]).encode() + b"\n")
         process.stdin.flush()
 
 

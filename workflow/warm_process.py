@@ -122,7 +122,7 @@ class Server:
 
         Import `packages`, and what Snakemake names, while nobody asks for a job.
         """
-        self._left = prepared(packages)
+        self._left, self._expected = prepared(packages), 1  # until Snakemake says how many jobs
         lives = True
         while lives or self._children:
             prepares = lives and self._prepare()
@@ -141,7 +141,12 @@ class Server:
         return None
 
     def _prepare(self) -> bool:
-        """Do the next step of what is left to prepare; return whether there was one."""
+        """Do the next step of what is left to prepare; return whether there was one.
+
+        Nothing is left when no job is to come that would gain from it.
+        """
+        if not self._expected:
+            return False
         try:
             return next(self._left, "nothing") is None
         except Exception:  # each job that needs the module will say so
@@ -151,7 +156,7 @@ class Server:
     def _hear(self) -> bool:
         """Take down what jobs import, and listen to them; return False if Snakemake is gone."""
         if line := sys.stdin.readline():
-            modules, log = json.loads(line)
+            modules, self._expected, log = json.loads(line)
             with open(log, "wb") as file:
                 os.dup2(file.fileno(), 1)
                 os.dup2(file.fileno(), 2)
@@ -177,6 +182,7 @@ class Server:
                 self._become_a_job(connection)
                 return request
             self._children[pid] = connection
+            self._expected = max(0, self._expected - 1)
             self._selector.register(connection, selectors.EVENT_READ, pid)
         for stream in request.streams if request else ():
             os.close(stream)

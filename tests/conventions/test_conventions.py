@@ -1,19 +1,26 @@
 """Every dataset of a full run keeps the CF conventions, by a checker that other people maintain."""
 
 import json
+from functools import cache
 
 import netCDF4
 import pytest
 from helpers import package
 
-runner = package("compliance_checker.runner", "-r tests/conventions/requirements.txt")
+PINS = "-r tests/conventions/requirements.txt"
+runner = package("compliance_checker.runner", PINS)
+util = package("compliance_checker.cf.util", PINS)
 
 CONVENTIONS = "cf:1.11"
 
 
 @pytest.fixture(scope="module", autouse=True)
 def checkers():
+    """Load the checkers, and the table of standard names once: each file would read it twice."""
     runner.CheckSuite.load_all_available_checkers()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(util, "StandardNameTable", cache(util.StandardNameTable))
+        yield
 
 
 def faults_of(path, folder):

@@ -39,7 +39,7 @@ FORKED = "import os; print('warm_process' in open(f'/proc/{os.getppid()}/cmdline
 class Warm:
     """The process of one run of Snakemake, and the scripts of its jobs."""
 
-    def __init__(self, folder: Path, modules=("json",), environment=ENVIRONMENT):
+    def __init__(self, folder: Path, modules=("json",), environment=ENVIRONMENT, jobs=9):
         self.scripts = folder / "with a space" / ".snakemake/scripts"
         self.scripts.mkdir(parents=True)
         self.name = f"pendula-test-{secrets.token_hex(8)}"
@@ -48,7 +48,7 @@ class Warm:
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.process = warm._serve(self.name, environment, ["json"])
         signal.signal(signal.SIGINT, before)
-        warm._tell(self.process, list(modules), folder / "imports.log")
+        warm._tell(self.process, list(modules), jobs, folder / "imports.log")
 
     def start(self, body: str, asked=True, **changes) -> subprocess.Popen:
         script = self.scripts / f"{secrets.token_hex(4)}.job.py"
@@ -153,6 +153,21 @@ def test_the_first_jobs_do_not_wait_for_all_that_is_imported(tmp_path):
         assert job.stdout.readline() == "[True, False]\n"
         gates[1].write_text("open")
         assert job.wait() == 0
+    finally:
+        warm.end(one.process)
+
+
+@pytest.mark.parametrize("jobs", [0, 2])
+def test_nothing_is_imported_for_no_job(tmp_path, jobs):
+    imported = tmp_path / "imported"
+    (tmp_path / "telling.py").write_text(f"open({str(imported)!r}, 'w')")
+    paths = {**ENVIRONMENT, "PYTHONPATH": str(tmp_path)}
+    one = Warm(tmp_path, ["telling"], paths, jobs)
+    try:
+        # while the first of two jobs runs, the process imports for the second
+        wait = "" if not jobs else f"import os\nwhile not os.path.exists({str(imported)!r}): pass"
+        assert one.run(wait)[0] == one.run("")[0] == 0
+        assert imported.exists() == bool(jobs)
     finally:
         warm.end(one.process)
 
