@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from pendula.configuration.messages import load
 from pendula.report.words import case_of, number, percent, symbols
-from pendula.studies.paper.claims_solvers import SIGNIFICANT
+from pendula.studies.paper.claims_second_solver import SIGNIFICANT
 
 from .baseline import Baseline
 from .words import time_of_output

@@ -16,7 +16,7 @@ CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
 CHECK_RULES = {*(f"check_{group}" for group in GROUPS), "check_wrong", "check_observed"}
 PARTS = {
     "figures": ("paper/claims_norms", "paper/claims_sweeps"),
-    "solvers": ("paper/claims_regular", "paper/claims_solvers"),
+    "solvers": ("paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"),
     **{study: (f"{study}/claims",) for study in ("theory", "chaos", "breathers", "pendula")},
     **{study: (f"{study}/claims",) for study in ("unbounded", "certified")},
 }

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.ledger.criterion import UndecidableError, Verdict
+from pendula.ledger.criterion import UndecidableError
 from pendula.simulation.simulate import simulate
-from pendula.studies.paper import claims_solvers as claims
+from pendula.studies.paper import claims_second_solver as claims
 from pendula.studies.paper.second_solver import SCHEMES, measure
 from problems import problem_of
 
@@ -38,39 +38,6 @@ def test_the_error_by_the_step_is_estimated_without_the_solution(measured):
     np.testing.assert_allclose(
         measured["step_error"], measured["scheme_difference"][:, 1], rtol=0.1
     )
-
-
-def energies(*drifts, start=1.0):
-    """Return runs whose energy drifts by these numbers to tau = 10, and by these to tau = 50."""
-    tau = np.linspace(0.0, 50.0, 51)
-    return [
-        xr.Dataset(
-            {"energy": ("tau", start + np.where(tau <= 10, early, late) * (tau > 0))}, {"tau": tau}
-        ).assign_attrs(ABOUT | {"case": f"case{i}"})
-        for i, (early, late) in enumerate(drifts)
-    ]
-
-
-@pytest.mark.parametrize(
-    ("drifts", "start", "verdict", "said"),
-    [
-        (((1e-6, 1.9e-6), (1e-7, 1e-7)), 1.0, Verdict.CONFIRMED, ""),
-        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "at which time it ends"),
-        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "case0 to tau = 11, in case1 to"),
-        (((1e-7, 1e-7), (3e-6, 3e-6)), 1.0, Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
-        (((1e-7, 1e-7), (3e-6, 3e-6)), 100.0, Verdict.UNDECIDED, "which it means"),
-        (((1e-7, 1e-7), (1e-6, 1e-6)), 0.01, Verdict.UNDECIDED, "which it means"),
-        (((1e-7, 1e-7), (3e-4, 3e-4)), 100.0, Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
-    ],
-)
-def test_an_energy_that_only_some_readings_keep_is_not_decided(drifts, start, verdict, said):
-    finding = claims.drifts(energies(*drifts, start=start), "small")
-    assert finding.verdict == verdict and said in finding.because
-
-
-def test_short_runs_say_nothing_of_the_energy():
-    with pytest.raises(UndecidableError, match="tau = 15"):
-        claims.drifts([run.sel(tau=slice(0, 15)) for run in energies((0, 0))], "large")
 
 
 def test_only_a_case_that_was_followed_is_known_to_be_chaotic():

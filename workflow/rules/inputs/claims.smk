@@ -3,7 +3,7 @@ OTHER_STUDIES = ("theory", "chaos", "breathers", "pendula", "unbounded", "certif
 # The parts of the ledger, and the modules of claims in each, by the starts of their names
 CLAIMS_OF = {
     "figures": ["paper/claims_norms", "paper/claims_sweeps"],
-    "solvers": ["paper/claims_regular", "paper/claims_solvers"],
+    "solvers": ["paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"],
     **{study: [f"{study}/claims"] for study in OTHER_STUDIES},
 }
 

@@ -197,3 +197,8 @@ def _described(data: xr.Dataset, names: Mapping, runs: Runs, title: str) -> xr.D
             data[name].attrs = {"long_name": long_name}
     shared = shared_by([run.attrs for run in runs.values()])
     return data.assign_attrs({**shared, "title": title})
+
+
+def by(solver: str, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the names of the same runs or sweeps by another solver."""
+    return tuple(f"{name}.{solver}" for name in names)

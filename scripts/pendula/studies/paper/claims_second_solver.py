@@ -1,4 +1,4 @@
-"""Section 5: the energy by the paper's first solver, and its figures by the second one.
+"""Section 5: the figures of the paper by its second solver.
 
 Single runs of a chaotic case cannot agree for long. Where the motion is chaotic, a run of the
 second solver is held to the ensemble, as one more draw from it.
@@ -14,20 +14,18 @@ from pendula.ledger.claim import FEWEST, LARGE, SMALL, Control, checks, claim, s
 from pendula.ledger.criterion import (
     Above,
     AllOf,
-    AtMost,
     Below,
     Finding,
     UndecidableError,
     judge,
-    undecided,
 )
 from pendula.ledger.cutoff import Cutoff, once
 from pendula.measures import difference as differences
 from pendula.measures.confidence import chance_of_draw
-from pendula.measures.difference import VISIBLE, divergence_time, first_above
-from pendula.measures.norms import drift, largest, total_power
+from pendula.measures.difference import VISIBLE, divergence_time
+from pendula.measures.norms import largest, total_power
 
-from .solvers import EARLY, ORDER, STATED_DRIFT
+from .solvers import by
 
 SECTION = 5
 
@@ -41,108 +39,10 @@ TEXT = {"fig5": ("[10, 50]", ("l2", "linf")), "fig6": ("[10, 70]", ("l2",))}
 NORMS = ("l2", "linf")
 CAPTION = {"fig5": "[10, 50]", "fig6": "[10, 40]"}
 """The windows over which their captions average."""
-
-
-def by(solver: str, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the names of the same runs or sweeps by another solver."""
-    return tuple(f"{name}.{solver}" for name in names)
-
-
 SECOND, SECOND_SWEEPS = by("crank_nicolson", (*SMALL, *LARGE)), by("crank_nicolson", SWEEPS)
 
 
-# --- The energy -----------------------------------------------------------------------------------
-
-
-def drifts(trajectories, size: str) -> Finding:
-    """Return the finding of a claim on the energy over the cases with data of this size.
-
-    The paper gives the order and the tolerances of the solver. It says neither to which time the
-    order holds nor whether it is that of H or relative to H(0). Where these readings part, no
-    number decides.
-    """
-    end = min(float(ds["tau"][-1]) for ds in trajectories)
-    if end < 2.0 * EARLY:
-        raise UndecidableError(f"the runs end at tau = {end:g}, before {2.0 * EARLY:g}")
-    cases = [str(ds.attrs["case"]) for ds in trajectories]
-    # ASSUME: the order is that of |H - H(0)| itself, as figures and tables show it.
-    absolute, kept = _kept(trajectories, size, relative=False)
-    relative, kept_relative = _kept(trajectories, size, relative=True)
-    measured = absolute | {f"{name}_relative": value for name, value in relative.items()}
-    limits = [_drift_limits(cases, size, end, suffix) for suffix in ("", "_relative")]
-    held = [tuple(limit.holds(measured) for limit in pair) for pair in limits]
-    fails = f"|H - H(0)| keeps to {ORDER.value:g} times that order {kept}"
-    divided = f"|H - H(0)| / |H(0)| keeps to it {kept_relative}"
-    if held[0] != held[1]:
-        return undecided(measured, f"{fails}, and {divided}; the paper does not say which it means")
-    early, whole = held[0]
-    if early and not whole:
-        return undecided(measured, f"{fails}, and the paper does not say at which time it ends")
-    return judge(measured, AllOf(*limits[0], *limits[1]), fails=f"{fails}, and {divided}")
-
-
-def _kept(trajectories, size: str, relative: bool) -> tuple[dict[str, float], str]:
-    """Return the largest drift of each case, early and to the end, and until when it is small."""
-    measured, until = {}, {}
-    for ds in trajectories:
-        case, off = str(ds.attrs["case"]), drift(ds["energy"])
-        off = off / abs(float(ds["energy"][0])) if relative else off
-        measured |= {case: off.max(), f"{case}_early": off[ds["tau"].values <= EARLY].max()}
-        until[case] = float(first_above(ds["tau"], off, ORDER.value * STATED_DRIFT[size]))
-    if all(map(np.isinf, until.values())):
-        return measured, "in every case"
-    said = (
-        f"in {case} to {'the end' if np.isinf(time) else f'tau = {time:.3g}'}"
-        for case, time in until.items()
-    )
-    return measured, ", ".join(said)
-
-
-def _drift_limits(cases, size: str, end: float, suffix: str) -> list[AtMost]:
-    """Return the limits on the drift to EARLY and to the end, by one of both readings."""
-    allowed, drifted = ORDER.value * STATED_DRIFT[size], "|H - H(0)|"
-    drifted += " / |H(0)|" if suffix else ""
-    return [
-        AtMost(allowed, *names, says=f"largest {drifted} to tau = {to:g}")
-        for names, to in (
-            ([f"{case}_early{suffix}" for case in cases], EARLY),
-            ([f"{case}{suffix}" for case in cases], end),
-        )
-    ]
-
-
-def of_high_order(names: tuple[str, ...]) -> Control:
-    fed = dict(zip(names, by("dop853", names), strict=True))
-    return Control("the runs of a solver of high order at tight tolerances", fed, confirms=True)
-
-
-@claim(
-    "Section 5",
-    "H is conserved to the order of 1e-6 for the smaller data.",
-    SMALL,
-    controls=(of_high_order(SMALL),),
-)
-def energy_small(*trajectories) -> Finding:
-    return drifts(trajectories, "small")
-
-
-@claim(
-    "Section 5",
-    "H is conserved to the order of 1e-4 for the larger data.",
-    LARGE,
-    controls=(
-        of_high_order(LARGE),
-        Control(
-            "the second solver's run, whose scheme does not conserve H, for that of the first",
-            {"trajectories/fig3_large": "trajectories/fig3_large.crank_nicolson"},
-        ),
-    ),
-)
-def energy_large(*trajectories) -> Finding:
-    return drifts(trajectories, "large")
-
-
-# --- The second solver: Figs 2 to 4 ---------------------------------------------------------------
+# --- Figs 2 to 4 ----------------------------------------------------------------------------------
 
 
 def are_chaotic(lyapunov, datasets) -> list[bool]:
@@ -260,7 +160,7 @@ def _caveat(regular: dict[str, float], measured, schemes) -> str:
     return "; ".join(said)
 
 
-# --- The second solver: Figs 5 and 6 --------------------------------------------------------------
+# --- Figs 5 and 6 ---------------------------------------------------------------------------------
 
 
 def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
