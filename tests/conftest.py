@@ -42,9 +42,10 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """From now on look for garbage, but not among all that has been imported and collected."""
+    """From now on look for garbage, but seldom, and not among what was imported and collected."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(100_000)
     gc.enable()
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import warm
-from helpers import ROOT, skip, wait_for
+from helpers import ROOT, edit, skip, wait_for
 
 if sys.platform != "linux":
     skip("only Linux has abstract sockets", "run it on Linux")
@@ -210,7 +210,12 @@ def is_gone(pid: int) -> bool:
 
 
 @pytest.mark.parametrize("end", ["client", "Snakemake", "process"])
-def test_no_job_outlives_who_waits_for_it(tmp_path, end):
+def test_no_job_outlives_who_waits_for_it(tmp_path, end, monkeypatch):
+    """The process waits less here before it kills a job that does not end when it is asked."""
+    hasty = tmp_path / "warm_process.py"
+    hasty.write_text(warm.PROCESS.read_text())
+    edit(hasty, "time.monotonic() + PATIENCE", "time.monotonic() + 0.2")
+    monkeypatch.setattr(warm, "PROCESS", hasty)
     one = Warm(tmp_path)
     jobs = [one.start(body) for body in (WAIT, DEAF)]
     pids = [int(job.stdout.readline()) for job in jobs]
