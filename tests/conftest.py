@@ -7,16 +7,16 @@ from pathlib import Path
 import pytest
 from skipped import skips_in_words
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: threads wait for each other busily
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: waiting threads take a core
 
 FIRST = ("docs/test_commands.py", "workflow/")
-"""Tests of seconds each begin first: at the end, one worker would wait for another."""
+"""These tests take seconds each. If they came last, one worker would wait for another."""
 
 
 def pytest_configure(config):
     """Load fixtures where tests run: the process that only hands tests out imports no SciPy."""
     if config.option.dist == "no":
-        gc.disable()  # while modules are imported and tests are collected, all of which stay
+        gc.disable()  # modules and tests stay in memory: among them there is no garbage to find
         for name in ("shared_fixtures", "figure_fixtures"):
             config.pluginmanager.import_plugin(name)
 
@@ -42,7 +42,7 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """From now on look for garbage, but seldom, and not among what was imported and collected."""
+    """Look for garbage again, but seldom, and leave out all that is in memory by now."""
     gc.collect()
     gc.freeze()
     gc.set_threshold(100_000)
