@@ -15,12 +15,16 @@ import importlib
 import io
 import json
 import os
+import pickle
 import runpy
+import shutil
 import signal
 import socket
 import subprocess
 import sys
+from hashlib import sha256
 from pathlib import Path
+from tempfile import mkdtemp
 from types import ModuleType
 
 PACKAGES = (
@@ -101,7 +105,7 @@ def wait_in_reserve(told: socket.socket) -> None:
     os._exit(0)
 
 
-def serve() -> list[str]:
+def serve() -> list[str] | None:
     """Fork for each line of standard input; in a fork return a module's name and its arguments."""
     for line in iter(sys.stdin.readline, ""):
         folder, variables, screens, arguments = json.loads(line)
@@ -115,7 +119,7 @@ def serve() -> list[str]:
             return arguments
         _, status = os.waitpid(child, 0)
         print(os.waitstatus_to_exitcode(status), flush=True)
-    sys.exit()
+    return None
 
 
 def _be_in(folder: str, variables: dict[str, str]) -> None:
@@ -128,6 +132,32 @@ def _take(opened: int, number: int) -> None:
     if opened != number:
         os.dup2(opened, number)
         os.close(opened)
+
+
+def keep_what_is_parsed(folder: Path) -> None:
+    """Have Snakemake parse each text of rules once for all runs, and keep the code in `folder`.
+
+    Its parser takes a fifth of a dry run, and nearly all runs read the same rules. The code holds
+    the path of the rules, and numbers of rules that have no name.
+    """
+    workflow = sys.modules["snakemake.workflow"]
+    parse = workflow.parse
+
+    def parsed(path, *others, linemap, rulecount):
+        place = path.get_path_or_uri(secret_free=True)
+        text = f"{rulecount} {Path(place).read_text()}"
+        kept = folder / sha256(text.encode()).hexdigest()
+        if kept.exists():
+            first, lines, code, rulecount = pickle.loads(kept.read_bytes())
+            linemap |= lines
+            return code.replace(repr(first), repr(place)), rulecount
+        code, rulecount = parse(path, *others, linemap=linemap, rulecount=rulecount)
+        partial = kept.with_suffix(".partial")
+        partial.write_bytes(pickle.dumps((place, linemap, code, rulecount)))
+        partial.replace(kept)
+        return code, rulecount
+
+    workflow.parse = parsed
 
 
 def get_ready() -> ModuleType:
@@ -151,7 +181,11 @@ def main() -> None:
     """Get ready once, and in each fork be Snakemake or doctest."""
     warm = get_ready()
     sys.path[0] = ""  # as `python -m` does, so that no test's helper is found by a workflow
-    sys.argv[:] = serve()
+    keep_what_is_parsed(folder := Path(mkdtemp()))
+    request = serve()
+    if request is None:
+        return shutil.rmtree(folder)
+    sys.argv[:] = request
     if sys.argv[0] == "doctest":
         sys.path[1:1] = os.environ["PYTHONPATH"].split(os.pathsep)
         runpy.run_module("doctest", run_name="__main__")

@@ -86,14 +86,12 @@ def test_the_unpacked_project_packs_to_the_same_bytes_and_anew_when_it_changes(p
     assert planned(unpacked, unpacked, "archive") == {"archive": 1}
 
 
-def test_the_crate_describes_every_result(unpacked):
-    graph = json.loads((unpacked / "ro-crate-metadata.json").read_text())["@graph"]
-    described = {entity["@id"] for entity in graph}
-    assert all(
-        path.relative_to(unpacked).as_posix() in described
-        for path in (unpacked / "results").rglob("*")
-        if path.is_file()
-    )
+def test_the_crate_describes_every_result(packed):
+    with tarfile.open(packed / ARCHIVE) as tar:
+        graph = json.load(tar.extractfile(f"{NAME}/ro-crate-metadata.json"))["@graph"]
+        files = [entry.name.removeprefix(f"{NAME}/") for entry in tar if entry.isfile()]
+    results = {name for name in files if name.startswith("results/")}
+    assert len(results) > 100 and results <= {entity["@id"] for entity in graph}
 
 
 def test_nothing_in_it_tells_of_the_machine(packed):

@@ -8,16 +8,16 @@ FIGURES = CHECKS[:4]
 
 
 @pytest.mark.parametrize("name", CHECKS)
-def test_the_dataset_is_there_with_names_and_units(finished, name):
-    with xr.open_dataset(finished / f"results/checks/{name}.nc") as data:
+def test_the_dataset_is_there_with_names_and_units(full_run, name):
+    with xr.open_dataset(full_run / f"results/checks/{name}.nc") as data:
         assert data.data_vars
         for key, variable in data.variables.items():
             assert variable.attrs["long_name"] and variable.attrs["units"], key
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_the_figure_is_there_with_its_data(finished, name):
-    assert (finished / f"results/figures/{name}.png").read_bytes().startswith(b"\x89PNG")
-    assert (finished / f"results/figures/{name}.pdf").read_bytes().startswith(b"%PDF")
-    with xr.open_dataset(finished / f"results/figures/{name}.nc") as data:
+def test_the_figure_is_there_with_its_data(full_run, name):
+    assert (full_run / f"results/figures/{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert (full_run / f"results/figures/{name}.pdf").read_bytes().startswith(b"%PDF")
+    with xr.open_dataset(full_run / f"results/figures/{name}.nc") as data:
         assert data.data_vars

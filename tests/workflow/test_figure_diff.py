@@ -101,8 +101,8 @@ def test_a_value_of_bits_that_means_nothing_is_told(finished, clone):
     assert result.returncode != 0 and "the only value is bits=any" in said(result)
 
 
-def test_it_compares_the_figures_of_the_list_alone(finished, clone):
-    assert planned(clone, finished, "figure_diff") == {"compare_results": 1, "figure_diff": 1}
+def test_it_compares_the_figures_of_the_list_alone(full_run, clone):
+    assert planned(clone, full_run, "figure_diff") == {"compare_results": 1, "figure_diff": 1}
     edit(clone / "Snakefile", '    "bounds",\n', "")
-    result = snakemake(clone, finished, "--dry-run", "accept_figures", "--config", "accept=bounds")
+    result = snakemake(clone, full_run, "--dry-run", "accept_figures", "--config", "accept=bounds")
     assert result.returncode != 0 and "bounds names no file of a full run" in said(result)

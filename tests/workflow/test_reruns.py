@@ -29,11 +29,11 @@ def test_touching_every_file_changes_nothing(finished, clone):
     assert len(drawn) > 15 and planned(clone, finished) == {}
 
 
-def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(finished, clone):
+def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(full_run, clone):
     for size in ("large", "small"):  # a sweep uses the small case, and none uses the large one
         change_of = f"{{<<: *{size}, omega: 0}}", f"{{<<: *{size}, omega: 0.5}}"
         edit(clone / "config/config.yaml", *change_of)
-    jobs = planned(clone, finished)
+    jobs = planned(clone, full_run)
     assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 2
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 1
     # the ensembles of all chaotic cases lie in one dataset, which Figs 3 to 6 show
@@ -42,39 +42,39 @@ def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(fi
     assert not jobs.keys() & {"fig1", "fig2"}
 
 
-def test_figures_and_claims_rerun_alone(finished, clone):
+def test_figures_and_claims_rerun_alone(full_run, clone):
     for module in ("paper/chain_figure", "theory/figures", "theory/bounds_figure"):
         change(clone / f"scripts/pendula/studies/{module}.py")
     change(clone / "scripts/pendula/studies/paper/claims_norms.py")
-    jobs = planned(clone, finished)
+    jobs = planned(clone, full_run)
     figures = {"fig1", "stability_figures", "bounds"}
     assert set(jobs) == {*figures, "decide_claims", "claims", "report", "all"}
     assert jobs["decide_claims"] == 1  # of the parts of the ledger
 
 
-def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(finished, clone):
+def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(full_run, clone):
     equations = clone / "scripts/pendula/models/amplitudes.py"
     text = equations.read_text()
     change(equations)
-    jobs = planned(clone, finished)
+    jobs = planned(clone, full_run)
     assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 6
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 4
     equations.write_text(text)
-    assert planned(clone, finished) == {}
+    assert planned(clone, full_run) == {}
 
 
-def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(finished, clone):
+def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(full_run, clone):
     change(clone / "scripts/pendula/models/tangent.py")
-    jobs = planned(clone, finished)
+    jobs = planned(clone, full_run)
     # lost evenness has the solver of the tangents
     assert jobs.keys() & MEASURES == {"measure_lyapunov", "measure_symmetry"}
     assert not jobs.keys() & SIMULATIONS
 
 
-def test_a_pin_reruns_everything(finished, clone):
+def test_a_pin_reruns_everything(full_run, clone):
     pins = clone / "environment.txt"
     pins.write_text(pins.read_text() + "another==1.0\n")
-    jobs = planned(clone, finished)
+    jobs = planned(clone, full_run)
     assert jobs.keys() >= SIMULATIONS | PLOTS | {"compile_solver"}
 
 

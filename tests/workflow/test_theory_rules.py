@@ -28,58 +28,58 @@ def ledger_of(folder):
     return json.loads((folder / "results/claims.json").read_text())
 
 
-def test_every_check_is_written_and_holds(finished):
+def test_every_check_is_written_and_holds(full_run):
     for name in CHECKS:
-        with xr.open_dataset(finished / f"results/checks/{name}.nc") as check:
+        with xr.open_dataset(full_run / f"results/checks/{name}.nc") as check:
             assert check.attrs["title"]
             assert all({"long_name", "units"} <= v.attrs.keys() for v in check.variables.values())
             assert broken(check.to_dict()) == {}, name
 
 
-def test_figures_of_the_theory_are_there_with_their_data(finished):
+def test_figures_of_the_theory_are_there_with_their_data(full_run):
     for name in FIGURES:
-        assert (finished / f"results/figures/{name}.png").read_bytes().startswith(b"\x89PNG")
-        assert (finished / f"results/figures/{name}.pdf").read_bytes().startswith(b"%PDF")
-        with xr.open_dataset(finished / f"results/figures/{name}.nc") as data:
+        assert (full_run / f"results/figures/{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert (full_run / f"results/figures/{name}.pdf").read_bytes().startswith(b"%PDF")
+        with xr.open_dataset(full_run / f"results/figures/{name}.nc") as data:
             assert data.data_vars
 
 
-def test_the_ledger_has_every_row_with_every_field(finished):
-    rows = ledger_of(finished)
+def test_the_ledger_has_every_row_with_every_field(full_run):
+    rows = ledger_of(full_run)
     assert [row["name"] for row in rows] == [claim.name for claim in all_claims()]
     assert len(rows) >= 30
     for row in rows:
         assert row["place"] and row["says"] and row["function"]
         assert row["verdict"] in set(Verdict)
-        assert all((finished / f"results/{name}.nc").exists() for name in row["decided_by"])
+        assert all((full_run / f"results/{name}.nc").exists() for name in row["decided_by"])
         if row["verdict"] in (Verdict.UNDECIDED, Verdict.NOT_APPLICABLE):
             assert row["because"]
         else:
             assert row["measured"] and row["criterion"]
 
 
-def test_the_ledger_names_the_rules_that_decide(finished):
-    rules = {row["name"]: row["rules"] for row in ledger_of(finished)}
+def test_the_ledger_names_the_rules_that_decide(full_run):
+    rules = {row["name"]: row["rules"] for row in ledger_of(full_run)}
     assert rules["hamiltonian"] == ["check_equations"]
     assert rules["growth_bound"] == ["check_bounds", "trajectory"]
     swept = ["sweep", "sweep_by_second_solver"]
     assert rules["second_solver_sweeps"] == [*swept, "measure_lyapunov", "measure_ensembles"]
 
 
-def test_other_cases_than_the_papers_decide_theorems_and_no_figure(finished):
-    rows = {row["name"]: row for row in ledger_of(finished)}
+def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
+    rows = {row["name"]: row for row in ledger_of(full_run)}
     verdicts = {name: row["verdict"] for name, row in rows.items()}
     assert verdicts["fig6_constant"] == verdicts["fig2_bounded"] == Verdict.NOT_APPLICABLE
     assert "fig6_left.half_widths ([4, 6, 8] in place" in rows["fig6_constant"]["because"]
-    page = (finished / "results/report.html").read_text(encoding="utf-8")
+    page = (full_run / "results/report.html").read_text(encoding="utf-8")
     assert "This run is not that of the paper's cases." in page
     assert "fig2_small.end_time (4 in place of 50)" in page
     assert verdicts["theorem_1"] == Verdict.CONFIRMED
     assert verdicts["theorem_3_proof"] == Verdict.NOT_REPRODUCED
 
 
-def test_the_table_shows_every_claim_and_every_tolerance(finished):
-    text = (finished / "results/tables/claims.md").read_text()
+def test_the_table_shows_every_claim_and_every_tolerance(full_run):
+    text = (full_run / "results/tables/claims.md").read_text()
     assert all(f"| {claim.place} |" in text for claim in all_claims())
     assert all(f"| {name} |" in text for name in ("gradient", "worst", "chart"))
     assert "| NO |" not in text.partition("# The checks")[2]
@@ -88,8 +88,8 @@ def test_the_table_shows_every_claim_and_every_tolerance(finished):
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_a_part_of_the_ledger_reads_what_its_claims_rest_on_and_checks_to_show(finished, part):
-    read = set(json.loads((finished / f"results/claims/{part}.json").read_text())["read"])
+def test_a_part_of_the_ledger_reads_what_its_claims_rest_on_and_checks_to_show(full_run, part):
+    read = set(json.loads((full_run / f"results/claims/{part}.json").read_text())["read"])
     rest_on = set(needed(*PARTS[part]))
     assert rest_on <= read
     assert all(name.startswith("checks/") for name in read - rest_on)
@@ -125,10 +125,10 @@ def test_a_violated_check_turns_its_claim_and_no_other(finished):
     assert "| NO |" in (finished / "results/tables/claims.md").read_text()
 
 
-def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(finished, clone):
+def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone):
     """The check of what was observed has no part in what other checks do: checks.py."""
     change(clone / "scripts/pendula/studies/theory/checks.py")
-    assert set(planned(clone, finished)) == (CHECK_RULES - {"check_observed"}) | FIGURE_RULES | {
+    assert set(planned(clone, full_run)) == (CHECK_RULES - {"check_observed"}) | FIGURE_RULES | {
         "enclose_constants",  # beside what the checks have stored
         "decide_claims",
         "claims",

@@ -168,7 +168,7 @@ FLIPS = {
     "sharp_theorem_3": ("checks/sharpness", scaled("reached", 0.5)),
     "fig2_bounded": ("trajectories/fig2_large", scaled("l2", 5.0)),
     "fig2_centre": ("trajectories/fig2_small", after("linf", 4.0, 20)),
-    "fig2_exchange": ("trajectories/fig2_small", after("l2", 0.0, 5)),
+    "fig2_exchange": ("trajectories/fig2_small", replaced("l2", 1.0)),
     "fig2_maxima": ("trajectories/fig2_small", after("linf", 4.0, 30)),
     "fig2_separate": ("trajectories/fig2_large", after("l2", 5.0, 20, "B")),
     "fig2_alone": ("trajectories/fig2_large", after("linf", 6.0, 20, "B")),
