@@ -24,17 +24,21 @@ GROWING_LAWS = {
 def unbounded(baseline: Baseline) -> dict:
     """Return exponents, fronts and powers of the long study of the chain without ends."""
     long = baseline["quoted/unbounded"]
-    bulk, large = (long.sel(case=case) for case in ("fig4_small", "fig3_large"))
-    centre = long.sel(varied_omega=0.0)
-    ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
-    furthest = long.isel(varied_omega=int(abs(ratio - 1.0).values.argmax()))
-    off = abs(long["omega_bulk_power"] - long["omega_thermal_power"])
-    missed = abs(float(bulk["bulk_power"]) - float(centre["omega_thermal_power"]))
-    apart = long["varied_omega"].where(off > long["omega_bulk_power_error"], drop=True)
-    speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
-    agree = abs(long["omega_speed"] - long["omega_predicted_speed"]) <= long["omega_speed_error"]
-    grown = long["amplitude"].where(long["amplitude_factor"] > GROWN, drop=True)
-    cut, cost = baseline["quoted/cut_front"], baseline["speed/cost"]
+    return {
+        **_growth(long),
+        **_thermal(long),
+        **_omegas(long),
+        **_large_data(long),
+        **_laws(long),
+        **_tolerances(long),
+        **_cut(baseline["quoted/cut_front"]),
+        **_costs(baseline["speed/cost"]),
+    }
+
+
+def _growth(long: xr.Dataset) -> dict[str, str]:
+    """Return the law by which the norms of Fig 4's data grow, and how it was measured."""
+    bulk = long.sel(case="fig4_small")
     return {
         "end": number(bulk["end"], 4),
         "from": number(bulk["end"] / 4, 4),
@@ -46,9 +50,38 @@ def unbounded(baseline: Baseline) -> dict:
         "predicted": number(bulk["predicted_speed"], 5),
         "bulk_power": with_stored_error(bulk, "bulk_power"),
         "slope_power": with_stored_error(bulk, "slope_power"),
+        "small_growth": with_stored_error(long.sel(case="fig3_small"), "growth"),
+        "stable_growth": with_stored_error(long.sel(case="fig2_large"), "growth"),
+        "grown": number(GROWN),
+    }
+
+
+def _thermal(long: xr.Dataset) -> dict[str, str]:
+    """Return how the power behind the front is that of thermal states."""
+    bulk, large = (long.sel(case=case) for case in ("fig4_small", "fig3_large"))
+    centre = long.sel(varied_omega=0.0)
+    missed = abs(float(bulk["bulk_power"]) - float(centre["omega_thermal_power"]))
+    return {
         "bulk_off": percent(missed / float(centre["omega_thermal_power"])),
         "bulk_limits": percent(float(bulk["bulk_power_error"] / bulk["bulk_power"])),
         "thermal_power": number(centre["omega_thermal_power"], 5),
+        "centre_length": number(centre["omega_correlation_length"], 2),
+        "warm_energy": with_stored_error(long, "warm_energy"),
+        "warm_bulk_power": with_stored_error(large, "bulk_power"),
+        "warm_power": number(long["warm_power"], 4),
+        "cold_power": number(long["cold_power"], 4),
+    }
+
+
+def _omegas(long: xr.Dataset) -> dict[str, str]:
+    """Return how fronts and powers follow Omega, and where thermal states miss the powers."""
+    ratio = long["omega_bulk_power"] / long["omega_thermal_power"]
+    furthest = long.isel(varied_omega=int(abs(ratio - 1.0).values.argmax()))
+    off = abs(long["omega_bulk_power"] - long["omega_thermal_power"])
+    apart = long["varied_omega"].where(off > long["omega_bulk_power_error"], drop=True)
+    speeds = abs(long["omega_speed"] / long["omega_predicted_speed"] - 1.0)
+    agree = abs(long["omega_speed"] - long["omega_predicted_speed"]) <= long["omega_speed_error"]
+    return {
         "omegas": str(long.sizes["varied_omega"]),
         "least_omega": number(long["varied_omega"].min()),
         "largest_omega": number(long["varied_omega"].max()),
@@ -62,11 +95,14 @@ def unbounded(baseline: Baseline) -> dict:
         "furthest": percent(abs(ratio - 1.0).max()),
         "furthest_omega": number(furthest["varied_omega"]),
         "furthest_length": number(furthest["omega_correlation_length"], 2),
-        "centre_length": number(centre["omega_correlation_length"], 2),
-        "warm_energy": with_stored_error(long, "warm_energy"),
-        "warm_bulk_power": with_stored_error(large, "bulk_power"),
-        "warm_power": number(long["warm_power"], 4),
-        "cold_power": number(long["cold_power"], 4),
+    }
+
+
+def _large_data(long: xr.Dataset) -> dict[str, str]:
+    """Return which large amplitudes spread, and how the large data of Fig 3 do."""
+    large = long.sel(case="fig3_large")
+    grown = long["amplitude"].where(long["amplitude_factor"] > GROWN, drop=True)
+    return {
         "amplitudes": str(long.sizes["amplitude"]),
         "spreading": " and ".join(number(size) for size in grown.values),
         "amplitude_end": number(long["amplitude_end"]),
@@ -74,28 +110,6 @@ def unbounded(baseline: Baseline) -> dict:
         "large_exponent": with_stored_error(large, "exponent"),
         "large_from": number(large["end"] / 4, 4),
         "large_end": number(large["end"], 4),
-        "small_growth": with_stored_error(long.sel(case="fig3_small"), "growth"),
-        "stable_growth": with_stored_error(long.sel(case="fig2_large"), "growth"),
-        "grown": number(GROWN),
-        **_laws(long),
-        "tolerances": ", ".join(
-            with_stored_error(long.isel({"tolerance": i}), "tolerance_bulk_power")
-            + f" at {number(tolerance)}"
-            for i, tolerance in enumerate(long["tolerance"].values)
-        ),
-        "rest": number(long.attrs["rest"]),
-        "cut": number(cut.attrs["cut"]),
-        "cut_lag": number(cut["lag"][-1], 2),
-        "cut_end": number(cut["end"][-1], 4),
-        "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
-        "site_memory": number(cost["active_memory"][-1]),
-        "site_factor": number(cost["active_seconds"].max() / cost["active_seconds"].min(), 2),
-        "site_times": [
-            {"width": f"{int(width):,}", "time": number(1e6 * seconds)}
-            for width, seconds in zip(
-                cost["active_width"].values, cost["active_seconds"].values, strict=True
-            )
-        ],
     }
 
 
@@ -111,4 +125,37 @@ def _laws(long: xr.Dataset) -> dict[str, str]:
         },
         **{f"{short}_ahead": number(ahead.sel(law=law)) for short, law in GROWING_LAWS.items()},
         "far": number(long["law_tau"]),
+    }
+
+
+def _tolerances(long: xr.Dataset) -> dict[str, str]:
+    """Return the powers at other tolerances, and below which size a site counts as resting."""
+    powers = (
+        with_stored_error(long.isel({"tolerance": i}), "tolerance_bulk_power")
+        + f" at {number(tolerance)}"
+        for i, tolerance in enumerate(long["tolerance"].values)
+    )
+    return {"tolerances": ", ".join(powers), "rest": number(long.attrs["rest"])}
+
+
+def _cut(cut: xr.Dataset) -> dict[str, str]:
+    """Return how far a front lags that is computed without the smallest amplitudes."""
+    return {
+        "cut": number(cut.attrs["cut"]),
+        "cut_lag": number(cut["lag"][-1], 2),
+        "cut_end": number(cut["end"][-1], 4),
+        "uncut_end": number(cut["end"].where(abs(cut["lag"]) < SITE).max(), 4),
+    }
+
+
+def _costs(cost: xr.Dataset) -> dict:
+    """Return the memory and the time that a site takes which takes part in the motion."""
+    seconds = cost["active_seconds"]
+    pairs = zip(cost["active_width"].values, seconds.values, strict=True)
+    return {
+        "site_memory": number(cost["active_memory"][-1]),
+        "site_factor": number(seconds.max() / seconds.min(), 2),
+        "site_times": [
+            {"width": f"{int(width):,}", "time": number(1e6 * each)} for width, each in pairs
+        ],
     }
