@@ -24,6 +24,7 @@ from .baseline import (
     unlike_settings,
 )
 from .doubts import doubts
+from .hashes import Content
 
 NEW, CHANGED, REMOVED = "new", "changed", "removed"
 
@@ -41,6 +42,8 @@ class Acceptance(NamedTuple):
     """The files that were looked at; all others stay as they were accepted."""
     record: dict[str, Any]
     hashes: dict[str, Any]
+    contents: dict[str, Content]
+    """What the datasets hold, read once: what was judged is what is kept."""
     lines: list[str]
     """All this in words."""
 
@@ -127,19 +130,25 @@ def plan(
             f"({'; '.join(unlike_settings(record['environment'], here))}); accept all files, or "
             "use the pinned environment"
         )
-    fresh = {name: _hashes_of(made / name) for name in sorted(taken & names)}
-    changes = {name: _change(name, fresh[name], known, made, folder) for name in fresh}
+    present = sorted(taken & names)
+    contents = {name: _content(made / name) for name in present if name.endswith(".nc")}
+    fresh = {name: _hashes_of(made / name, contents.get(name)) for name in present}
+    changes = {
+        name: CHANGED if name in known else NEW
+        for name in present
+        if known.get(name) != fresh[name]
+        or (is_kept(name) and not _is_whole(made / name, folder / name, contents.get(name)))
+    }
     changes |= dict.fromkeys(sorted(taken - names), REMOVED)
     changes |= _changes_of_allowances(looked_at, record, folder)
-    changes = {name: kind for name, kind in changes.items() if kind}
-    _refuse_doubtful(changes, made, folder, configuration, named=chosen is not None)
+    _refuse_doubtful(changes, contents, folder, configuration, named=chosen is not None)
     files = sorted({*record["files"], *fresh} - (taken - names))
-    kept = {name: known[name] for name in files if name in known}
     record |= {"configuration": dict(configuration), "files": files}
     if taken:
         record["environment"] = here
     lines = _say(changes, len(files), made, folder)
-    return Acceptance(changes, looked_at, record, dict(sorted({**kept, **fresh}.items())), lines)
+    accepted = {name: each for name in files if (each := fresh.get(name, known.get(name)))}
+    return Acceptance(changes, looked_at, record, accepted, contents, lines)
 
 
 def _changes_of_allowances(
@@ -156,28 +165,32 @@ def _changes_of_allowances(
 
 def _refuse_doubtful(
     changes: Mapping[str, str],
-    made: Path,
+    contents: Mapping[str, Content],
     folder: Path,
     configuration: Mapping[str, Any],
     named: bool,
 ) -> None:
     """Raise AcceptanceError if a new dataset contradicts its name, or lost numbers."""
     said = []
-    for name, kind in changes.items():
-        if name.endswith(".nc") and kind != REMOVED and name not in ALLOWANCES:
+    for name, content in contents.items():
+        if kind := changes.get(name):
             known = None if named or kind == NEW or not is_kept(name) else folder / name
-            said += [f"{name}: {each}" for each in doubts(name, made / name, known, configuration)]
+            said += [f"{name}: {each}" for each in doubts(name, content, known, configuration)]
     if said:
         more = f" (and {len(said) - 3} more)" if len(said) > 3 else ""
         raise AcceptanceError(f"nothing is accepted: {'; '.join(said[:3])}{more}")
 
 
-def _hashes_of(path: Path) -> Any:
-    if path.suffix == ".nc":
-        try:
-            return hashes.of(hashes.read(path))
-        except DatasetError as error:
-            raise AcceptanceError(f"nothing is accepted: {error}") from error
+def _content(path: Path) -> Content:
+    try:
+        return hashes.read(path)
+    except DatasetError as error:
+        raise AcceptanceError(f"nothing is accepted: {error}") from error
+
+
+def _hashes_of(path: Path, dataset: Content | None) -> Any:
+    if dataset:
+        return hashes.of(dataset)
     if path.suffix == ".pdf":
         try:
             return compare_pdf.read(path).content
@@ -189,20 +202,12 @@ def _hashes_of(path: Path) -> Any:
     return hashes.of_bytes(content)
 
 
-def _change(name: str, fresh: Any, known: Mapping[str, Any], made: Path, folder: Path) -> str:
-    """Return NEW, CHANGED, or nothing for a file that is as it was accepted."""
-    if name not in known:
-        return NEW
-    same = known[name] == fresh and (not is_kept(name) or _is_whole(made / name, folder / name))
-    return "" if same else CHANGED
-
-
-def _is_whole(new: Path, kept: Path) -> bool:
+def _is_whole(new: Path, kept: Path, dataset: Content | None) -> bool:
     """Return whether the baseline holds the content that it would keep of a file."""
-    if new.suffix != ".nc":
+    if dataset is None:
         return kept.exists() and kept.read_bytes() == new.read_bytes()
     try:
-        return hashes.of(hashes.read(kept)) == hashes.of(hashes.as_kept(hashes.read(new)))
+        return hashes.of(hashes.read(kept)) == hashes.of(hashes.as_kept(dataset))
     except DatasetError:
         return False
 
@@ -230,7 +235,7 @@ def take(acceptance: Acceptance, made: Path, folder: Path) -> None:
         if kind == REMOVED:
             (folder / name).unlink(missing_ok=True)
         elif is_kept(name):
-            _take(made / name, folder / name)
+            _take(made / name, folder / name, acceptance.contents.get(name))
     _write(folder / HASHES, hashes.in_lines(acceptance.hashes))
     was, now = acceptance.record["kept"], hashes_of_kept(folder, acceptance.record["files"])
     stay = {name: was[name] for name in was if name not in acceptance.taken and name in now}
@@ -238,13 +243,11 @@ def take(acceptance: Acceptance, made: Path, folder: Path) -> None:
     _write(folder / RECORD, json.dumps(acceptance.record | {"kept": kept}, indent=1))
 
 
-def _take(new: Path, kept: Path) -> None:
-    if new.suffix == ".nc":
-        content = hashes.as_kept(hashes.read(new))
-        hashes.keep(kept, content)
-    else:
-        with complete_or_absent(kept) as partial:
-            partial.write_bytes(new.read_bytes())
+def _take(new: Path, kept: Path, dataset: Content | None) -> None:
+    if dataset:
+        return hashes.keep(kept, hashes.as_kept(dataset))
+    with complete_or_absent(kept) as partial:
+        partial.write_bytes(new.read_bytes())
 
 
 def _write(path: Path, text: str) -> None:

@@ -20,13 +20,12 @@ OF_A_CASE = ("omega", "gamma", "epsilon", "boundary", "half_width", "end_time", 
 
 
 def doubts(
-    name: str, new: Path, accepted: Path | None, configuration: Mapping[str, Any]
+    name: str, content: hashes.Content, accepted: Path | None, configuration: Mapping[str, Any]
 ) -> list[str]:
-    """Return in words what is doubtful about the dataset `name` in the file `new`.
+    """Return in words what is doubtful about the dataset `name` with this content.
 
     `accepted` is what the baseline keeps of it, or None where lost numbers are no doubt.
     """
-    content = hashes.read(new)
     said = _unlike_the_case(content.attributes, problem_of(name, configuration))
     try:
         lost = [] if accepted is None else _lost(content, hashes.read(accepted))
