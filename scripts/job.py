@@ -27,7 +27,7 @@ TOOK = "wall time: "
 """How the last line of a log begins."""
 
 OFTEN = 5.0
-"""A long job shows one of its steps on the screen in so many seconds."""
+"""Seconds between two steps that a long job shows on the screen; its log has all steps."""
 
 INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""

@@ -51,7 +51,7 @@ def skip(reason: str, way: str) -> NoReturn:
 
 
 def need_machine(name: str) -> None:
-    """Skip unless PENDULA_PLAYED asks to play other machines, and this one can play this one."""
+    """Skip if PENDULA_PLAYED is not set, or if this computer cannot play the machine `name`."""
     if not os.environ.get("PENDULA_PLAYED"):
         skip("what is compiled for other processors takes minutes", "run .ci/elsewhere bits")
     if why := machines.why_not(name):

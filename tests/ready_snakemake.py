@@ -2,7 +2,8 @@
 
 Nearly half of a dry run is the import of Snakemake and of the packages that it uses. A run here is
 still a process of its own, with its own folder, screen and exit code, and it imports the project
-anew: only what other people wrote is there already.
+anew. What is there already is what other people wrote, `workflow/warm_process.py`, and the rules
+that an earlier run has parsed.
 
 A run with jobs starts `workflow/warm_process.py`, a new Python that imports what jobs need, which
 takes as long again. So each run has a fork in reserve: it waits until the run starts this command,
@@ -135,7 +136,7 @@ def _take(opened: int, number: int) -> None:
 
 
 def keep_what_is_parsed(folder: Path) -> None:
-    """Have Snakemake parse each text of rules once for all runs, and keep the code in `folder`.
+    """Have Snakemake parse each text of rules once for all forks, and keep the code in `folder`.
 
     Its parser takes a fifth of a dry run, and nearly all runs read the same rules. The code holds
     the path of the rules, and numbers of rules that have no name.
@@ -161,7 +162,7 @@ def keep_what_is_parsed(folder: Path) -> None:
 
 
 def get_ready() -> ModuleType:
-    """Import what other people wrote, do what it does at its first use, and return `WARM`."""
+    """Import what other people wrote, do what it does at its first use; return `WARM`'s module."""
     sys.path[0] = str(Path(__file__).resolve().parents[1] / "workflow")
     warm = importlib.import_module(Path(WARM).stem)
     for _ in warm.prepared(PACKAGES):

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from pendula.report.words import number, percent
+from pendula.studies.breathers.section import share_with_limits
 
 from .baseline import Baseline
 from .words import from_to
@@ -112,11 +113,8 @@ OF_PLANE = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and the phase of B_
 
 
 def _area(long: xr.Dataset, plane: str, omega: float, fate: str) -> str:
-    """Return the share of an area in per cent with its limits, to three digits."""
-    one = long.sel(plane=plane, omega=omega, fate_name=fate)
-    names = ("area", "area_low", "area_high")
-    value, low, high = (number(100.0 * float(one[name]), 3) for name in names)
-    return f"{value} % ({low} to {high})"
+    """Return the share of an area in per cent with its limits."""
+    return share_with_limits(long.sel(plane=plane, omega=omega, fate_name=fate))
 
 
 def _most_mixed(long: xr.Dataset) -> float:

@@ -53,9 +53,9 @@ def check(
 ) -> None:
     """Raise AcceptanceError unless a run of this configuration may go into the baseline `folder`.
 
-    `committed` is what config/*.yaml say alone. Any run may found a baseline in an empty folder,
-    and may renew one of its own configuration. If `some` files are to be taken, the others stay, so
-    that both must be of one configuration.
+    `committed` is what config/*.yaml say alone. A folder without a record takes any run, and a run
+    may renew a baseline of its own configuration. A run of the committed one may also replace that
+    of another, but never `some` files of it: all files must be of one configuration.
     """
     if not (folder / RECORD).exists():
         return

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from pendula.ledger.section import Ledger
 from pendula.report.page import Picture
@@ -209,12 +210,22 @@ def _shares(results: Results, plane: str, omega: float) -> list:
     """Return a row: how many data there are, and the share of each fate with its limits."""
     data = results[MAP].sel(plane=plane, omega=omega)
     count = int(np.prod([data.sizes[axis] for axis in AXES[plane]]))
-    shares = [
-        [percent(float(one[name])) for name in ("area", "area_low", "area_high")]
-        for one in (data.isel(fate_name=i) for i in range(data.sizes["fate_name"]))
-    ]
-    said = (f"{value} ({low} to {high})" for value, low, high in shares)
-    return [number(omega), results.quote(MAP, count, 6), *(results.say(MAP, one) for one in said)]
+    fates = (data.isel(fate_name=i) for i in range(data.sizes["fate_name"]))
+    shares = (results.say(MAP, share_with_limits(one)) for one in fates)
+    return [number(omega), results.quote(MAP, count, 6), *shares]
+
+
+def share_with_limits(one: xr.Dataset) -> str:
+    """Return the share of an area and its limits in per cent, such as 14.2 % (14 to 14.4)."""
+    names = ("area", "area_low", "area_high")
+    value, low, high = (_in_per_cent(float(one[name])) for name in names)
+    return f"{value} % ({low} to {high})"
+
+
+def _in_per_cent(share: float) -> str:
+    """Return three digits, which are those of the rest where nearly everything is meant."""
+    rest = 100.0 * (1.0 - share)
+    return number(100.0 - float(f"{rest:.3g}"), 6) if 0 < rest < 0.1 else number(100.0 * share, 3)
 
 
 def _distances(data, omega: float) -> np.ndarray:
