@@ -15,8 +15,8 @@ import psutil
 from pendula import spent
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
-# would take a fifth of a second in every job. Before, it looks whenever 700 objects are new: what
-# compiles a kernel makes millions of them, and few of those are in cycles.
+# would take a fifth of a second in every job. While a job runs, Python would look whenever some
+# hundred objects are new: a compiler makes millions of them, and few of those are in cycles.
 atexit.register(gc.freeze)
 gc.set_threshold(100_000)
 

@@ -225,7 +225,8 @@ def share_with_limits(one: xr.Dataset) -> str:
 def _in_per_cent(share: float) -> str:
     """Return three digits, which are those of the rest where nearly everything is meant."""
     rest = 100.0 * (1.0 - share)
-    return number(100.0 - float(f"{rest:.3g}"), 6) if 0 < rest < 0.1 else number(100.0 * share, 3)
+    nearly = f"{100.0 - float(f'{rest:.3g}'):.12g}"
+    return nearly if 0 < rest < 0.1 else number(100.0 * share, 3)
 
 
 def _distances(data, omega: float) -> np.ndarray:
