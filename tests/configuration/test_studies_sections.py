@@ -4,12 +4,16 @@ import copy
 import re
 import subprocess
 import sys
+from typing import Annotated, Literal, get_args, get_origin
 
 import pytest
 import yaml
 from helpers import ROOT, chosen
-from pendula.configuration.messages import STUDIES, ConfigurationError, load
+from pendula.configuration import cases, messages, schema, solvers, values
+from pendula.configuration.messages import STUDIES, ConfigurationError, Sections, load
+from pendula.studies import all_modules
 from pendula.studies.theory.settings import GROUPS
+from pydantic import BaseModel, TypeAdapter, ValidationError
 
 
 @pytest.fixture(scope="module")
@@ -76,6 +80,53 @@ def test_a_fault_is_named_with_its_place_and_the_nearest_key(place, value, words
     with pytest.raises(ConfigurationError) as caught:
         load(changed(whole, place, value))
     assert words in str(caught.value)
+
+
+def leaves(kind, place=""):
+    """Yield each type of a single value inside a type, and its place: a model's keys below it."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        for key, field in kind.model_fields.items():
+            yield from leaves(field.rebuild_annotation(), f"{place}.{key}")
+        return
+    bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
+    parts = [] if get_origin(bare) is Literal else get_args(bare)
+    for part in parts:
+        yield from leaves(part, place)
+    if not parts:
+        yield place.removeprefix("."), kind, bare
+
+
+def accepts(kind, value):
+    try:
+        TypeAdapter(kind).validate_python(value)
+    except ValidationError:
+        return False
+    return True
+
+
+def test_no_number_of_the_configuration_is_read_from_what_is_none():
+    """Hard cases alone have numbers that are not finite: solvers must refuse them."""
+    numbers = [leaf for leaf in leaves(Sections) if leaf[2] in (int, float, complex)]
+    assert {place.split(".")[0] for place, *_ in numbers} > {*STUDIES, "cases", "sweeps", "limits"}
+    read = [
+        (place, value)
+        for place, kind, _ in numbers
+        for value in (True, "1_0", "one", "", None, [1], "0x1", float("nan"))
+        if accepts(kind, value) and not (value != value and place.startswith("hard_cases."))
+    ]
+    assert read == []
+
+
+def test_a_type_has_one_meaning_in_all_settings():
+    modules = [cases, messages, schema, solvers, *all_modules("settings")]
+    assert len(modules) > 10
+    shared = {name: kind for name, kind in vars(values).items() if name[0].isupper()}
+    assert [
+        (module.__name__, name)
+        for module in modules
+        for name in shared.keys() & vars(module).keys()
+        if vars(module)[name] is not shared[name]
+    ] == []
 
 
 def test_every_check_of_the_theory_has_arguments_and_a_group():

@@ -14,7 +14,7 @@ from pendula.problem import AMPLITUDES, PENDULA, Constants
 
 from . import cost
 from .solvers import OF_AMPLITUDES, OF_PENDULA, Solver, Taylor
-from .values import Complex, Model, Number, Positive, Whole, as_whole, fault, faults, shown
+from .values import Complex, Model, Natural, Number, Positive, Whole, as_whole, fault, faults, shown
 
 FEWEST = 200
 """A smooth picture needs so many snapshots."""
@@ -98,7 +98,7 @@ class Case(Model):
     omega: Number
     epsilon: Number = 1.0
     gamma: Number = 1.0
-    half_width: Annotated[Whole, Field(ge=0)] = 30
+    half_width: Natural = 30
     boundary: Literal["dirichlet", "free", "periodic"] = "dirichlet"
     initial: Initial = {0: (1, 0.1)}
     end_time: Positive = 50.0

@@ -84,13 +84,9 @@ def parse(text: str) -> tuple[Any, list[str]]:
 
 
 def _pairs(pairs: list, faults: list[str]) -> dict:
-    found = dict(pairs)
-    faults += [f"the key {key!r} stands twice" for key in found if _count(pairs, key) > 1]
+    found, keys = dict(pairs), [key for key, _ in pairs]
+    faults += [f"the key {key!r} stands twice" for key in found if keys.count(key) > 1]
     return found
-
-
-def _count(pairs: list, key: str) -> int:
-    return sum(other == key for other, _ in pairs)
 
 
 def _size_fault(text: str) -> str | None:

@@ -32,17 +32,14 @@ WORDS = {
     "too_short": "has fewer than {min_length} entries",
     "too_long": "has {actual_length} entries; give at most {max_length}",
     "invalid_key": "is not a known key",
-    "bool_parsing": "is {input}, not true or false",
-    "bool_type": "is {input}, not true or false",
+    **dict.fromkeys(("bool_parsing", "bool_type"), "is {input}, not true or false"),
     "int_parsing_size": "is {input}, more than can be counted to",
     "string_too_long": "is a name of more than {max_length} characters",
-    "float_parsing": "is {input}, not a number",
-    "float_type": "is {input}, not a number",
-    "int_parsing": "is {input}, not a whole number",
-    "int_type": "is {input}, not a whole number",
-    "int_from_float": "is {input}, not a whole number",
-    "dict_type": "is {input}, not a mapping of keys to values",
-    "model_type": "is {input}, not a mapping of keys to values",
+    **dict.fromkeys(("float_parsing", "float_type"), "is {input}, not a number"),
+    **dict.fromkeys(
+        ("int_parsing", "int_type", "int_from_float"), "is {input}, not a whole number"
+    ),
+    **dict.fromkeys(("dict_type", "model_type"), "is {input}, not a mapping of keys to values"),
     "model_attributes_type": "is {input}, not a name or a mapping of keys to values",
     "list_type": "is {input}, not a list",
     "tuple_type": "is {input}, not a pair of values",
@@ -53,8 +50,8 @@ WORDS = {
 
 
 STUDIES = {name: module.Settings for name, module in modules("settings").items()}
-Whole = create_model(
-    "Whole", __base__=Configuration, **{name: (kind | None, None) for name, kind in STUDIES.items()}
+Sections = create_model(
+    "Sections", __base__=Configuration, **{name: (of | None, None) for name, of in STUDIES.items()}
 )
 """The whole configuration: with a section for each study, None where none is given."""
 
@@ -62,7 +59,7 @@ Whole = create_model(
 def load(raw: dict) -> Configuration:
     """Return the validated configuration, or raise ConfigurationError with every fault."""
     try:
-        settings = Whole.model_validate(raw)
+        settings = Sections.model_validate(raw)
     except ValidationError as error:
         raise in_words(error, "the configuration") from None
     lines = [
@@ -176,7 +173,7 @@ def _model_at(place: tuple) -> type[BaseModel]:
     Where a value may be of several models, the tag that pydantic inserts says which it is. Names
     of cases and numbers of items lead to no other model.
     """
-    models = [Whole]
+    models = [Sections]
     for part in place[:-1]:
         tagged = [model for model in models if _tag_of(model) == part]
         fields = [field for model in models if (field := model.model_fields.get(str(part)))]

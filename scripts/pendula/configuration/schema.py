@@ -15,7 +15,7 @@ from pendula.problem import AMPLITUDES, name_window
 from . import cost
 from .cases import Case, is_multiple
 from .solvers import Solver, Solvers, with_controls
-from .values import Distinct, Model, Name, Positive, Whole, Window, faults, shown
+from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
 
 Faults = Iterator[tuple[str, str]]
 """Pairs: the dotted path of a key, from the mapping that is checked, and what is wrong with it."""
@@ -38,9 +38,7 @@ class Sweep(Model):
     """A case repeated over half-widths, with its norms reduced over windows of time."""
 
     case: str
-    half_widths: Annotated[
-        list[Annotated[Whole, Field(ge=0)]], Field(min_length=1, max_length=1000), Distinct
-    ]
+    half_widths: Annotated[list[Natural], Field(min_length=1, max_length=1000), Distinct]
     windows: Annotated[list[Window], Field(min_length=1, max_length=1000), Distinct] = [
         (10, 40),
         (10, 50),

@@ -7,16 +7,15 @@ import math
 import re
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, create_model
 from pydantic_core import PydanticCustomError
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|[-+]?\.?(inf|nan)", re.ASCII | re.I)
 """A number as a word: YAML 1.1 takes 1e-7 for a word, since it has no point."""
 MOST_DIGITS = 15
 """A whole number of more digits cannot be counted to, and would not fit into the datasets."""
-LONGEST_NAME = 60
-"""Names make file names, whose length file systems bound."""
 LONGEST_SHOWN = 60
+"""Names are no longer than that either: they make file names, whose length file systems bound."""
 
 
 def shown(value: Any) -> str:
@@ -105,31 +104,39 @@ def _distinct(values: list) -> list:
 
 
 Complex = Annotated[complex, BeforeValidator(_as_complex)]
-Number = Annotated[
-    float,
-    BeforeValidator(lambda value: _plain(value)),
-    AfterValidator(lambda value: value + 0.0),  # no negative zeros
-    Field(allow_inf_nan=False),
-]
+AnyNumber = Annotated[float, BeforeValidator(lambda value: _plain(value))]
+# without negative zeros
+Number = Annotated[AnyNumber, AfterValidator(lambda x: x + 0.0), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
+Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
 Whole = Annotated[
     int,
     BeforeValidator(lambda value: as_whole(_plain(value, "a whole number"))),
     AfterValidator(_countable),
 ]
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_NAME)]
+Count = Annotated[Whole, Field(ge=1)]
+Natural = Annotated[Whole, Field(ge=0)]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_SHOWN)]
 Distinct = AfterValidator(_distinct)
 """Beside the type of a list: no value stands in it twice."""
+Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
+Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
+Counts = Annotated[list[Count], Field(min_length=1), Distinct]
+Names = Annotated[list[Name], Field(min_length=1), Distinct]
 Window = tuple[Number, Number]
 Needs = dict[Name, Positive]
-"""The largest error that what a part of a study shows bears, by the name of the part. No job reads
-them: docs/studies.md has them beside the errors that are reached."""
+"""The largest error that each part of a study may have, for docs/studies.md; no job reads them."""
 
 
 class Model(BaseModel):
     """A mapping of the configuration: unknown keys are faults."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+def model(**keys: Any) -> type[Model]:
+    """Return the model of a mapping that has all of these keys, each of its type."""
+    return create_model("Mapping", __base__=Model, **{key: (of, ...) for key, of in keys.items()})
 
 
 class Steps(Model):

@@ -7,15 +7,23 @@ from pydantic import Field
 
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Positive, Steps, Whole
+from pendula.configuration.values import (
+    Count,
+    Model,
+    Name,
+    Natural,
+    Needs,
+    Number,
+    Numbers,
+    Positive,
+    Positives,
+    Steps,
+    Tolerance,
+    Whole,
+    Window,
+    model,
+)
 from pendula.models.pairs import FAMILIES
-
-Count = Annotated[Whole, Field(ge=1)]
-Seed = Annotated[Whole, Field(ge=0)]
-Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
-Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
 
 
 class PositiveSteps(Steps):
@@ -25,117 +33,60 @@ class PositiveSteps(Steps):
     last: Positive
 
 
-class Stability(Model):
-    """Where families of steady states turn stable: the interval searched, and to what distance."""
+Steady = model(
+    omegas=Numbers,
+    half_width=Annotated[Whole, Field(ge=4)],
+    # where families turn stable: the interval searched, and to what distance
+    stability=model(between=dict[str, Window], to=Positive),
+)
 
-    between: dict[str, tuple[Number, Number]]
-    to: Positive
+Periodic = model(
+    omegas=Numbers,
+    frequencies=Positives,
+    half_widths=model(least=Annotated[Whole, Field(ge=2)], most=Count),
+    # long runs from stable breathers with a small relative change
+    long=model(frequencies=Positives, change=Tolerance, end_time=Positive, tolerance=Tolerance),
+)
 
+# How the drive feeds a localised motion.
+Growth = model(
+    omega=Number,
+    start=Positive,
+    frequencies=PositiveSteps,
+    end_times=Annotated[dict[Positive, Positive], Field(min_length=1)],
+    # of the free breather and of the driven chain
+    half_widths=model(profile=Annotated[Whole, Field(ge=2)], chain=Count),
+    outputs=Annotated[Whole, Field(ge=2)],
+    tolerance=Tolerance,
+)
 
-class Steady(Model):
-    """Steady states."""
+# Which of almost equal data spread.
+Sensitivity = model(
+    case=Name,
+    end_time=Positive,
+    sizes=Positives,
+    members=Count,
+    scan=PositiveSteps,
+    long=model(members=Count, scan=PositiveSteps),
+    tolerance=Tolerance,
+    seed=Natural,
+)
 
-    omegas: Numbers
-    half_width: Annotated[Whole, Field(ge=4)]
-    stability: Stability
-
-
-class HalfWidths(Model):
-    """The least and the largest half-width of the chain of a periodic breather."""
-
-    least: Annotated[Whole, Field(ge=2)]
-    most: Count
-
-
-class LongPeriodic(Model):
-    """Long runs from stable breathers with a small relative change."""
-
-    frequencies: Positives
-    change: Tolerance
-    end_time: Positive
-    tolerance: Tolerance
-
-
-class Periodic(Model):
-    """Periodic breathers."""
-
-    omegas: Numbers
-    frequencies: Positives
-    half_widths: HalfWidths
-    long: LongPeriodic
-
-
-class GrowthWidths(Model):
-    """Half-widths of the free breather and of the driven chain."""
-
-    profile: Annotated[Whole, Field(ge=2)]
-    chain: Count
-
-
-class Growth(Model):
-    """How the drive feeds a localised motion."""
-
-    omega: Number
-    start: Positive
-    frequencies: PositiveSteps
-    end_times: Annotated[dict[Positive, Positive], Field(min_length=1)]
-    half_widths: GrowthWidths
-    outputs: Annotated[Whole, Field(ge=2)]
-    tolerance: Tolerance
-
-
-class LongSensitivity(Model):
-    """Its longer study."""
-
-    members: Count
-    scan: PositiveSteps
-
-
-class Sensitivity(Model):
-    """Which of almost equal data spread."""
-
-    case: Name
-    end_time: Positive
-    sizes: Positives
-    members: Count
-    scan: PositiveSteps
-    long: LongSensitivity
-    tolerance: Tolerance
-    seed: Seed
-
-
-class Phases(Model):
-    """The map over A_0 and the phase of B_0: how many of each."""
-
-    amplitudes: Annotated[Whole, Field(ge=2)]
-    points: Annotated[Whole, Field(ge=2)]
-
-
-class FullPhases(Phases):
-    """The same, with the size of B_0."""
-
-    ratio: Positive  # |B_0| / |A_0|
-
-
-class LongFates(Model):
-    """Its longer study."""
-
-    points: Annotated[Whole, Field(ge=3)]
-    phases: Phases
-    checked: Count
+# A map over A_0 and the phase of B_0: how many of each.
+PHASES = {"amplitudes": Annotated[Whole, Field(ge=2)], "points": Annotated[Whole, Field(ge=2)]}
 
 
 class Fates(Model):
-    """What becomes of data on one pair."""
+    """What becomes of data on one pair; `ratio` is |B_0| / |A_0|."""
 
     omegas: Numbers
     half_width: Annotated[Whole, Field(ge=4)]
     end_time: Positive
     largest: Positive
     points: Annotated[Whole, Field(ge=3)]
-    phases: FullPhases
+    phases: model(**PHASES, ratio=Positive)
     checked: Count
-    long: LongFates
+    long: model(points=Annotated[Whole, Field(ge=3)], phases=model(**PHASES), checked=Count)
     tolerance: Tolerance
 
     def amplitudes(self, points: int) -> list[float]:
@@ -145,17 +96,6 @@ class Fates(Model):
     def turns(self, points: int) -> list[float]:
         """Return so many phases up to pi; 0 is one of them if their number is even."""
         return [float(one) for one in 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi]
-
-
-class Needs(Model):
-    """The largest error that each part may have."""
-
-    steady: Positive
-    thresholds: Positive
-    periodic: Positive
-    law: Positive
-    shares: Positive
-    fates: Positive
 
 
 class Settings(Model):

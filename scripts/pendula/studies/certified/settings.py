@@ -6,7 +6,17 @@ from pydantic import Field
 
 from pendula.configuration.cases import is_multiple
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Number, Positive, Whole, shown
+from pendula.configuration.values import (
+    Model,
+    Name,
+    Names,
+    Natural,
+    Needs,
+    Number,
+    Positive,
+    Whole,
+    shown,
+)
 from pendula.models.pairs import FAMILIES, pair
 
 
@@ -23,7 +33,7 @@ class WrongCurve(Model):
 class Curves(Model):
     """Curves with a proven distance to the true ones."""
 
-    cases: Annotated[list[Name], Field(min_length=1), Distinct]
+    cases: Names
     wrong: WrongCurve
 
 
@@ -86,17 +96,8 @@ class ShortCase(Model):
     """A case on a short chain for a short time, whose proof others can check."""
 
     case: Name
-    half_width: Annotated[Whole, Field(ge=0)]
+    half_width: Natural
     end_time: Positive
-
-
-class Needs(Model):
-    """The largest error that each part bears."""
-
-    curves: Positive
-    frames: Positive
-    breathers: Positive
-    constants: Positive
 
 
 class Settings(Model):

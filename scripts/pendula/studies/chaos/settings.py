@@ -6,12 +6,20 @@ from pydantic import Field
 
 from pendula.configuration.cost import Cost, estimate
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Needs, Positive, Whole, Window
-
-Count = Annotated[Whole, Field(ge=1)]
-Seed = Annotated[Whole, Field(ge=0)]
-Names = Annotated[list[Name], Field(min_length=1), Distinct]
-Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
+from pendula.configuration.values import (
+    Count,
+    Counts,
+    Distinct,
+    Model,
+    Name,
+    Names,
+    Natural,
+    Needs,
+    Positive,
+    Tolerance,
+    Whole,
+    Window,
+)
 
 
 class Spectrum(Model):
@@ -23,7 +31,7 @@ class Spectrum(Model):
     cases: Names
     tolerance: Tolerance
     undriven_lengths: Positive
-    lengths: Annotated[dict[Annotated[Whole, Field(ge=0)], Positive], Field(min_length=1)]
+    lengths: Annotated[dict[Natural, Positive], Field(min_length=1)]
 
 
 class Lyapunov(Model):
@@ -33,7 +41,7 @@ class Lyapunov(Model):
     tolerance: Tolerance
     diverging_tolerances: Annotated[list[Tolerance], Field(min_length=1), Distinct]
     spectrum: Spectrum
-    seed: Seed
+    seed: Natural
 
 
 class Symmetry(Model):
@@ -43,13 +51,13 @@ class Symmetry(Model):
     output_step: Positive
     size: Positive
     members: Count
-    seed: Seed
+    seed: Natural
 
 
 class Swept(Model):
     """The ensembles of a sweep: so many members on chains of each half-width."""
 
-    half_widths: Annotated[list[Count], Field(min_length=1), Distinct]
+    half_widths: Counts
     members: Annotated[Whole, Field(ge=2)]
 
 
@@ -62,7 +70,7 @@ class Ensembles(Model):
     tolerance: Tolerance
     size: Positive
     members: Count
-    seed: Seed
+    seed: Natural
 
 
 class Members(Model):
@@ -73,7 +81,7 @@ class Members(Model):
     size: Positive
     members: Annotated[Whole, Field(ge=3)]
     every: Count
-    seed: Seed
+    seed: Natural
 
 
 class Compared(Model):
@@ -95,7 +103,7 @@ class Lifetimes(Model):
     end_time: Positive
     output_step: Positive
     settled: Positive
-    seed: Seed
+    seed: Natural
     compared: Compared
 
 

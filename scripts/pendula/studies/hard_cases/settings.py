@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from pendula.configuration.values import Model, Name, Whole
+from pendula.configuration.values import AnyNumber, Model, Name, Whole
 
 MEASURES = (
     *("miss_of_linear_flow", "miss_near_threshold", "miss_of_rotation", "drift_of_norms"),
@@ -24,23 +24,23 @@ class AnySolver(Model):
     name: Literal[
         "ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor", "splitting"
     ]
-    rtol: float | None = None
-    atol: float | None = None
-    step: float | None = None
-    tolerance: float | None = None
+    rtol: AnyNumber | None = None
+    atol: AnyNumber | None = None
+    step: AnyNumber | None = None
+    tolerance: AnyNumber | None = None
     iterations: Whole | None = None
 
 
 class Arguments(Model):
     """What the functions of `errors` take; each takes some of them."""
 
-    omega: float | None = None
-    gamma: float | None = None
-    factor: float | None = None
-    size: float | None = None
-    turns: float | None = None
-    tau: float | None = None
-    amplitude: float | None = None
+    omega: AnyNumber | None = None
+    gamma: AnyNumber | None = None
+    factor: AnyNumber | None = None
+    size: AnyNumber | None = None
+    turns: AnyNumber | None = None
+    tau: AnyNumber | None = None
+    amplitude: AnyNumber | None = None
     power: Whole | None = None
     sites: Whole | None = None
     half_width: Whole | None = None
@@ -54,7 +54,7 @@ class HardCase(Model):
     measure: Literal[MEASURES]
     arguments: Arguments = Arguments()
     solvers: Name | list[AnySolver]
-    expected: float | str
+    expected: AnyNumber | str
 
 
 class Settings(Model):

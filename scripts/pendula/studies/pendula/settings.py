@@ -10,14 +10,15 @@ from pendula.configuration.cases import is_multiple
 from pendula.configuration.cost import Cost, integrated_pairs
 from pendula.configuration.schema import Configuration, Faults
 from pendula.configuration.values import (
-    Distinct,
+    Count,
     Model,
     Name,
     Needs,
-    Number,
+    Numbers,
     Positive,
+    Positives,
     Steps,
-    Whole,
+    Tolerance,
 )
 
 from .mathieu import second_tongue, squared_frequency
@@ -25,10 +26,6 @@ from .settings_phases import Film, OverTheTop, Phases, Sea
 
 PERIOD_SECONDS = 2e-6
 """A period of a pair of pendula."""
-
-Count = Annotated[Whole, Field(ge=1)]
-Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
-Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
 
 
 class Growth(Model):
@@ -84,7 +81,7 @@ class Remainder(Model):
     ends: Annotated[dict[Name, list[Positive]], Field(min_length=1)]
     end_step: Positive
     spacing: Positive
-    tolerance: Annotated[Positive, Field(ge=1e-15, lt=1)]
+    tolerance: Tolerance
     long: Positive
 
     @property

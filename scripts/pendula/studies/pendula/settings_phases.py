@@ -7,12 +7,18 @@ from pydantic import Field
 
 from pendula.configuration.cost import estimate
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Positive, Whole, Window
-
-Count = Annotated[Whole, Field(ge=1)]
-Seed = Annotated[Whole, Field(ge=0)]
-Tolerance = Annotated[Positive, Field(ge=1e-15, lt=1)]
-Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
+from pendula.configuration.values import (
+    Count,
+    Model,
+    Name,
+    Names,
+    Natural,
+    Positive,
+    Positives,
+    Tolerance,
+    Whole,
+    Window,
+)
 
 
 class Followed(Model):
@@ -48,7 +54,7 @@ class Drawn(Model):
     case: Name
     size: Positive
     members: Count
-    seed: Seed
+    seed: Natural
 
 
 class Phases(Followed):
@@ -126,9 +132,9 @@ class OverTheTop(Ensemble):
 class Film(Followed):
     """Pendula to look at."""
 
-    cases: Annotated[list[Name], Field(min_length=1), Distinct]
+    cases: Names
     mu: Positive
-    reach: Annotated[Whole, Field(ge=0)]
+    reach: Natural
     periods: Count
     per_period: Annotated[Whole, Field(ge=4)]
 

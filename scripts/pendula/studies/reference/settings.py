@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from pendula.configuration.schema import Configuration, Faults
-from pendula.configuration.values import Distinct, Model, Name, Positive, Whole
+from pendula.configuration.values import Model, Name, Positives, Whole
 
 Bits = Annotated[Whole, Field(ge=64, le=4096)]
 
@@ -13,7 +13,7 @@ Bits = Annotated[Whole, Field(ge=64, le=4096)]
 class Settings(Model):
     """Section `reference` of the configuration."""
 
-    snapshots: Annotated[list[Positive], Field(min_length=1), Distinct]
+    snapshots: Positives
     bits: dict[Name, tuple[Bits, Bits]]
 
     def faults(self, settings: Configuration) -> Faults:

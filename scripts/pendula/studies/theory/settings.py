@@ -9,11 +9,22 @@ from typing import Annotated, Literal
 from pydantic import Field, create_model
 
 from pendula.configuration.solvers import Solver
-from pendula.configuration.values import Complex, Model, Number, Positive, Whole, Window
+from pendula.configuration.values import (
+    Complex,
+    Count,
+    Model,
+    Natural,
+    Needs,
+    Number,
+    Positive,
+    Whole,
+    Window,
+    model,
+)
 
-Count = Annotated[Whole, Field(ge=1, le=100_000)]
-"""Of sites, samples or members: more of them take hours in every check."""
-Counts = Annotated[list[Count], Field(min_length=1)]
+Size = Annotated[Count, Field(le=100_000)]
+"""A number of sites, samples or members: more of them take hours in every check."""
+Sizes = Annotated[list[Size], Field(min_length=1)]
 
 
 class Constants(Model):
@@ -44,10 +55,10 @@ ARGUMENTS = {
     "boundary": Literal["dirichlet", "free", "periodic"],
     "solver": Solver,
     # chains and their data
-    "sites": Count,
-    "sizes": Counts,  # numbers of sites
-    "ring_sites": Count,
-    "half_widths": Counts,
+    "sites": Size,
+    "sizes": Sizes,  # numbers of sites
+    "ring_sites": Size,
+    "half_widths": Sizes,
     "pair": tuple[Complex, Complex],  # (A_0, B_0)
     "norm": Positive,
     "distances": Annotated[list[Positive], Field(min_length=2)],
@@ -66,14 +77,14 @@ ARGUMENTS = {
     "times": Annotated[list[Positive], Field(min_length=1)],
     "long_times": Annotated[list[Positive], Field(min_length=3)],  # each twice the one before
     "window": Window,
-    "panels": Count,
+    "panels": Size,
     # random data
-    "seed": Annotated[Whole, Field(ge=0)],
-    "samples": Count,
-    "count": Count,
-    "generations": Count,
+    "seed": Natural,
+    "samples": Size,
+    "count": Size,
+    "generations": Size,
     "population": Annotated[Whole, Field(ge=4)],
-    "starts": Count,
+    "starts": Size,
     # what a wrong statement has in place of the right one
     "omega_off": Number,
     "gamma_times": Number,
@@ -87,8 +98,7 @@ ARGUMENTS = {
 
 def check(names: str, **own) -> type[Model]:
     """Return the model of what a check takes: some of ARGUMENTS, and what has a type of its own."""
-    types = {name: ARGUMENTS[name] for name in names.split()} | own
-    return create_model("Check", __base__=Model, **{name: (t, ...) for name, t in types.items()})
+    return model(**{name: ARGUMENTS[name] for name in names.split()} | own)
 
 
 CHART = "gammas epsilon sites boundary end_time seed"
@@ -107,7 +117,7 @@ CHECKS = {
         "inherited_energy": check("constants sites end_time mus seed"),
         "resonance": check("gamma mus ratios"),
         # errors and gaps of the paper
-        "theorem_3_constant": check("constants amplitude", longest=Count),
+        "theorem_3_constant": check("constants amplitude", longest=Size),
         "theorem_2_case": check("constants pair sites"),
         "negative_depth": check("constants count seed"),
         "bootstrap": check("constants part longest"),
@@ -168,10 +178,6 @@ OBSERVED = ("cases", "sweeps")
 """The checks of the paper's own trajectories and sweeps, which need their datasets."""
 
 
-NEEDS = ("searches", "thresholds", "spreading", "chain_growth")
-"""The parts whose error is decided by a size."""
-
-
 class Section(Model):
     """Section `theory` of the configuration."""
 
@@ -197,7 +203,7 @@ class Section(Model):
 Settings = create_model(
     "Settings",
     __base__=Section,
-    needs=(create_model("Needs", __base__=Model, **dict.fromkeys(NEEDS, (Positive, ...))), ...),
-    wrong=(create_model("Wrong", __base__=Model, **dict.fromkeys(WRONG, (Changes, ...))), ...),
-    **{name: (model, ...) for checks in CHECKS.values() for name, model in checks.items()},
+    needs=(Needs, ...),
+    wrong=(model(**dict.fromkeys(WRONG, Changes)), ...),
+    **{name: (kind, ...) for checks in CHECKS.values() for name, kind in checks.items()},
 )

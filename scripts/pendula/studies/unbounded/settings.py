@@ -13,9 +13,21 @@ from pendula.configuration.cases import is_multiple
 from pendula.configuration.cost import Cost, estimate
 from pendula.configuration.schema import Configuration, Faults
 from pendula.configuration.solvers import Dop853, Taylor
-from pendula.configuration.values import Distinct, Model, Name, Needs, Number, Positive, Whole
+from pendula.configuration.values import (
+    Count,
+    Counts,
+    Distinct,
+    Model,
+    Name,
+    Names,
+    Natural,
+    Needs,
+    Number,
+    Numbers,
+    Positive,
+    Whole,
+)
 
-Count = Annotated[Whole, Field(ge=1)]
 Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
 SPEED = 5.0
@@ -27,7 +39,7 @@ class Varied(Model):
 
     case: Name
     parameter: Literal["omega", "amplitude", "tolerance"]
-    values: Annotated[list[Number], Field(min_length=1), Distinct]
+    values: Numbers
 
 
 class Extent(Model):
@@ -40,7 +52,7 @@ class Extent(Model):
 class Maps(Model):
     """Maxima over [10, T] on chains of half-width M, for each of the paper's sweeps."""
 
-    half_widths: Annotated[list[Count], Field(min_length=1), Distinct]
+    half_widths: Counts
     end_time: Positive
     output_step: Positive
     rest: Positive
@@ -68,7 +80,7 @@ class Thermal(Model):
 
     nodes: Nodes
     density_nodes: Nodes
-    omegas: Annotated[list[Number], Field(min_length=1), Distinct]
+    omegas: Numbers
     warm: Warm
 
 
@@ -77,8 +89,8 @@ class Settings(Model):
 
     output_step: Positive
     perturbation: Positive
-    seed: Annotated[Whole, Field(ge=0)]
-    cases: Annotated[list[Name], Field(min_length=1), Distinct]
+    seed: Natural
+    cases: Names
     varied: dict[Name, Varied]
     thermal: Thermal
     short: Size
