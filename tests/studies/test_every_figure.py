@@ -1,14 +1,19 @@
 """What holds for every figure, whatever it shows."""
 
+import json
+
 import matplotlib
 import pytest
 import xarray as xr
+from helpers import ROOT
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
+from pendula.studies.breathers import fate_figures
+from pendula.studies.breathers import figures as breathers
 from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
@@ -50,6 +55,20 @@ DRAWN_BY = {
     "own_norms": own.draw_norms,
     "own_spacetime": own.draw_spacetime,
     "own_sweep": own.draw_sweep,
+}
+
+ACCEPTED = {path.stem: path for path in sorted((ROOT / "tests/baseline/figures").glob("*.json"))}
+DRAWN_FROM_ACCEPTED = DRAWN_BY | {
+    "fig1": chain_figure.draw,
+    **{f"fig{n}": figures.draw_norms for n in (2, 3, 4)},
+    **{f"fig{n}_spacetime": figures.draw_spacetime for n in (2, 3, 4)},
+    **{f"fig{n}": figures.draw_sweeps for n in (5, 6)},
+    "energy_drift": figures.draw_drift,
+    "solver_agreement": figures.draw_agreement,
+    "trust_horizons": figures.draw_trust,
+    "breathers": breathers.draw_breathers,
+    "fates": fate_figures.draw_fates,
+    "sensitivity": breathers.draw_sensitivity,
 }
 
 
@@ -104,3 +123,10 @@ def test_text_is_legible_and_everything_is_on_the_page(plot):
     assert shown
     assert min(text.get_fontsize() for text in shown) >= 7
     assert min(margins(figure)) >= 0
+
+
+@pytest.mark.parametrize("name", ACCEPTED)
+def test_the_accepted_data_in_single_precision_give_the_panels_of_the_figure(name):
+    data = xr.load_dataset(ACCEPTED[name].with_suffix(".nc"))
+    drawn = describe(DRAWN_FROM_ACCEPTED[name](data), data)
+    assert len(drawn["panels"]) == len(json.loads(ACCEPTED[name].read_text())["panels"])

@@ -6,7 +6,7 @@ after an exact reduction of its argument, by + - * / and square roots in one ord
 rounds alike everywhere. NumPy takes each operation by itself, and numba without fastmath fuses
 none. Coefficients are those of Taylor's series.
 
-Functions of `x` take a number or an array of real numbers and return the same; NaN stays NaN. Each
+Functions of `x` take real numbers of any precision and return doubles; NaN stays NaN. Each
 says for which arguments it holds; logarithms give their limits at 0 and infinity. Their errors are
 measured and the hashes of their bits held by tests/numerics/test_elementary.py. The reductions
 follow fdlibm (Sun, 1993).
@@ -61,7 +61,7 @@ def _halves(a):
 
 def _reduced_exp(x, low=0.0):
     """Return t and the integer k of exp(x + low) = (1 + t) 2^k, where abs(t) < 0.42."""
-    x = np.clip(x, -750.0, 710.0)  # beyond, the result is 0 or infinity anyhow
+    x = np.asarray(x, dtype=float).clip(-750.0, 710.0)  # beyond, the result is 0 or infinity anyhow
     k = np.nan_to_num(np.rint(x * (1.0 / LN2[0])))
     start, rest = x - k * LN2[0], k * LN2[1]
     r = start - rest
@@ -133,7 +133,7 @@ def _log_pair(x):
 def power(x, y):
     """Return x^y for 0 < x < inf, with an error below 1 ulp where the result is a normal number."""
     high, low = _log_pair(np.asarray(x, dtype=float))
-    whole, rest = _product(y, high)
+    whole, rest = _product(np.asarray(y, dtype=float), high)
     t, k = _reduced_exp(whole, rest + y * low)
     with np.errstate(over="ignore", under="ignore"):
         return np.ldexp(1.0 + t, k)
@@ -146,7 +146,8 @@ def geometric(start: float, stop: float, count: int) -> np.ndarray:
     """
     with localcontext() as context:
         context.prec = 40
-        first, ratio = Decimal(start), Decimal(stop) / Decimal(start)
+        first = Decimal(float(start))
+        ratio = Decimal(float(stop)) / first
         steps = [Decimal(i) / (count - 1) for i in range(1, count - 1)]
         return np.array([start, *(float(first * ratio**step) for step in steps), stop], float)
 
