@@ -3,6 +3,7 @@
 import fcntl
 import os
 import shutil
+from contextlib import chdir
 from functools import cache
 from pathlib import Path
 
@@ -21,6 +22,13 @@ settings.load_profile("project")
 # It would parse the whole library, in every worker, to draw the numbers that stand there as well:
 # this takes seconds, and whoever edits one of them would have all tests draw other data.
 providers._get_local_constants = lambda: providers._local_constants
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _away_from_the_users_results(tmp_path_factory):
+    """Have all tests stand in an empty folder: that of the project may hold a user's results."""
+    with chdir(tmp_path_factory.mktemp("empty")):
+        yield
 
 
 @pytest.fixture(scope="session")
