@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def test_tests_stand_in_an_empty_folder():
     """In the project's own they would read a user's results."""
-    assert ROOT != Path.cwd() and list(Path.cwd().iterdir()) == []
+    assert not list(Path.cwd().iterdir())
 
 
 def test_the_conda_environment_has_the_same_pins():
