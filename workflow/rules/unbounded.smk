@@ -101,6 +101,7 @@ rule thermal:
         epsilon=SETTINGS.cases["fig4_small"].epsilon,
         gamma=SETTINGS.cases["fig4_small"].gamma,
         omegas=SETTINGS.unbounded.thermal.omegas,
+        bulk_omega=SETTINGS.cases["fig4_small"].omega,
         warm_omega=SETTINGS.cases[SETTINGS.unbounded.thermal.warm.case].omega,
         energies=SETTINGS.unbounded.thermal.warm.energies,
         nodes=SETTINGS.unbounded.thermal.nodes,

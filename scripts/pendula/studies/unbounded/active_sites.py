@@ -32,7 +32,7 @@ from pendula.simulation.simulate import IntegrationError
 from pendula.simulation.solvers import SOLVERS
 from pendula.sources import digest_of_modules
 
-from .bulk import bulk_means
+from .bulk import bulk_maxima, bulk_means
 
 BLOCK, GUARD = 64, 32
 """Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
@@ -129,6 +129,7 @@ class LongRun(NamedTuple):
     front: np.ndarray  # (piece, level): where the power falls below each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
     bulk: np.ndarray  # (piece, level, 5): means of P and of the terms of H behind each front
+    maxima: np.ndarray  # (piece, size): of the moduli of so many neighbours in the bulk
     state: np.ndarray  # (row, 1 + site) at the end
 
 
@@ -156,6 +157,7 @@ def run_long(
         _add(series, times, done, first=piece == 0)
         means = bulk_means(done.state, problem.constants, series["front"][-1])
         series["bulk"].append(means)
+        series["maxima"].append(bulk_maxima(done.state, series["front"][-1][-1]))
         if keep_at and (piece + 1) % keep_every == 0:
             keep_checkpoint(keep_at, description, {**_joined(series), "state": state})
     return LongRun(**_joined(series), state=state)

@@ -23,6 +23,9 @@ TERMS = ("cubic", "detuning", "drive", "bonds")
 SHARE = 0.9
 """The part of the way to the front that counts as the bulk."""
 
+OLD, NEIGHBOURS = 0.5, 2 ** np.arange(7)
+"""The part of the way to the front, and the sizes of the blocks, that a maximum is taken of."""
+
 LENGTH = 64
 """Sites of the pieces that a spectrum is averaged over."""
 
@@ -89,22 +92,20 @@ def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> n
     return np.array([np.add.reduce(bulk, axis=1) / bulk.shape[1] for bulk in bulks])
 
 
-def end_of_bulk(sites: np.ndarray, level: float = 1.0) -> int:
-    """Return the last site of (row, site) whose power is above `level`."""
-    return int(np.flatnonzero((sites**2).sum(axis=0) > level).max(initial=0))
+def bulk_maxima(state: np.ndarray, front: float) -> np.ndarray:
+    """Return the largest modulus |A_n| or |B_n| of blocks of sites, its mean over blocks, (size,).
 
-
-def tail_scale(sites: np.ndarray, front: int, share: float = 0.1) -> float:
-    """Return the mean excess of |A_n|^4, |B_n|^4 in the bulk over what a `share` of them exceed.
-
-    Where the moduli are distributed as exp(-|A|^4 / scale), the largest of N of them to the fourth
-    power grows as scale log N.
+    Blocks of NEIGHBOURS sites lie side by side on the first half of the way to the front, the
+    centre left out: what the front has just passed is not yet in equilibrium. The mean is NaN
+    where no block fits in.
     """
-    inside = bulk_of(with_ghosts(sites), front)
-    pair = complex_pair(with_ghosts(sites))
-    fourth = np.concatenate([square_modulus(z[inside]) ** 2 for z in pair])
-    level = np.quantile(fourth, 1.0 - share)
-    return float((fourth[fourth > level] - level).mean())
+    a, b = _of_pair(state[:, 1:-1] * state[:, 1:-1])
+    moduli = np.sqrt(np.maximum(a, b))[1 : max(1, int(OLD * front))]
+    found = np.full(len(NEIGHBOURS), np.nan)
+    for i, size in enumerate(NEIGHBOURS[: np.searchsorted(NEIGHBOURS, moduli.size, "right")]):
+        blocks = moduli[: moduli.size // size * size].reshape(-1, size)
+        found[i] = np.add.reduce(blocks.max(axis=1)) / len(blocks)
+    return found
 
 
 def profile(values: np.ndarray, edges: np.ndarray) -> np.ndarray:

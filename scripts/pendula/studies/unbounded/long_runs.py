@@ -21,7 +21,8 @@ from pendula.numerics.elementary import geometric, interpolated, log, modulus
 from pendula.problem import Problem
 
 from .active_sites import LEVELS, LongRun, run_chains
-from .bulk import FIRST_OF_LINE, POWER, TERMS, thermal_powers
+from .bulk import FIRST_OF_LINE, NEIGHBOURS, POWER, TERMS, thermal_powers
+from .extremes import mean_maximum
 from .front import (
     DELAY,
     PIECE_TAU,
@@ -90,6 +91,12 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "front": series("front", ("piece_tau", "front_power"), SITE_OF_FRONT),
         "width": series("width", ("piece_tau",), "last site that is integrated, W"),
         **_bulk(np.array([[run.bulk for run in members] for members in runs])),
+        "neighbours": Variable(("neighbours",), NEIGHBOURS, "neighbouring sites of a block"),
+        "bulk_maximum": series(
+            "maxima",
+            ("piece_tau", "neighbours"),
+            "largest |A_n| or |B_n| of a block, mean over the blocks of the old half of the bulk",
+        ),
         "state": Variable(
             ("variant", "member", "row", "site"),
             _padded([[run.state[:, 1:-1] for run in members] for members in runs]),
@@ -163,6 +170,11 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
             [one[2] for one in local],
             "95 % limits of the exponent of tau in l2 by Student's t, to each side",
         ),
+        "thermal_linf": Variable(
+            ("case", "point"),
+            [_thermal_linf(run, at, thermal) for run, at in zip(first, times, strict=True)],
+            "mean of the l-infinity norm where all sites behind the front are in equilibrium",
+        ),
         **_rates(first, thermal),
     }
     shared = shared_by([run.attrs for run in first])
@@ -174,6 +186,14 @@ def _series(run: xr.Dataset, name: str, times: np.ndarray) -> list[np.ndarray]:
     values = run[name].transpose("member", "tau").values
     drawn = np.array([interpolated(times, run["tau"].values, series) for series in values])
     return [drawn.min(axis=0), drawn.mean(axis=0), drawn.max(axis=0)]
+
+
+def _thermal_linf(run: xr.Dataset, times: np.ndarray, thermal: xr.Dataset) -> np.ndarray:
+    """Return the l-infinity norm of a thermal bulk as far as a pulled front is at `times`."""
+    if abs(float(run["omega"] - thermal["bound_omega"])) > 1e-9:
+        return np.full(len(times), np.nan)
+    passed = float(run["predicted_speed"]) * (times - _delay(run) * log(times))
+    return mean_maximum(thermal, np.maximum(1.0, passed))
 
 
 def _exponents(run: xr.Dataset) -> tuple[np.ndarray, ...]:
