@@ -27,7 +27,6 @@ from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
-from pendula.measures.laws import compare, span_means  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
 from pendula.studies.breathers.fates import FATES  # noqa: E402
 from pendula.studies.breathers.nearest import NEAR  # noqa: E402
@@ -38,6 +37,7 @@ from pendula.studies.unbounded.bulk import (  # noqa: E402
     thermal_powers,
 )
 from pendula.studies.unbounded.claims_bulk import at_energy  # noqa: E402
+from pendula.studies.unbounded.claims_state import FAR_AHEAD, unbounded_maximum  # noqa: E402
 from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
@@ -69,7 +69,7 @@ def keep_long_study(results: Path, folder: Path) -> None:
         **_warm(read(long / "fig3_large.nc"), thermal),
         **_amplitudes(read(long / "amplitudes.nc")),
         **_tolerances(read(long / "tolerances.nc")),
-        **_laws(read(long / "fig4_small.nc")),
+        **_maxima(read(long / "fig4_small.nc"), thermal),
     }
     tolerance = GIVEN["long"]["solver"]["rtol"]
     solver = {"solver": "dop853", "solver_rtol": tolerance, "solver_atol": tolerance}
@@ -250,27 +250,27 @@ def _tolerances(run: xr.Dataset) -> dict[str, Variable]:
     }
 
 
-AHEAD = 1e6
-"""The tau at which the laws of the largest amplitude say what they predict."""
-
-
-def _laws(run: xr.Dataset, start: float = 10.0) -> dict[str, Variable]:
-    """Return bounded and growing laws of l-infinity, laid through means over spans of log tau."""
-    curves = run["linf"].isel(variant=0).transpose("member", "tau").values
-    means = span_means(run["tau"].values, curves, start)
-    bounded, growing = compare(means)
-    laws = {**bounded, **growing}
-    along = ("law",)
+def _maxima(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
+    """Return the largest moduli of neighbours and the l-infinity norm beside the thermal ones."""
+    found, sizes = unbounded_maximum(run, thermal).measured, run["neighbours"].values
+    means = {of: [found[f"{of}_{n}_sites"] for n in sizes] for of in ("of", "thermal_of")}
+    along, late = ("block",), "mean over the late half of the runs"
     return {
-        "law": Variable(along, list(laws), "law of the l-infinity norm"),
-        "law_grows": Variable(along, [int(name in growing) for name in laws], "1: without a bound"),
-        "law_chi2": Variable(
-            along, [fit.chi2 for fit in laws.values()], "chi-squared of the means"
+        "block": Variable(along, sizes, "neighbouring sites of a block"),
+        "block_maximum": Variable(along, means["of"], f"largest modulus of a block, {late}"),
+        "block_thermal": Variable(along, means["thermal_of"], "the same mean, thermal state"),
+        "block_low": Variable((), found["bulk_at_least"], "least 95 % limit of their ratios"),
+        "block_high": Variable((), found["bulk_at_most"], "largest 95 % limit of their ratios"),
+        "norm_ratio": Variable(
+            (), found["norm_over_thermal"],
+            f"l-infinity norm over that of a chain in equilibrium up to the front, {late}",
         ),
-        "law_ahead": Variable(along, [fit.at(AHEAD) for fit in laws.values()], "value far ahead"),
-        "law_spans": Variable((), len(means.values), "spans of log tau"),
-        "law_tau": Variable((), AHEAD, "slow time far ahead"),
-    }
+        "norm_ratio_error": Variable(
+            (), found["norm_over_thermal_error"], "its 95 % limits, to each side"
+        ),
+        "norm_ahead": Variable((), found["thermal_at_1e6"], "that norm of the chain, far ahead"),
+        "norm_tau": Variable((), FAR_AHEAD, "slow time far ahead"),
+    }  # fmt: skip
 
 
 def keep_long_breathers(results: Path, folder: Path) -> None:

@@ -3,11 +3,13 @@
 import numpy as np
 import xarray as xr
 from made_up_breathers import sensitivity
+from pendula.studies.unbounded.extremes import mean_maximum
 
 TAU = np.linspace(0.0, 200.0, 401)
 PIECES = TAU[4::4]
 LEVELS = [1e-6, 1e-2, 1.0, 4.0]
 SITES = 400
+SIZES = np.array([1, 4, 16, 64])
 POWER, TERMS = 16.0, (64.0, -30.0, -8.0, -24.0)
 """P of the bulk, and the terms of its energy a site: two in all."""
 
@@ -17,9 +19,10 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
     powers = np.broadcast_to(power, variants)
     wobble = 1.0 + 0.002 * np.sin(np.arange(members)[:, None] + TAU)
     l2 = np.sqrt(2.0 * speed * POWER) * np.maximum(TAU, 1.0) ** powers[:, None, None] * wobble
-    linf = np.broadcast_to((600.0 + 100.0 * np.log(np.maximum(TAU, 1.0))) ** 0.25, l2.shape)
+    linf = np.broadcast_to(mean_maximum(thermal(), np.maximum(1.0, speed * TAU)), l2.shape)
     way = np.floor(speed * PIECES - delay * np.log(PIECES))
     front = np.broadcast_to(way[:, None], (variants, members, len(PIECES), len(LEVELS)))
+    maxima = wobble[:, 4::4, None] * mean_maximum(thermal(), SIZES)
     rng = np.random.default_rng(1)
     run = ("variant", "member")
     data = xr.Dataset(
@@ -37,6 +40,10 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
                 (*run, "piece_tau", "front_power", "term"),
                 np.array(TERMS) * (1.0 + 0.001 * rng.normal(size=(*front.shape, 4))),
             ),
+            "bulk_maximum": (
+                (*run, "piece_tau", "neighbours"),
+                np.broadcast_to(maxima, (variants, *maxima.shape)),
+            ),
             "state": (
                 (*run, "row", "site"),
                 rng.normal(scale=2.0, size=(variants, members, 4, SITES)),
@@ -50,6 +57,7 @@ def spread(power, variants=1, members=2, omegas=(0.0,), speed=2.9, delay=1.4, am
         {
             "tau": TAU,
             "piece_tau": PIECES,
+            "neighbours": SIZES,
             "front_power": LEVELS,
             "term": ["cubic", "detuning", "drive", "bonds"],
         },
@@ -85,12 +93,17 @@ def window_map(omega=0.0, speed=2.9, members=2):
 
 
 def thermal():
-    """Return thermal states of the power of the made-up seas."""
+    """Return thermal states of the power of the made-up seas, at Omega = 0 with maxima."""
+    bounds = np.linspace(0.1, 9.0, 90)
+    below = 1.0 - np.exp(-(bounds**4) / 120.0)
     omegas, waves, moduli = np.array([-1.0, 0.0, 2.0, 5.0]), np.arange(64), np.linspace(0.1, 8, 40)
     data = xr.Dataset(
         {
             "power": ("omega", np.full(4, POWER)),
             "power_error": ("omega", np.full(4, 1e-4)),
+            "bound_rate": ("bound", -np.log(below)),
+            "bound_overlap": ("bound", below),
+            "bound_omega": ((), 0.0),
             "correlation_length": ("omega", [1.0, 1.3, 3.0, 90.0]),
             "warm_power": ("site_energy", POWER + 0.1 * np.array([-2.0, 0.0, 2.0])),
             "warm_terms": (("site_energy", "term"), np.array([TERMS] * 3)),
@@ -100,6 +113,7 @@ def thermal():
         },
         {
             "omega": omegas,
+            "bound": bounds,
             "modulus": moduli,
             "site_energy": [0.0, 2.0, 4.0],
             "term": ["cubic", "detuning", "drive", "bonds"],

@@ -13,13 +13,6 @@ GROWN = 2.0
 SITE = 0.05
 """A part of a site that no front can show."""
 
-GROWING_LAWS = {
-    "fourth_root": "fourth_root_of_log_tau",
-    "log": "log_tau",
-    "power": "power_of_tau",
-}
-"""Laws of the largest amplitude that have no bound, by a short name."""
-
 
 def unbounded(baseline: Baseline) -> dict:
     """Return exponents, fronts and powers of the long study of the chain without ends."""
@@ -29,7 +22,7 @@ def unbounded(baseline: Baseline) -> dict:
         **_thermal(long),
         **_omegas(long),
         **_large_data(long),
-        **_laws(long),
+        **_maxima(long),
         **_tolerances(long),
         **_cut(baseline["quoted/cut_front"]),
         **_costs(baseline["speed/cost"]),
@@ -113,18 +106,18 @@ def _large_data(long: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _laws(long: xr.Dataset) -> dict[str, str]:
-    """Return how bounded and growing laws of l-infinity fit, and what the growing ones predict."""
-    ahead = long["law_ahead"]
+def _maxima(long: xr.Dataset) -> dict[str, str]:
+    """Return the largest moduli of neighbours and l-infinity, beside those of the thermal state."""
+    last = long.isel(block=-1)
     return {
-        "spans": str(int(long["law_spans"])),
-        "bounded_off": number(long["law_chi2"].sel(law="limit_less_1_over_root_tau")),
-        **{
-            f"{short}_off": number(long["law_chi2"].sel(law=law), 2)
-            for short, law in GROWING_LAWS.items()
-        },
-        **{f"{short}_ahead": number(ahead.sel(law=law)) for short, law in GROWING_LAWS.items()},
-        "far": number(long["law_tau"]),
+        "block": str(int(last["block"])),
+        "block_maximum": number(last["block_maximum"], 4),
+        "block_thermal": number(last["block_thermal"], 4),
+        "block_low": number(long["block_low"]),
+        "block_high": number(long["block_high"], 4),
+        "norm_ratio": with_stored_error(long, "norm_ratio"),
+        "norm_ahead": number(long["norm_ahead"]),
+        "norm_tau": number(long["norm_tau"]),
     }
 
 

@@ -46,8 +46,8 @@ def test_the_long_study_is_reduced_to_its_numbers(results, tmp_path):
         assert kept["omega_speed"].values == pytest.approx(2.9, abs=0.03)
         assert kept["omega_thermal_power"].values == pytest.approx(16.0)
         assert kept["amplitude_factor"].values == pytest.approx([1.0, 20.0**0.5], abs=0.05)
-        assert set(kept["law"].values) >= {"constant", "log_tau"}
-        assert kept["law_ahead"].sel(law="constant") < kept["law_ahead"].sel(law="log_tau")
+        assert kept["block_maximum"].values == pytest.approx(kept["block_thermal"].values, rel=0.01)
+        assert kept["block_low"] <= 1.0 <= kept["block_high"] < kept["norm_ahead"]
         assert kept["tolerance_bulk_power"].values == pytest.approx(16.0, rel=0.2)
         for name, variable in kept.variables.items():
             assert variable.attrs["long_name"] and variable.attrs["units"], name

@@ -4,7 +4,6 @@
 `norms`       measures of one run: P, largest amplitude, drift of the energy, margin to (19)
 `levels`      curves against a parameter: levelling off, range, rising steps; bands and means
 `spreading`   lines through l2^2, exponents of tau with an offset, each with its limits
-`laws`        bounded and growing laws of a slow curve, compared
 `growth`      local exponents of time, rates of tangent vectors with their errors; what is chaotic
 
 Whatever is published is measured here, stored by a study below results/checks/, and read from there

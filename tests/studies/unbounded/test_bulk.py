@@ -8,17 +8,17 @@ from pendula.ledger.criterion import Verdict
 from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import (
     LENGTH,
+    NEIGHBOURS,
+    bulk_maxima,
     bulk_means,
     bulk_of,
     bulk_powers,
-    end_of_bulk,
     energy_terms,
     late_means,
     mean_powers,
     mean_terms,
     slope_powers,
     statistics_of,
-    tail_scale,
     thermal_powers,
 )
 from pendula.studies.unbounded.claims_bulk import (
@@ -58,6 +58,21 @@ def test_a_run_keeps_the_means_of_its_bulk():
     found = bulk_means(run.state, problem.constants, run.front[-1])
     np.testing.assert_array_equal(run.bulk[-1], found)
     assert run.bulk.shape == (3, 4, 5)
+    np.testing.assert_array_equal(run.maxima[-1], bulk_maxima(run.state, run.front[-1, -1]))
+
+
+def test_maxima_are_those_of_blocks_on_the_first_half_of_the_way_to_the_front():
+    half = random_chain(40, even=True)[:, 40:]
+    state = np.zeros((4, half.shape[1] + 2))
+    state[:, 1:-1] = half[0].real, half[0].imag, half[1].real, half[1].imag
+    sites = np.abs(half).max(axis=0)[1:19]  # the front is at 38.7; its centre is left out
+    found = bulk_maxima(state, 38.7)
+    for i, size in enumerate(NEIGHBOURS):
+        ends = range(size, 19, size)
+        maxima = [max(sites[end - size : end]) for end in ends]
+        assert found[i] == pytest.approx(np.mean(maxima) if maxima else np.nan, nan_ok=True), size
+    assert np.isfinite(found).tolist() == [True] * 5 + [False] * 2
+    assert np.isnan(bulk_maxima(state, -1.0)).all()
 
 
 def test_late_means_are_taken_of_the_late_half():
@@ -167,34 +182,8 @@ def test_the_bulk_is_nine_tenths_of_the_way_to_the_front_without_the_centre():
     assert bulk_of(np.zeros((4, 300)), 0) == slice(1, 2)
 
 
-def test_the_tail_of_an_exponential_law_has_its_scale():
-    """|A|^4 with the law exp(-x / 7): what exceeds any level does so by 7 in the mean."""
-    rng = np.random.default_rng(11)
-    fourth, angle = rng.exponential(7.0, (2, 200_001)), rng.uniform(0.0, 7.0, (2, 200_001))
-    z = fourth**0.25 * np.exp(1j * angle)
-    sites = np.stack([z[0].real, z[0].imag, z[1].real, z[1].imag])
-    for share in (0.1, 0.02):
-        assert tail_scale(sites, 200_000, share) == pytest.approx(7.0, rel=0.03)
-    steps = np.zeros((4, 101))
-    steps[0] = np.arange(101) ** 0.25  # |A|^4 of 1 to 89 and 89 zeros: above 71.3 lie 72 to 89
-    assert tail_scale(steps, 100) == pytest.approx(80.5 - 71.3)
-
-
 def test_waves_and_moduli_are_given_at_the_middle_of_their_cells():
     found = statistics_of(np.zeros(LENGTH), np.zeros(2), np.array([0.0, 1.0, 3.0]))
     assert found["wave_number"].values[[0, 16, 32]].tolist() == [0.0, np.pi / 2.0, np.pi]
     assert len(found["wave_number"].values) == 64
     assert found["modulus"].values.tolist() == [0.5, 2.0]
-
-
-def test_the_bulk_ends_at_the_last_site_above_its_level():
-    sites = np.zeros((4, 9))
-    sites[:, 2], sites[0, 4], sites[0, 6] = 1.0, 1.1, 1.0  # powers of 4, 1.21 and just 1
-    assert end_of_bulk(sites) == 4 and end_of_bulk(sites, 1.5) == 2
-    assert end_of_bulk(0.0 * sites) == 0
-
-
-def test_a_tail_is_what_exceeds_its_level_and_not_the_level_itself():
-    steps = np.zeros((4, 11))
-    steps[0] = np.arange(11) ** 0.25  # |A|^4 of 1 to 8 and 8 zeros: a fifth of them exceed 5
-    assert tail_scale(steps, 10, 0.2) == pytest.approx(2.0)

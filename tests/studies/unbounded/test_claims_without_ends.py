@@ -4,21 +4,16 @@ import made_up_unbounded as made_up
 import numpy as np
 import pytest
 from pendula.ledger.claim import all_claims, feed, passes
-from pendula.ledger.criterion import Verdict
+from pendula.ledger.criterion import UndecidableError, Verdict
 from pendula.studies.unbounded.claims import following, growth_of, stays
-from pendula.studies.unbounded.claims_state import (
-    at_last_at_a_limit,
-    of_the_other_norm,
-    towards_a_limit,
-    unbounded_maximum,
-)
+from pendula.studies.unbounded.claims_state import unbounded_maximum
 
 CLAIMS = {claim.name: claim for claim in all_claims() if claim.name.startswith("unbounded")}
 CHANGED = [  # wrong cases that are made of the right one, which a made-up run can stand for
     (claim, control)
     for claim in CLAIMS.values()
     for control in claim.controls
-    if all(callable(wrong) for wrong in control.fed.values()) and not control.undecided
+    if all(callable(wrong) for wrong in control.fed.values())
     and claim.name in ("unbounded_in_time", "unbounded_band", "unbounded_large", "unbounded_small",
                        "unbounded_stable", "unbounded_window", "unbounded_maximum")
 ]  # fmt: skip
@@ -57,23 +52,39 @@ def test_what_creeps_by_less_than_two_per_cent_stays_and_more_does_not():
         assert stays(creeping).verdict == verdict
 
 
-def test_a_maximum_without_a_bound_is_refused_and_one_with_a_bound_is_not():
-    run = made_up.spread(0.5, members=6)
-    assert unbounded_maximum(of_the_other_norm(run)).verdict == Verdict.NOT_REPRODUCED
-    rising = unbounded_maximum(run)
-    known = (600.0 + 100.0 * np.log(1e6)) ** 0.25
-    assert rising.measured["fourth_root_of_log_tau_at_1e6"] == pytest.approx(known, rel=0.01)
-    assert unbounded_maximum(towards_a_limit(run)).verdict == Verdict.CONFIRMED
+def test_the_maxima_of_the_thermal_state_confirm_that_the_norm_is_finite(sources):
+    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+    finding = unbounded_maximum(run, thermal)
+    assert finding.verdict == Verdict.CAVEAT
+    ahead = finding.measured["thermal_at_1e6"]
+    assert ahead == pytest.approx((120.0 * np.log(2.9e6)) ** 0.25, rel=0.02)
+    assert f"{ahead:.2f}" in finding.because
+    assert finding.measured["norm_over_thermal"] == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.parametrize("gain", [0.0, 0.15])
-def test_slow_bounded_laws_and_growing_ones_are_not_told_apart_in_noise(gain):
-    """A logarithm is as near to a limit less c tau^(-1/10) as noise of one half can tell."""
-    run = made_up.spread(0.5, members=6)
-    noise = np.random.default_rng(7).normal(0.0, 0.5, run["linf"].shape)
-    rise = 5.0 + gain * np.log(run["tau"].clip(min=1.0)).values
-    noisy = run.assign(linf=(run["linf"].dims, rise + noise))
-    finding = unbounded_maximum(noisy)
-    assert finding.verdict == (Verdict.UNDECIDED if gain else Verdict.CONFIRMED)
-    assert ("tenth root tau" in finding.because) == bool(gain)
-    assert unbounded_maximum(at_last_at_a_limit(noisy)).verdict == Verdict.UNDECIDED
+def test_a_norm_above_the_thermal_one_is_refused_whatever_the_bulk_does(sources):
+    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+    for factor, verdict in ((1.01, Verdict.CAVEAT), (1.05, Verdict.NOT_REPRODUCED)):
+        assert unbounded_maximum(run.assign(linf=factor * run["linf"]), thermal).verdict == verdict
+
+
+def test_maxima_that_differ_much_between_the_members_decide_nothing(sources):
+    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+    apart = run["bulk_maximum"] * (1.0 + 0.05 * (-1.0) ** np.arange(6))[:, None, None]
+    noisy = run.assign(bulk_maximum=(run["bulk_maximum"].dims, apart.values))
+    assert unbounded_maximum(noisy, thermal).verdict == Verdict.UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        (lambda run: run.isel(member=[0]), "it takes two runs"),
+        (lambda run: run.assign(bulk_maximum=run["bulk_maximum"] * np.nan), "as the largest block"),
+        (lambda run: run.assign(omega=run["omega"] + 1.0), "no law of the largest amplitude"),
+    ],
+)
+def test_runs_that_cannot_be_compared_with_the_thermal_state_are_left_undecided(
+    change, why, sources
+):
+    with pytest.raises(UndecidableError, match=why):
+        unbounded_maximum(change(sources["unbounded/fig4_small"]), sources["unbounded/thermal"])

@@ -47,7 +47,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
 
 
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
-LAW_NAME = r"$2 v^* P$, less the front's delay"
+LAW_NAME = "thermal bulk up to the front"
 OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
 OFFSET_NAME = r"law with an offset (fitted)"
 
@@ -110,6 +110,7 @@ def _draw_linf(axes: Axes, data: xr.Dataset) -> None:
         late = one["tau"] >= float(data["span_tau"].min())
         axes.plot(one["tau"].where(late), one["linf"].sel(band="mean"), **look)
         _shade(axes, one["tau"].where(late), one["linf"], look["color"])
+        axes.plot(one["tau"].where(late), one["thermal_linf"], **LAW)
     axes.set_ylim(bottom=0)
     axes.set_ylabel(NORMS["linf"])
 

@@ -6,23 +6,14 @@ import numpy as np
 
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results, Section
-from pendula.report.words import MINUS, case_of, number, span, symbols
+from pendula.report.words import MINUS, case_of, number, span
 
 ROOT, SLOW = 0.5, 0.25
 """The exponents of l2 behind a steady front, and of diffusion."""
 
-FAR_AHEAD = 1e6
-"""The tau at which the ledger compares what the laws of the largest amplitude predict."""
-LAWS = {
-    "constant": "a constant",
-    "limit_less_1_over_tau": "a limit, less c / τ",
-    "limit_less_1_over_root_tau": "a limit, less c / τ^(1/2)",
-    "limit_less_1_over_fourth_root_tau": "a limit, less c / τ^(1/4)",
-    "limit_less_1_over_tenth_root_tau": "a limit, less c / τ^(1/10)",
-    "log_tau": "a + b ln τ",
-    "fourth_root_of_log_tau": "(a + b ln τ)^(1/4)",
-    "power_of_tau": "a power of τ",
-}
+OF = ("of", "thermal_of")
+"""A mean largest modulus of so many sites, measured and of the thermal state."""
+
 GROWTH, FRONT, THERMAL = "unbounded/growth", "unbounded/front", "unbounded/thermal"
 MAIN = "unbounded/fig4_small"
 MAPS = ["unbounded/map_fig5_left", "unbounded/map_fig5_right"]
@@ -74,23 +65,18 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
 
 
 def _maximum(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the laws of the largest amplitude, and the tail of the bulk that makes it rise."""
+    """Return the largest modulus of N neighbours in the bulk, beside that of the thermal state."""
     row = "unbounded_maximum"
-    rise, rise_error, tail, tail_error = (
-        ledger.value(row, name)
-        for name in ("rise_of_fourth_power", "rise_error", "scale_of_the_tail", "scale_error")
-    )
+    known = bool(np.isfinite(ledger.value(row, "norm_over_thermal")))
+    sizes = results[MAIN]["neighbours"].values if known else []
     return {
-        "known": bool(np.isfinite(rise)),
+        "known": known,
         "because": ledger.because(row),
-        "last": ledger.quote(row, "last"),
-        "spans": ledger.quote(row, "spans"),
-        "columns": ["law", "χ² of the means", f"at τ = {number(FAR_AHEAD)}"],
-        "rise": results.quote_error(MAIN, rise, rise_error),
-        "tail": results.quote_error(MAIN, tail, tail_error),
-        "laws": [
-            [symbols(says), ledger.quote(row, f"{law}_chi2"), ledger.quote(row, f"{law}_at_1e6")]
-            for law, says in LAWS.items()
+        **{name: ledger.quote(row, name) for name in ("last", "thermal_at_1e6")},
+        "norm": ledger.quote(row, "norm_over_thermal"),
+        "sizes": [
+            [results.quote(MAIN, int(n)), *(ledger.quote(row, f"{of}_{n}_sites", 4) for of in OF)]
+            for n in sizes
         ],
     }
 

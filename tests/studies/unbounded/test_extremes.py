@@ -1,0 +1,159 @@
+"""The largest modulus of N neighbours: exact cases, another quadrature, and sampled rings."""
+
+import hashlib
+
+import numpy as np
+import pytest
+import xarray as xr
+from metropolis import RINGS, SITES, offer_moves, offer_turns
+from pendula.datasets.netcdf import as_xarray
+from pendula.studies.unbounded import extremes
+from pendula.studies.unbounded.extremes import law_of_maxima, maximum_variables, mean_maximum
+from pendula.studies.unbounded.thermal import state_of_energy
+from problems import constants_of
+from scipy.special import erf, i0e
+
+BETA, BOUNDS = 0.0335, np.array([2.5, 3.5, 4.5, 5.5, 8.5])
+"""About the temperature of the paper's Fig 4, and a last bound that stands for none."""
+
+
+@pytest.fixture(scope="module")
+def fig4():
+    """The thermal state of the paper's Fig 4, and the law of its maxima as a dataset."""
+    state = state_of_energy(constants_of((1.0, 1.0, 0.0)), 0.0, 8)
+    return state, as_xarray(maximum_variables(state), {})
+
+
+def dataset(bounds, rates, overlaps):
+    """Return a law of maxima as a dataset."""
+    values = {"bound": bounds, "bound_rate": rates, "bound_overlap": overlaps}
+    return xr.Dataset({name: ("bound", one) for name, one in values.items()})
+
+
+def test_amplitudes_without_bonds_and_drive_follow_the_quartic_weight():
+    """|A|^2 has the weight exp(-beta |A|^4 / 4), so its distribution is an error function."""
+    rates, overlaps = law_of_maxima(constants_of((0.0, 0.0, 0.0)), BETA, BOUNDS)
+    below = erf(0.5 * np.sqrt(BETA) * BOUNDS**2) ** 2
+    np.testing.assert_allclose(rates[:-1], -np.log(below[:-1]), rtol=1e-6)
+    np.testing.assert_allclose(overlaps, below, rtol=1e-6)
+
+
+def test_the_extremal_index_is_one_without_bonds_and_smaller_with_them():
+    """It comes back to one for large moduli, which are too rare to have large neighbours."""
+    indices = []
+    for epsilon in (0.0, 1e-4, 1.0):
+        rates, overlaps = law_of_maxima(constants_of((epsilon, 1.0, 0.0)), BETA, BOUNDS)
+        indices.append(rates[:-1] / -np.log(overlaps[:-1]))
+    np.testing.assert_allclose(indices[0], 1.0, atol=1e-6)
+    np.testing.assert_allclose(indices[1], 1.0, atol=1e-4)
+    assert indices[2][0] < 0.97 < indices[2][-1] < 1.0
+    assert (np.diff(indices[2]) > 0.0).all()
+
+
+def radial(beta, omega, bound, count=60):
+    """Return the operator of an amplitude without drive on moduli alone: nodes and matrix.
+
+    Over the angle between neighbours exp(2 beta r r' cos) has the mean I_0(2 beta r r').
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    r = 0.5 * bound * (nodes + 1.0)
+    root = np.exp(-0.5 * beta * (0.25 * r**4 + (omega - 4.0) * r**2)) * np.sqrt(bound * weights * r)
+    return r, root[:, None] * root * np.exp(-beta * (r[:, None] - r) ** 2) * i0e(
+        2.0 * beta * np.outer(r, r)
+    )
+
+
+def test_without_drive_the_chains_of_a_and_b_are_independent_ones_of_moduli():
+    """One quadrature over moduli gives all that two sites of the infinite chain can do."""
+    omega = 0.5
+    rates, overlaps = law_of_maxima(constants_of((1.0, 0.0, omega)), BETA, BOUNDS)
+    r, matrix = radial(BETA, omega, BOUNDS[-1], 400)
+    values, vectors = np.linalg.eigh(matrix)
+    for bound, rate, overlap in zip(BOUNDS[:-1], rates, overlaps, strict=False):
+        restricted = np.linalg.eigvalsh(radial(BETA, omega, bound)[1])[-1]
+        assert rate == pytest.approx(-2.0 * np.log(restricted / values[-1]), rel=1e-5)
+        psi = vectors[:, -1] * (r <= bound)  # the sharp end costs a node of 400
+        one, two = psi @ psi, psi @ matrix @ psi / values[-1]
+        assert overlap == pytest.approx(one**2, rel=0.02)
+        assert overlap * np.exp(-rate) == pytest.approx(two**2, rel=0.03)
+
+
+def sampled_maxima(constants, beta, settling=100, kept=150):
+    """Return the largest modulus of each of RINGS rings of SITES sites, (kept, ring)."""
+    rng = np.random.default_rng(3)
+    a, b = 2.0 * rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
+    found = []
+    for count in range(settling + kept):
+        for parity in (0, 1):
+            offer_moves(constants, beta, a, b, parity, 1.6, rng)
+        offer_turns(constants, beta, a, b, rng)
+        if count >= settling:
+            found.append(np.maximum(np.abs(a), np.abs(b)).max(axis=1))
+    return np.array(found)
+
+
+def test_sampled_rings_have_these_maxima(fig4):
+    """On a ring of many sites the probability is the power of the eigenvalues alone.
+
+    Each ring is one sample: what it remembers of its earlier states enters no error.
+    """
+    state, law = fig4
+    maxima = sampled_maxima(state.operator.constants, state.beta)
+    ring = law.assign(bound_overlap=0.0 * law["bound_overlap"] + 1.0)
+    mean, error = maxima.mean(), maxima.mean(axis=0).std(ddof=1) / np.sqrt(RINGS)
+    assert error < 0.01
+    assert abs(mean - mean_maximum(ring, SITES + 1)) < 3.0 * error
+    for wrong in (2.0 * SITES, 0.7 * SITES):
+        assert abs(mean - mean_maximum(ring, wrong)) > 5.0 * error
+    for m in (4.7, 5.0, 5.3, 5.6):
+        shares = (maxima <= m).mean(axis=0)
+        rate = law_of_maxima(state.operator.constants, state.beta, np.array([m, 8.5]))[0][0]
+        error = shares.std(ddof=1) / np.sqrt(RINGS)
+        assert abs(shares.mean() - np.exp(-SITES * rate)) < 3.5 * error, m
+    groups = maxima.reshape(len(maxima), 4, -1).max(axis=2)  # of 16 rings, 1024 sites
+    assert groups.mean() == pytest.approx(float(mean_maximum(ring, 16 * SITES + 1)), abs=0.05)
+
+
+def test_the_largest_rises_as_the_fourth_root_of_the_logarithm():
+    """Its fourth power rises by 4 / beta a unit of ln N where sites are alone."""
+    bounds = np.linspace(0.1, 9.5, 95)
+    law = dataset(bounds, *law_of_maxima(constants_of((0.0, 0.0, 0.0)), BETA, bounds))
+    few, many = mean_maximum(law, np.array([1e5, 1e6])) ** 4
+    assert (many - few) / np.log(10.0) == pytest.approx(4.0 / BETA, rel=0.04)
+
+
+def test_the_mean_of_the_largest_is_the_integral_over_what_it_exceeds():
+    bounds = np.linspace(0.01, 1.0, 100)
+    law = dataset(bounds, -np.log(bounds), bounds)  # uniform moduli: N / (N + 1)
+    assert mean_maximum(law, 1) == pytest.approx(0.5, abs=1e-4)
+    np.testing.assert_allclose(mean_maximum(law, np.array([[3, 9]])), [[0.75, 0.9]], atol=1e-3)
+
+
+def test_more_nodes_change_nothing_that_is_quoted(fig4, monkeypatch):
+    state, law = fig4
+    monkeypatch.setattr(extremes, "RADII", 32)
+    monkeypatch.setattr(extremes, "ANGLES", 6)
+    bounds = law["bound"].values[[19, 29, 39, 49, 59]]
+    rates, overlaps = law_of_maxima(state.operator.constants, state.beta, bounds)
+    np.testing.assert_allclose(law["bound_rate"][[19, 29, 39, 49, 59]], rates, rtol=1e-5, atol=1e-9)
+    np.testing.assert_allclose(law["bound_overlap"][[19, 29, 39, 49, 59]], overlaps, rtol=1e-6)
+
+
+def test_what_is_published_is_a_distribution_up_to_its_last_bound(fig4):
+    law = fig4[1]
+    assert law["bound_omega"] == 0.0 and law["bound_rate"][-1] == 0.0
+    assert (np.diff(law["bound_rate"]) <= 0.0).all() and (np.diff(law["bound_overlap"]) >= 0).all()
+    assert not np.signbit(law["bound_rate"]).any()
+    for name in ("bound", "bound_rate", "bound_overlap"):
+        assert law[name].attrs["decimal_places"] == 10
+        np.testing.assert_array_equal(law[name], law[name].values.round(10))
+        assert (law[name].values != law[name].values.round(9)).any()
+
+
+HASH = "6a2f8e8c7afb7bd3"
+"""Of the bits that every machine must get of the law below."""
+
+
+def test_the_bits_of_the_law_are_those_of_every_machine():
+    told = law_of_maxima(constants_of((1.0, 1.0, 0.0)), BETA, BOUNDS)
+    assert hashlib.sha256(np.array(told).tobytes()).hexdigest()[:16] == HASH
