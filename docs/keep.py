@@ -255,12 +255,15 @@ def _maxima(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     found, sizes = unbounded_maximum(run, thermal).measured, run["neighbours"].values
     means = {of: [found[f"{of}_{n}_sites"] for n in sizes] for of in ("of", "thermal_of")}
     along, late = ("block",), "mean over the late half of the runs"
+    about = thermal.sel(bound=means["thermal_of"][-1], method="nearest")
+    index = float(about["bound_rate"] / -np.log(about["bound_overlap"]))
     return {
         "block": Variable(along, sizes, "neighbouring sites of a block"),
         "block_maximum": Variable(along, means["of"], f"largest modulus of a block, {late}"),
         "block_thermal": Variable(along, means["thermal_of"], "the same mean, thermal state"),
         "block_low": Variable((), found["bulk_at_least"], "least 95 % limit of their ratios"),
         "block_high": Variable((), found["bulk_at_most"], "largest 95 % limit of their ratios"),
+        "extremal_index": Variable((), index, "extremal index of sites about the largest of them"),
         "norm_ratio": Variable(
             (), found["norm_over_thermal"],
             f"l-infinity norm over that of a chain in equilibrium up to the front, {late}",

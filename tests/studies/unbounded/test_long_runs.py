@@ -52,7 +52,7 @@ def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted
     continued = run_long(PROBLEM, REST, interrupted)
     assert len(done) == 10
     for name in (*SERIES, "state"):
-        assert np.array_equal(getattr(whole, name), getattr(continued, name)), name
+        np.testing.assert_array_equal(getattr(whole, name), getattr(continued, name), name)
 
 
 def test_a_checkpoint_of_another_problem_is_not_taken(interrupted, monkeypatch):
