@@ -115,7 +115,7 @@ def _maxima(long: xr.Dataset) -> dict[str, str]:
         "block_thermal": number(last["block_thermal"], 4),
         "block_low": number(long["block_low"]),
         "block_high": number(long["block_high"], 4),
-        "extremal_index": number(long["extremal_index"], 2),
+        "extremal_index": number(long["extremal_index"], 4),
         "norm_ratio": with_stored_error(long, "norm_ratio"),
         "norm_ahead": number(long["norm_ahead"]),
         "norm_tau": number(long["norm_tau"]),
