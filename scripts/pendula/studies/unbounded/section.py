@@ -72,7 +72,7 @@ def _maximum(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         "known": known,
         "because": ledger.because(row),
-        **{name: ledger.quote(row, name) for name in ("last", "thermal_at_1e6")},
+        "last": ledger.quote(row, "last"),
         "norm": ledger.quote(row, "norm_over_thermal"),
         "sizes": [
             [results.quote(MAIN, int(n)), *(ledger.quote(row, f"{of}_{n}_sites", 4) for of in OF)]
