@@ -258,7 +258,7 @@ def _maxima(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     about = thermal.sel(bound=means["thermal_of"][-1], method="nearest")
     index = float(about["bound_rate"] / -np.log(about["bound_overlap"]))
     return {
-        "block": Variable(along, sizes, "neighbouring sites of a block"),
+        "block_size": Variable(along, sizes, "neighbouring sites of a block"),
         "block_maximum": Variable(along, means["of"], f"largest modulus of a block, {late}"),
         "block_thermal": Variable(along, means["thermal_of"], "the same mean, thermal state"),
         "block_low": Variable((), found["bulk_at_least"], "least 95 % limit of their ratios"),

@@ -110,7 +110,7 @@ def _maxima(long: xr.Dataset) -> dict[str, str]:
     """Return the largest moduli of neighbours and l-infinity, beside those of the thermal state."""
     last = long.isel(block=-1)
     return {
-        "block": str(int(last["block"])),
+        "neighbours": str(int(last["block_size"])),
         "block_maximum": number(last["block_maximum"], 4),
         "block_thermal": number(last["block_thermal"], 4),
         "block_low": number(long["block_low"]),

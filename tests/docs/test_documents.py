@@ -41,8 +41,8 @@ NAMES = [
 ]
 DEFINITIONS = [
     r"\|A_0\| = 5 \|B_0\|",  # the data of the paper's large cases
-    r"l2² = 2 v\* P τ|exp\(-\|A\|⁴/c\)|χ²|μ²t/2|μ²t|-H > 0|\(x, 0\)|H\(0\)",  # formulas
-    r"3/\(2λ\) ln τ|τ\^\(-1/(2|10)\)|\|A_n\|² \+ \|B_n\|²|\(ln τ\)\^\(1/4\)",
+    r"l2² = 2 v\* P τ|exp\(-β m⁴/4\)|μ²t/2|μ²t|-H > 0|\(x, 0\)|H\(0\)",  # formulas
+    r"3/\(2λ\) ln τ|τ\^\(-1/2\)|\(4 ln N / β\)\^\(1/4\)|\|A_n\|² \+ \|B_n\|²|\(ln τ\)\^\(1/4\)",
     r"Ω = -?\d( and -?\d)?",  # the detuning of a case
     r"\(1 \+ \|n\|\)\^-s|1/2 < s < 1|τ\^\((3/2 - s|1 - s|1/2)\)|C_0 δ",  # more formulas
     r"ε = γ = 1",
@@ -63,7 +63,7 @@ ALLOWED_WORDS = [
 COUNTED = {
     # counts of rows and words, thresholds, and places in a dataset: no change of a value moves them
     *("ledger", "unbounded.omegas", "unbounded.amplitudes", "references.decimals"),
-    *("unbounded.members", "unbounded.spans", "unbounded.grown", "unbounded.far"),
+    *("unbounded.members", "unbounded.neighbours", "unbounded.grown"),
     *("breathers_study.fates.reached", "fates.points", "fates.checked"),
     *(f"breathers.collisions.{name}" for name in ("count", "pairs", "quartets", "omegas")),
     "breathers.collisions.signatures",
