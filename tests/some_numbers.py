@@ -19,6 +19,7 @@ from pendula.numerics.search import maximise
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
+from pendula.studies.unbounded.extremes import maximum_variables
 from pendula.studies.unbounded.front import measure_front
 from pendula.studies.unbounded.long_runs import measure_growth
 from pendula.studies.unbounded.thermal import state_of_energy, thermal_variables
@@ -76,7 +77,8 @@ def make(given: Path, made: Path, *every: str) -> None:
         save(str(made / f"{name}.nc"), data)
     constants = Constants(epsilon=1.0, gamma=1.0, omega=-1.0)
     cold, warm = (state_of_energy(constants, energy, NODES) for energy in (0.0, 4.0))
-    write(str(made / "thermal.nc"), thermal_variables([cold], [warm], NODES), {})
+    thermal = thermal_variables([cold], [warm], NODES) | maximum_variables(cold)
+    write(str(made / "thermal.nc"), thermal, {})
     write(str(made / "proofs.nc"), *breathers_contents(1.0, {"block": 8, "chain": 4}, PROVED, []))
 
 

@@ -176,7 +176,8 @@ def _unbounded(name: str) -> tuple[str, ...]:
     shared = ("output_step", "perturbation", "short.solver")
     whole = tuple(f"unbounded.{key}" for key in shared)
     if name == "thermal":
-        return ("unbounded.thermal", *_keys(given["thermal"]["warm"]["case"], *EQUATION))
+        cases = ("fig4_small", given["thermal"]["warm"]["case"])
+        return ("unbounded.thermal", *(key for case in cases for key in _keys(case, *EQUATION)))
     if name in ("growth", "front"):
         runs = (*given["cases"], *given["varied"], "thermal")
         return tuple(dict.fromkeys(path for run in runs for path in _unbounded(run)))
