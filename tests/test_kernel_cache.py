@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import pickle
 import shutil
 import sys
 import threading
@@ -84,6 +85,63 @@ def test_a_damaged_file_is_compiled_and_written_again(module, kept, damage):
     assert compiled(3) == 6 and found(compiled) == 0
     again = compile_anew(module, kept)  # the lengths differ: numba numbers what it compiles
     assert again(3) == 6 and found(again) == 1
+
+
+def test_a_file_that_others_can_write_is_not_loaded(module, kept):
+    """Its hash is right, so only its owner or mode can show that it is foreign code."""
+    compile_anew(module, kept)(3)
+    (file,) = kept.rglob("*.kernel")
+    file.chmod(0o666)
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0
+    assert file.stat().st_mode & 0o777 == 0o600  # it was compiled and kept again
+
+
+@pytest.mark.parametrize("payload", [b"no pickle", pickle.dumps(("of another numba",))])
+def test_a_payload_that_does_not_fit_is_compiled_again(module, kept, payload):
+    compile_anew(module, kept)(3)
+    (file,) = kept.rglob("*.kernel")
+    file.write_bytes(KernelCache._seal(file, payload) + payload)
+    compiled = compile_anew(module, kept)
+    assert compiled(3) == 6 and found(compiled) == 0
+
+
+def test_the_code_of_another_kernel_is_not_loaded_under_this_name(module, kept):
+    first = compile_anew(module, kept)
+    assert first(3) == 6 and first(2.5) == 5.0
+    one, other = kept.rglob("*.kernel")
+    one.write_bytes(other.read_bytes())
+    compiled = compile_anew(module, kept)
+    assert (compiled(3), compiled(2.5)) == (6, 5.0) and found(compiled) == 1
+
+
+@pytest.fixture
+def temporary(monkeypatch, tmp_path):
+    """Return where kernels go if the folder for caches cannot be trusted."""
+    monkeypatch.setattr(kernel_cache.tempfile, "tempdir", str(tmp_path / "tmp"))
+    kernel_cache._trusted.cache_clear()
+    yield tmp_path / "tmp" / f"pendula-{os.geteuid()}"
+    kernel_cache._trusted.cache_clear()
+
+
+def test_a_folder_that_others_can_write_is_not_used(monkeypatch, temporary, kept):
+    kept.mkdir()
+    kept.chmod(0o777)
+    monkeypatch.setenv(VARIABLE, str(kept))
+    with pytest.warns(UserWarning, match="other users own or can write that folder.*chmod go-w"):
+        assert kept_in() == temporary
+
+
+def test_a_folder_of_another_user_is_not_used_nor_a_temporary_one(monkeypatch, temporary, kept):
+    kept.mkdir()
+    temporary.mkdir(parents=True)
+    monkeypatch.setenv(VARIABLE, str(kept))
+    me = os.geteuid()
+    monkeypatch.setattr(kernel_cache.os, "geteuid", lambda: me + 1)
+    monkeypatch.setattr(kernel_cache.tempfile, "tempdir", str(temporary.parent))
+    os.rename(temporary, temporary.with_name(f"pendula-{me + 1}"))
+    with pytest.warns(UserWarning, match="kept in memory only"):
+        assert kept_in() is None
 
 
 def test_a_folder_that_cannot_be_written_costs_a_warning_and_no_run(module, tmp_path):

@@ -6,11 +6,12 @@ everything again, an edit of another file that the kernel calls goes unnoticed, 
 that compile one function for two types of arguments at once may write both to the same file. Here a
 file is named by all that its content follows from: the text of the kernel's module and of all that
 it imports, the versions and settings of the compiler, the processor, and the types of the
-arguments. It appears whole or not at all, and it begins with a hash of the rest. So it cannot be
-stale, torn, or that of another kernel, wherever the project lies.
+arguments. It appears whole or not at all, and it begins with a hash of its name and the rest. So it
+cannot be stale, torn, or that of another kernel, wherever the project lies.
 
 The folder is that of the platform for caches (~/.cache/pendula on Linux). The environment variable
-PENDULA_CACHE names another, or says `off`.
+PENDULA_CACHE names another, or switches the cache off by `off`. Loading machine code runs it, so
+only a folder and files that belong to this user, and that nobody else can write, are used.
 """
 
 import hashlib
@@ -18,10 +19,12 @@ import os
 import pickle
 import platform
 import shutil
+import tempfile
 import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 try:
@@ -55,7 +58,34 @@ def kept_in() -> Path | None:
     named = os.environ.get(VARIABLE, "").strip()
     if named.lower() == OFF:
         return None
-    return Path(named).expanduser() if named else platformdirs.user_cache_path("pendula")
+    return _trusted(Path(named).expanduser() if named else platformdirs.user_cache_path("pendula"))
+
+
+@cache
+def _trusted(folder: Path) -> Path | None:
+    """Return the folder, or a temporary one where others could have put code into it."""
+    if _is_private(folder):
+        return folder
+    other = Path(tempfile.gettempdir()) / f"pendula-{os.geteuid()}"
+    other = other if _is_private(other) else None
+    warnings.warn(
+        f"compiled kernels in {folder} are not used, because other users own or can write that"
+        f" folder; kernels are kept in {other or 'memory only'}. Name a folder of your own by"
+        f" {VARIABLE}, or make this one yours alone (chmod go-w)",
+        stacklevel=4,
+    )
+    return other
+
+
+def _is_private(place: Path | int) -> bool:
+    """Return whether only this user can have written a folder or an open file, or it is absent."""
+    try:
+        status = os.stat(place)
+    except OSError:  # absent, or out of reach, which is reported when a kernel is to be kept
+        return True
+    return not hasattr(os, "geteuid") or (
+        status.st_uid == os.geteuid() and not status.st_mode & 0o022
+    )
 
 
 class KernelCache(_Cache):
@@ -84,14 +114,21 @@ class KernelCache(_Cache):
         """Return the machine code for these types of arguments, or None where there is none."""
         target_context.refresh()
         file = self._file(signature, target_context.codegen())
-        payload = self._read(file)
-        if payload is None:
+        found = self._load(file, target_context)
+        if found is None:
             self._lock(file)
-            payload = self._read(file)
-        if payload is None:
+            found = self._load(file, target_context)
+        if found is not None:
+            self.release()
+        return found
+
+    def _load(self, file: Path, target_context) -> CompileResult | None:
+        """Return what a file keeps, or None: then the function is compiled, and kept again."""
+        payload = self._read(file)
+        try:
+            return None if payload is None else self.restore(target_context, payload)
+        except Exception:  # whatever unpickling raises: the payload is not one of this numba
             return None
-        self.release()
-        return self.restore(target_context, payload)
 
     @staticmethod
     def restore(target_context, payload: bytes) -> CompileResult:
@@ -99,14 +136,19 @@ class KernelCache(_Cache):
         return CompileResult._rebuild(target_context, *pickle.loads(payload))
 
     def _read(self, file: Path) -> bytes | None:
-        """Return what is kept in a file; None if there is none, or if it is damaged."""
+        """Return what is kept in a file; None if it is absent, damaged, or written by others."""
         try:
-            content = file.read_bytes()
+            with file.open("rb") as kept:
+                content = kept.read() if _is_private(kept.fileno()) else b""
             os.utime(self._folder)
         except OSError:
             return None
-        kept, payload = content[:DIGEST], content[DIGEST:]
-        return payload if kept == hashlib.sha256(payload).digest() else None
+        payload = content[DIGEST:]
+        return payload if content[:DIGEST] == self._seal(file, payload) else None
+
+    @staticmethod
+    def _seal(file: Path, payload: bytes) -> bytes:
+        return hashlib.sha256(file.name.encode() + payload).digest()
 
     def save_overload(self, signature, data: CompileResult) -> None:
         """Keep machine code. Where that is impossible the run goes on, with a warning.
@@ -121,7 +163,10 @@ class KernelCache(_Cache):
             self._make_folder()
             partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
             try:
-                partial.write_bytes(hashlib.sha256(payload).digest() + payload)
+                with open(
+                    partial, "xb", opener=lambda path, flags: os.open(path, flags, 0o600)
+                ) as new:
+                    new.write(self._seal(file, payload) + payload)
                 partial.replace(file)
             finally:
                 partial.unlink(missing_ok=True)
@@ -177,7 +222,8 @@ class KernelCache(_Cache):
     def _make_folder(self) -> None:
         if not self._folder.exists():
             self._remove_unused()
-            self._folder.mkdir(parents=True, exist_ok=True)
+            self._folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._folder.mkdir(mode=0o700, exist_ok=True)
 
     def _remove_unused(self) -> None:
         """Remove what was compiled from former texts of this module, unless it was used of late.
