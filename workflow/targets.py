@@ -10,6 +10,7 @@ import difflib
 import json
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -63,12 +64,19 @@ def group_of(rule) -> str:
 
 
 def asked() -> list[str]:
-    """Return the targets of the command line, as Snakemake itself reads them from it.
+    """Return the targets of the command line, as Snakemake itself reads them from it."""
+    return getattr(_command_line(), "targets", [])
 
-    While it reads the Snakefile, it has not yet handed them on.
-    """
+
+def _command_line() -> Namespace | None:
+    """Return what Snakemake was called with: while it reads the Snakefile, it hands on nothing."""
     started = Path(sys.argv[0]).name in ("snakemake", "__main__.py")
-    return get_argument_parser().parse_args(sys.argv[1:]).targets if started else []
+    return get_argument_parser().parse_args(sys.argv[1:]) if started else None
+
+
+def _from_outside(path: str) -> str:
+    """Return a path as the user types it, who may have called Snakemake with `--directory`."""
+    return os.path.join(getattr(_command_line(), "directory", None) or "", path)
 
 
 def faults_of_targets(words: Iterable[str], rules: Iterable, own: Iterable[str]) -> list[str]:
@@ -133,18 +141,19 @@ def where_to_look(targets: Iterable) -> str:
     made = [str(path) for job in targets for path in (job.output or job.input)]
     for page in PAGES:
         if page in made:
-            return f"Done. Open {page} in a browser."
+            return f"Done. Open {_from_outside(page)} in a browser."
     shown = sorted(path for path in made if path.endswith(".png")) or sorted(made)
     if len(shown) > FEW:
         shown = sorted({f"{Path(path).parent}/" for path in shown})
-    return f"Done. Look at {', '.join(shown)}." if shown else "Done."
+    return f"Done. Look at {', '.join(map(_from_outside, shown))}." if shown else "Done."
 
 
 def what_failed(jobs: Iterable) -> str:
     """Return what a failed run tells last: of each job what it did, its log and the cause in it."""
     lines = []
     for job in sorted(jobs, key=str):
-        lines.append(f"  {job.message or job.rule.name}: see {', '.join(job.log) or 'above'}")
+        logs = ", ".join(map(_from_outside, job.log)) or "above"
+        lines.append(f"  {job.message or job.rule.name}: see {logs}")
         lines += [f"    {line}" for log in job.log for line in _cause(log)]
     if not lines:
         return "Stopped. The same command goes on from here."

@@ -1,5 +1,6 @@
 """Datasets are whole, described, and their faults name the file."""
 
+import re
 import resource
 import signal
 
@@ -71,6 +72,14 @@ def test_two_writes_give_the_same_bytes(tmp_path):
     for name in ("a.nc", "b.nc"):
         write(tmp_path / name, SERIES, {"title": "mine"})
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+def test_a_damaged_file_is_named_in_full(tmp_path, monkeypatch):
+    """Jobs run in the folder of `--directory`, and the user may have a whole file of this name."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.nc").write_bytes(b"damaged")
+    with pytest.raises(DatasetError, match=f"{re.escape(str(tmp_path))}/a.nc is damaged.*delete"):
+        read("a.nc")
 
 
 def test_a_missing_file_is_named(tmp_path):

@@ -1,6 +1,7 @@
 """What a person reads: the list of targets, the screen of a run, and its last lines."""
 
 import re
+import sys
 from types import SimpleNamespace
 
 import pytest
@@ -120,6 +121,16 @@ def test_the_last_line_names_the_page_or_the_pictures_or_the_folder():
     assert tell(jobs("results/sweeps/a.nc")) == "Done. Look at results/sweeps/a.nc."
     many = jobs(*(f"results/figures/fig{n}.png" for n in range(6)))
     assert tell(many) == "Done. Look at results/figures/."
+
+
+def test_a_result_is_named_where_it_lies_and_not_in_the_folder_of_the_call(monkeypatch):
+    """There the old picture lies."""
+    monkeypatch.setattr(sys, "argv", ["snakemake", "--directory", "there", "fig1"])
+    assert "Look at there/results/figures/fig1.png." in targets.where_to_look(
+        jobs("results/figures/fig1.png")
+    )
+    failed = targets.what_failed(jobs(log=["results/logs/figures/fig1.log"], message="Drawing"))
+    assert "Drawing: see there/results/logs/figures/fig1.log" in failed
 
 
 def test_a_failed_run_names_log_and_cause(tmp_path):

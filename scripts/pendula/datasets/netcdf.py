@@ -198,6 +198,6 @@ def readable(path: str | Path) -> Iterator[None]:
         raise DatasetError(f"{path} is missing: run snakemake to make it") from None
     except Exception as error:
         raise DatasetError(
-            f"{path} is damaged and cannot be read ({str(error) or type(error).__name__}): "
-            "delete it and run snakemake to make it again"
+            f"{Path(path).absolute()} is damaged and cannot be read "
+            f"({str(error) or type(error).__name__}): delete it and run snakemake to make it again"
         ) from error
