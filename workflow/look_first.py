@@ -61,9 +61,13 @@ def fault_of_folder(folder: str) -> str | None:
 
 
 def faults_in(word: str) -> list[str]:
-    """Return what YAML would read in silence in a mapping that --config gives."""
-    value = word.partition("=")[2].strip()
-    return parse(value)[1] if value.startswith("{") else []
+    """Return what Snakemake cannot take in a word of --config, and what YAML reads in silence."""
+    name, _, value = word.partition("=")
+    if not name.isidentifier():
+        first, *inner = name.split(".")
+        nested = "".join(f"{{{key}: " for key in inner) + value + "}" * len(inner)
+        return [f"{name!r} is no name of a key; keys inside it are given as {first}='{nested}'"]
+    return parse(value.strip())[1] if value.strip().startswith("{") else []
 
 
 def look(arguments: list[str]) -> None:
@@ -72,7 +76,9 @@ def look(arguments: list[str]) -> None:
     files = words_of(arguments, ("--configfile", "--configfiles"))
     faults = [fault for file in [own, *files] if (fault := fault_of(file))]
     given = words_of(arguments, ("--config", "-C"))
-    faults += [f"--config {word}: {fault}" for word in given for fault in faults_in(word)]
+    faults += [
+        f"--config {word}: {fault}" for word in given if "=" in word for fault in faults_in(word)
+    ]
     faults += [
         f"--config takes name=value and every word that follows it, and {word!r} is none: targets "
         "stand before it, as in snakemake own --config limits='{hours: 2}'"

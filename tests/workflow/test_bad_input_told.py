@@ -24,6 +24,14 @@ def test_own_without_a_case_is_told(tmp_path):
     assert "the configuration has no case and no sweep of your own: give some by --config" in said
 
 
+def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):
+    """A file that named one would send what is accepted elsewhere, unseen."""
+    said = refused(snakemake_with({"baseline": "elsewhere"}, ROOT, tmp_path, "accept_figures"))
+    assert "baseline: is not a known key" in said
+    said = refused(snakemake(ROOT, tmp_path, "figure_diff", "--config", "baseline=7"))
+    assert "--config baseline=7: give the path of a folder" in said
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -34,6 +42,7 @@ def test_own_without_a_case_is_told(tmp_path):
         (["--configfiles=none.yaml"], ["there is no file none.yaml"]),
         (["--config", "accept=fig3", "fig3"], ["--config takes name=value", "and 'fig3' is none"]),
         (["-C", "x"], ["and 'x' is none"]),
+        (["-C", "cases.mine.omega=3"], ["given as cases='{mine: {omega: 3}}'"]),
         (["--configfile", str(ROOT)], [f"--configfile {ROOT}: this is a folder: name a file"]),
         (["--configfile", "/dev/null"], ["/dev/null: this is no regular file, and it must"]),
         (["--directory", __file__, "own"], [f"--directory {__file__}: {__file__} is no folder"]),

@@ -1,4 +1,6 @@
 # What the baseline holds: the files of a full run, the settings they are of, and what is accepted.
+if not isinstance(OPTIONS["baseline"], str | None):
+    stop(f"--config baseline={OPTIONS['baseline']}: give the path of a folder, as in baseline=./7")
 BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{workflow.basedir}/tests/baseline")
 
 

@@ -121,12 +121,14 @@ ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrate
 # read anew, since Snakemake takes the last of two equal keys in silence, and merges initial data.
 CONFIG_FILES = [f"{workflow.basedir}/config/{name}.yaml" for name in ("config", *STUDIES)]
 try:
-    config.update(
-        gather([*CONFIG_FILES, *workflow.overwrite_configfiles], workflow.config_settings.config)
-    )
-    # What a single call is told by --config: the baseline to compare with, whether any bits will
-    # do, and what of a run to accept.
-    OPTIONS = {name: config.pop(name, None) for name in ("baseline", "bits", "accept")}
+    # Options of a single call, by --config alone: the baseline to compare with, whether any bits
+    # will do, and what of a run to accept. In a file they would send a run's results elsewhere.
+    OPTIONS = dict.fromkeys(("baseline", "bits", "accept"))
+    given = dict(workflow.config_settings.config)
+    OPTIONS |= {name: given.pop(name) for name in OPTIONS if name in given}
+    for name in OPTIONS:
+        config.pop(name, None)
+    config.update(gather([*CONFIG_FILES, *workflow.overwrite_configfiles], given))
     SETTINGS = load(config)
     require(SETTINGS, PAPER_CASES, PAPER_SWEEPS, ALL_SOLVERS)
 except ConfigurationError as error:

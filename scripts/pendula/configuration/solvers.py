@@ -6,12 +6,15 @@ from pydantic import Field, ValidationError
 
 from .values import Model, Positive, Whole
 
+COARSEST = 0.1
+"""Largest tolerance of a step's error: the estimate of that error holds for small errors only."""
+
 
 class Ode45(Model):
     """MATLAB's ode45, at the paper's tolerances."""
 
     name: Literal["ode45"] = "ode45"
-    rtol: Annotated[Positive, Field(ge=1e-13, lt=1)] = 1e-7
+    rtol: Annotated[Positive, Field(ge=1e-13, le=COARSEST)] = 1e-7
     atol: Positive = 1e-9
 
 
@@ -19,7 +22,7 @@ class Dop853(Model):
     """The explicit Runge-Kutta method of order eight, for accuracy."""
 
     name: Literal["dop853"] = "dop853"
-    rtol: Annotated[Positive, Field(ge=1e-15, lt=1)] = 1e-13
+    rtol: Annotated[Positive, Field(ge=1e-15, le=COARSEST)] = 1e-13
     atol: Positive = 1e-13
 
 
@@ -27,7 +30,7 @@ class Taylor(Model):
     """The Taylor method, the default: at small errors the fastest on the paper's chains."""
 
     name: Literal["taylor"] = "taylor"
-    rtol: Annotated[Positive, Field(ge=1e-16, lt=1)] = 1e-14
+    rtol: Annotated[Positive, Field(ge=1e-16, le=COARSEST)] = 1e-14
     atol: Positive = 1e-14
 
 

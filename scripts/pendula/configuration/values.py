@@ -103,6 +103,15 @@ def _distinct(values: list) -> list:
     return values
 
 
+def _aperiodic(name: str) -> str:
+    if re.search(r"(.+?)\1{19}", name):
+        raise fault(
+            f"is {shown(name)}, which repeats the same letters twenty times: Snakemake takes such "
+            "a file name for an endless recursion"
+        )
+    return name
+
+
 Complex = Annotated[complex, BeforeValidator(_as_complex)]
 AnyNumber = Annotated[float, BeforeValidator(lambda value: _plain(value))]
 # without negative zeros
@@ -116,7 +125,11 @@ Whole = Annotated[
 ]
 Count = Annotated[Whole, Field(ge=1)]
 Natural = Annotated[Whole, Field(ge=0)]
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_SHOWN)]
+Name = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=LONGEST_SHOWN),
+    AfterValidator(_aperiodic),
+]
 Distinct = AfterValidator(_distinct)
 """Beside the type of a list: no value stands in it twice."""
 Numbers = Annotated[list[Number], Field(min_length=1), Distinct]
