@@ -1,8 +1,13 @@
 """Facts on the claims of the paper, on the solvers and on how they were checked."""
 
+from collections import Counter
+
 import numpy as np
 import xarray as xr
 from pendula.configuration.messages import load
+from pendula.ledger.claim import Origin
+from pendula.ledger.criterion import REFUTED, Verdict
+from pendula.ledger.rows import tally
 from pendula.report.words import case_of, number, percent, symbols
 from pendula.studies.paper.claims_second_solver import SIGNIFICANT
 
@@ -23,9 +28,9 @@ def configured(configuration: dict, chaos_study: dict) -> dict:
 
 
 def ledger(baseline: Baseline) -> dict:
-    """Return how many claims there are of each verdict, and those that do not hold."""
+    """Return how many claims there are of each origin and verdict, and those that do not hold."""
     rows = baseline.claims()
-    verdicts = [row["verdict"] for row in rows]
+    counts = {origin: Counter(tally(rows).get(origin, {})) for origin in Origin}
     told = [
         {
             "place": row["place"],
@@ -34,18 +39,24 @@ def ledger(baseline: Baseline) -> dict:
             "because": symbols(row["because"]).replace("|", r"\|"),
         }
         for row in rows
-        if row["verdict"] in ("not reproduced", "cannot be decided")
+        if row["verdict"] in (*REFUTED, Verdict.UNDECIDED)
     ]
+    of_paper = counts[Origin.PAPER]
     return {
         "claims": str(len(rows)),
-        "confirmed": str(verdicts.count("confirmed")),
-        "caveat": str(verdicts.count("confirmed with a caveat")),
-        "missed": str(verdicts.count("not reproduced")),
-        "open": str(verdicts.count("cannot be decided")),
+        "papers": str(of_paper.total()),
+        "confirmed": str(of_paper[Verdict.CONFIRMED]),
+        "caveat": str(of_paper[Verdict.CAVEAT]),
+        "missed": str(of_paper[Verdict.NOT_REPRODUCED]),
+        "open": str(of_paper[Verdict.UNDECIDED]),
+        "questions": str(counts[Origin.OPEN].total()),
+        "own": str(counts[Origin.OWN].total()),
+        "others": [
+            f"{number} {verdict}"
+            for verdict, number in (counts[Origin.OPEN] + counts[Origin.OWN]).items()
+        ],
         "told": told,
         "ensemble": str(sum(row["name"].startswith("ensemble") for row in rows)),
-        "papers": str(sum(row["place"] != "Beyond the paper" for row in rows)),
-        "own": str(sum(row["place"] == "Beyond the paper" for row in rows)),
         "resting": str(sum(bool(row["rests_on"]) for row in rows)),
         "controls": str(sum(len(row["controls"]) for row in rows)),
         "failing": str(sum(not one["passes"] for row in rows for one in row["controls"])),

@@ -28,7 +28,7 @@ def theory(baseline: Baseline) -> dict:
             for form in ("theorem_1", "theorem_2", "theorem_3")
         },
         "reached_ball": number(reached.sel(form="theorem_2_ball"), 2),
-        "proof_constant": number(sharp["proof_constant"]),
+        "limit_constant": number(sharp["limit_constant"]),
         "least_constant": number(sharp["least_constant"]),
         "observed": span(cases["ratio"].values, 2),
         "broken_sites": number(printed["smallest"]),

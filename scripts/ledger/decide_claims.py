@@ -5,6 +5,7 @@ from itertools import chain
 from pendula.datasets.checks import broken, describe
 from pendula.datasets.netcdf import read
 from pendula.ledger.claim import evaluate, needed, sections
+from pendula.ledger.rows import joined
 from pendula.ledger.tables import check_lines, in_short, tables, write_json
 from pendula.report.words import write_markdown
 from pendula.studies.theory.settings import WRONG_FOLDER
@@ -33,8 +34,8 @@ def decide_claims(
     lines = check_lines(checks)
     told = {"sections": sections(*modules), "read": list(makers), "rows": rows, "checks": lines}
     write_json(part, told)
-    write_markdown(table, *tables(rows, chain(*lines.values())))
-    print(in_short(rows))
+    write_markdown(table, *tables(joined(rows), chain(*lines.values())))
+    print(in_short(joined(rows)))
     for name, check in checks.items():
         if broken(check):
             print(describe(name.removeprefix("checks/"), check))

@@ -2,7 +2,7 @@
 
 import pytest
 from pendula.ledger.claim import Claim, Control, evaluate
-from pendula.ledger.criterion import Above, Verdict, judge, named
+from pendula.ledger.criterion import Above, Verdict, judge
 
 FIG2 = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
 
@@ -43,9 +43,3 @@ def test_a_control_that_is_fed_an_edited_case_is_not_asked(monkeypatch):
 )
 def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(monkeypatch, on, verdict):
     assert row_of(monkeypatch, FIG2, ("checks/members",), on=on)["verdict"] == verdict
-
-
-def test_the_paper_needs_no_fifth_verdict():
-    of_paper = dict.fromkeys(Verdict, 0)
-    assert Verdict.NOT_APPLICABLE not in named(of_paper)
-    assert Verdict.NOT_APPLICABLE in named(of_paper | {Verdict.NOT_APPLICABLE: 1})

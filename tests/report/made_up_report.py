@@ -43,6 +43,8 @@ def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **chang
     """Return a row of the ledger."""
     return {
         "name": name,
+        "names": [name],
+        "origin": "of the paper",
         "place": place,
         "says": "The l2 norm is bounded for Omega > 2 gamma.",
         "decided_by": ["checks/chart"],

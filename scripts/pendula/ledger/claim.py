@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from enum import StrEnum
 from functools import cache
 from types import ModuleType
 from typing import NamedTuple
@@ -9,7 +10,7 @@ from typing import NamedTuple
 from pendula import studies
 from pendula.configuration.paper import Differences, reason
 
-from .criterion import Finding, UndecidableError, Verdict, not_applicable, undecided
+from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
 from .cutoff import Cutoff, Flip, flips, recorded
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
@@ -58,11 +59,24 @@ class Control(NamedTuple):
         return [part[0] for part in parts if isinstance(part[0], str)]
 
 
+class Origin(StrEnum):
+    """Whose sentence a claim is: the place of each claim decides it, see `Claim.origin`."""
+
+    PAPER = "of the paper"
+    OPEN = "on its open questions"
+    OWN = "of this project"
+
+
+BEYOND, BREATHERS, PENDULA = "Beyond the paper", "Section 6, breathers", "for the pendula (1)"
+"""How the places of claims begin or end that are no sentences of the paper."""
+
+
 class Claim(NamedTuple):
     """A sentence of the paper, the function that decides it, and the controls of that function.
 
     `needs` names the datasets that decide it: paths below results/ without their ending. `on` names
-    the cases and sweeps that it is on, where a dataset holds others as well.
+    the cases and sweeps that it is on, where a dataset holds others as well. Functions of several
+    studies may decide one sentence: each has a `reading` then, such as "ensembles".
     """
 
     name: str
@@ -72,6 +86,20 @@ class Claim(NamedTuple):
     decide: Callable
     controls: tuple[Control, ...]
     on: tuple[str, ...] = ()
+    reading: str = ""
+
+    @property
+    def origin(self) -> Origin:
+        """Whose sentence it is: the paper asks in its Section 6 about breathers and the pendula."""
+        if self.place.startswith(BEYOND):
+            return Origin.OWN
+        asked = self.place.startswith(BREATHERS) or self.place.endswith(PENDULA)
+        return Origin.OPEN if asked else Origin.PAPER
+
+    @property
+    def refuted(self) -> Verdict:
+        """The verdict on it where the numbers contradict it."""
+        return Verdict.NOT_CARRIED if self.place.endswith(PENDULA) else Verdict.NOT_REPRODUCED
 
 
 def claim(
@@ -80,6 +108,7 @@ def claim(
     needs: tuple[str, ...],
     controls: tuple[Control, ...] = (),
     on: tuple[str, ...] = (),
+    reading: str = "",
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
@@ -87,7 +116,8 @@ def claim(
     """
 
     def declare(function: Callable) -> Callable:
-        function.claim = Claim(function.__name__, place, says, needs, function, controls, on)
+        name = function.__name__
+        function.claim = Claim(name, place, says, needs, function, controls, on, reading)
         return function
 
     return declare
@@ -216,9 +246,10 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
     try:
-        return claim.decide(*(sources[name] for name in claim.needs))
+        finding = claim.decide(*(sources[name] for name in claim.needs))
     except UndecidableError as reason:
         return undecided({}, str(reason))
+    return finding._replace(verdict=claim.refuted) if finding.verdict in REFUTED else finding
 
 
 def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
@@ -255,7 +286,7 @@ def passes(control: Control, finding: Finding) -> bool | None:
         return finding.verdict == Verdict.UNDECIDED
     judged = finding.criterion.names if finding.criterion else ()
     known = not any(math.isnan(finding.measured[name]) for name in judged)
-    return finding.verdict == Verdict.NOT_REPRODUCED and known
+    return finding.verdict in REFUTED and known
 
 
 def _confirmed(finding: Finding) -> bool:
@@ -293,8 +324,11 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     finding = _severe(finding, moved, controls)
     return {
         "name": claim.name,
+        "names": [claim.name],
         "place": claim.place,
+        "origin": str(claim.origin),
         "says": claim.says,
+        "reading": claim.reading,
         "decided_by": list(claim.needs),
         "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
         "measured": {name: plain(value) for name, value in finding.measured.items()},

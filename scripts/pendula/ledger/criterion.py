@@ -199,19 +199,21 @@ def in_words(name: str) -> str:
 class Verdict(StrEnum):
     """What the numbers can say about a sentence of the paper.
 
-    A sentence is on the paper's case: where another one was run, it is not applicable.
+    A sentence of the paper is on the amplitude equations: re-read for the pendula themselves it is
+    not one that the paper wrote, so that it can fail to carry over, but not to be reproduced. A
+    sentence is on the paper's case: where another one was run, it is not applicable.
     """
 
     CONFIRMED = "confirmed"
     CAVEAT = "confirmed with a caveat"
     NOT_REPRODUCED = "not reproduced"
+    NOT_CARRIED = "does not carry over"
     UNDECIDED = "cannot be decided"
     NOT_APPLICABLE = "not applicable"
 
 
-def named(counted: Mapping[str, int]) -> list[Verdict]:
-    """Return the verdicts that a count names: of the paper's cases none is not applicable."""
-    return [each for each in Verdict if counted[each] or each != Verdict.NOT_APPLICABLE]
+REFUTED = (Verdict.NOT_REPRODUCED, Verdict.NOT_CARRIED)
+"""The verdicts on a sentence that the numbers contradict."""
 
 
 class UndecidableError(Exception):

@@ -9,9 +9,10 @@ from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
 from .claim import controls_of, cutoff_lines
-from .criterion import Verdict, named
+from .criterion import Verdict
+from .rows import tally
 
-LEDGER, BEYOND = "claims.json", "Beyond the paper"
+LEDGER = "claims.json"
 
 
 def load(results: Results) -> list[dict]:
@@ -21,20 +22,27 @@ def load(results: Results) -> list[dict]:
 
 
 def gather(results: Results) -> dict[str, Any]:
-    """Return the rows as the page shows them, and the count of each verdict."""
+    """Return the rows as the page shows them, and the counts of verdicts by origin."""
     rows = load(results)
-    counted = Counter(row["verdict"] for row in rows)
     fed = controls_of(rows)
+    inapplicable = sum(row["verdict"] == Verdict.NOT_APPLICABLE for row in rows)
     return {
         "rows": [_shown(row, results) for row in rows],
         "total": results.say(LEDGER, str(len(rows))),
-        "own": results.say(LEDGER, str(sum(row["place"] == BEYOND for row in rows))),
-        "counts": [(str(v), results.say(LEDGER, str(counted[v]))) for v in named(counted)],
+        "counts": [
+            (
+                origin,
+                results.say(LEDGER, str(sum(counts.values()))),
+                [(verdict, results.say(LEDGER, str(n))) for verdict, n in counts.items()],
+            )
+            for origin, counts in tally(rows).items()
+        ],
+        "verdicts": [str(v) for v in Verdict if any(row["verdict"] == v for row in rows)],
         "resting": results.say(LEDGER, str(sum(bool(row["rests_on"]) for row in rows))),
         "controls": results.say(LEDGER, str(len(fed))),
         "failing": results.say(LEDGER, str(sum(one["passes"] is False for one in fed))),
         "unasked": results.say(LEDGER, str(sum(one["passes"] is None for one in fed))),
-        "inapplicable": results.say(LEDGER, str(counted[Verdict.NOT_APPLICABLE])),
+        "inapplicable": results.say(LEDGER, str(inapplicable)),
         "cutoffs": [[plainly_said(cell) for cell in line] for line in cutoff_lines(rows)],
         "fed": [[plainly_said(one[key]) for key in FED] for one in fed],
     }
@@ -71,7 +79,8 @@ class Ledger:
 
     def __init__(self, results: Results):
         self._results = results
-        self._rows = {row["name"]: row for row in load(results)}
+        self._all = load(results)
+        self._rows = {name: row for row in self._all for name in row["names"]}
 
     def value(self, claim: str, key: str) -> float:
         """Return a measured number, NaN if the claim was not decided or is not applicable."""
@@ -92,7 +101,7 @@ class Ledger:
 
     def counts(self, place: str) -> list[tuple[str, int]]:
         """Return how many of the claims on a place such as "Fig 5" have each verdict."""
-        rows = (row for row in self._rows.values() if place in row["place"])
+        rows = (row for row in self._all if place in row["place"])
         counted = Counter(row["verdict"] for row in rows)
         return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
 

@@ -1,7 +1,6 @@
 """The ledger as a file, and as tables to read: claims, cut-offs, controls, and their checks."""
 
 import json
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from pendula.datasets.checks import broken, deciding
 from pendula.report.words import markdown
 
 from .claim import controls_of, cutoff_lines
-from .criterion import named
+from .rows import tally
 
 
 def write_json(path: str, content: Any) -> None:
@@ -33,20 +32,23 @@ def tables(rows: list[dict], checks: Iterable[list]) -> list[str]:
 
 def in_short(rows: list[dict]) -> str:
     """Return how many rows have each verdict, and how many controls came out as they must."""
-    counted = ", ".join(f"{count} {verdict}" for verdict, count in tally(rows).items())
     asked = [one["passes"] for one in controls_of(rows) if one["passes"] is not None]
-    return f"{counted}\n{sum(asked)} of {len(asked)} controls came out as they must"
+    controls = f"{sum(asked)} of {len(asked)} controls came out as they must"
+    return "\n".join([*counted(rows), controls])
 
 
-def tally(rows: list[dict]) -> dict[str, int]:
-    """Return how many rows have each verdict."""
-    counts = Counter(row["verdict"] for row in rows)
-    return {str(verdict): counts[verdict] for verdict in named(counts)}
+def counted(rows: list[dict]) -> list[str]:
+    """Return a line for each origin of claims: how many there are, and with which verdicts."""
+    return [
+        f"{sum(verdicts.values())} claims {origin}: "
+        + ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+        for origin, verdicts in tally(rows).items()
+    ]
 
 
 def claims_section(rows: list[dict]) -> list[str]:
     """Return the claims with their verdicts and what these rest on."""
-    counts = "\n".join(f"- {verdict}: {count}" for verdict, count in tally(rows).items())
+    counts = "\n".join(f"- {line}" for line in counted(rows))
     head = ("where", "claim", "verdict", "measured", "criterion", "because", "data")
     cells = [
         (

@@ -58,7 +58,7 @@ def sources():
 
 def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     rows = evaluate(sources, None, (MODULE,))
-    assert {row["verdict"] for row in rows} == {"confirmed"} and len(rows) == 3
+    assert {row["verdict"] for row in rows} == {"confirmed"} and len(rows) == 1
     assert all(control["passes"] for row in rows for control in row["controls"])
 
 
@@ -66,9 +66,8 @@ def test_all_hold_where_they_should_and_every_control_is_refused(sources):
     ("name", "source", "change"),
     [
         ("curves_certified", EIGHT, lambda one: one.assign(bound=1e3 * one["bound"])),
-        ("references_within_bounds", MINUS_FOUR, lambda one: one.assign(bound=0.0 * one["bound"])),
-        ("lines_contain_curves", EIGHT, lambda one: one.assign(bound=one["bound"] + 0.01)),
-        ("lines_contain_curves", "trajectories/fig2_small", lambda one: one + 0.01),
+        ("curves_certified", EIGHT, lambda one: one.assign(bound=one["bound"] + 0.01)),
+        ("curves_certified", "trajectories/fig2_small", lambda one: one + 0.01),
     ],
 )
 def test_a_wrong_number_is_refused(sources, name, source, change):

@@ -9,8 +9,6 @@ import pytest
 import xarray as xr
 from pendula.ledger.claim import all_claims, decide, feed, passes
 from pendula.ledger.criterion import Verdict
-from pendula.measures.confidence import Limits
-from pendula.studies.chaos import claims_own
 
 CLAIM = {claim.name: claim for claim in all_claims()}
 HOLDS = {Verdict.CONFIRMED, Verdict.CAVEAT}
@@ -145,13 +143,6 @@ def one_at_rest(data):
     return scaled("rms", 0.0, case="fig4_small", site=3, component="B")(data)
 
 
-def with_a_faster_choice(lives):
-    """Return lives in which the finest tolerance finds six times the rate."""
-    for name in ("choice_rate", "choice_rate_low", "choice_rate_high"):
-        lives = scaled(name, 6.0, choice=2)(lives)
-    return lives
-
-
 LARGE_3 = {"case": "fig3_large"}
 TURNED = {
     "ensemble_fig3_grows": (MEMBERS, scaled("l2_level", 0.2, **LARGE_3)),
@@ -159,7 +150,6 @@ TURNED = {
     "ensemble_fig3_mixes": (MEMBERS, scaled("l2_level", 0.2, quantity="B", **LARGE_3)),
     "ensemble_fig3_maximum": (MEMBERS, scaled("linf_level", 3.0, **LARGE_3)),
     "ensemble_fig4_settles": (MEMBERS, scaled("linf_level", 1.5, window="[30, 50]")),
-    "ensemble_fig4_l2_larger": (MEMBERS, scaled("l2_level", 0.4, case="fig4_small")),
     "ensemble_fig4_many": (MEMBERS, scaled("rms", 4.0, case="fig4_large", site=0)),
     "ensemble_fig4_alike": (MEMBERS, scaled("l2_level", 0.97, case="fig4_small")),
     "ensemble_equilibrium": (MEMBERS, one_at_rest),
@@ -171,7 +161,6 @@ TURNED = {
     "ensemble_fig6_diverges": (UNEVEN, scaled("l2_error", 99.0, half_width=HALF_WIDTHS[3:])),
     "ensemble_fig6_not_technical": (UNEVEN, scaled("l2_mean", 0.2)),
     "ensemble_fig6_time": (UNEVEN, scaled("l2_mean", 0.1)),
-    "rate_is_resolved": (LIVES, with_a_faster_choice),
     "even_bands_wider": (MEMBERS, scaled("width_ratio", 0.7)),
 }
 
@@ -284,20 +273,6 @@ def exponents(odd, error):
 )
 def test_odd_perturbations_are_held_to_the_even_ones_by_means_over_cases(odd, error, verdict):
     assert CLAIM["odd_as_even"].decide(exponents(np.array(odd), np.array(error))).verdict == verdict
-
-
-def test_rates_that_are_not_known_to_a_factor_of_two_decide_nothing(sources):
-    wide = scaled("choice_rate_high", 9.0)(scaled("choice_rate_low", 1.0 / 9.0)(sources[LIVES]))
-    assert decide(CLAIM["rate_is_resolved"], sources | {LIVES: wide}).verdict == Verdict.UNDECIDED
-
-
-def test_rates_have_the_limits_of_their_mean_that_hold_together():
-    given = Limits(0.1, 0.1 / 1.3, 0.13)
-    (one, *_) = found = claims_own.ratios_to_mean([given] * 3)
-    assert [ratio.value for ratio in found] == pytest.approx([1.0] * 3)
-    wider = 2.3940 / 1.9600  # normal quantiles of 1 - 0.05 / 6 and 0.975
-    assert np.log(one.high) == pytest.approx(wider * np.log(1.3) * np.sqrt(2.0 / 3.0), rel=1e-3)
-    assert one.low == pytest.approx(1.0 / one.high)
 
 
 def test_a_level_of_long_chains_does_not_hang_on_one_half_width(sources):

@@ -108,7 +108,7 @@ def at(name, factor, **where):
 )
 def test_a_wrong_case_is_not_confirmed(sources, name, source, change):
     sources[source] = change(sources[source])
-    assert verdict_of(name, sources, "pendula/claims_phases") == "not reproduced"
+    assert verdict_of(name, sources, "pendula/claims_phases") == "does not carry over"
 
 
 def test_theorem_1_counts_the_members_beyond_its_bound(sources):

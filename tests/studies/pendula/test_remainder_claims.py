@@ -85,7 +85,7 @@ def test_all_are_decided_and_every_control_passes(lyapunov):
 )
 def test_a_claim_falls_where_its_measure_does(lyapunov, name, change):
     sources = {REMAINDER: change(made()), LYAPUNOV: lyapunov}
-    assert verdict_of(name, sources, *MODULES) == "not reproduced"
+    assert verdict_of(name, sources, *MODULES) == "does not carry over"
 
 
 def test_a_remainder_that_hardly_grows_is_bounded(lyapunov):

@@ -53,7 +53,7 @@ def test_without_datasets_nothing_is_decided():
 
 def test_short_runs_and_sweeps_do_not_decide(sources):
     short = sources["trajectories/fig2_small"].sel(tau=slice(0, 15))
-    finding = decide(CLAIM["fig2_centre"], sources | {"trajectories/fig2_small": short})
+    finding = decide(CLAIM["fig2_excites"], sources | {"trajectories/fig2_small": short})
     assert finding.verdict == Verdict.UNDECIDED and "tau = 15" in finding.because
     brief = sources["unbounded/fig4_small"].sel(tau=slice(0, 50))
     finding = decide(CLAIM["unbounded_in_time"], sources | {"unbounded/fig4_small": brief})
@@ -123,26 +123,19 @@ def window_map_without_level(data):
 INEQUALITIES = "checks/inequalities"
 FLIPS = {
     "hamiltonian": ("checks/gradient", scaled("gradient_error", 1e6)),
-    "conserved": ("checks/conservation", scaled("energy_drift", 10.0)),
     "no_gauge": ("checks/conservation", scaled("gauge_defect", 0.0)),
     "pt_form": ("checks/pt_form", scaled("trajectory", 10.0)),
-    "pt_energy": ("checks/pt_form", scaled("energy_gradient", 10.0)),
-    "pt_symmetry": ("checks/pt_form", scaled("pt", 10.0)),
     "exchange": ("checks/symmetries", scaled("exchange", 2.0)),
     "synchronised": ("checks/symmetries", scaled("scalar", 2.0)),
     "pendula_synchronised": ("checks/pendula_synchrony", scaled("drive_effect", 2.0)),
-    "gauge_returns": ("checks/conservation", scaled("gauge_defect_alike", 2.0)),
     "inherited": ("checks/inherited_energy", scaled("energy_order", 0.5)),
     "resonance": ("checks/resonance", scaled("driven_rate", 0.5)),
     "slow_time": ("checks/expansion", scaled("order", 0.3)),
     "drive_sign": ("checks/expansion", scaled("order", 0.3)),
     "dispersion": ("checks/dispersion", scaled("eigenvalue_error", 2.0)),
-    "first_roots": ("checks/dispersion", scaled("first_growth", 2.0)),
-    "second_roots": ("checks/dispersion", scaled("contradictions", 2.0)),
     "sharp_threshold": ("checks/sharp_threshold", scaled("threshold_error", 2.0)),
     "unstable_waves": ("checks/unstable_waves", scaled("waves_nearer", 2.0)),
     "stable_below": ("checks/chart", scaled("measured", 2.0)),
-    "unstable_above": ("checks/chart", scaled("measured", 0.0)),
     "unstable_band": ("checks/chart", scaled("infinite_rate", 0.0)),
     "threshold_growth": ("checks/threshold", scaled("wave_error", 2.0)),
     "growth_bound": ("trajectories/fig3_large", scaled("l2", 100.0, tau=slice(20, None))),
@@ -150,28 +143,20 @@ FLIPS = {
     "local_existence": ("checks/picard", scaled("picard_error_backwards", 2.0)),
     "continuous_dependence": ("checks/dependence", scaled("stretch_over_bound", 2.0)),
     "sign_of_gamma": ("checks/conservation", scaled("sign_defect", 2.0)),
-    "laplacian_bound": (INEQUALITIES, scaled("left_over_right", 2.0, inequality="(17)")),
-    "algebra": (INEQUALITIES, scaled("left_over_right", 2.0, inequality="(18)")),
-    "embedding": (INEQUALITIES, scaled("left_over_right", 2.0, inequality="(22)")),
-    "reversed_embedding": (INEQUALITIES, scaled("left_over_right", 2.0, inequality="(27)")),
-    "coercivity": (INEQUALITIES, scaled("bound_excess", -1.0, bound="(21)")),
-    "coercivity_near_zero": (INEQUALITIES, scaled("bound_excess", -1.0, bound="(25)")),
-    "finite_energy": (INEQUALITIES, scaled("bound_excess", -1.0, bound="size")),
+    "norm_inequalities": (INEQUALITIES, scaled("left_over_right", 2.0, inequality="(22)")),
+    "energy_bounds": (INEQUALITIES, scaled("bound_excess", -1.0, bound="(25)")),
     "bound_grows": ("checks/chain_growth", scaled("power_exponent_low", 0.1)),
     "energy_not_useful": ("checks/energy_shell", scaled("shell_exponent", 0.1)),
     "theorem_1": ("checks/samples", scaled("worst_sample", 2.0)),
     "theorem_2": ("checks/worst", scaled("worst", 5.0)),
     "positive_depth": ("checks/negative_depth", scaled("most_energy", -1.0)),
     "theorem_3": ("checks/samples", scaled("worst_sample", 2.0)),
-    "sharp_theorem_1": ("checks/sharpness", scaled("reached", 0.5)),
-    "sharp_theorem_2": ("checks/sharpness", scaled("reached", 0.5)),
-    "sharp_theorem_3": ("checks/sharpness", scaled("reached", 0.5)),
+    "sharp_theorems": ("checks/sharpness", scaled("reached", 0.5, form="theorem_2")),
     "fig2_bounded": ("trajectories/fig2_large", scaled("l2", 5.0)),
-    "fig2_centre": ("trajectories/fig2_small", after("linf", 4.0, 20)),
+    "fig2_excites": ("trajectories/fig2_small", after("linf", 4.0, 20)),
     "fig2_exchange": ("trajectories/fig2_small", replaced("l2", 1.0)),
     "fig2_maxima": ("trajectories/fig2_small", after("linf", 4.0, 30)),
     "fig2_separate": ("trajectories/fig2_large", after("l2", 5.0, 20, "B")),
-    "fig2_alone": ("trajectories/fig2_large", after("linf", 6.0, 20, "B")),
     "fig3_alike": ("trajectories/fig3_small", after("l2", 5.0, 20)),
     "fig4_unstable": ("trajectories/fig4_small", scaled("l2", 0.04, tau=slice(0.1, None))),
     "finite_bound": ("trajectories/fig4_small", scaled("l2", 5.0)),
@@ -182,7 +167,6 @@ FLIPS = {
     "fig5_caption": ("sweeps/fig5_left", scaled("l2", 0.9, statistic="mean")),
     "fig5_not_shown": ("checks/not_shown", replaced("l2", np.arange(1.0, 10.0))),
     "fig6_constant": ("sweeps/fig6_left", replaced("l2", 5.0 + np.arange(8.0))),
-    "fig6_theorem_1": ("sweeps/fig6_left", replaced("l2", 20.0 + np.zeros(8))),
     "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),
     "unbounded_band": ("unbounded/omegas", lambda _: spread([0.5, 0.0, 0.5], variants=3)),
     "unbounded_front": ("unbounded/omegas", scaled("predicted_speed", 0.9)),
@@ -197,11 +181,37 @@ FLIPS = {
 }
 
 
-@pytest.mark.parametrize("name", FLIPS)
-def test_claim_holds_and_flips_when_its_numbers_change(name, sources):
+PARTS = [
+    ("hamiltonian", "checks/conservation", scaled("energy_drift", 10.0)),
+    ("pt_form", "checks/pt_form", scaled("energy_gradient", 10.0)),
+    ("pt_form", "checks/pt_form", scaled("pt", 10.0)),
+    ("synchronised", "checks/conservation", scaled("gauge_defect_alike", 2.0)),
+    ("dispersion", "checks/dispersion", scaled("first_growth", 2.0)),
+    ("dispersion", "checks/dispersion", scaled("contradictions", 2.0)),
+    ("stable_below", "checks/chart", scaled("measured", 0.0)),
+    *(
+        ("norm_inequalities", INEQUALITIES, scaled("left_over_right", 2.0, inequality=one))
+        for one in ("(17)", "(18)", "(27)")
+    ),
+    *(
+        ("energy_bounds", INEQUALITIES, scaled("bound_excess", -1.0, bound=one))
+        for one in ("(21)", "size")
+    ),
+    ("sharp_theorems", "checks/sharpness", scaled("reached", 0.5, form="theorem_1")),
+    ("sharp_theorems", "checks/sharpness", scaled("reached", 0.5, form="theorem_3")),
+    ("fig2_excites", "trajectories/fig2_small", scaled("l2", 0.2, tau=slice(20, None))),
+    ("fig2_separate", "trajectories/fig2_large", after("linf", 6.0, 20, "B")),
+    ("fig2_bounded", "sweeps/fig6_left", replaced("l2", 20.0 + np.zeros(8))),
+]
+"""What each part of a sentence of several parts falls by, beside FLIPS."""
+
+
+@pytest.mark.parametrize(
+    ("name", "source", "change"), [*((name, *flip) for name, flip in FLIPS.items()), *PARTS]
+)
+def test_claim_holds_and_flips_when_its_numbers_change(name, source, change, sources):
     before = decide(CLAIM[name], sources)
     assert before.verdict in {*HOLDS, Verdict.UNDECIDED}, before
-    source, change = FLIPS[name]
     damaged = sources | {source: keeping_attributes(change)(sources[source])}
     assert decide(CLAIM[name], damaged).verdict == Verdict.NOT_REPRODUCED
 
@@ -210,7 +220,7 @@ def of_the_theory(sources):
     """Return pairs of a claim of this study and a control whose datasets are all here."""
     own = [claim for claim in made(sources) if ".theory." in claim.decide.__module__]
     pairs = [(claim, control) for claim in own for control in claim.controls]
-    assert len(pairs) >= 45
+    assert len(pairs) >= 35
     return pairs
 
 

@@ -270,7 +270,7 @@ def grows_by_drive(growth) -> Finding:
 
 
 @claim(
-    "Section 5, Fig 3 lower and Fig 6 right",
+    "Beyond the paper, Fig 3 lower and Fig 6 right",
     "That the large data at Omega = -4 spread is an accident of their digits.",
     (SENSITIVITY,),
     (
@@ -323,7 +323,7 @@ def with_families_exchanged(fates):
 
 
 @claim(
-    "Section 5, Fig 2 lower",
+    "Section 6, breathers, Fig 2 lower",
     "The large data at Omega = 8 end as a breather near the stable family in which B follows A.",
     (MAP, PERIODIC),
     (
@@ -377,7 +377,7 @@ def spread_on(fate):
 
 
 @claim(
-    "Section 5, Figs 2 and 4",
+    "Beyond the paper, Figs 2 and 4",
     "The detuning decides whether unequal A_0 and B_0 spread: at Omega = 0 all do, at 8 none.",
     (MAP,),
     (

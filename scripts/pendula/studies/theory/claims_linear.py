@@ -27,20 +27,6 @@ HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate 
 TOLD = Cutoff(0.05, "exponents are told to a decimal")
 
 
-def of_another_drive(*names: str):
-    return (wrong("the roots of half of the drive", *names),)
-
-
-@decides(
-    "Section 3, (15)",
-    "The characteristic equation factorises into the dispersion relation.",
-    "dispersion",
-    controls=of_another_drive("dispersion"),
-)
-def dispersion(check) -> Finding:
-    return within_tolerance(check, "eigenvalue_error", "factorisation")
-
-
 def second_pair(check):
     """Return the check with the growth of the second pair of roots in the place of the first."""
     growth = check["second_growth"].assign_attrs(check["first_growth"].attrs)
@@ -48,23 +34,18 @@ def second_pair(check):
 
 
 @decides(
-    "Proof of Lemma 1",
-    "The first pair of roots is always real.",
+    "Section 3, (15)",
+    "The characteristic equation factorises into the dispersion relation, whose first pair of roots"
+    " is always real, and whose second pair is real if |kappa| > 2 |gamma| and else imaginary.",
     "dispersion",
-    controls=(changed("the second pair", "dispersion", second_pair),),
+    controls=(
+        wrong("the roots of half of the drive", "dispersion"),
+        changed("the second pair in place of the first", "dispersion", second_pair),
+    ),
 )
-def first_roots(check) -> Finding:
-    return within_tolerance(check, "first_growth")
-
-
-@decides(
-    "Proof of Lemma 1",
-    "The second pair of roots is real if |kappa| > 2 |gamma|, and else imaginary.",
-    "dispersion",
-    controls=of_another_drive("dispersion"),
-)
-def second_roots(check) -> Finding:
-    finding = within_tolerance(check, "contradictions")
+def dispersion(check) -> Finding:
+    names = ("eigenvalue_error", "factorisation", "first_growth", "contradictions")
+    finding = within_tolerance(check, *names)
     return finding._replace(
         measured=finding.measured | {"fastest": float(check["second_growth"].max())}
     )
@@ -73,29 +54,32 @@ def second_roots(check) -> Finding:
 OTHER_OMEGA = (wrong("gamma_0 of another Omega", "chart"),)
 
 
-@decides("Lemma 1", "Zero is linearly stable for |gamma| < gamma_0.", "chart", controls=OTHER_OMEGA)
+@decides(
+    "Lemma 1",
+    "Zero is linearly stable for |gamma| < gamma_0, and linearly unstable for |gamma| > gamma_0.",
+    "chart",
+    controls=OTHER_OMEGA,
+)
 def stable_below(chart) -> Finding:
     below = np.abs(chart["gamma"]) < chart["infinite_threshold"]
-    measured = {
-        "fastest": chart["measured"].where(below).max(),
-        "cells": below.sum(),
-        "misclassified": number(chart, "misclassified"),
-    }
-    return judge(measured, AtMost(RESOLVED, "fastest", says="fastest growth"))
-
-
-@decides(
-    "Lemma 1", "Zero is linearly unstable for |gamma| > gamma_0.", "chart", controls=OTHER_OMEGA
-)
-def unstable_above(chart) -> Finding:
     above = (chart["gamma"] > chart["infinite_threshold"]) & (chart["gamma"] > 0)
     finite = chart["gamma"] > chart["finite_threshold"]
     slow = above & finite & (chart["measured"] < HALF.value * chart["finite_rate"])
-    resolved = slow & (chart["finite_rate"] > 2.0 * RESOLVED.value)
     spared = int((above & ~finite).sum())
-    measured = {"cells": above.sum(), "contradictions": resolved.sum(), "finite_stable": spared}
-    caveat = f"{spared} such cells are stable on the finite chain" if spared else ""
-    return judge(measured, AtMost(0, "contradictions"), caveat)
+    measured = {
+        "fastest": chart["measured"].where(below).max(),
+        "cells_below": below.sum(),
+        "cells_above": above.sum(),
+        "misclassified": number(chart, "misclassified"),
+        "contradictions": (slow & (chart["finite_rate"] > 2.0 * RESOLVED.value)).sum(),
+        "finite_stable": spared,
+    }
+    caveat = f"{spared} cells above gamma_0 are stable on the finite chain" if spared else ""
+    criterion = AllOf(
+        AtMost(RESOLVED, "fastest", says="fastest growth below gamma_0"),
+        AtMost(0, "contradictions", says="cells above it that do not grow at half of their rate"),
+    )
+    return judge(measured, criterion, caveat)
 
 
 @decides(

@@ -13,7 +13,6 @@ from pendula.ledger.criterion import (
     Near,
     UndecidableError,
     judge,
-    tolerance,
     undecided,
     within_tolerance,
 )
@@ -36,22 +35,17 @@ ACTS = Cutoff(0.5, "growth is nearer to 2 gamma, that of the resonance, than to 
 
 @decides(
     "Section 2, (7) and (8)",
-    "The equations are the Hamiltonian system of the energy H.",
+    "The equations are the Hamiltonian system of the energy H, which is conserved.",
     "gradient",
-    controls=(wrong("the energy of another Omega", "gradient"),),
-)
-def hamiltonian(check) -> Finding:
-    return within_tolerance(check, "gradient_error")
-
-
-@decides(
-    "Section 2, (8)",
-    "The energy H is conserved.",
     "conservation",
-    controls=(wrong("the energy of another Omega", "conservation"),),
+    controls=(
+        wrong("the energy of another Omega: its gradient", "gradient"),
+        wrong("the energy of another Omega: its drift", "conservation"),
+    ),
 )
-def conserved(check) -> Finding:
-    return within_tolerance(check, "energy_drift")
+def hamiltonian(gradient, conservation) -> Finding:
+    drift = conservation["energy_drift"].max(keep_attrs=True)
+    return within_tolerance(gradient.assign(energy_drift=drift), "gradient_error", "energy_drift")
 
 
 @decides(
@@ -65,16 +59,6 @@ def conserved(check) -> Finding:
 def no_gauge(conservation) -> Finding:
     defect = float(conservation["gauge_defect"].max())
     return judge({"gauge_defect": defect}, Above(MISSED, "gauge_defect"))
-
-
-@decides(
-    "Section 2, after (6)",
-    "On A = B the equations are invariant under gauge transformations.",
-    "conservation",
-    controls=(wrong("B = iA in place of A = B", "conservation", instead="phase_turned"),),
-)
-def gauge_returns(conservation) -> Finding:
-    return within_tolerance(conservation, "gauge_defect_alike")
 
 
 def without_drive(lyapunov):
@@ -154,47 +138,29 @@ def one_integral(lyapunov) -> Finding:
     return judge(measured, criterion, caveat, fails)
 
 
-@decides(
-    "Section 2, (9) and (10)",
-    "In the variables u, v the equations take the form (10).",
-    "pt_form",
-    controls=(wrong("form (10) with half of the drive", "pt_form"),),
-)
-def pt_form(check) -> Finding:
-    return within_tolerance(check, "rates", "trajectory")
-
-
-@decides(
-    "Section 2, after (11)",
-    "The PT-symmetric form is Hamiltonian with a modified energy.",
-    "pt_form",
-    controls=(wrong("form (10) with half of the drive", "pt_form"),),
-)
-def pt_energy(check) -> Finding:
-    return within_tolerance(check, "energy_gradient")
-
-
 def image(name: str):
     """Return a change that puts another action in the place of P and T together."""
     return lambda pt: pt.assign(pt=pt[name].assign_attrs(pt["pt"].attrs))
 
 
 @decides(
-    "Section 2, (11)",
-    "The form (10) is invariant under the action of P and T.",
+    "Section 2, (9) to (11)",
+    "In the variables u, v the equations take the form (10), which is invariant under the action of"
+    " P and T and Hamiltonian with a modified energy.",
     "pt_form",
     controls=(
+        wrong("form (10) with half of the drive", "pt_form"),
         changed("P without T", "pt_form", image("p_alone")),
         changed("T without P", "pt_form", image("t_alone")),
     ),
 )
-def pt_symmetry(pt) -> Finding:
-    measured = {name: pt[name].max() for name in ("pt", "p_alone", "t_alone")}
-    alone = min(measured["p_alone"], measured["t_alone"])
+def pt_form(check) -> Finding:
+    finding = within_tolerance(check, "rates", "trajectory", "pt", "energy_gradient")
+    alone = {name: float(check[name].max()) for name in ("p_alone", "t_alone")}
     caveat = ""
-    if alone > MISSED.value:
+    if min(alone.values()) > MISSED.value:
         caveat = "P and T together are a symmetry; either alone misses by 2 gamma max(|u|, |v|)"
-    return judge(measured, AtMost(tolerance(pt, "pt"), "pt"), caveat)
+    return judge(finding.measured | alone, finding.criterion, caveat, finding.because)
 
 
 @decides(
@@ -208,14 +174,20 @@ def exchange(check) -> Finding:
 
 
 @decides(
-    "Section 2, (5)",
-    "A = B is an invariant reduction on which the drive has no effect.",
+    "Section 2, (5) and after (6)",
+    "A = B is an invariant reduction on which the drive has no effect, and gauge symmetry returns.",
     "symmetries",
+    "conservation",
     "opposite",
-    controls=(wrong("B = iA in place of A = B", "symmetries"),),
+    controls=(
+        wrong("B = iA in place of A = B", "symmetries"),
+        wrong("phases that turn where B = iA", "conservation", instead="phase_turned"),
+    ),
 )
-def synchronised(symmetries, opposite) -> Finding:
-    finding = within_tolerance(symmetries, "synchrony", "norm_drift", "scalar")
+def synchronised(symmetries, conservation, opposite) -> Finding:
+    gauge = conservation["gauge_defect_alike"].max(keep_attrs=True)
+    names = ("synchrony", "norm_drift", "scalar", "gauge_defect_alike")
+    finding = within_tolerance(symmetries.assign(gauge_defect_alike=gauge), *names)
     departure = number(opposite, "departure")
     return finding._replace(measured=finding.measured | {"opposite_departure": departure})
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from pendula.datasets.checks import broken, deciding
+from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import Ledger, load
 from pendula.problem import write_initial
@@ -18,7 +19,7 @@ CHARTS = ("checks/chart", "checks/short_chart")
 
 
 def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the errors found by the checks, and all that the ledger could not reproduce."""
+    """Return the errors found by the checks, and the paper's claims that are not reproduced."""
     return {
         "constant": _constant(results),
         "time": {
@@ -81,7 +82,7 @@ def _missed(results: Results) -> list[dict]:
             "data": [results.say(name, name) for name in row["decided_by"]],
         }
         for row in load(results)
-        if row["verdict"] == Verdict.NOT_REPRODUCED
+        if (row["verdict"], row["origin"]) == (Verdict.NOT_REPRODUCED, Origin.PAPER)
     ]
 
 
@@ -100,7 +101,7 @@ def gather_theory(results: Results, ledger: Ledger) -> dict[str, Any]:
         "misclassified": ledger.quote("stable_below", "misclassified"),
         "reached": _reached(results),
         "least": _constant_of(results, "least_constant"),
-        "proof": _constant_of(results, "proof_constant"),
+        "limit": _constant_of(results, "limit_constant"),
         "exponents": _exponents(results),
         "stability": results.picture("stability_chart", _chart_alt(results, cells)),
         "rates": results.picture("growth_rates", _rates_alt(results)),

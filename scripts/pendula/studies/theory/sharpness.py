@@ -14,7 +14,7 @@ from pendula.models.bounds import (
     extent,
     theorem_1_bound,
     theorem_2_bound,
-    theorem_2_constants,
+    theorem_2_gap,
     theorem_3_bound,
 )
 from pendula.models.linear_chain import curvatures, flow, modes
@@ -65,9 +65,21 @@ def reached(form: str, constants: Constants, sites: int) -> float:
     bounds = {
         "theorem_1": theorem_1_bound(energy, constants),
         "theorem_2": theorem_2_bound(energy, start, constants),
-        "theorem_2_ball": theorem_2_constants(constants)[1] * start,
+        "theorem_2_ball": limit_constant(constants) * start,
     }
     return float(largest / bounds[form])
+
+
+def limit_constant(constants: Constants) -> float:
+    """Return C_0 of Theorem 2 as the inequality before its end gives it where delta goes to zero.
+
+    Outside the range of parameters of the theorem it is infinite.
+
+    The paper gives no number: C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta, where
+    |H| <= C delta. A larger delta_0 takes a larger C_0, twice this one in `models.bounds`.
+    """
+    gap = theorem_2_gap(constants)
+    return extent(constants) / gap if gap > 0.0 else np.inf
 
 
 def least_constant(constants: Constants) -> float:
@@ -90,8 +102,8 @@ def check_sharpness(epsilon: float, gamma: float, sizes, scale: float = 1.0) -> 
         "What part of the bounds of Theorems 1 to 3 is reached on longer and longer chains",
         {"form": FORMS, "sites": sizes},
         reached=variable(ratios, ("form", "sites"), "largest P over its bound of the best data"),
-        proof_constant=variable(
-            theorem_2_constants(negative)[1], (), "C_0 that the proof of Theorem 2 gives"
+        limit_constant=variable(
+            limit_constant(negative), (), "C_0 of the proof of Theorem 2 for tiny data"
         ),
         least_constant=variable(
             least_constant(negative), (), "least C_0 that tiny data on an infinite chain allow"

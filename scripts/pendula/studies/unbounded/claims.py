@@ -277,9 +277,11 @@ def spreading_cases(name: str) -> tuple[Control, ...]:
 
 @claim(
     "Section 5, Fig 5 left",
-    "For Omega < -2 gamma a small solution does not grow on the unbounded lattice.",
+    "For Omega < -2 gamma a small solution does not grow on the unbounded lattice, in agreement"
+    " with Theorem 2.",
     unbounded("fig3_small"),
     spreading_cases("fig3_small"),
+    reading="infinite chain",
 )
 def unbounded_small(run) -> Finding:
     return stays(run)

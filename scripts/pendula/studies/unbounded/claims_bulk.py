@@ -172,8 +172,9 @@ STILL = tuple(
 
 
 @claim(
-    "Introduction",
-    "A dynamical equilibrium is reached where each pendulum oscillates at a finite amplitude.",
+    "Abstract; Introduction",
+    "The process continues until a dynamical equilibrium is reached where each pendulum oscillates"
+    " at a finite amplitude.",
     unbounded("omegas", "thermal"),
     (
         *STILL,
@@ -181,6 +182,7 @@ STILL = tuple(
         Control("P falls as 1 / tau, as that of waves", {"unbounded/omegas": dispersing}),
         Control("noise of the same mean for P", {"unbounded/omegas": noise}),
     ),
+    reading="infinite chain",
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
     times_of(run)

@@ -172,8 +172,8 @@ def unbounded_maximum(run, thermal) -> Finding:
 
 
 @claim(
-    "Section 5, Fig 3 lower, without ends",
-    "The l-infinity norm stays at the level of the initial data.",
+    "Section 5, Fig 3 lower",
+    "The l-infinity norm stays at the same level as the initial data.",
     (*unbounded("fig3_large"), SENSITIVITY),
     (
         Control(
@@ -186,6 +186,7 @@ def unbounded_maximum(run, thermal) -> Finding:
         ),
         FAR_AS_NEAR,
     ),
+    reading="infinite chain",
 )
 def unbounded_large_maximum(run, sensitivity) -> Finding:
     near = almost_equal(sensitivity, run.attrs["perturbation"])
@@ -218,8 +219,8 @@ CENTRE = 8
 
 
 @claim(
-    "Section 5, Fig 4, without ends",
-    "Many pendula oscillate with amplitudes comparable to the central one's.",
+    "Section 5, Fig 4",
+    "Many pendula oscillate with large and comparable amplitudes with respect to the central one.",
     unbounded("fig4_small"),
     (
         Control("large data at Omega = 8, alone in the centre", {MAIN: "unbounded/fig2_large"}),
@@ -233,6 +234,7 @@ CENTRE = 8
             undecided=True,
         ),
     ),
+    reading="infinite chain",
 )
 def unbounded_many(run) -> Finding:
     times_of(run)
@@ -268,8 +270,9 @@ def large_ones(_, amplitudes):
 
 
 @claim(
-    "Introduction, without ends",
-    "In the stability region the chain oscillates as its initial deviations determine.",
+    "Introduction",
+    "In the stability region the chain performs stable oscillations that the initial deviations"
+    " determine.",
     unbounded("fig3_small", "fig2_large"),
     (
         Control(
@@ -278,6 +281,7 @@ def large_ones(_, amplitudes):
         ),
         Control("the unstable chain", {"unbounded/fig2_large": "unbounded/fig4_small"}),
     ),
+    reading="infinite chain",
 )
 def unbounded_determined(small, large) -> Finding:
     """Follow two members whose data differ by far less than can be seen: chaos would show it."""

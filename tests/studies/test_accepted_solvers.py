@@ -1,0 +1,102 @@
+"""What the accepted datasets show of this project's own solvers and proofs, and not of the paper.
+
+Each statement is a function of datasets, which holds on the accepted ones and not on a wrong one.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pendula.datasets.netcdf import read
+from pendula.measures.difference import VISIBLE
+
+BASELINE = Path(__file__).parents[1] / "baseline"
+
+
+def chaotic(lyapunov):
+    return lyapunov["case"].values[lyapunov["chaotic"].values == 1]
+
+
+def rounding_makes_chaotic_runs_alone_uneven(symmetry, lyapunov):
+    uneven = np.isfinite(symmetry["rounded_time"])
+    return (uneven == symmetry["case"].isin(chaotic(lyapunov))).all()
+
+
+def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
+    return (
+        np.isfinite(trust["horizon"].sel(level="visible", case=chaotic(lyapunov))).all()
+        and (trust["difference"].sel(case=chaotic(lyapunov)).max("tau") > VISIBLE).all()
+    )
+
+
+def doubles_lead_away_from_printed_decimals(trust):
+    first, visible = trust["decimal_horizon"].values
+    return first < visible <= float(trust["tau"][-1])
+
+
+def finer_tolerances_and_evenness_change_no_rate_twofold(lifetimes):
+    """Each rate against each other one of the same tolerance or a finer one, limits included."""
+    fine = lifetimes["choice_tolerance"] <= 1.001 * lifetimes.attrs["solver_rtol"]
+    rates = lifetimes.isel(choice=fine.values)
+    log_of = {name: np.log(rates[name].values) for name in ("choice_rate_low", "choice_rate_high")}
+    half = 0.5 * (log_of["choice_rate_high"] - log_of["choice_rate_low"])
+    mean = 0.5 * (log_of["choice_rate_high"] + log_of["choice_rate_low"])
+    apart = abs(mean[:, None] - mean) + np.hypot(half[:, None], half)
+    return fine.sum() >= 3 and np.exp(apart[~np.eye(len(half), dtype=bool)]).max() < 2.0
+
+
+def rates_of_steady_states_lie_in_their_enclosures(proved, steady):
+    shared = [
+        one
+        for _, one in proved.groupby("proof")
+        if str(one["family"].values.item()) in steady["family"].values
+        and float(one["omega"].item()) in steady["omega"].values
+        and float(one["epsilon"].item()) == steady.attrs["epsilon"]
+    ]
+    off = []
+    for one in shared:
+        at = {"family": one["family"].values.item(), "omega": one["omega"].item()}
+        rate = float(steady["growth_half"].sel(at))
+        beyond = max(rate - one["growth_high"].item(), one["growth_low"].item() - rate, 0.0)
+        off.append(beyond / max(rate, 1.0))
+    return len(off) >= 3 and max(off) < 1e-6  # the baseline has seven digits
+
+
+def references_lie_within_proven_bounds(*certified):
+    known = [one["reference_distance"].notnull().sum() for one in certified]
+    beyond = [(one["reference_distance"] > one["bound"]).any() for one in certified]
+    return min(known) > 100 and not any(beyond)
+
+
+def reversed_cases(dataset):
+    return dataset.assign_coords(case=dataset["case"].values[::-1])
+
+
+def of_coarsest(lifetimes):
+    """Return rates of which one is that of the coarsest tolerance."""
+    rates = [f"choice_rate{end}" for end in ("", "_low", "_high")]
+    return lifetimes.assign({name: lifetimes[name].roll(choice=1) for name in rates})
+
+
+STATEMENTS = [
+    (rounding_makes_chaotic_runs_alone_uneven, ("checks/symmetry", "checks/lyapunov"),
+     reversed_cases),
+    (every_solver_leaves_every_chaotic_trajectory, ("checks/trust", "checks/lyapunov"),
+     reversed_cases),
+    (doubles_lead_away_from_printed_decimals, ("checks/trust",),
+     lambda trust: trust.assign(decimal_horizon=2.0 * trust["decimal_horizon"])),
+    (finer_tolerances_and_evenness_change_no_rate_twofold, ("checks/lifetimes",), of_coarsest),
+    (rates_of_steady_states_lie_in_their_enclosures, ("certified/breathers", "breathers/steady"),
+     lambda proved: proved.assign(growth_high=0.5 * proved["growth_high"])),
+    (references_lie_within_proven_bounds, ("certified/fig2_small", "certified/fig3_small"),
+     lambda one: one.assign(reference_distance=one["reference_distance"] + 2.0 * one["bound"])),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("holds", "names", "wrong"), STATEMENTS, ids=[one.__name__ for one, *_ in STATEMENTS]
+)
+def test_the_accepted_datasets_show_it_and_a_wrong_one_does_not(holds, names, wrong):
+    first, *others = (read(BASELINE / f"{name}.nc") for name in names)
+    assert holds(first, *others)
+    assert not holds(wrong(first), *others)
