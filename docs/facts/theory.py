@@ -32,7 +32,7 @@ def theory(baseline: Baseline) -> dict:
         "least_constant": number(sharp["least_constant"]),
         "observed": span(cases["ratio"].values, 2),
         "broken_sites": number(printed["smallest"]),
-        "printed_order": number(measured["printed_time"]["order"], 2),
+        "printed_order": number(measured["slow_time"]["order_without_the_half"], 2),
         "right_order": number(measured["slow_time"]["order"], 2),
         "start": number(gap["start"]),
         "radius": number(gap["delta_0"]),

@@ -1,16 +1,22 @@
 """Measure what the scheme and the step of the second solver decide, in every case."""
 
 from pendula.datasets.netcdf import read, write
-from pendula.problem import by_name
+from pendula.problem import Problem, by_name
 from pendula.studies.paper.second_solver import measure
 
 
 def measure_second_solver(
-    firsts: list[str], problems: dict[str, dict], data: str, kernels: list[str] | tuple = ()
+    firsts: list[str],
+    problems: dict[str, dict],
+    swept: dict,
+    half_widths: list[int],
+    windows: list[tuple[float, float]],
+    data: str,
+    kernels: list[str] | tuple = (),
 ) -> None:
     """Write the dataset; `firsts` are the runs of the first solver in the order of `problems`."""
     runs = dict(zip(problems, map(read, firsts), strict=True))
-    write(data, *measure(by_name(problems), runs))
+    write(data, *measure(by_name(problems), runs, Problem.of(swept), half_widths, windows))
 
 
 if __name__ == "__main__":

@@ -153,6 +153,9 @@ rule measure_second_solver:
         "../envs/pinned.yaml"
     params:
         problems={case: SETTINGS.problem(case, "crank_nicolson") for case in PAPER_CASES},
+        swept=SETTINGS.swept_problem("fig6_right", "crank_nicolson"),
+        half_widths=SETTINGS.chaos.ensembles.sweeps["fig6_right"].half_widths,
+        windows=SETTINGS.sweeps["fig6_right"].windows,
     message:
         "Measuring what the scheme and the step of the second solver decide"
     script:

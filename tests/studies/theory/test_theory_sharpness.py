@@ -50,6 +50,6 @@ def test_picards_weights_integrate_polynomials():
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_picards_first_iterate_is_one_step_of_euler(boundary):
     start = np.array([[1.0, 0.5j, 0.0], [0.2, 0.0, -1.0]], complex)
-    found, _ = picard(NEGATIVE, boundary, start, 0.01, 1)
+    found, _ = picard(NEGATIVE, boundary, start, 0.01, 1, start)
     expected = start + 0.01 * right_hand_side(NEGATIVE, boundary, start)
     np.testing.assert_allclose(found, expected, atol=1e-14)

@@ -4,7 +4,7 @@ The paper names neither the scheme exactly nor its step. Here each scheme runs a
 step, at twice and at half of it, and is held to the paper's first solver.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -14,19 +14,29 @@ from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.norms import drift
 from pendula.problem import Problem
 from pendula.simulation.simulate import Trajectory, simulate
+from pendula.simulation.sweep import QUANTITIES, STATISTICS, sweep
 
 SCHEMES = ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
 FACTORS = (2.0, 1.0, 0.5)
 """Steps in units of the configured one, each half of the one before."""
+FINER = (1.0, 0.25, 0.125)
+"""The same for a chaotic sweep, where runs by all steps differ: if none matters they are draws."""
 GRID = ("case", "scheme", "step")
 RICHARDSON = 4.0 / 3.0
 """A method of second order is off by so many times its difference from half the step."""
 
 
-def measure(problems: Mapping[str, Problem], firsts: Mapping) -> Contents:
+def measure(
+    problems: Mapping[str, Problem],
+    firsts: Mapping,
+    swept: Problem,
+    half_widths: Sequence[int],
+    windows: Sequence[tuple[float, float]],
+) -> Contents:
     """Return how far the schemes are from the runs `firsts` of the first solver, by case.
 
-    `problems` are those of the cases by the second solver, at the configured step.
+    `problems` are those of the cases by the second solver, at the configured step. `swept` is that
+    of a chaotic sweep, which is run at FINER steps too, on some of its half-widths.
     """
     found = [_measure_case(problem, firsts[case]) for case, problem in problems.items()]
     described, shared = describe_cases(problems)
@@ -48,9 +58,29 @@ def measure(problems: Mapping[str, Problem], firsts: Mapping) -> Contents:
     }
     for name, (grid, long_name) in about.items():
         variables[name] = Variable(grid, np.array([one[name] for one in found]), long_name)
+    variables |= _finer(swept, half_widths, windows)
     attributes = {key: value for key, value in shared.items() if not key.startswith("solver")}
     title = "The second solver by both readings and by the scheme that conserves the energy"
     return variables, {"title": title, **attributes, "configured_step": step}
+
+
+def _finer(problem: Problem, half_widths, windows) -> dict[str, Variable]:
+    """Return the norms of a sweep by the first scheme at FINER steps, as sweeps have them."""
+    steps = [problem.solver["step"] * factor for factor in FINER]
+    runs = [
+        sweep(problem.changed(solver={**problem.solver, "step": step}), half_widths, windows)
+        for step in steps
+    ]
+    grid = ("finer_step", "half_width", "quantity", "statistic", "window")
+    return {
+        "finer_step": Variable(grid[:1], steps, "step of the second solver in a chaotic sweep"),
+        "half_width": Variable(grid[1:2], list(half_widths), "half-width M of the chain"),
+        "quantity": Variable(grid[2:3], list(QUANTITIES), "A, B or the pair"),
+        "statistic": Variable(grid[3:4], list(STATISTICS), "statistic over the window"),
+        "window": Variable(grid[4:], [f"[{a:g}, {b:g}]" for a, b in windows], "window of tau"),
+        "l2": Variable(grid, np.array([one.l2 for one in runs]), "l2 norm over the chain"),
+        "linf": Variable(grid, np.array([one.linf for one in runs]), "l-infinity norm"),
+    }
 
 
 def _measure_case(problem: Problem, first) -> dict[str, np.ndarray]:

@@ -24,6 +24,7 @@ from .deciding import IN_PROPORTION, NEAR, changed, decides, wrong
 
 SECTION = 4
 
+WAYS = ("forwards", "backwards")
 FIRST = 1.0
 """The order of the distance of two solutions in that of their data."""
 ROUNDING = Cutoff(1.0 + 1e-6, "solvers and rounding may exceed a bound that is reached", 1.0)
@@ -41,7 +42,15 @@ def local_existence(check) -> Finding:
     return within_tolerance(check, *names)
 
 
-WAYS = ("forwards", "backwards")
+@decides(
+    "Lemma 2",
+    "The solution is unique.",
+    "picard",
+    controls=(wrong("rates A / |A|^(1/2) besides, from rest", "picard", instead="picard_at_rest"),),
+)
+def uniqueness(check) -> Finding:
+    """Iterates from two first guesses must have one limit; time in steps continues that."""
+    return within_tolerance(check, *(f"limits_apart_{way}" for way in WAYS))
 
 
 @decides(

@@ -22,6 +22,8 @@ from .equations import misstated, random_amplitudes, right_hand_side, run, total
 OUTPUTS = 41
 """Times at which angles are compared, the first of them the start."""
 SOLVER = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
+READINGS = ["mu^2 t / 2", "mu^2 t", "mu t / 2", "mu^2 t / 2, opposite drive"]
+"""The slow time of (4), with its factor left out, with another power of mu; the opposite drive."""
 
 
 def pendula_run(
@@ -91,16 +93,17 @@ def order(errors: np.ndarray, mus) -> np.ndarray:
 
 
 def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) -> list[float]:
-    """Return max |x - x of (3)| up to mu^2 t / 2 = `end` for three readings of the equations.
+    """Return max |x - x of (3)| up to mu^2 t / 2 = `end` for the READINGS of the equations.
 
-    The slow time mu^2 t / 2, the slow time mu^2 t, and the first with pendula that feel the drive
-    with the opposite sign, which is the same as shifting it by half a period.
+    Pendula that feel the drive with the opposite sign are the same as a drive that is shifted by
+    half a period.
     """
     times, signs = fast_times(mu, end), np.array([1.0, -1.0])
     angles, shifted = pendula_run([constants] * 2, mu, amplitudes, times, signs)[0].swapaxes(0, 1)
     half = envelope_run(constants, amplitudes, 0.5 * mu * mu * times)
     whole = envelope_run(constants, amplitudes, mu * mu * times)
-    pairs = ((angles, half), (angles, whole), (shifted, half))
+    other = envelope_run(constants, amplitudes, 0.5 * mu * times)
+    pairs = ((angles, half), (angles, whole), (angles, other), (shifted, half))
     return [float(angle_errors(x, z, constants, mu, times).max()) for x, z in pairs]
 
 
@@ -109,10 +112,9 @@ def check_expansion(constants: Constants, sites: int, end_time: float, mus, pair
     amplitudes = one_pair(sites, pair)
     errors = np.array([expansion_errors(constants, mu, amplitudes, end_time) for mu in mus])
     orders = order(errors, mus)
-    readings = ["mu^2 t / 2", "mu^2 t", "mu^2 t / 2, opposite drive"]
     return table(
         "Newton's equations (1) against the expansion (3) with the amplitudes of (4)",
-        {"mu": mus, "reading": readings},
+        {"mu": mus, "reading": READINGS},
         angle_error=variable(errors, ("mu", "reading"), "largest error of an angle", "rad"),
         order=variable(orders, ("reading",), "order in mu of the error"),
         order_error=variable(

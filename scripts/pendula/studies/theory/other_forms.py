@@ -152,6 +152,11 @@ def symmetry_defect(
     return float(modulus(pt_rates(constants, boundary, image(w)) - expected).max())
 
 
+def turned(w: np.ndarray) -> np.ndarray:
+    """Return (u, v) with all phases turned by 0.7."""
+    return product(elementary.turn(0.7), w)
+
+
 def check_pt_form(
     constants: Constants, sites: int, end_time: float, seed: int, gamma_times: float = 1.0
 ) -> dict:
@@ -159,7 +164,7 @@ def check_pt_form(
 
     P exchanges u and v, T takes conjugates and reverses time. PT is a symmetry; P alone and T
     alone are not while gamma is not zero: each misses by 2 gamma times the amplitude. The energy
-    of (10) is H / 8: i u' = dH/d(conj v) / 8.
+    of (10) is H / 8: i u' = dH/d(conj v) / 8. Turning all phases is no symmetry either.
     """
     rng, stated = np.random.default_rng(seed), misstated(constants, gamma_times=gamma_times)
     rows = []
@@ -176,6 +181,7 @@ def check_pt_form(
                 "pt": symmetry_defect(stated, boundary, w, lambda z: z[::-1].conj(), -1),
                 "p_alone": symmetry_defect(stated, boundary, w, lambda z: z[::-1]),
                 "t_alone": symmetry_defect(stated, boundary, w, np.conj, -1),
+                "gauge_defect": symmetry_defect(stated, boundary, w, turned),
                 "energy_gradient": pt_energy_error(constants, stated, boundary, w),
             }
         )
@@ -185,6 +191,7 @@ def check_pt_form(
         "pt": ("defect of PT", 1e-13),
         "p_alone": ("defect of P without T", None),
         "t_alone": ("defect of T without P", None),
+        "gauge_defect": ("defect of turning all phases", None),
         "energy_gradient": ("rates of (10) minus gradient of H / 8", 1e-12),
     }
     title = "The PT-symmetric form (10) against (4), and the symmetries (11)"

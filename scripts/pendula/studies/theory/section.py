@@ -23,9 +23,8 @@ def gather_errata(results: Results, ledger: Ledger) -> dict[str, Any]:
     return {
         "constant": _constant(results),
         "time": {
-            "printed": ledger.quote("printed_time", "order", 2),
+            "printed": ledger.quote("slow_time", "order_without_the_half", 2),
             "right": ledger.quote("slow_time", "order", 2),
-            "verdict": ledger.verdict("printed_time"),
             "known": bool(np.isfinite(ledger.value("slow_time", "order"))),
         },
         "case": _case(results),

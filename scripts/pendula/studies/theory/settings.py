@@ -92,6 +92,7 @@ ARGUMENTS = {
     "turn": Complex,
     "sign": Number,
     "span_times": Positive,
+    "root": Number,
     "below_barrier": bool,
 }
 
@@ -154,9 +155,10 @@ GROUPS = {group: tuple(checks) for group, checks in CHECKS.items()}
 
 WRONG = (
     *("gradient", "conservation", "no_drive", "phase_turned", "symmetries", "pt_form"),
+    "pt_no_drive",
     *("expansion", "pendula_synchrony", "inherited_energy", "negative_depth"),
     *("bootstrap", "dispersion", "chart", "measured_windows", "sharp_threshold"),
-    *("unstable_waves", "threshold", "picard", "dependence", "balance", "growth"),
+    *("unstable_waves", "threshold", "picard", "picard_at_rest", "dependence", "balance", "growth"),
     *("inequalities", "samples", "worst", "sharpness", "chain_growth", "energy_shell"),
 )
 """The wrong statements that the negative controls of the claims are fed."""

@@ -16,16 +16,30 @@ NODES = 12
 """Nodes in time: polynomials of that degree hold the solution over a short time to rounding."""
 
 
-def picard(constants: Constants, boundary: str, start: np.ndarray, span: float, times: int):
-    """Return Picard's iterates at the end of `span`, and the largest changes of one to the next."""
+def picard(
+    constants: Constants,
+    boundary: str,
+    start: np.ndarray,
+    span: float,
+    times: int,
+    first: np.ndarray,
+    root: float = 0.0,
+):
+    """Return Picard's iterates at the end of `span`, and the largest changes of one to the next.
+
+    They begin with `first` at all times. The rates are those of (4) and `root` A / |A|^(1/2).
+    """
     nodes = np.append(
         0.5 - 0.5 * elementary.cos(np.pi * (np.arange(NODES - 1) + 0.5) / (NODES - 1)), 1.0
     )
     weights = span * integration_matrix(nodes)
-    states = np.repeat(start[None], NODES, axis=0)
+    states = np.repeat(first[None], NODES, axis=0)
     changes = []
     for _ in range(times):
         rates = np.array([right_hand_side(constants, boundary, state) for state in states])
+        if root:
+            size = np.sqrt(modulus(states))
+            rates = rates + root * np.where(size > 0.0, states / np.maximum(size, 1e-300), 0.0)
         new = start + np.sum(weights[:, :, None, None] * rates, axis=1)
         changes.append(np.sqrt(np.sum(square_modulus(new - states), axis=(1, 2))).max())
         states = new
@@ -33,23 +47,36 @@ def picard(constants: Constants, boundary: str, start: np.ndarray, span: float, 
 
 
 def check_picard(
-    constants: Constants, sites: int, norm: float, seed: int, span_times: float = 1.0
+    constants: Constants,
+    sites: int,
+    norm: float,
+    seed: int,
+    span_times: float = 1.0,
+    root: float = 0.0,
 ) -> dict:
     """Iterate (16) forwards and backwards on the interval that the contraction argument gives.
 
     In the ball of twice the norm of the data the Lipschitz constant is L; for times up to 1 / (2 L)
-    each change is at most half of the one before, and the limit solves (4). A control takes an
-    interval `span_times` as long.
+    each change is at most half of the one before, and the limit solves (4). Iterates that begin
+    with the data and with something at a distance of `norm` come to one limit: the solution is
+    unique. One control takes an interval `span_times` as long. Another one adds `root` times
+    A / |A|^(1/2) to the rates, which is not Lipschitz at rest, and starts there: the chain may stay
+    at rest, or leave it as tau^2.
     """
     rng, rows = np.random.default_rng(seed), []
     span = span_times / (2.0 * lipschitz(constants, 2.0 * norm))
     for boundary in BOUNDARIES:
         start = random_amplitudes(rng, sites, norm)
+        start = 0.0 * start if root else start
+        away = start + random_amplitudes(np.random.default_rng([seed, 1]), sites, norm)
         row = {}
         for sign, name in ((1.0, "forwards"), (-1.0, "backwards")):
-            limit, changes = picard(constants, boundary, start, sign * span, 24)
+            at = (constants, boundary, start, sign * span, 24)
+            limit, changes = picard(*at, start, root)
+            other, _ = picard(*at, away, root)
+            row[f"limits_apart_{name}"] = modulus(other - limit).max()
             seen = changes[changes > 1e-10]  # beyond, rounding decides
-            row[f"contraction_{name}"] = (seen[1:] / seen[:-1]).max()
+            row[f"contraction_{name}"] = (seen[1:] / seen[:-1]).max(initial=0.0)
             data = start if sign > 0 else start.conj()  # conjugation reverses time
             exact = run(constants, boundary, data, span).final
             missed = modulus(limit - (exact if sign > 0 else exact.conj()))
@@ -65,6 +92,7 @@ def check_picard(
             for name, words, tolerance in (
                 ("contraction", "largest change of an iterate over the one before", 0.5),
                 ("picard_error", "last iterate minus the solution", 1e-10),
+                ("limits_apart", "difference of the limits of two first guesses", 1e-10),
             )
         },
         picard_span=variable(span, (), "length of the interval in tau"),
