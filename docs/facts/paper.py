@@ -51,16 +51,25 @@ def ledger(baseline: Baseline) -> dict:
         "open": str(of_paper[Verdict.UNDECIDED]),
         "questions": str(counts[Origin.OPEN].total()),
         "own": str(counts[Origin.OWN].total()),
-        "others": [
-            f"{number} {verdict}"
-            for verdict, number in (counts[Origin.OPEN] + counts[Origin.OWN]).items()
-        ],
+        "on_questions": _in_words(counts[Origin.OPEN]),
+        "on_own": _in_words(counts[Origin.OWN]),
         "told": told,
         "ensemble": str(sum(row["name"].startswith("ensemble") for row in rows)),
         "resting": str(sum(bool(row["rests_on"]) for row in rows)),
         "controls": str(sum(len(row["controls"]) for row in rows)),
         "failing": str(sum(not one["passes"] for row in rows for one in row["controls"])),
     }
+
+
+def _in_words(counts: Counter) -> list[str]:
+    """Return how many claims have each verdict, such as "5 do not carry over"."""
+    plural = {Verdict.NOT_CARRIED: "do not carry over"}
+    return [
+        f"{number} {plural.get(verdict) or ('is ' if number == 1 else 'are ') + verdict}"
+        if verdict != Verdict.UNDECIDED
+        else f"{number} {verdict}"
+        for verdict, number in counts.items()
+    ]
 
 
 def solvers(baseline: Baseline) -> dict:
@@ -71,6 +80,8 @@ def solvers(baseline: Baseline) -> dict:
     conserving = "ode45 - delfour_fortin_payre"
     times = trust["horizon"].sel(level="visible")
     left = trust["case"].values[np.isfinite(times).any("solver").values]
+    shared = np.intersect1d(trust["solver"], found["solver"])
+    keeping = found["kept"].sel(span="whole", solver=shared) == 1
     return {
         "cases": str(len(cases)),
         "visible": percent(found["visible"]),
@@ -78,6 +89,8 @@ def solvers(baseline: Baseline) -> dict:
         "whole": number(found["until"].sel(span="whole").max()),
         "allowed": number(found["allowed_drift"][0] / found["stated_drift"][0]),
         "kept": str(int(found["kept"].sel(solver="ode45", span="whole").sum())),
+        "keeping": str(int(keeping.sum())),
+        "keeping_off": str(int((keeping & np.isfinite(times.sel(solver=shared))).sum())),
         "kept_early": str(int(found["kept"].sel(solver="ode45", span="early").sum())),
         "drift": [_drift(case) for case in cases],
         "diverged": str(int(np.isfinite(found["divergence_time"].sel(pair=paper)).sum())),
@@ -123,6 +136,8 @@ def second_solver(baseline: Baseline) -> dict:
         "by_maxima": number(swept["measured"]["chance_text_fig6_right"], 2),
         "by_averages": number(swept["measured"]["chance_caption_fig6_right"], 2),
         "least_chance": number(SIGNIFICANT.value),
+        "by_finer_steps": number(swept["measured"]["chance_by_finer_steps_fig6_right"], 2),
+        "finer_steps": [number(one) for one in found["finer_step"].values[1:]],
     }
 
 

@@ -16,9 +16,9 @@ ABOUT = {"case": "fig2_small", "omega": 8.0, "initial": "{}", "solver": "ode45"}
 def measured():
     controls = {"name": "crank_nicolson", "step": 0.01, "tolerance": 1e-13, "iterations": 50}
     problem = problem_of("fig2_small", half_width=6, end_time=2.0, output_step=0.02)
-    variables, about = measure(
-        {"fig2_small": problem.changed(solver=controls)}, {"fig2_small": simulate(problem)}
-    )
+    second = problem.changed(solver=controls)
+    firsts = {"fig2_small": simulate(problem)}
+    variables, about = measure({"fig2_small": second}, firsts, second, [4, 6], [(1.0, 2.0)])
     assert about["configured_step"] == 0.01 and "solver_step" not in about
     return {name: np.squeeze(variables[name].values) for name in variables}
 
@@ -32,6 +32,13 @@ def test_every_scheme_is_of_second_order_and_one_keeps_the_energy(measured):
     drifts = dict(zip(SCHEMES, measured["scheme_drift"], strict=True))
     assert drifts.pop("delfour_fortin_payre").max() < 1e-8
     assert all(drift.min() > 1e-5 for drift in drifts.values())
+
+
+def test_a_sweep_by_finer_steps_tends_to_a_limit(measured):
+    l2 = measured["l2"]  # (finer step, half-width, quantity, statistic)
+    assert measured["finer_step"].tolist() == [0.01, 0.0025, 0.00125] and l2.shape == (3, 2, 3, 2)
+    ratios = (l2[0] - l2[2]) / (l2[1] - l2[2])
+    np.testing.assert_allclose(ratios, (1.0 - 1.0 / 64.0) / (1.0 / 16.0 - 1.0 / 64.0), rtol=0.05)
 
 
 def test_the_error_by_the_step_is_estimated_without_the_solution(measured):
@@ -137,3 +144,18 @@ def test_points_without_an_ensemble_are_named():
     assert claims.coverage("fig6_right", sweep, ensemble) == "8 of 8 half-widths of fig6_right"
     said = claims.coverage("fig6_right", sweep, ensemble.isel(half_width=slice(None, None, 2)))
     assert said.startswith("4 of 8 half-widths") and "M = 20 with l2 = 22" in said
+
+
+def test_finer_steps_count_only_for_the_solver_whose_steps_they_are():
+    sweep = swept(10.0 + np.arange(8.0))
+    moments = {"l2_mean": sweep["l2"], "l2_deviation": 0.1 * sweep["l2"]}
+    ensemble = xr.Dataset(moments).assign(swept_members=8).expand_dims(sweep=["fig6_right"])
+    own = 1.8 * sweep  # at the assumed step no likely draw
+    steps = xr.concat([own, 1.02 * sweep, 0.97 * sweep], xr.Variable("finer_step", [4.0, 1.0, 0.5]))
+    given = ensemble, steps
+    assert claims.together(claims.swept_draws("fig6_right", own, ensemble)["text"]) < 0.05
+    assert claims.finer_chance("fig6_right", own, *given) > 0.5
+    assert claims.finer_chance("fig6_right", 1.4 * sweep, *given) == 0.0
+    still = claims.by_step(lambda l2: 0.0 * l2 + l2.isel(finer_step=0))(steps)
+    assert claims.finer_chance("fig6_right", own, ensemble, still) < 0.05
+    assert claims.finer_chance("fig6_right", own.isel(half_width=slice(5)), *given) == 0.0

@@ -165,7 +165,6 @@ FLIPS = {
     "energy_large": ("trajectories/fig2_large", scaled("energy", 2.0, tau=slice(5, None))),
     "fig5_decreases": ("sweeps/fig5_left", replaced("l2", 1.0 + 0.1 * np.arange(8.0))),
     "fig5_theorem_2": ("sweeps/fig5_left", replaced("l2", 5.0 + np.zeros(8))),
-    "fig5_caption": ("sweeps/fig5_left", scaled("l2", 0.9, statistic="mean")),
     "fig5_not_shown": ("checks/not_shown", replaced("l2", np.arange(1.0, 10.0))),
     "fig6_constant": ("sweeps/fig6_left", replaced("l2", 5.0 + np.arange(8.0))),
     "unbounded_in_time": ("unbounded/fig4_small", lambda _: spread(0.2)),

@@ -36,7 +36,10 @@ FEWEST = 3
 def common_end(remainder) -> float:
     """Return the last end that every run reaches."""
     errors = remainder["error"].transpose("end", ...).values
-    return float(remainder["end"].values[~np.isnan(errors).any(axis=(1, 2, 3))].max())
+    known = ~np.isnan(errors).any(axis=(1, 2, 3))
+    if not known.any():
+        raise UndecidableError("no slow time is reached by every run")
+    return float(remainder["end"].values[known].max())
 
 
 def at_common_end(remainder, name: str, expansion: str, cases=STABLE):
