@@ -12,6 +12,7 @@ from pendula.configuration.paper import Differences, reason
 
 from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
 from .cutoff import Cutoff, Flip, flips, recorded
+from .missing import missing
 
 # ASSUME: the paper's words for sizes, one measure for each word wherever it stands, so
 # that none is fitted to the numbers of one row.
@@ -249,7 +250,10 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
         finding = claim.decide(*(sources[name] for name in claim.needs))
     except UndecidableError as reason:
         return undecided({}, str(reason))
-    return finding._replace(verdict=claim.refuted) if finding.verdict in REFUTED else finding
+    if finding.verdict in REFUTED:
+        return finding._replace(verdict=claim.refuted)
+    lacking = missing(claim.needs, sources) if confirmed(finding) else ""
+    return undecided(finding.measured, lacking) if lacking else finding
 
 
 def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
@@ -281,7 +285,7 @@ def passes(control: Control, finding: Finding) -> bool | None:
     if finding.verdict == Verdict.NOT_APPLICABLE:
         return None
     if control.confirms:
-        return _confirmed(finding)
+        return confirmed(finding)
     if control.undecided:
         return finding.verdict == Verdict.UNDECIDED
     judged = finding.criterion.names if finding.criterion else ()
@@ -289,7 +293,8 @@ def passes(control: Control, finding: Finding) -> bool | None:
     return finding.verdict in REFUTED and known
 
 
-def _confirmed(finding: Finding) -> bool:
+def confirmed(finding: Finding) -> bool:
+    """Return whether a claim is confirmed, with a caveat or without."""
     return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
 
@@ -374,8 +379,8 @@ def _severe(
     finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
 ) -> Finding:
     """Return the finding with what the moved cut-offs and the controls say against it."""
-    wrong = next((c for c, fed in controls if not c.confirms and _confirmed(fed)), None)
-    if wrong is not None and _confirmed(finding):
+    wrong = next((c for c, fed in controls if not c.confirms and confirmed(fed)), None)
+    if wrong is not None and confirmed(finding):
         return undecided(finding.measured, f"what decides it confirms a wrong case: {wrong.says}")
     if not moved:
         return finding

@@ -233,11 +233,13 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
     """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
 
     Without words of its own a finding that fails tells the numbers that do not keep the criterion.
-    If it holds and `caveat` is not empty, the claim is confirmed with that caveat.
+    If it holds and `caveat` is not empty, the claim is confirmed with that caveat. Where all that
+    fails is unknown, nothing is decided.
     """
     numbers = {name: float(value) for name, value in measured.items()}
-    if not criterion.holds(numbers):
-        off = dict.fromkeys(criterion.failing(numbers))
+    if off := dict.fromkeys(criterion.failing(numbers)):
+        if all(math.isnan(numbers[name]) for name in off):
+            return undecided(numbers, f"unknown: {', '.join(map(in_words, off))}")
         told = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
         return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or told)
     verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED

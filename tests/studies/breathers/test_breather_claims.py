@@ -39,8 +39,8 @@ def sources():
         {"family": families, "omega": omegas},
         {"residual": 1e-13},
     )  # fmt: skip
-    power = np.zeros((2, 2, 3, 2)) + np.array([9.0, 20.0, 3.0])[:, None]
-    growth = np.zeros((2, 3, 2))
+    power = np.zeros((2, 2, 3, 3)) + np.array([9.0, 20.0, 3.0])[:, None]
+    growth = np.zeros((2, 3, 3))
     growth[1] = 1.0
     periodic = xr.Dataset(
         {
@@ -48,18 +48,18 @@ def sources():
             "growth": ((*over, "frequency"), growth),
             "growth_half": ((*over, "frequency"), growth + 1e-3 * (growth > 0.0)),
             "parity_growth": (
-                ("parity", *over, "frequency"), np.stack([growth + 0.1 * np.arange(2), growth]),
+                ("parity", *over, "frequency"), np.stack([growth + 0.1 * np.arange(3), growth]),
             ),
             "measured_growth": (
                 ("parity", *over, "frequency"),
-                1.0003 * np.stack([growth + 0.1 * np.arange(2), np.where(growth, growth, np.nan)]),
+                1.0003 * np.stack([growth + 0.1 * np.arange(3), np.where(growth, growth, np.nan)]),
             ),
             "growing": ((*over, "frequency"), growth),
             "growing_half": ((*over, "frequency"), growth),
             "highest_wave": ("omega", [8.0, 8.0, 8.0]),
-            **collisions(len(families), len(omegas), 2),
+            **collisions(len(families), len(omegas), 3),
         },
-        {"family": families, "omega": omegas, "frequency": [9.0, 12.0], "part": ["re", "im"],
+        {"family": families, "omega": omegas, "frequency": [9.0, 12.0, 15.0], "part": ["re", "im"],
          "parity": ["even", "odd"]},
     )  # fmt: skip
     drives, scaled = np.array([0.05, 0.1, 1.0]), np.linspace(0.0, 1.0, 21)

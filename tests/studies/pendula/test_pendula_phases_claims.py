@@ -45,14 +45,14 @@ def sea():
 def over_the_top():
     """Return members that stay below the top, although some wait less than others."""
     mus, rates = [0.1, 0.15, 0.225], np.array([0.0, 0.01, 0.5])
-    angles = np.ones((3, 4, 2)) * 12.0 * np.array(mus)[:, None, None]
+    angles = np.ones((3, 4, 3)) * 12.0 * np.array(mus)[:, None, None]
     return xr.Dataset(
         {"passage_rate": ("mu", rates), "passage_rate_low": ("mu", 0.5 * rates),
          "passage_rate_high": ("mu", 2.0 * rates + 0.01),
          "angle_so_far": (("mu", "member", "tau"), angles),
          "angle_power": (("mu", "member"), np.full((3, 4), 1e3)),
-         **{f"passed{end}": (("mu", "tau"), np.zeros((3, 2))) for end in ("", "_low", "_high")}},
-        {"mu": mus, "tau": [25.0, 50.0]},
+         **{f"passed{end}": (("mu", "tau"), np.zeros((3, 3))) for end in ("", "_low", "_high")}},
+        {"mu": mus, "tau": [10.0, 25.0, 50.0]},
     )  # fmt: skip
 
 

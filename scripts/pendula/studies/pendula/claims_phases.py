@@ -14,6 +14,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     WithinFactor,
     judge,
+    undecided,
 )
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import difference_limits, mean_limits
@@ -282,6 +283,15 @@ def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
     return judge(measured, Below(FACTOR, "largest_over_level", says=says), fails=fails)
 
 
+def with_middle_exchanged(over_the_top):
+    """Return the rates, by mu, with two in the middle of the known ones exchanged."""
+    ordered = over_the_top.sortby("mu")
+    places, known = np.arange(ordered.sizes["mu"]), np.isfinite(ordered["passage_rate"].values)
+    middle = np.flatnonzero(known)[known.sum() // 2 - 1 :][:2]
+    places[middle] = middle[::-1]
+    return ordered.isel(mu=places).assign_coords(mu=ordered["mu"].values)
+
+
 @claim(
     "Section 6, for the pendula (1)",
     "The smaller mu, the longer the pendula of the sea wait before one goes over the top.",
@@ -291,10 +301,11 @@ def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
             mu=one["mu"].values[::-1])}),
         Control("the same waiting times at all mu", {TOP: lambda one: one.isel(
             mu=[0] * one.sizes["mu"]).assign_coords(mu=one["mu"].values)}),
+        Control("two middle rates exchanged", {TOP: with_middle_exchanged}, undecided=True),
     ),
 )  # fmt: skip
 def waiting_grows(over_the_top) -> Finding:
-    """Compare the rates at the smallest and the largest mu at which anybody waited."""
+    """Ask for rates that rise with mu at every step, and whose limits part from end to end."""
     ordered = over_the_top.sortby("mu")
     rated = ordered.sel(mu=np.isfinite(ordered["passage_rate"]).values)
     if rated.sizes["mu"] < 2:
@@ -306,6 +317,13 @@ def waiting_grows(over_the_top) -> Finding:
         "slower_rate": slow["passage_rate"],
         "at_smaller_mu": slow["mu"],
         "gap_of_limits": fast["passage_rate_low"] - slow["passage_rate_high"],
+        "least_step": rated["passage_rate"].diff("mu").min(),
     }
-    says = "lower limit of the rate at the larger mu less upper limit at the smaller"
-    return judge(measured, Above(0.0, "gap_of_limits", says=says))
+    says = "lower limit of the rate at the largest mu less upper limit at the smallest"
+    apart = Above(0.0, "gap_of_limits", says=says)
+    below = np.maximum.accumulate(rated["passage_rate_low"].values)
+    if apart.holds(measured) and measured["least_step"] <= 0.0:
+        if (rated["passage_rate_high"].values >= below).all():
+            return undecided(measured, "a rate falls where mu grows, by less than its limits")
+    rises = Above(0.0, "least_step", says="least step of the rate from one mu to the next")
+    return judge(measured, AllOf(apart, rises))

@@ -1,0 +1,77 @@
+"""What is missing cannot confirm a claim: numbers that are unknown, and series of too few samples.
+
+What is there may still refute a claim, for which one counterexample is enough. So only a finding
+that confirms is taken back, for every claim alike: reductions that skip NaN would hide that half of
+a dataset is unknown, and a line through two points is no law.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from fnmatch import fnmatchcase
+
+import numpy as np
+import xarray as xr
+
+from .cutoff import once
+
+FEWEST = 3
+"""So many samples at least: any two of them make a line."""
+SERIES = (
+    *("tau", "piece_tau", "long_tau", "end", "output", "generation"),
+    *(
+        "half_width",
+        "sites",
+        "gamma",
+        "frequency",
+        "size",
+        "initial",
+        "start_amplitude",
+        "a0",
+        "b0",
+    ),
+    *("sample", "distance", "decay", "proof", "step"),
+)
+"""The coordinates along which a claim is on many samples."""
+
+NO_NUMBER = {
+    "checks/lyapunov": ("exponents*",),  # beyond the last exponent of a shorter chain
+    "checks/ensembles*": ("l2_*", "linf_*"),  # at a half-width without an ensemble
+    "checks/trust": ("horizon", "known_until", "decimal_horizon"),  # without a reference
+    "breathers/steady": ("*",),  # where a family has no state
+    "breathers/periodic": ("*",),  # where a family has no breather, or nothing grows or collides
+    "breathers/fates": ("*frequency", "*distance"),  # of what is no breather
+    "pendula/over_the_top": ("passage_rate*",),  # where nobody waited
+    "pendula/remainder": ("error*", "order*", "largest_angle"),  # beyond the end of a run
+    "pendula/threshold": ("gamma_0_finite",),  # where no drive makes the chain unstable
+}
+"""The variables in which NaN has a meaning; the functions that read these look at it themselves."""
+
+
+def missing(names: Iterable[str], datasets: Mapping[str, xr.Dataset]) -> str:
+    """Return what of these datasets is too little to confirm anything, empty if nothing is."""
+    return "; ".join(
+        f"{what} of {name}"
+        for name in names
+        if isinstance(datasets[name], xr.Dataset)
+        for what in _missing(name, datasets[name])
+    )
+
+
+@once
+def _missing(name: str, dataset: xr.Dataset) -> list[str]:
+    return [*_unknown(name, dataset), *_few(dataset)]
+
+
+def _unknown(name: str, dataset: xr.Dataset) -> Iterator[str]:
+    patterns = [
+        each for like, several in NO_NUMBER.items() if fnmatchcase(name, like) for each in several
+    ]
+    for variable, values in dataset.data_vars.items():
+        spared = any(fnmatchcase(str(variable), pattern) for pattern in patterns)
+        if not spared and values.dtype.kind in "fc" and np.isnan(values.values).any():
+            yield f"{variable} is unknown in part"
+
+
+def _few(dataset: xr.Dataset) -> Iterator[str]:
+    for along in SERIES:
+        if dataset.sizes.get(along, FEWEST) < FEWEST:
+            yield f"{along} has fewer than {FEWEST} samples"
