@@ -4,7 +4,9 @@ from itertools import chain
 
 from pendula.datasets.checks import broken, describe
 from pendula.datasets.netcdf import read
-from pendula.ledger.claim import evaluate, needed, sections
+from pendula.ledger.claim import all_claims, evaluate, needed, sections
+from pendula.ledger.criterion import Verdict
+from pendula.ledger.distortions import distorted, in_words
 from pendula.ledger.rows import joined
 from pendula.ledger.tables import check_lines, in_short, tables, write_json
 from pendula.report.words import write_markdown
@@ -21,6 +23,8 @@ def decide_claims(
 ) -> None:
     """Write the rows of the ledger on the claims in `modules`, and a table to read.
 
+    Beside the rows stands what the functions of the claims said of distorted datasets.
+
     `makers` has the rule that makes each of `datasets`, in their order, by its name in the claims.
     `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
     """
@@ -29,10 +33,18 @@ def decide_claims(
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(makers, datasets, strict=True)}
     rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources, differs, modules)]
-    asked = [name for name in sources if name.startswith("checks/") and WRONG_FOLDER not in name]
-    checks = {name: sources[name].to_dict() for name in asked}
+    shown = [name for name in sources if name.startswith("checks/") and WRONG_FOLDER not in name]
+    checks = {name: sources[name].to_dict() for name in shown}
     lines = check_lines(checks)
-    told = {"sections": sections(*modules), "read": list(makers), "rows": rows, "checks": lines}
+    left_out = {row["name"] for row in rows if row["verdict"] == Verdict.NOT_APPLICABLE}
+    asked = [claim for claim in all_claims(*modules) if claim.name not in left_out]
+    told = {
+        "sections": sections(*modules),
+        "read": list(makers),
+        "rows": rows,
+        "checks": lines,
+        "distortions": in_words(distorted(asked, sources)),
+    }
     write_json(part, told)
     write_markdown(table, *tables(joined(rows), chain(*lines.values())))
     print(in_short(joined(rows)))

@@ -20,7 +20,8 @@ def join_claims(parts: list[str], names: list[str], ledger: str, controls: str, 
     rows = joined(in_order([row for part in read for row in part["rows"]], sections))
     checks = {name: lines for part in read for name, lines in part["checks"].items()}
     write_json(ledger, rows)
-    write_json(controls, controls_of(rows))
+    distortions = [row for part in read for row in part["distortions"]]
+    write_json(controls, [*controls_of(rows), *distortions])
     lines = [line for name in names for line in checks.get(name, [])]
     write_markdown(table, *tables(rows, lines))
     print(in_short(rows))

@@ -1,9 +1,12 @@
 """The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
 
 `claim`      a claim, as a study declares it above the function that decides it; all their verdicts
+`blind`      which distortions a claim may be confirmed by, and why
 `chaotic`    which cases are chaotic, by cut-offs
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
+`distortions` general distortions of every dataset, and what the claims' functions say of them
+`missing`    what is missing from a dataset, and confirms nothing
 `section`    the ledger's part of the report
 `tables`     the ledger as files: JSON, and tables to read
 

@@ -184,6 +184,12 @@ def swept(sweep, norm: str, statistic: str, window: str, quantity: str = "pair")
     return sweep["half_width"].values, values
 
 
+def at_one_omega(one, other) -> None:
+    """Raise an error unless two runs or sweeps are at one Omega, as a comparison of them is."""
+    if one.attrs["omega"] != other.attrs["omega"]:
+        raise UndecidableError("these data are at two values of Omega")
+
+
 def number(check, name: str, **selection) -> float:
     """Return one number of a check's dataset."""
     return float(check[name].sel(selection).values)

@@ -239,7 +239,8 @@ def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str
     numbers = {name: float(value) for name, value in measured.items()}
     if off := dict.fromkeys(criterion.failing(numbers)):
         if all(math.isnan(numbers[name]) for name in off):
-            return undecided(numbers, f"unknown: {', '.join(map(in_words, off))}")
+            unknown = f"unknown: {', '.join(map(in_words, off))}"
+            return Finding(numbers, criterion, Verdict.UNDECIDED, unknown)
         told = ", ".join(f"{in_words(name)} is {numbers[name]:.3g}" for name in off)
         return Finding(numbers, criterion, Verdict.NOT_REPRODUCED, fails or told)
     verdict = Verdict.CAVEAT if caveat else Verdict.CONFIRMED
@@ -267,6 +268,6 @@ def within_tolerance(check, *names: str) -> Finding:
 def tolerance(check, name: str) -> Cutoff:
     """Return what the check itself allows a variable, which rounding and solvers decide."""
     return Cutoff(
-        check[name].attrs["tolerance"],
+        float(check[name].attrs["tolerance"]),
         f"what rounding and the solver's tolerance leave of {in_words(name)}",
     )

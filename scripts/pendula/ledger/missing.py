@@ -15,33 +15,23 @@ from .cutoff import once
 
 FEWEST = 3
 """So many samples at least: any two of them make a line."""
-SERIES = (
-    *("tau", "piece_tau", "long_tau", "end", "output", "generation"),
-    *(
-        "half_width",
-        "sites",
-        "gamma",
-        "frequency",
-        "size",
-        "initial",
-        "start_amplitude",
-        "a0",
-        "b0",
-    ),
-    *("sample", "distance", "decay", "proof", "step"),
-)
-"""The coordinates along which a claim is on many samples."""
+SERIES = {
+    "*": "tau piece_tau long_tau end output generation step half_width sites gamma frequency size "
+    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus",
+    "checks/*": "mu",  # an order in mu takes three of them
+}
+"""The coordinates along which a claim is on many samples, by dataset."""
 
 NO_NUMBER = {
-    "checks/lyapunov": ("exponents*",),  # beyond the last exponent of a shorter chain
-    "checks/ensembles*": ("l2_*", "linf_*"),  # at a half-width without an ensemble
-    "checks/trust": ("horizon", "known_until", "decimal_horizon"),  # without a reference
-    "breathers/steady": ("*",),  # where a family has no state
-    "breathers/periodic": ("*",),  # where a family has no breather, or nothing grows or collides
-    "breathers/fates": ("*frequency", "*distance"),  # of what is no breather
-    "pendula/over_the_top": ("passage_rate*",),  # where nobody waited
-    "pendula/remainder": ("error*", "order*", "largest_angle"),  # beyond the end of a run
-    "pendula/threshold": ("gamma_0_finite",),  # where no drive makes the chain unstable
+    "checks/lyapunov": "exponents*",  # beyond the last exponent of a shorter chain
+    "checks/ensembles*": "l2_* linf_*",  # at a half-width without an ensemble
+    "checks/trust": "*horizon known_until",  # without a reference
+    "breathers/steady": "*",  # where a family has no state
+    "breathers/periodic": "*",  # where a family has no breather, or nothing grows or collides
+    "breathers/fates": "*frequency *distance",  # of what is no breather
+    "pendula/over_the_top": "passage_rate*",  # where nobody waited
+    "pendula/remainder": "error* order* largest_angle",  # beyond the end of a run
+    "pendula/threshold": "gamma_0_finite",  # where no drive makes the chain unstable
 }
 """The variables in which NaN has a meaning; the functions that read these look at it themselves."""
 
@@ -58,20 +48,23 @@ def missing(names: Iterable[str], datasets: Mapping[str, xr.Dataset]) -> str:
 
 @once
 def _missing(name: str, dataset: xr.Dataset) -> list[str]:
-    return [*_unknown(name, dataset), *_few(dataset)]
+    return [*_unknown(name, dataset), *_few(name, dataset)]
+
+
+def _of(name: str, by_dataset: Mapping[str, str]) -> list[str]:
+    """Return the words on a dataset."""
+    return " ".join(w for like, w in by_dataset.items() if fnmatchcase(name, like)).split()
 
 
 def _unknown(name: str, dataset: xr.Dataset) -> Iterator[str]:
-    patterns = [
-        each for like, several in NO_NUMBER.items() if fnmatchcase(name, like) for each in several
-    ]
+    patterns = _of(name, NO_NUMBER)
     for variable, values in dataset.data_vars.items():
         spared = any(fnmatchcase(str(variable), pattern) for pattern in patterns)
         if not spared and values.dtype.kind in "fc" and np.isnan(values.values).any():
             yield f"{variable} is unknown in part"
 
 
-def _few(dataset: xr.Dataset) -> Iterator[str]:
-    for along in SERIES:
+def _few(name: str, dataset: xr.Dataset) -> Iterator[str]:
+    for along in _of(name, SERIES):
         if dataset.sizes.get(along, FEWEST) < FEWEST:
             yield f"{along} has fewer than {FEWEST} samples"

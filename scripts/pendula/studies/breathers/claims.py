@@ -165,9 +165,14 @@ def stable_on_any_chain(steady, periodic) -> Finding:
         "steady": verdicts_that_differ(steady),
         "periodic": verdicts_that_differ(outside),
         "compared": np.isfinite(steady["growth"]).sum() + np.isfinite(outside["growth"]).sum(),
+        "known_steady": np.isfinite(steady["growth"]).mean(),
     }
     says = "states whose verdict changes"
-    criterion = AllOf(AtLeast(1, "compared"), AtMost(0, "steady", "periodic", says=says))
+    criterion = AllOf(
+        AtLeast(1, "compared"),
+        Above(MAJORITY, "known_steady", says="share of steady states that are known"),
+        AtMost(0, "steady", "periodic", says=says),
+    )
     within = periodic[["growing", "growing_half"]].where(~above)
     if not np.isfinite(within["growing"]).any():
         return judge(measured, criterion)

@@ -21,6 +21,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff, once
+from pendula.ledger.missing import FEWEST
 from pendula.measures.confidence import (
     CONFIDENCE,
     Limits,
@@ -59,6 +60,8 @@ def limits(members, case: str, reduce: Callable) -> dict[str, Limits]:
     known = {EARLIER, LATER} <= set(members["window"].values)
     if case not in members["case"].values or not known:
         raise UndecidableError(f"there is no ensemble of {case} on {EARLIER} and {LATER}")
+    if members.sizes["member"] < FEWEST:
+        raise UndecidableError(f"an ensemble has {FEWEST} members at least")
     return {
         kind: mean_limits(reduce(members_of(members, kind, case)), LEVEL.value)
         for kind in map(str, members["kind"].values)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from pendula.ledger import missing
 from pendula.ledger.chaotic import chaotic, regular
 from pendula.ledger.claim import FEWEST, LARGE, SMALL, Control, checks, claim, sweeps
 from pendula.ledger.criterion import (
@@ -68,6 +69,8 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
 
     The numbers are means of the pair's norms over the windows that begin at `since` or later.
     """
+    if members.sizes["member"] < missing.FEWEST:
+        raise UndecidableError(f"an ensemble has {missing.FEWEST} members at least")
     found = []
     for window in map(str, members["window"].values):
         start, end = json.loads(window)

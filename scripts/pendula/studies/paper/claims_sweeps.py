@@ -10,6 +10,7 @@ from pendula.ledger.claim import (
     CONSTANT,
     FACTOR,
     Control,
+    at_one_omega,
     checks,
     claim,
     runs,
@@ -98,6 +99,9 @@ def fig5_theorem_2(case, sweep) -> Finding:
     start, energy = float(total_power(case)[0]), float(case["energy"][0])
     parameters, boundary = constants(case), str(case.attrs["boundary"])
     region = proven_region(energy, start, parameters, boundary)
+    if region == "theorem 1":
+        raise UndecidableError("Theorem 2 says nothing at this Omega")
+    at_one_omega(case, sweep)
     swept = np.square(sweep["l2"].sel(quantity="pair").values).max()
     observed = max(float(swept), total_power(case).max())
     delta_0, c_0 = theorem_2_constants(parameters)

@@ -322,8 +322,8 @@ def waiting_grows(over_the_top) -> Finding:
     says = "lower limit of the rate at the largest mu less upper limit at the smallest"
     apart = Above(0.0, "gap_of_limits", says=says)
     below = np.maximum.accumulate(rated["passage_rate_low"].values)
-    if apart.holds(measured) and measured["least_step"] <= 0.0:
-        if (rated["passage_rate_high"].values >= below).all():
-            return undecided(measured, "a rate falls where mu grows, by less than its limits")
+    within = (rated["passage_rate_high"].values >= below).all()
+    if apart.holds(measured) and measured["least_step"] <= 0.0 and within:
+        return undecided(measured, "a rate falls where mu grows, by less than its limits")
     rises = Above(0.0, "least_step", says="least step of the rate from one mu to the next")
     return judge(measured, AllOf(apart, rises))

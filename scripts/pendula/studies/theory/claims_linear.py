@@ -7,6 +7,7 @@ from pendula.ledger.criterion import (
     Above,
     AllOf,
     AtMost,
+    Below,
     Finding,
     judge,
     tolerance,
@@ -125,14 +126,29 @@ def sharp_threshold(check) -> Finding:
     )
 
 
+def of_other_side(check):
+    """Return the check with the numbers of its Omegas in reverse order."""
+    return check.assign_coords(omega=check["omega"].values[::-1])
+
+
 @decides(
     "Proof of Lemma 1",
     "Above gamma_0 waves grow near theta = pi if Omega > 4 epsilon, near 0 if Omega < 0.",
     "unstable_waves",
-    controls=(wrong("the other edge of the band", "unstable_waves"),),
+    controls=(
+        wrong("the other edge of the band", "unstable_waves"),
+        changed("the waves of the Omega on the other side", "unstable_waves", of_other_side),
+    ),
 )
 def unstable_waves(check) -> Finding:
-    return within_tolerance(check, "waves_nearer")
+    """Ask that no wave of the chain is nearer to the edge, and for the side of the leading one."""
+    finding, above = within_tolerance(check, "waves_nearer"), check["omega"] > 0.0
+    edge = abs(check["leading_wave"] - np.pi * above)
+    criterion = AllOf(
+        finding.criterion,
+        Below(0.5 * np.pi, "from_its_edge", says="distance of the leading wave from its edge"),
+    )
+    return judge(finding.measured | {"from_its_edge": edge.max(skipna=False)}, criterion)
 
 
 @decides(

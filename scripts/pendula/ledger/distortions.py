@@ -1,0 +1,197 @@
+"""General distortions of datasets, fed to every claim to find what its function does not look at.
+
+The controls of a claim are wrong cases that somebody thought of. These are thought of by nobody:
+every dataset of every claim is distorted in each of these ways, and what the claim's function says
+of it goes into results/controls.json. A function that still confirms its claim has to have a
+reason, which stands in `blind`.
+"""
+
+import math
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from pendula.numerics.draws import normal
+
+from .blind import EXCHANGE, OMEGA, ORDER, SIZE, reason_of
+from .claim import Claim, confirmed, decide
+from .criterion import Finding, Verdict, undecided
+
+Change = Callable[[str, Mapping[str, xr.Dataset]], xr.Dataset | None]
+"""What makes the distorted dataset from the name of one and all at hand; None: it cannot."""
+
+MISSING = "missing"
+OMEGAS = {"case": 2, "spectrum_case": 1, "sweep": 1, "omega": 1, "growth_omega": 1, "variant": 1}
+"""Coordinates along which Omega changes, and after how many places: each case has two sizes."""
+COMPONENTS = ("component", "quantity")
+SEED, NOISE = 2017, 0.1
+ROUNDING = 1e-6
+"""Of a ratio that a factor leaves as it is, far less than any distortion moves."""
+
+
+class Distortion(NamedTuple):
+    """A way to distort any dataset, and its kind: those of one kind share their reasons."""
+
+    says: str
+    change: Change
+    kind: str
+
+
+def another_omega(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
+    """Return a dataset with the numbers of other cases, or another case's dataset in its place."""
+    dataset = sources[name]
+    places = {along: by for along, by in OMEGAS.items() if dataset.sizes.get(along, 1) > by}
+    if places:
+        return dataset.roll(places, roll_coords=False)
+    folder, _, file = name.rpartition("/")
+    about, solver = dataset.attrs, file.partition(".")[2]
+    others = [
+        found
+        for other, found in sorted(sources.items())
+        if other.rpartition("/")[0] == folder
+        and other.rpartition("/")[2].partition(".")[2] == solver
+        and set(dataset) <= set(found)
+        and found.attrs.get("omega", about.get("omega")) != about.get("omega")
+    ]
+    # the data of the same size, where there are such
+    return min(
+        others, key=lambda one: one.attrs.get("initial") != about.get("initial"), default=None
+    )
+
+
+def exchanged(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
+    """Return a dataset with A and B exchanged."""
+    dataset, other = sources[name], {"A": "B", "B": "A"}
+    found = [along for along in COMPONENTS if along in dataset.indexes]
+    return dataset.assign_coords(
+        {along: [other.get(str(one), str(one)) for one in dataset[along].values] for along in found}
+    ) if found else None  # fmt: skip
+
+
+def backwards(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
+    """Return a dataset in reverse order along its coordinates of numbers, which keep their own."""
+    dataset = sources[name]
+    found = {
+        along: dataset[along]
+        for along, index in dataset.indexes.items()
+        if along not in OMEGAS and index.dtype.kind in "fiu" and len(index) > 1
+    }
+    turned = dataset.isel(dict.fromkeys(found, slice(None, None, -1)))
+    return turned.assign_coords(found) if found else None
+
+
+def two_alone(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
+    """Return the first and the last of a dataset along all that it has more than two of."""
+    dataset = sources[name]
+    many = [along for along, size in dataset.sizes.items() if size > 2 and along not in OMEGAS]
+    numbered = [one for one in many if one not in dataset or dataset[one].dtype.kind in "fiu"]
+    return dataset.isel({along: [0, -1] for along in numbered}) if numbered else None
+
+
+def of_numbers(change: Callable[[np.ndarray], np.ndarray]) -> Change:
+    """Return the distortion that changes every variable that is made of numbers."""
+
+    def changed(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset:
+        dataset = sources[name]
+        numbers = {each: one for each, one in dataset.items() if one.dtype.kind in "fiu"}
+        return dataset.assign(
+            {each: one.copy(data=change(one.values.astype(float))) for each, one in numbers.items()}
+        )
+
+    return changed
+
+
+def half_unknown(values: np.ndarray) -> np.ndarray:
+    """Return every other number as unknown, and a single one too."""
+    flat = values.flatten()
+    flat[1 if flat.size > 1 else 0 :: 2] = np.nan
+    return flat.reshape(values.shape)
+
+
+def noisy(values: np.ndarray) -> np.ndarray:
+    """Return numbers with relative noise, the same for all arrays of one size."""
+    drawn = normal(np.random.default_rng(SEED), values.shape)
+    return values * (1.0 + NOISE * drawn)
+
+
+DISTORTIONS = (
+    Distortion("another Omega", another_omega, OMEGA),
+    Distortion("A and B exchanged", exchanged, EXCHANGE),
+    Distortion("in reverse order", backwards, ORDER),
+    Distortion("half unknown", of_numbers(half_unknown), MISSING),
+    Distortion("two samples alone", two_alone, MISSING),
+    Distortion("scaled by 1.3", of_numbers(lambda values: 1.3 * values), SIZE),
+    Distortion("scaled by 0.7", of_numbers(lambda values: 0.7 * values), SIZE),
+    Distortion("noise of 10 %", of_numbers(noisy), SIZE),
+)
+
+
+class Said(NamedTuple):
+    """By which distorted datasets the function of a claim came to which finding."""
+
+    refused: list[str]
+    undecided: list[str]
+    within: list[str]
+    """Confirmed, since numbers that a distortion of size moved still keep their criterion."""
+    blind: list[str]
+    """Confirmed by the same numbers, or although a distortion is none of size."""
+
+    def __str__(self) -> str:
+        words = (("refused", self.refused), ("not decided", self.undecided))
+        counts = [f"{word} {len(names)}" for word, names in words if names]
+        counts += [f"confirmed within its limits {len(self.within)}"] if self.within else []
+        return ", ".join([*counts, *(f"confirmed by {name}" for name in self.blind)])
+
+
+def distorted(claims: Iterable[Claim], sources: Mapping) -> dict[tuple[str, Distortion], Said]:
+    """Return what the functions said by (name of the claim, distortion).
+
+    Each dataset of a claim is distorted by itself, while the others are right.
+    """
+    claims = [claim for claim in claims if set(claim.needs) <= set(sources)]
+    names = dict.fromkeys(name for claim in claims for name in claim.needs)
+    right = {claim.name: decide(claim, sources) for claim in claims}
+    told = {}
+    for distortion in DISTORTIONS:
+        wrong = {name: distortion.change(name, sources) for name in names}
+        for claim in claims:
+            said = Said([], [], [], [])
+            for name in claim.needs:
+                if wrong[name] is not None:
+                    found = _asked(claim, {**sources, name: wrong[name]})
+                    _place(found, right[claim.name], distortion, said).append(name)
+            if any(said):
+                told[claim.name, distortion] = said
+    return told
+
+
+def _asked(claim: Claim, sources: Mapping) -> Finding:
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        try:
+            return decide(claim, sources)
+        except (ArithmeticError, LookupError, ValueError) as error:
+            return undecided({}, f"it cannot be read: {error}")
+
+
+def _place(found: Finding, right: Finding, distortion: Distortion, said: Said) -> list[str]:
+    """Return the list of `said` to which a finding belongs."""
+    if not confirmed(found):
+        return said.undecided if found.verdict == Verdict.UNDECIDED else said.refused
+    judged = found.criterion.names if found.criterion else ()
+    pairs = [(found.measured[name], right.measured.get(name, np.nan)) for name in judged]
+    moved = any(not math.isclose(*pair, rel_tol=ROUNDING) for pair in pairs)
+    return said.within if distortion.kind == SIZE and moved else said.blind
+
+
+def in_words(told: Mapping[tuple[str, Distortion], Said]) -> list[dict]:
+    """Return a row for each claim, as results/controls.json has it."""
+    by_claim: dict[str, dict] = {}
+    for (claim, distortion), said in told.items():
+        why = reason_of(distortion.kind, claim) if said.blind else ""
+        row = by_claim.setdefault(claim, {"claim": claim, "fed": "general distortions"})
+        row[distortion.says] = f"{said}: {why}" if why else str(said)
+    return list(by_claim.values())
