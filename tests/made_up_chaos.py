@@ -52,7 +52,8 @@ def lifetimes() -> xr.Dataset:
     medians = {
         "": [5.0, 50.0, infinite], "_low": [5.0, 50.0, infinite], "_high": [5.0, infinite, infinite]
     }  # fmt: skip
-    rates = {"": [infinite, 0.01, 0.0], "_low": [0.0, 0.005, 0.0], "_high": [infinite, 0.02, 0.001]}
+    none = np.nan
+    rates = {"": [none, 0.01, 0.0], "_low": [none, 0.005, 0.0], "_high": [none, 0.02, 0.001]}
     series = {
         f"surviving{end}": (("start_amplitude", "tau"), np.clip(shares + off, 0.0, 1.0))
         for end, off in ends.items()
@@ -63,10 +64,10 @@ def lifetimes() -> xr.Dataset:
         for end, values in by_end.items()
     }
     lives = np.array([[5.0] * 64, [50.5, infinite] * 32, [infinite] * 64])
-    law = {"rate_clock": [10.0, 12.0, 10.0], "rate_chance": [1.0, 0.3, 1.0]}
-    numbers |= {name: (("start_amplitude",), values) for name, values in law.items()}
+    numbers["rate_chance"] = (("start_amplitude",), [1.0, 0.3, 1.0])
     numbers["life"] = (("start_amplitude", "member"), lives)
-    return dataset({"start_amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
+    made = dataset({"start_amplitude": [1.0, 7.0, 10.0], "tau": tau}, **series, **numbers)
+    return made.assign_attrs(settled=10.0)
 
 
 def symmetry() -> xr.Dataset:

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from pendula.report.words import case_of, number, percent, span, with_error
+from pendula.studies.chaos.claims import END
 
 from .baseline import Baseline
 from .words import time_of_output, with_stored_error
@@ -65,16 +66,9 @@ def ensembles(baseline: Baseline) -> dict:
     }
 
 
-def _limits(data: xr.Dataset, name: str) -> str:
-    """Return confidence limits; a time that no run lived to see is infinite."""
-    low, high = (float(data[f"{name}_{end}"]) for end in ("low", "high"))
-    return f"{number(low)} to {number(high)}" if np.isfinite(high) else f"over {number(low)}"
-
-
-def _rate(life: xr.Dataset) -> str:
-    """Return the rate of transitions, or what it is below where none was seen."""
-    rate, high = float(life["rate"]), float(life["rate_high"])
-    return number(rate, 2) if rate else f"below {number(high, 2)}"
+def _limits(data: xr.Dataset, name: str, digits: int = 3) -> str:
+    """Return confidence limits."""
+    return " to ".join(number(data[f"{name}_{end}"], digits) for end in ("low", "high"))
 
 
 def _chance(life: xr.Dataset) -> str:
@@ -89,18 +83,23 @@ def lifetimes(baseline: Baseline) -> dict:
     slow, fast = lives.isel(start_amplitude=differ), lives["median"].isel(start_amplitude=~differ)
     coarse = lives.isel(choice=int(lives["choice_tolerance"].values.argmax()))
     return {
+        "first_fast": number(fast["start_amplitude"].min()),
+        "last_fast": number(fast["start_amplitude"].max()),
         "from": number(slow["start_amplitude"].min()),
+        "of_paper": number(END),
         "end": number(lives["tau"].max()),
         "fast": span(fast.values, 2),
         "rows": [
             {
-                "case": number(a0),
-                "kept": percent(slow["surviving"].sel(start_amplitude=a0)[-1]),
-                "rate": _rate(slow.sel(start_amplitude=a0)),
-                "limits": _limits(slow.sel(start_amplitude=a0), "rate"),
-                "chance": _chance(slow.sel(start_amplitude=a0)),
+                "case": number(life["start_amplitude"]),
+                "kept_of_paper": percent(life["surviving"].sel(tau=END)),
+                "kept": percent(life["surviving"][-1]),
+                "first": time_of_output(life["life"].min()),
+                "rate": number(life["rate"], 2),
+                "limits": _limits(life, "rate", 2),
+                "chance": _chance(life),
             }
-            for a0 in slow["start_amplitude"].values
+            for life in (slow.isel(start_amplitude=i) for i in range(slow.sizes["start_amplitude"]))
         ],
         "coarse": number(coarse["choice_tolerance"]),
         "coarse_drift": number(coarse["choice_drift"], 1),

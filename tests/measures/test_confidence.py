@@ -90,6 +90,20 @@ def test_no_death_bounds_the_mean_life_from_below_only():
     assert low == pytest.approx(200.0 / -np.log(0.025), rel=1e-5)
 
 
+def test_the_limits_of_a_rate_hold_it_where_few_events_are_seen():
+    """Their mean number is one, and in a third of the draws none is seen."""
+
+    def limits(rng):
+        times = 10.0 + rng.exponential(2000.0, size=50)
+        return confidence.event_rate(np.where(times < 50.0, times, np.inf), 10.0, 50.0)
+
+    assert 0.95 < covered(limits, 1.0 / 2000.0) <= 1.0
+    none = confidence.event_rate([np.inf] * 64, 10.0, 50.0)
+    assert (none.value, none.low) == (0.0, 0.0)
+    assert none.high == pytest.approx(-np.log(0.025) / 2560.0, rel=1e-5)
+    assert np.isnan(confidence.event_rate([3.0, 4.0], 10.0, 50.0)).all()
+
+
 def test_one_more_draw_has_every_chance_alike(stats):
     draws = RNG.normal(2.0, 3.0, size=(9, 4000))
     members, new = draws[:8], draws[8]

@@ -1,4 +1,4 @@
-"""Confidence limits: of a mean of few members, of a share, of a median, of a mean life.
+"""Confidence limits: of a mean of few members, of a share, of a median, of a life or a rate.
 
 Quantiles of the distributions are rounded to six digits, because the last bits of the special
 functions behind them differ between machines.
@@ -137,6 +137,22 @@ def mean_life(lives, watched: float, confidence: float = CONFIDENCE) -> Limits:
         return Limits(np.inf, low, np.inf)
     high = 2.0 * at_risk / _rounded(special.chdtri(2 * ended, 1.0 - tail))
     return Limits(at_risk / ended, low, high)
+
+
+def event_rate(times, start: float, end: float) -> Limits:
+    """Return the events per unit of time among those members that had none by `start`.
+
+    `times` is (member,), infinite where no event came by `end`. The rate is the number of events
+    over the time for which all these members together were watched. At a constant rate this number
+    is one of Poisson, whose exact limits these are (F. Garwood, Biometrika 28 (1936) 437), however
+    few events there are. NaN where no member was left at `start`.
+    """
+    times = np.asarray(times, dtype=float)
+    left = times[times > start] - start
+    if not left.size:
+        return Limits(np.nan, np.nan, np.nan)
+    life = mean_life(left, end - start)
+    return Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
 
 
 def chance_of_law(lives, watched: float) -> float:

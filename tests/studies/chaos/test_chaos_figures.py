@@ -71,7 +71,7 @@ def test_lives_are_drawn_where_they_are_known_and_as_bounds_where_they_are_not(g
     assert len(shares.get_lines()) == 3
     medians, rates = lives.containers
     np.testing.assert_array_equal(medians.lines[0].get_xydata(), [[1.0, 5.0], [7.0, 50.0]])
-    np.testing.assert_allclose(rates.lines[0].get_ydata(), [100.0])
+    np.testing.assert_allclose(rates.lines[0].get_ydata(), [110.0])
     median, mean = (line for line in lives.get_lines() if line.get_marker() == "^")
     np.testing.assert_array_equal(median.get_xydata(), [[10.0, 100.0]])
-    np.testing.assert_allclose(mean.get_ydata(), [1000.0])
+    np.testing.assert_allclose(mean.get_ydata(), [1010.0])

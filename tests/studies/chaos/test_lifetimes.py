@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pendula.datasets.netcdf import as_xarray
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos import lifetimes
+from pendula.studies.chaos import lifetimes, lifetimes_figure
 from problems import problem_of
 
 SOLVER = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
@@ -37,23 +37,34 @@ def test_a_large_centre_outlasts_the_run_and_a_stable_one_too():
     assert lifetimes.follow(stable).time == np.inf
 
 
-def test_a_dead_time_does_not_lower_the_rate():
-    draws = 15.0 + np.random.default_rng(0).exponential(10.0, (40, 200))
-    late = [lifetimes.rate_after(lives, 10.0, 100.0) for lives in draws]
-    assert [rate.clock for rate in late] == draws.min(axis=1).tolist()
-    assert np.mean([rate.limits.value for rate in late]) == pytest.approx(0.1, rel=0.03)
-    assert np.mean([rate.chance > 0.05 for rate in late]) > 0.85
+def test_a_rate_that_is_constant_only_after_a_dead_time_is_told():
+    draws = 10.0 + np.random.default_rng(0).exponential(10.0, (40, 200))
+    chances = [lifetimes.chance_of_rate(lives, 10.0, 100.0) for lives in draws]
+    assert np.mean(np.array(chances) > 0.05) > 0.85
+    late = [lifetimes.chance_of_rate(lives, 10.0, 100.0) for lives in draws + 5.0]
+    assert max(late) < 0.01
+    assert lifetimes.chance_of_rate(np.array([3.0, 4.0]), 10.0, 100.0) == 1.0
 
 
-def test_rates_count_only_who_was_localised_and_what_was_censored():
-    lives = np.array([3.0, 12.0, 14.0, np.inf])
-    (rate, low, high), clock, chance = lifetimes.rate_after(lives, 10.0, 20.0)
-    assert clock == 12.0 and rate == pytest.approx(1.0 / (2.0 + 8.0))
-    assert low < rate < high and 0.0 < chance <= 1.0
-    for none_left in ([3.0, 4.0], [3.0, 12.0], [12.0, 12.0]):
-        assert lifetimes.rate_after(np.array(none_left), 10.0, 20.0).limits.value == np.inf
-    never = lifetimes.rate_after(np.array([np.inf] * 3), 10.0, 20.0)
-    assert (never.limits.value, never.clock, never.chance) == (0.0, 10.0, 1.0)
+def test_one_transition_bounds_a_rate_by_all_the_time_that_was_watched():
+    """Of 64 runs to tau = 50 one changes over from A_0 = 9, at 48.2, and six do from 8."""
+    given, lives = problem(end_time=50.0, output_step=0.5), np.full((2, 64), np.inf)
+    lives[0, :6], lives[1, 0] = [35.8, 40.2, 40.4, 42.1, 42.4, 47.9], 48.2
+    drawn = {8.0: lives[0], 9.0: lives[1]}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lifetimes, "follow_members", lambda one, *_: [
+            lifetimes.Life(time, 0.0, 0) for time in drawn[float(abs(one.initial[0]).max())]
+        ])  # fmt: skip
+        data = as_xarray(*lifetimes.measure_lives(given, [8.0, 9.0], 0.2, 1e-7, 64, 10.0, 3))
+    rate, low, high = (data[f"rate{end}"].values for end in ("", "_low", "_high"))
+    exposed = 64 * 40.0 - np.array([np.sum(50.0 - lives[0, :6]), 1.8])
+    assert rate == pytest.approx([6, 1] / exposed)
+    assert high[1] == pytest.approx(5.57164 / 2558.2, rel=1e-5)  # Poisson: exp(-m) (1 + m) = 0.025
+    assert low[1] == pytest.approx(-np.log(0.975) / 2558.2, rel=1e-5)
+    assert low[1] < low[0] < high[1] < high[0]
+    shown = lifetimes_figure.draw_lifetimes(lifetimes_figure.gather_lifetimes(data)).axes[1]
+    (means,) = (one for one in shown.containers if len(one.lines[0].get_ydata()) == 2)
+    assert np.diff(means.lines[0].get_ydata()) > 0
 
 
 def test_survival_falls_with_each_transition():

@@ -124,15 +124,15 @@ def test_shares_and_rates_count_who_was_waiting():
     share = over_the_top.passed_by(times, np.array([4.0, 5.0, 14.0, 50.0]))
     assert share.value.tolist() == [0.0, 0.25, 0.5, 0.75]
     assert (share.low <= share.value).all() and (share.high >= share.value).all()
-    rate = over_the_top.waiting_rate(times, 10.0, 50.0)
+    rate = over_the_top.event_rate(times, 10.0, 50.0)
     assert rate.value == pytest.approx(2.0 / (2.0 + 5.0 + 40.0)) and rate.low < rate.value
-    assert np.isnan(over_the_top.waiting_rate(times[:1], 10.0, 50.0).value)
+    assert np.isnan(over_the_top.event_rate(times[:1], 10.0, 50.0).value)
 
 
 def test_the_rate_of_an_exponential_law_is_found():
     draws = 10.0 + np.random.default_rng(0).exponential(20.0, 4000)
     times = np.where(draws > 50.0, np.inf, draws)
-    rate = over_the_top.waiting_rate(times, 10.0, 50.0)
+    rate = over_the_top.event_rate(times, 10.0, 50.0)
     assert rate.low < 0.05 < rate.high and rate.high < 1.1 * rate.low
 
 

@@ -15,7 +15,7 @@ from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.confidence import (
     Limits,
     chance_of_law,
-    mean_life,
+    event_rate,
     median_limits,
     share_limits,
 )
@@ -84,33 +84,13 @@ def follow_members(
     return [follow(member) for member in draw_members(problem, size, members, seed, kind)]
 
 
-class Rate(NamedTuple):
-    """How fast members change over once the first of them has."""
+def chance_of_rate(lives: np.ndarray, settled: float, end_time: float) -> float:
+    """Return the chance of lives as far from a constant rate, of those localised at `settled`.
 
-    limits: Limits  # transitions a unit of tau
-    clock: float  # where the clock starts: the first transition seen
-    chance: float  # of lives as far from an exponential law
-
-
-def rate_after(lives: np.ndarray, settled: float, end_time: float) -> Rate:
-    """Return the rate of transitions a unit of tau among those localised at `settled`.
-
-    Lives are (member,), infinite where they outlast `end_time`. No member changes over at first:
-    the data are almost equal, and it takes time to forget this. So the clock of each amplitude
-    starts at the first transition seen, and counts those that follow; if none is seen, at
-    `settled`. From there on the law is exponential if chaos leaves no memory: the likelihood counts
-    what is censored, and `chance` tests the law. The rate is infinite where nothing is left.
+    Lives are (member,), infinite where they outlast `end_time`. The rate cannot be constant from
+    the start: the data are almost equal, and it takes time until members differ.
     """
-    left = np.sort(lives[lives > settled])
-    clock = settled
-    if left.size and np.isfinite(left[0]):
-        clock, left = float(left[0]), left[1:]
-    further, watched = left - clock, end_time - clock
-    if not np.minimum(further, watched).sum():
-        return Rate(Limits(np.inf, 0.0, np.inf), clock, 1.0)
-    life = mean_life(further, watched)
-    limits = Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
-    return Rate(limits, clock, chance_of_law(further, watched))
+    return chance_of_law(lives[lives > settled] - settled, end_time - settled)
 
 
 def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
@@ -125,7 +105,7 @@ def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
 
 NUMBERS = {
     "median": "median life, from order statistics",
-    "rate": "rate of transitions, per unit of tau, from the first one after the settled time on",
+    "rate": "transitions per unit of tau and member that is localised, after the settled time",
 }
 ENDS = {"value": "", "low": ", lower confidence limit", "high": ", upper confidence limit"}
 
@@ -140,7 +120,8 @@ def measure_lives(
     tau = output_times(problem.end_time, 0.5)
     shares = [surviving(row, tau) for row in lives]
     medians = [median_limits(row) for row in lives]
-    rates = [rate_after(row, settled, problem.end_time) for row in lives]
+    rates = [event_rate(row, settled, problem.end_time) for row in lives]
+    chances = [chance_of_rate(row, settled, problem.end_time) for row in lives]
     over, share = ("start_amplitude",), "share of members that are still localised"
     variables = {
         "start_amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the centre"),
@@ -156,15 +137,8 @@ def measure_lives(
         ),
         **_limits("surviving", (*over, "tau"), shares, share),
         **_limits("median", over, medians, NUMBERS["median"]),
-        **_limits("rate", over, [rate.limits for rate in rates], NUMBERS["rate"]),
-        "rate_clock": Variable(
-            over, [rate.clock for rate in rates],
-            "time from which the rate counts: the first transition after the settled time",
-        ),
-        "rate_chance": Variable(
-            over, [rate.chance for rate in rates],
-            "chance of lives as far from the exponential law of the rate",
-        ),
+        **_limits("rate", over, rates, NUMBERS["rate"]),
+        "rate_chance": Variable(over, chances, "chance of lives as far from a constant rate"),
     }  # fmt: skip
     _, shared = describe_cases({"centre": problem})
     about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "settled": settled}
@@ -199,7 +173,7 @@ def compare_numerics(
         runs = follow_members(problem.changed(solver=solver), size, members, seed, kind)
         times, drifts, work = zip(*runs, strict=True)
         found.append(Found(np.array(times), max(drifts), sum(work)))
-    rates = [rate_after(one.times, settled, problem.end_time).limits for one in found]
+    rates = [event_rate(one.times, settled, problem.end_time) for one in found]
     over = ("choice",)
     return {
         "compared_amplitude": Variable((), a0, "initial amplitude A_0 of the compared ensembles"),

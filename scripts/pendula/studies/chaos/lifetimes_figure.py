@@ -13,6 +13,8 @@ DRAWN += ["rate", "rate_low", "rate_high"]
 COLOURS = colormaps["viridis"]
 LINE = 0.075
 """The height of a line of text, as a share."""
+BESIDE = 0.18
+"""How far the marks of means stand beside those of medians, in units of A_0."""
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
@@ -39,21 +41,22 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
     tau, slow = data["tau"], _slow(data)
     fast = [i for i in range(data.sizes["start_amplitude"]) if i not in slow]
     for i in fast:
-        axes.plot(tau, data["surviving"][i], color="0.6", lw=0.8)
+        axes.step(tau, data["surviving"][i], where="post", color="0.6", lw=0.8)
     free = -np.inf
     for k, i in enumerate(slow):
         colour = COLOURS(0.85 * k / max(1, len(slow) - 1))
         low, high = data["surviving_low"][i], data["surviving_high"][i]
-        axes.fill_between(tau, low, high, color=colour, alpha=0.15, lw=0)
-        axes.plot(tau, data["surviving"][i], color=colour, lw=1.3)
+        axes.fill_between(tau, low, high, step="post", color=colour, alpha=0.15, lw=0)
+        axes.step(tau, data["surviving"][i], where="post", color=colour, lw=1.3)
         free = max(free + LINE, float(data["surviving"][i, -1]))
         label = f"$A_0 = {float(data['start_amplitude'][i]):g}$"
-        axes.text(1.02 * float(tau[-1]), free, label, color=colour, va="center", fontsize=7)
+        axes.text(1.07 * float(tau[-1]), free, label, color=colour, va="center", fontsize=7)
     if fast:
         words = _range(data["start_amplitude"].values[fast])
-        beside = float(data["median"][fast].max()) + 0.02 * float(tau[-1])
-        axes.text(beside, 0.04, words, color="0.45", fontsize=7)
-    axes.set_xlim(0, float(tau[-1]))
+        axes.text(0.93 * float(data["median"][fast].min()), 0.04, words, color="0.45", fontsize=7,
+                  ha="right")  # fmt: skip
+    axes.set_xscale("log")
+    axes.set_xlim(1, float(tau[-1]))
     axes.set_ylim(0, 1.03)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("share of runs still localised")
@@ -73,24 +76,18 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     bars = np.abs([middle[known] - low[known], above[known] - middle[known]])
     look = {"color": style.BLUE, "marker": "o", "markersize": 3.5, "elinewidth": 0.8, "capsize": 2}
     axes.errorbar(a0[known], middle[known], bars, linestyle="none", label="median", **look)
-    later = np.where(np.isfinite(low), low, end)[~known]
-    axes.plot(
-        a0[~known], later, color=style.BLUE, marker="^", markersize=5, linestyle="none",
-        markerfacecolor="white", label="median at least",
-    )  # fmt: skip
-    lives = [1.0 / np.where(rate > 0, rate, np.nan) for rate in _rates(data)]
-    seen = np.isfinite(data["rate"].values) & (data["rate"].values > 0)
-    value, least, most = (life[seen] for life in lives)
+    later = np.where(np.isfinite(low), low, end)
+    _draw_bounds(axes, a0[~known], later[~known], style.BLUE, "median at least")
+    settled, seen, unseen = data.attrs["settled"], data["rate"].values > 0, data["rate"].values == 0
+    rates = (data[f"rate{part}"].values for part in ("", "_high", "_low"))
+    value, least, most = (settled + 1.0 / rate[seen] for rate in rates)
     look |= {"color": style.RED, "marker": "s"}
     axes.errorbar(
-        a0[seen] + 0.12, value, [value - least, most - value], linestyle="none",
-        label="mean from the first on", **look,
+        a0[seen] + BESIDE, value, [value - least, most - value], linestyle="none",
+        label=rf"mean, if localised at $\tau = {settled:g}$", **look,
     )  # fmt: skip
-    unseen = data["rate"].values == 0
-    axes.plot(
-        a0[unseen] + 0.12, 1.0 / data["rate_high"].values[unseen], color=style.RED, marker="^",
-        markersize=5, linestyle="none", markerfacecolor="white", label="mean at least",
-    )  # fmt: skip
+    least = settled + 1.0 / data["rate_high"].values[unseen]
+    _draw_bounds(axes, a0[unseen] + BESIDE, least, style.RED, "mean at least")
     axes.set_yscale("log")
     axes.set_xlabel("initial amplitude $A_0$")
     axes.set_ylabel("life, units of $\\tau$")
@@ -98,6 +95,8 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     axes.legend(loc="upper left", handletextpad=0.3)
 
 
-def _rates(data: xr.Dataset):
-    """Return the rate, then its upper and its lower limit: those of the shortest life first."""
-    return (data[f"rate{part}"].values for part in ("", "_high", "_low"))
+def _draw_bounds(axes: Axes, a0: np.ndarray, least: np.ndarray, colour: str, label: str) -> None:
+    """Draw lower bounds as triangles, if there are any."""
+    if a0.size:
+        axes.plot(a0, least, color=colour, marker="^", markersize=5, linestyle="none",
+                  markerfacecolor="white", label=label)  # fmt: skip

@@ -140,7 +140,7 @@ def lives_of(results: Results) -> dict[str, Any]:
         "settled": results.quote(LIVES, lives.attrs["settled"]),
         "end": results.quote(LIVES, end),
         "head": ["initial amplitude", "median life, τ", "its limits", "still localised at the end",
-                 "transitions per unit of τ", "their limits", "counted from τ",
+                 "first transition, τ", "transitions per unit of τ", "their limits",
                  "chance under a constant rate"],
         "rows": [_life(results, float(a0), end) for a0 in lives["start_amplitude"].values],
         "amplitude": results.quote(LIVES, float(lives["compared_amplitude"])),
@@ -157,14 +157,9 @@ def _life(results: Results, a0: float, end: float) -> list:
     median, low, high = (_time(tau, end) for tau in times)
     limits = low if low == high else f"{low} to {high}"
     told = [results.say(LIVES, text) for text in (median, limits)]
-    return [number(a0), *told, left, *_rate(results, one, "rate"), *_law(results, one)]
-
-
-def _law(results: Results, one) -> list:
-    """Return when the clock of a rate starts and the chance of its law, or none without ends."""
-    if not np.isfinite(float(one["rate"])) or not float(one["rate"]):
-        return ["none", "none"]
-    return [results.quote(LIVES, float(one[name]), 2) for name in ("rate_clock", "rate_chance")]
+    first = results.say(LIVES, _time(float(one["life"].min()), end))
+    chance = results.quote(LIVES, float(one["rate_chance"]), 2) if one["rate"] > 0 else "none"
+    return [number(a0), *told, left, first, *_rate(results, one, "rate"), chance]
 
 
 def _time(tau: float, end: float) -> str:
@@ -186,8 +181,8 @@ def _rate(results: Results, one, name: str) -> list:
     """Return a rate and its limits, or none where no run outlasted the settled time."""
     if not np.isfinite(float(one[name])):
         return ["none", "none"]
-    limits = (number(float(one[f"{name}_{end}"])) for end in ("low", "high"))
-    return [results.quote(LIVES, float(one[name])), results.say(LIVES, " to ".join(limits))]
+    limits = (number(float(one[f"{name}_{end}"]), 2) for end in ("low", "high"))
+    return [results.quote(LIVES, float(one[name]), 2), results.say(LIVES, " to ".join(limits))]
 
 
 def _pictures(results: Results) -> dict[str, Picture]:

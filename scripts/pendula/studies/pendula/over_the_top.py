@@ -18,7 +18,7 @@ import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, mean_life, median_limits, share_limits
+from pendula.measures.confidence import Limits, event_rate, median_limits, share_limits
 from pendula.models.pendula import frequency
 from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
@@ -71,19 +71,6 @@ def passed_by(times: np.ndarray, tau: np.ndarray) -> Limits:
     return Limits(*np.array([known[int(count)] for count in counts]).T)
 
 
-def waiting_rate(times: np.ndarray, settled: float, end_time: float) -> Limits:
-    """Return the rate of first passages a unit of tau among who had none by `settled`.
-
-    The likelihood of the exponential law counts who is still waiting at the end. NaN where nobody
-    was waiting at `settled`: all went over while the sea was filling the chain.
-    """
-    waiting = times[times > settled] - settled
-    if not waiting.size:
-        return Limits(np.nan, np.nan, np.nan)
-    life = mean_life(waiting, end_time - settled)
-    return Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
-
-
 def measure_over_the_top(
     problem: Problem, mus: Sequence[float], per_period: int, size: float, members: int, seed: int,
     settled: float,
@@ -112,7 +99,7 @@ def measure_over_the_top(
         **_limits("passage_median", over, [median_limits(row) for row in times],
                   "median time of the first passage, from order statistics"),
         **_limits("passage_rate", over,
-                  [waiting_rate(row, settled, problem.end_time) for row in times],
+                  [event_rate(row, settled, problem.end_time) for row in times],
                   "rate of first passages after the settled time, per unit of tau"),
     }, {**shared, **about, "omega": problem.constants.omega, "title": title}  # fmt: skip
 
