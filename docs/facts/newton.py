@@ -14,14 +14,14 @@ def pendula(baseline: Baseline) -> dict:
     """Return what Lemma 1 is for the pendula themselves, at the paper's detunings."""
     data = baseline["pendula/threshold"]
     largest = float(data["mu"].max())
-    taken = (data["curve_gamma_0"].sel(mu=largest) == 0.0) & (data["curve_gamma_0_lemma"] > 0.0)
     norms = pendula_norms(baseline["pendula/phases"]).measured
     return {
         **_passages(baseline["quoted/pendula"]),
         "norms_mu": number(norms["at_mu"]),
         "orders": f"{number(norms['least_order'])} to {number(norms['largest_order'])}",
         "largest_mu": number(largest),
-        "second_below": number(data["curve_omega"].where(taken).max()),
+        "second_low": number(data["resonance_low"].sel(mu=largest)),
+        "second_high": number(data["resonance_high"].sel(mu=largest)),
         "rows": [
             {"mu": number(mu), **{side: number(data["gamma_0"].sel(omega=omega, mu=mu), 12)
                                   for side, omega in (("below", -4.0), ("above", 8.0))}}

@@ -121,6 +121,15 @@ def test_numbers_that_single_precision_cannot_hold_are_kept_as_they_are(stored):
     assert tiny.variables["tau"].values.dtype == np.float32
 
 
+def test_a_variable_that_declares_more_digits_than_single_precision_keeps_them(stored):
+    content = stored(regular())
+    for digits, kept in ((7, np.float32), (8, np.float64)):
+        l2 = content.variables["l2"]
+        declared = l2._replace(attributes=l2.attributes | {"significant_digits": digits})
+        found = hashes.as_kept(content._replace(variables={"l2": declared}))
+        assert found.variables["l2"].values.dtype == kept
+
+
 def test_a_dataset_is_what_a_reader_of_the_file_would_get(stored, tmp_path):
     content = stored(regular())
     xr.testing.assert_identical(

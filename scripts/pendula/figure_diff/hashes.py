@@ -29,6 +29,10 @@ number, so no hash holds them."""
 LEAST = 1e-30
 """Single precision loses digits below 1e-38 and ends at 3e38; this keeps well away from both."""
 
+SINGLE = 7
+"""Significant digits of single precision. A variable of which more are right says so by the
+attribute `significant_digits`."""
+
 WORK = ("steps", "rejected_steps", "right_hand_sides")
 """Attributes that count what a solver did. They follow its path, so that in chaos they change where
 numbers do."""
@@ -185,15 +189,16 @@ def _is_same_work(name: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> 
 def as_kept(content: Content) -> Content:
     """Return the content as the baseline keeps it: at every sample, in single precision.
 
-    Single precision resolves 6e-8 of a number, less than any tolerance. A variable whose largest
-    number it cannot hold stays as it is.
+    Single precision resolves 6e-8 of a number, less than any tolerance. A variable stays as it is
+    if it declares more digits than that, or if its largest number is too large or too small.
     """
-    kept = {n: each._replace(values=_single(each.values)) for n, each in content.variables.items()}
+    kept = {n: each._replace(values=_single(each)) for n, each in content.variables.items()}
     return content._replace(variables=kept)
 
 
-def _single(values: np.ndarray) -> np.ndarray:
-    if values.dtype.kind != "f":
+def _single(variable: Variable) -> np.ndarray:
+    values, digits = variable.values, variable.attributes.get("significant_digits", 0)
+    if values.dtype.kind != "f" or digits > SINGLE:
         return values
     largest = abs(values[np.isfinite(values)]).max(initial=0)
     held = largest == 0 or LEAST < largest < 1 / LEAST

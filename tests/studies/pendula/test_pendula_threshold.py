@@ -20,6 +20,7 @@ from pendula.studies.pendula.threshold import (
     next_correction,
     pendula_rate,
     pendula_threshold,
+    second_resonance,
     squared_frequency,
     threshold_contents,
 )
@@ -91,6 +92,16 @@ def test_the_second_resonance_takes_all_stability_where_a_wave_meets_it():
     curvature = (4.0 * squared_frequency(-8.0, 0.3) - 1.0) / 0.09
     assert 0.0 < curvature < 4.0
     assert multiplier(-8.0, 0.3, 0.5, curvature) > 1.001
+
+
+@pytest.mark.parametrize(
+    ("omega", "grows"), [(-9.0, False), (-8.5, False), (-8.3, True), (-7.36, True), (-7.3, False)]
+)
+def test_the_second_resonance_has_two_ends(omega, grows):
+    low, high = second_resonance(0.3, 1.0)
+    assert (low < omega < high) == grows
+    largest = max(multiplier(omega, 0.3, 0.5, curvature) for curvature in np.linspace(0, 4, 61))
+    assert (largest > 1.001) == grows
 
 
 def test_corrections_are_those_of_small_mu():

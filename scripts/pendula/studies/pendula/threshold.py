@@ -39,6 +39,15 @@ def finite_pendula_threshold(omega, mu, epsilon: float, sites: int) -> np.ndarra
     return (0.5 * square * found).min(axis=-1)
 
 
+def second_resonance(mu, epsilon: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least and the largest Omega at which a wave has the frequency of the drive.
+
+    There 1 + epsilon mu^2 s = 4 omega^2 for an s in [0, 4], and any drive makes the wave unstable.
+    """
+    largest = epsilon - 0.75 / (np.asarray(mu) * np.asarray(mu))
+    return largest - epsilon, largest
+
+
 def correction(omega, epsilon: float) -> np.ndarray:
     """Return the coefficient of mu^2 in gamma_0(mu): gamma_0^2 / 4, with a minus above the band.
 
@@ -82,12 +91,14 @@ def threshold_contents(
     lemma, curve = gamma_0(omega, epsilon), np.array(curve_omegas, dtype=float)
     driven, gamma = np.array(growth_omegas, dtype=float), np.array(gammas, dtype=float)
     kappa = epsilon * fastest_curvature(driven, epsilon) - driven
+    resonance, waves = second_resonance(mu, epsilon), "Omega at which waves have"
     both, over = ("omega", "mu"), ("growth_omega", "mu", "gamma")
     variables = {
         "omega": Variable(("omega",), omega),
         "mu": Variable(("mu",), mu),
         "gamma_0": Variable(both, pendula_threshold(*grid, epsilon),
-                            "threshold of the drive for the infinite chain of pendula"),
+                            "threshold of the drive for the infinite chain of pendula",
+                            attributes={"significant_digits": np.finfo(float).precision}),
         "gamma_0_finite": Variable(both, finite_pendula_threshold(*grid, epsilon, sites),
                                    "threshold of the drive for the finite chain of pendula"),
         "gamma_0_lemma": Variable(("omega",), lemma, "threshold gamma_0 of Lemma 1"),
@@ -98,6 +109,8 @@ def threshold_contents(
                                "coefficient of mu^2 in the threshold of the pendula"),
         "next_correction": Variable(("omega",), next_correction(omega, epsilon),
                                     "coefficient of mu^4 in the threshold of the pendula"),
+        "resonance_low": Variable(("mu",), resonance[0], f"least {waves} the drive's frequency"),
+        "resonance_high": Variable(("mu",), resonance[1], f"largest {waves} the drive's frequency"),
         "growth_omega": Variable(("growth_omega",), driven, "detuning Omega of rates of growth"),
         "gamma": Variable(("gamma",), gamma),
         "wave_rate": Variable(
