@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from pendula.report.words import number, percent
+from pendula.studies.breathers.claims import DATA_POWER, OF_PAPER
 from pendula.studies.breathers.section import share_with_limits
 
 from .baseline import Baseline
@@ -16,7 +17,7 @@ def breathers(baseline: Baseline) -> dict:
     law, scanned = rows["grows_by_drive"], spread["initial"].values
     return {
         "omega": number(spread.attrs["omega"]),
-        "least_power": number(rows["data_below_breathers"]["least_power"]),
+        **_least_power(baseline["breathers/periodic"], DATA_POWER),
         "collisions": _collisions(baseline["breathers/periodic"]),
         "weak": number(growth["gamma"].min()),
         "off": percent(law["largest_difference"]),
@@ -37,6 +38,20 @@ def breathers(baseline: Baseline) -> dict:
             }
             for size in spread["size"].values
         ],
+    }
+
+
+def _least_power(periodic: xr.Dataset, data_power: float) -> dict[str, str]:
+    """Return the least P of breathers at two instants of their period, and where it is that."""
+    family = periodic.sel(omega=OF_PAPER, family="A only")
+    frequency = family["least_power_frequency"].values
+    real, imaginary = family["least_power"].values
+    return {
+        "data_power": number(data_power),
+        "least_largest": number(real, 4),
+        "at_largest": number(frequency[0]),
+        "least": number(imaginary, 4),
+        "at_least": number(frequency[1]),
     }
 
 

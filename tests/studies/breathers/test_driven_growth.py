@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from pendula.problem import Constants
+from pendula.studies.breathers.contents import growth_contents
 from pendula.studies.breathers.driven_growth import (
     free_breathers,
     gained,
@@ -76,8 +77,19 @@ def test_a_weak_drive_feeds_by_the_law(family):
     assert off[1] < 0.75 * off[0]
 
 
-def test_the_law_ends_at_the_edge_of_the_band(family):
-    law = predicted(FREE, family, 0, np.array([0.0, 0.05, 1.0, 2.0]))
-    inside = [one.power for one in family if one.frequency < 8.0]
-    assert law[0] == family[0].power
-    assert law[0] < law[1] < law[2] == law[3] == inside[-1]
+@pytest.mark.parametrize("frequencies", [(5.0, 5.7, 6.5, 7.9), (5.0, 6.0, 7.0, 8.0, 9.0)])
+def test_the_law_ends_at_the_edge_of_the_band(frequencies):
+    """P of the breather at lambda = 8 ends it, whatever the frequencies at which it is summed."""
+    found, _ = growth_contents(
+        1.0, -4.0, {1.0: 2.0}, frequencies, 5.0, {"profile": 20, "chain": 30}, 4, 1e-6
+    )
+    law = found["predicted_gain"].values[0]
+    first, last = (free_breathers(FREE, [at], 20)[0].power for at in (5.0, 8.0))
+    assert 0.0 == law[0] < law[1] <= law[-1] == pytest.approx(last - first, rel=1e-8)
+    assert last - first == pytest.approx(5.998, abs=5e-4)
+
+
+def test_between_two_members_the_end_is_interpolated(family):
+    law = predicted(FREE, family[:30:2] + family[31:], 0, np.array([0.0, 1.0, 2.0]))
+    assert family[30].frequency == pytest.approx(8.0)
+    assert law[1] == law[2] == pytest.approx(family[30].power, rel=1e-4)

@@ -9,7 +9,15 @@ from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import multipliers, periodic
 from pendula.studies.breathers.multipliers import PARITIES, growth, half_traces
-from pendula.studies.breathers.periodic import FAMILIES, Breather, family_of, shoot, single_site
+from pendula.studies.breathers.periodic import (
+    FAMILIES,
+    Breather,
+    family_of,
+    least_power,
+    power_at,
+    shoot,
+    single_site,
+)
 from pendula.studies.breathers.steady import NotFoundError
 from pendula.studies.breathers.waves import bands, distance_from_bands, free_intervals
 
@@ -59,6 +67,34 @@ def test_the_ends_of_a_family_close_as_well_as_the_study_needs(omega):
         sites = breather.data.shape[1]
         missed = np.abs(run.final[:, sites - 1 :] - breather.data).max()
         assert missed < given["needs"]["periodic"] * np.abs(breather.data).max()
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("omega", [-4.0, 8.0])
+def test_p_falls_from_the_real_instant_to_the_imaginary_one(found, omega, family):
+    breather = found[omega, family]
+    problem = problem_of(breather, breather.quarter).changed(output_step=breather.quarter / 40)
+    power = simulate(problem).l2 ** 2
+    assert power[:, 0] == pytest.approx(power_at(breather, "both real"), rel=1e-12)
+    assert power[:, -1] == pytest.approx(power_at(breather, "both imaginary"), rel=1e-10)
+    assert (np.diff(power.sum(axis=0)) < 1e-11 * power.max()).all()
+
+
+@pytest.mark.parametrize(("instant", "lowest"), [("both real", 36.29), ("both imaginary", 30.25)])
+def test_the_least_p_of_a_family_lies_between_the_frequencies_of_a_grid(instant, lowest):
+    coarse = list(family_of(BELOW, "A only", [8.1, 8.5, 9.0, 10.0], {"least": 8, "most": 48}))
+    frequency, least = least_power(coarse, instant)
+    assert least == pytest.approx(lowest, abs=5e-3)
+    assert 8.7 < frequency < 8.85
+    fine = np.arange(frequency - 0.05, frequency + 0.051, 0.01)
+    powers = [power_at(one, instant).sum() for one in
+              family_of(BELOW, "A only", fine, {"least": 8, "most": 48})]  # fmt: skip
+    assert least == pytest.approx(min(powers), rel=1e-8) and powers[0] > least < powers[-1]
+
+
+def test_where_p_falls_to_the_end_of_a_family_its_least_is_there():
+    falling = list(family_of(BELOW, "A = -B", [8.1, 9.0, 10.0], {"least": 8, "most": 48}))
+    assert least_power(falling, "both real") == (8.1, power_at(falling[-1], "both real").sum())
 
 
 def test_half_a_period_turns_the_sign(found):

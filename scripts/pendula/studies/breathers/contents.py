@@ -165,10 +165,13 @@ def growth_contents(
 ) -> Contents:  # fmt: skip
     """Return what a free breather gains from each drive, by runs and by the law of weak drives.
 
+    The law is summed over breathers at `frequencies` up to the edge of the band of waves.
     `end_times` is by gamma; `half_widths` those of the `profile` and the `chain`.
     """
     free = Constants(epsilon=epsilon, gamma=1.0, omega=omega)
-    family = driven_growth.free_breathers(free, frequencies, half_widths["profile"])
+    edge = driven_growth.edge(free)
+    inside = [frequency for frequency in frequencies if frequency < edge]
+    family = driven_growth.free_breathers(free, [*inside, edge], half_widths["profile"])
     first = int(np.argmin([abs(one.frequency - start) for one in family]))
     times, found, predicted = [], [], []
     for gamma, end in end_times.items():

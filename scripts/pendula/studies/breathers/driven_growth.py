@@ -62,6 +62,11 @@ def free_breathers(constants: Constants, frequencies, half_width: int) -> list[F
     return found[::-1]
 
 
+def edge(constants: Constants) -> float:
+    """Return the frequency with which a breather leaves the band of waves, for Omega < 0."""
+    return 4.0 * constants.epsilon - constants.omega
+
+
 def wave(constants: Constants, frequency: float) -> tuple[float, float] | None:
     """Return cos k and sin k of the linear wave at -lambda, or None where there is none."""
     share = (frequency + constants.omega) / (4.0 * constants.epsilon)  # the square of sin(k / 2)
@@ -103,14 +108,16 @@ def predicted(
     """Return P of the breather by the law (G) at `times`, from the member `start` of a family.
 
     The frequency follows from P along the free family. Since dtau = dP / rate(P), time is a sum
-    over the family; beyond the last member P stays.
+    over the family. It ends at the edge of the band, where sin k = 0 in (G) and dtau / dP vanishes;
+    from there on P stays. P at the edge is interpolated where no member stands there.
     """
-    powers = np.array([one.power for one in family[start:]])
-    rates = np.array([rate(constants, one) for one in family[start:]])
-    slow = np.flatnonzero(rates <= 0.0)
-    powers, rates = (one[: slow[0] if slow.size else None] for one in (powers, rates))
-    spans = np.diff(powers) * 0.5 * (1.0 / rates[1:] + 1.0 / rates[:-1])
-    return interpolated(times, np.append(0.0, np.cumsum(spans)), powers)
+    frequencies = np.array([one.frequency for one in family])
+    powers = np.array([one.power for one in family])
+    inside = [i for i in range(start, len(family)) if frequencies[i] < edge(constants)]
+    slowness = np.append([1.0 / rate(constants, family[i]) for i in inside], 0.0)
+    passed = np.append(powers[inside], interpolated(edge(constants), frequencies, powers))
+    spans = np.diff(passed) * 0.5 * (slowness[1:] + slowness[:-1])
+    return interpolated(times, np.append(0.0, np.cumsum(spans)), passed)
 
 
 def gained(

@@ -30,7 +30,7 @@ from pendula.numerics.matrices import times
 from pendula.problem import Constants
 
 from .quarter_period import FINE_STEPS, STEPS, flow
-from .steady import NotFoundError
+from .steady import NotFoundError, power
 from .waves import distance_from_bands, free_intervals, highest
 
 FAMILIES = ("A only", "A = -B", "A = B")
@@ -108,6 +108,62 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
         one = step.reshape(-1, sites)
         data = data + (np.concatenate([one, symmetry * one]) if symmetry else one)
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
+
+
+def quarter_later(breather: Breather) -> np.ndarray:
+    """Return A and B after a quarter of the period, over i: both are imaginary then."""
+    nothing = np.empty((0, 4, breather.data.shape[1]))
+    state, steps = real_data(breather.data), breather.finer * FINE_STEPS
+    return flow(breather.constants, state, nothing, nothing, breather.quarter, steps)[0, 1::2]
+
+
+INSTANTS = {"both real": lambda breather: breather.data, "both imaginary": quarter_later}
+"""A and B at the two instants of a period at which P is largest and least: it is even in time about
+both, and rises or falls all the way between them."""
+
+
+def power_at(breather: Breather, instant: str) -> np.ndarray:
+    """Return P of each component at one of INSTANTS, (component,)."""
+    return power(INSTANTS[instant](breather))
+
+
+CLOSE = 1e-4
+"""How far from the least P the frequency may be at which it is looked for. P is flat there, so that
+it is known to 1e-9 of itself."""
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+
+
+def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
+    """Return the frequency at which a family has the least P at an instant, and this P.
+
+    It lies beside the member with the least P and is found by golden sections between the
+    neighbours of that; if this is the first or the last member, P falls to the end, and it is this
+    member.
+    """
+    family = sorted(family, key=lambda one: one.frequency)
+    powers = [float(power_at(one, instant).sum()) for one in family]
+    middle = int(np.argmin(powers))
+    if middle in (0, len(family) - 1):
+        return family[middle].frequency, powers[middle]
+    start = widened(family[middle].data, family[middle - 1].data.shape[1])
+
+    def total(frequency: float) -> float:
+        return float(power_at(shoot(family[0].constants, frequency, start), instant).sum())
+
+    low, high = family[middle - 1].frequency, family[middle + 1].frequency
+    inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)]
+    found = [total(frequency) for frequency in inner]
+    while high - low > CLOSE:
+        if found[0] < found[1]:
+            high, inner[1], found[1] = inner[1], inner[0], found[0]
+            inner[0] = high - GOLDEN * (high - low)
+            found[0] = total(inner[0])
+        else:
+            low, inner[0], found[0] = inner[0], inner[1], found[1]
+            inner[1] = low + GOLDEN * (high - low)
+            found[1] = total(inner[1])
+    best = int(np.argmin(found))
+    return inner[best], found[best]
 
 
 def exchange_sign(data: np.ndarray) -> int:

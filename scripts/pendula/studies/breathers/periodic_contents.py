@@ -57,7 +57,8 @@ class _Table:
     def __init__(self, *over: int):
         parities, parts = len(multipliers.PARITIES), 2
         self.amplitude = np.full((parts, 2, *over), np.nan)
-        self.power = np.full((2, *over), np.nan)
+        self.power = np.full((len(periodic.INSTANTS), 2, *over), np.nan)
+        self.least = np.full((2, len(periodic.INSTANTS), *over[:-1]), np.nan)
         self.energy = np.full(over, np.nan)
         self.growth_half, self.growing = np.full(over, np.nan), np.full((2, *over), np.nan)
         self.growth, self.measured_growth = np.full((2, parities, *over), np.nan)
@@ -72,7 +73,8 @@ class _Table:
         """Write a member at its family, Omega and frequency."""
         breather = one.breather
         self.amplitude[(slice(None), slice(None), *at)] = breather.data[:, 0], (0.0, 0.0)
-        self.power[(slice(None), *at)] = steady.power(breather.data)
+        for i, instant in enumerate(periodic.INSTANTS):
+            self.power[(i, slice(None), *at)] = periodic.power_at(breather, instant)
         self.energy[at] = energy_of(breather.constants, breather.data.astype(complex))
         half = on_half(breather)
         self.growth_half[at] = max(half.growth(parity) for parity in multipliers.PARITIES)
@@ -93,6 +95,11 @@ class _Table:
                 trace = complex(traces[rates.argmax()])
                 found = perturbed.measured_growth(one.breather, trace, parity)
                 self.measured_growth[(p, *at)] = found
+
+    def add_least(self, at: tuple[int, ...], family: list[periodic.Breather]) -> None:
+        """Write the least P of a family at an Omega, and where it has that."""
+        for i, instant in enumerate(periodic.INSTANTS):
+            self.least[(slice(None), i, *at)] = periodic.least_power(family, instant)
 
     def add_collisions(self, at: tuple[int, ...], one: Member, above: Member) -> None:
         """Write what collides between a member and the one at the next higher frequency."""
@@ -125,8 +132,9 @@ def periodic_contents(
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         edge = waves.highest(constants)  # within the waves, those of a finite chain collide
         for i, family in enumerate(periodic.FAMILIES):
-            above = None
+            above, found = None, []
             for breather in periodic.family_of(constants, family, frequencies, half_widths):
+                found.append(breather)
                 at = (i, j, frequencies.index(breather.frequency))
                 one = member_of(breather)
                 table.add(at, one)
@@ -135,6 +143,8 @@ def periodic_contents(
                 if above is not None and breather.frequency > edge:
                     table.add_collisions(at, one, above)
                 above = one
+            if found:
+                table.add_least((i, j), found)
     about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     variables = {
         **_coordinates(omegas, frequencies),
@@ -219,13 +229,27 @@ def _waves(epsilon, gamma, omegas, frequencies) -> dict[str, Variable]:
 
 
 def _families(table: _Table) -> dict[str, Variable]:
-    said = "power P of each component, when both are real"
+    said = "power P of each component"
+    least = ("instant", "family", "omega")
     return {
+        "instant": Variable(
+            ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
+        ),
         "amplitude": kept(
             ("part", "component", *OVER), table.amplitude,
             "amplitude on a site, site 0, when both are real",
         ),
-        "power": kept(("component", *OVER), table.power, said),
+        "power": kept(("component", *OVER), table.power[0], f"{said}, the largest of a period"),
+        "quarter_power": kept(
+            ("component", *OVER), table.power[1],
+            f"{said} a quarter of a period later, when both are imaginary: the least of a period",
+        ),
+        "least_power": kept(
+            least, table.least[1], "least P of a family, at and between its frequencies", 7
+        ),
+        "least_power_frequency": kept(
+            least, table.least[0], "frequency lambda of the breather with this P", 4
+        ),
         "energy": kept(OVER, table.energy, "conserved energy H of equation (8)"),
     }  # fmt: skip
 

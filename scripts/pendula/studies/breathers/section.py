@@ -31,7 +31,8 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "families": [_family(results, float(omega), str(family))
                      for omega in results[PERIODIC]["omega"].values
                      for family in results[PERIODIC]["family"].values],
-        "families_head": ["Ω", "family", "P at the lowest frequency", "least P", "unstable at"],
+        "families_head": ["Ω", "family", "P at the lowest frequency", "least P",
+                          "least P within a period", "unstable at"],
         "collisions_head": ["Ω", "family", "λ", "perturbation", "multiplier over half a period",
                             "signatures"],
         "collisions": list(_collisions(results)),
@@ -86,7 +87,7 @@ def _family(results: Results, omega: float, family: str) -> list:
     power, frequency = one["power"].sum("component", skipna=False).values, one["frequency"].values
     found = np.flatnonzero(np.isfinite(power))
     if not found.size:
-        return [number(omega), symbols(family), "none", "none", "none"]
+        return [number(omega), symbols(family), *["none"] * 4]
     lowest = found[frequency[found].argmin()]
     unstable = frequency[one["growth"].values > 0]
     said = "no frequency" if not unstable.size else f"λ of {_span(unstable)}"
@@ -94,7 +95,7 @@ def _family(results: Results, omega: float, family: str) -> list:
         number(omega),
         symbols(family),
         results.quote(PERIODIC, float(power[lowest])),
-        results.quote(PERIODIC, float(np.nanmin(power))),
+        *(results.quote(PERIODIC, float(least)) for least in one["least_power"].values),
         results.say(PERIODIC, said),
     ]
 

@@ -83,7 +83,7 @@ def _small(results: Results, case: str) -> dict[str, Any] | None:
     omega = float(run.attrs["omega"])
     if omega not in periodic["omega"].values:
         return None
-    least = float(periodic["power"].sel(omega=omega).sum("component", skipna=False).min())
+    least = float(periodic["least_power"].sel(omega=omega).min())
     power = float((run["l2"].isel(tau=0) ** 2).sum())
     if not power < least:
         return None
