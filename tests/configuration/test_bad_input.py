@@ -152,7 +152,8 @@ def test_a_case_keeps_what_is_sound_of_shared_controls_and_tells_its_own_faults(
 def test_initial_data_replace_those_of_the_paper_and_other_keys_are_added():
     above = {"cases": {"fig2_small": {"initial": {3: [1, 0]}, "end_time": 4}}}
     case = load(merge(CONFIG, above)).cases["fig2_small"]
-    assert case.initial == {3: (1, 0)} and case.end_time == 4 and case.omega == 8
+    assert case.initial == {3: (1, 0)} and case.end_time == 4
+    assert case.omega == CONFIG["cases"]["fig2_small"]["omega"]
 
 
 def test_another_solver_replaces_the_controls_and_the_same_one_keeps_them():
