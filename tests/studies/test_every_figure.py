@@ -1,8 +1,10 @@
 """What holds for every figure, whatever it shows."""
 
+import itertools
 import json
 
 import matplotlib
+import numpy as np
 import pytest
 import xarray as xr
 from helpers import ROOT
@@ -127,6 +129,71 @@ def test_text_is_legible_and_everything_is_on_the_page(plot):
 
 @pytest.mark.parametrize("name", ACCEPTED)
 def test_the_accepted_data_in_single_precision_give_the_panels_of_the_figure(name):
-    data = xr.load_dataset(ACCEPTED[name].with_suffix(".nc"))
+    data = accepted_data(name)
     drawn = describe(DRAWN_FROM_ACCEPTED[name](data), data)
     assert len(drawn["panels"]) == len(json.loads(ACCEPTED[name].read_text())["panels"])
+
+
+def accepted_data(name):
+    return read(ACCEPTED[name].with_suffix(".nc"))
+
+
+def places_of(axes):
+    """Return where marks of each colour stand in a panel, in points of the page."""
+    lines = [line for line in axes.lines if line.get_marker() not in ("None", "", None)]
+    with_marks = (line for line in lines if line.get_linestyle() == "None")
+    return [
+        (line.get_color(), line.get_markersize(), place * 72.0 / axes.figure.dpi)
+        for line in with_marks
+        for place in line.get_transform().transform(line.get_xydata())
+        if axes.bbox.contains(*place)
+    ]
+
+
+@style.styled
+def test_marks_of_collisions_cover_no_other_mark():
+    """Each is further from any other mark than both are wide; each panel and inset by itself."""
+    figure = breathers.draw_breathers(accepted_data("breathers"))
+    figure.canvas.draw()
+    panels = [panel for axes in figure.axes for panel in (axes, *axes.child_axes)]
+    shown = [places_of(panel) for panel in panels]
+    assert sum(colour == "black" for marks in shown for colour, _, _ in marks) == 4
+    for marks in shown:
+        for one, other in itertools.combinations(marks, 2):
+            if "black" in (one[0], other[0]):
+                assert np.hypot(*(one[2] - other[2])) > 0.5 * (one[1] + other[1])
+
+
+def test_it_is_said_of_which_instant_the_p_of_a_periodic_breather_is():
+    drawn = accepted_data("breathers")
+    families = breathers.draw_breathers(drawn).axes[: drawn.sizes["omega"]]
+    assert all("real" in axes.get_ylabel() for axes in families)
+
+
+def test_a_line_shows_mu_by_its_colour_alone():
+    """Shades and dashes of one colour lie on each other where norms are nearly equal."""
+    figure = phases_figure.draw_phases(accepted_data("pendula_phases"))
+    for axes in figure.axes:
+        assert len({line.get_color() for line in axes.lines}) == len(axes.lines)
+        assert {line.get_linestyle() for line in axes.lines} <= {"-"}
+    colours = [matplotlib.colors.to_rgb(line.get_color()) for line in figure.axes[0].lines]
+    hues = [matplotlib.colors.rgb_to_hsv(one)[0] for one in colours[1:]]
+    apart = [abs((a - b + 0.5) % 1.0 - 0.5) for a, b in itertools.combinations(hues, 2)]
+    assert min(apart) > 0.08
+
+
+def test_each_width_of_a_line_is_named_and_each_axis_says_what_it_is():
+    drawn = accepted_data("pendula_remainder")
+    _, growth, horizon = remainder_figure.draw_remainder(drawn).axes
+    looks = {(line.get_linewidth(), line.get_alpha()) for line in growth.lines}
+    named = {
+        (line.get_linewidth(), line.get_alpha()): text.get_text()
+        for line, text in zip(
+            growth.get_legend().get_lines(), growth.get_legend().get_texts(), strict=True
+        )
+    }
+    assert looks == set(named) and len(looks) == 4
+    assert [f"{mu:g}" in text for mu, text in zip(drawn["mu"].values[2:], named.values())] == 4 * [
+        1
+    ]
+    assert "at which the error is visible" in horizon.get_ylabel()

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.transforms import offset_copy
 
 from pendula.drawing import style
 
@@ -21,7 +22,11 @@ DRIVES = ("#a9bbe0", "#e0a100", "#16876b", style.BLUE, style.RED)
 
 PAIRS, PAIR = 1, 2
 """What collides: two pairs of multipliers, which make a quartet, or a pair with itself."""
-COLLISION_LOOKS = {PAIRS: ("*", 7, "two pairs collide"), PAIR: ("X", 4.5, "a pair meets itself")}
+CROWDED = 1.5
+"""Collisions nearer to the waves than this times the second frequency are drawn in an inset."""
+ABOVE = 9
+"""How far above its place a collision is marked, in points: breathers have marks of their own."""
+COLLISION_LOOKS = {PAIRS: ("*", 6, "two pairs collide"), PAIR: ("X", 4.5, "a pair meets itself")}
 
 
 def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
@@ -39,7 +44,7 @@ def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
         }
     )  # fmt: skip
     described = {
-        "total_power": "P of the breather",
+        "total_power": "P of the breather at the instants when all A_n and B_n are real",
         "unstable": "1 if a perturbation grows",
         "collision": f"{PAIRS} where two pairs of multipliers collide, {PAIR} a pair with itself",
     }
@@ -51,7 +56,7 @@ def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
 @style.styled
 def draw_breathers(data: xr.Dataset) -> Figure:
     """Draw P against the frequency for each family and Omega; beside it, growth by the drive."""
-    figure = style.new_figure(style.DOUBLE, 2.7)
+    figure = style.new_figure(style.DOUBLE, 3.0)
     panels = figure.subplots(1, data.sizes["omega"] + 1)
     for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
         _draw_families(axes, data.sel(omega=omega))
@@ -80,22 +85,9 @@ def _draw_families(axes: Axes, data: xr.Dataset) -> None:
     edge = float(data["highest_wave"])
     data = data.sel(frequency=data["frequency"] > edge)
     frequency = data["frequency"].values
-    for family, (colour, marker, _) in FAMILY_LOOKS.items():
-        power = data["total_power"].sel(family=family).values
-        grows = data["unstable"].sel(family=family).values == 1
-        axes.plot(frequency - edge, power, color=colour, lw=0.8)
-        for some, face in ((grows, "white"), (~grows, colour)):
-            axes.plot(
-                frequency[some] - edge, power[some], color=colour, marker=marker, markersize=3.5,
-                linestyle="none", markerfacecolor=face,
-            )  # fmt: skip
-    for kind, (marker, size, _) in COLLISION_LOOKS.items():
-        some = data["collision"].values == kind
-        axes.plot(
-            data["collision_frequency"].values[some] - edge, data["collision_power"].values[some],
-            color="black", marker=marker, markersize=size, linestyle="none", zorder=4,
-            markeredgecolor="white", markeredgewidth=0.4,
-        )  # fmt: skip
+    met = data["collision_frequency"].values - edge
+    crowded = met < CROWDED * (frequency[1] - edge)
+    _draw_members(axes, data, ~crowded)
     axes.set_xscale("log")
     ticks = [frequency[0]]
     for tick in frequency[1:]:
@@ -105,7 +97,44 @@ def _draw_families(axes: Axes, data: xr.Dataset) -> None:
     axes.minorticks_off()
     axes.set_ylim(0, None)
     axes.set_xlabel(rf"frequency $\lambda$, on the scale $\log (\lambda - {edge:g})$")
-    axes.set_ylabel("$P$")
+    axes.set_ylabel("$P$ when all $A_n$ and $B_n$ are real")
+    if crowded.any():
+        inset = axes.inset_axes((0.16, 0.52, 0.46, 0.44))
+        _draw_members(inset, data, crowded)
+        found = data["collision_power"].values[crowded]
+        inset.set(xlim=(0.92 * (frequency[0] - edge), 1.1 * met[crowded].max()),
+                  ylim=(0.9 * found.min(), 1.15 * found.max()))  # fmt: skip
+        inset.set_xticks(frequency[:2] - edge, [f"{tick:g}" for tick in frequency[:2]])
+        inset.tick_params(labelsize=7)
+        axes.indicate_inset_zoom(inset, edgecolor="0.4")
+
+
+def _draw_members(axes: Axes, data: xr.Dataset, shown: np.ndarray) -> None:
+    """Draw the breathers of each family, and those of their collisions that are to be shown."""
+    edge, frequency = float(data["highest_wave"]), data["frequency"].values
+    for family, (colour, marker, _) in FAMILY_LOOKS.items():
+        power = data["total_power"].sel(family=family).values
+        grows = data["unstable"].sel(family=family).values == 1
+        axes.plot(frequency - edge, power, color=colour, lw=0.8)
+        for some, face in ((grows, "white"), (~grows, colour)):
+            axes.plot(
+                frequency[some] - edge, power[some], color=colour, marker=marker, markersize=3.5,
+                linestyle="none", markerfacecolor=face,
+            )  # fmt: skip
+    above = offset_copy(axes.transData, axes.figure, 0.0, ABOVE, "points")
+    for kind, (marker, size, _) in COLLISION_LOOKS.items():
+        some = shown & (data["collision"].values == kind)
+        at = data["collision_frequency"].values[some] - edge, data["collision_power"].values[some]
+        axes.plot(*at, transform=above, color="black", marker=marker, markersize=size, ls="none",
+                  zorder=4)  # fmt: skip
+        for place in zip(*at, strict=True):
+            axes.annotate(
+                "",
+                place,
+                (0, ABOVE),
+                textcoords="offset points",
+                arrowprops={"arrowstyle": "-", "lw": 0.6, "shrinkA": 0, "shrinkB": 0},
+            )
 
 
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
@@ -120,7 +149,7 @@ def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylim(0, 3.2 * most)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(r"$\|B\|^2$, gained by $A$ too")
-    axes.legend(fontsize=6.5, loc="upper left", handlelength=1.4)
+    axes.legend(fontsize=7, loc="upper left", handlelength=1.4)
 
 
 # --- Sensitivity ----------------------------------------------------------------------------------

@@ -7,19 +7,23 @@ from matplotlib.axes import Axes
 from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFormatter
 
 from pendula.datasets.registry import NAMES
 from pendula.drawing import style
 
-LOOKS = ("0.55", "#9ecae1", "#4292c6", "#08519c", "#041f42", "#000000")
-"""Colours by mu: grey for the amplitudes, and from light to dark."""
+LOOKS = ("0.7", "#5aa7d6", "#16876b", "#e0a100", style.RED, "#000000")
+"""Colours by mu: a wide grey line for the amplitudes, and one hue for each mu."""
+NORMS = {"l2": r"$\ell^2$", "linf": r"$\ell^\infty$"}
+"""A panel for each, so that a line shows mu by its colour alone."""
 LARGEST, OVER = 0.999, 2.0
 """The largest modulus below the top that is told from others, and what stands for one beyond it."""
 MODULI = colormaps["inferno"].with_extremes(bad="white", over="#35c7b1")
 LETTERS = "abcdefghijkl"
 ABOVE, ROW, BELOW = 0.44, 1.0, 0.9
 """Heights in inches: of the legend and the names of mu, of a row, and of what stands below all."""
+LOG_FROM = 6.0
+"""A norm that varies by more than this factor is drawn on a logarithmic scale."""
 APART = 3
 """Columns between the pictures of neighbouring mu; each snapshot takes one column."""
 
@@ -38,21 +42,22 @@ def gather_phases(phases: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_phases(data: xr.Dataset) -> Figure:
-    """Draw a row for each case: its norms by mu, and a space-time picture for each mu."""
+    """Draw a row for each case: both norms by mu, and a space-time picture for each mu."""
     cases = data["case"].values
     figure = style.new_figure(style.DOUBLE, ABOVE + ROW * len(cases) + BELOW)
     grid, bar = _panels(figure, len(cases))
-    for letter, (norms, strip), name in zip(LETTERS, grid, cases, strict=False):
+    for letter, panels, name in zip(LETTERS, grid, cases, strict=False):
         case = data.sel(case=name)
-        _draw_norms(norms, case)
-        norms.set_title(f"({letter}) {style.name_case(case)}", loc="left", fontsize=7)
-        image = _draw_strip(strip, case)
+        for axes, norm in zip(panels, NORMS, strict=False):
+            _draw_norm(axes, case, norm)
+        panels[0].set_title(f"({letter}) {style.name_case(case)}", loc="left", fontsize=7)
+        image = _draw_strip(panels[-1], case)
     for axes in grid[:-1].flat:
         axes.set_xticks([])  # each tick takes time, and those below serve all rows
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
-    _number_times(grid[-1, 1], data)
-    _name_strips(grid[0, 1], data)
+    _number_times(grid[-1, -1], data)
+    _name_strips(grid[0, -1], data)
     bar = figure.colorbar(image, cax=bar, orientation="horizontal")
     bar.set_label(r"modulus over the largest by (4); green: $2 \mu |A| > \pi$, over the top")
     _name_curves(figure, data["mu"].values)
@@ -60,41 +65,39 @@ def draw_phases(data: xr.Dataset) -> Figure:
 
 
 def _panels(figure: Figure, rows: int) -> tuple[np.ndarray, Axes]:
-    """Return two panels a row, and below those of the pictures the place of their colour bar.
+    """Return three panels a row, and below those of the pictures the place of their colour bar.
 
     All stand at given places: to find these would take a quarter of the time of the drawing.
     """
     figure.set_layout_engine("none")
     height = figure.get_figheight()
-    sides = {"left": 0.072, "right": 0.994, "wspace": 0.17}
-    grid = figure.subplots(rows, 2, squeeze=False, gridspec_kw={
+    sides = {"left": 0.075, "right": 0.994, "wspace": 0.3}
+    grid = figure.subplots(rows, 3, squeeze=False, gridspec_kw={
         "top": 1.0 - ABOVE / height, "bottom": BELOW / height, "hspace": 0.32,
-        "width_ratios": (1.9, 5.25), **sides})  # fmt: skip
+        "width_ratios": (1.6, 1.6, 5.0), **sides})  # fmt: skip
     return grid, figure.add_axes((0.45, 0.42 / height, 0.47, 0.1 / height))
 
 
 def _name(mu: float) -> str:
-    return rf"$\mu = {mu:g}$" if mu else "equations (4)"
+    return rf"$\mu = {mu:g}$" if mu else "eqs (4)"
 
 
-def _draw_norms(axes: Axes, case: xr.Dataset) -> None:
+def _draw_norm(axes: Axes, case: xr.Dataset, norm: str) -> None:
     for colour, mu in zip(LOOKS, case["mu"].values, strict=False):
-        one, wide = case.sel(mu=mu), {"color": colour, "lw": 0.7 if mu else 1.8}
         # pendula over the top swing the most: they lie behind the others, and (4) behind all
-        place = 3.0 - mu if mu else 2.0
-        axes.plot(case["tau"], one["l2"], zorder=place, **wide)
-        axes.plot(case["tau"], one["linf"], zorder=place, dashes=(3, 1), **wide)
-    axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if _is_wide(case) else (1.0, 2.0, 5.0)))
+        axes.plot(case["tau"], case[norm].sel(mu=mu), zorder=3.0 - mu if mu else 2.0,
+                  color=colour, lw=0.7 if mu else 2.2)  # fmt: skip
+    spans = float(case[norm].max()) / float(case[norm].min())
+    if spans > LOG_FROM:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if spans < 30.0 else (1.0,)))
+    else:
+        axes.yaxis.set_major_locator(MaxNLocator(3))
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlim(0, float(case["tau"].max()))
-    axes.set_ylabel("norms", labelpad=1)
-
-
-def _is_wide(case: xr.Dataset) -> bool:
-    """Return whether the norms of a case differ by more than two powers of ten."""
-    return float(case["l2"].max()) > 100.0 * float(case["linf"].min())
+    axes.set_ylabel(NORMS[norm])
+    axes.yaxis.set_label_coords(-0.27, 0.5)
 
 
 def _draw_strip(axes: Axes, case: xr.Dataset):
@@ -149,10 +152,6 @@ def _name_curves(figure: Figure, mus: np.ndarray) -> None:
     lines = [
         Line2D([], [], color=colour, lw=1.6, label=_name(mu))
         for colour, mu in zip(LOOKS, mus, strict=False)
-    ]
-    lines += [
-        Line2D([], [], color="black", label=r"$\ell^2$"),
-        Line2D([], [], color="black", dashes=(3, 1), label=r"$\ell^\infty$"),
     ]
     figure.legend(handles=lines, loc="upper center", ncols=len(lines), columnspacing=1.2,
                   fontsize=7.5)  # fmt: skip

@@ -18,6 +18,8 @@ KINDS = {
     "leading": {"ls": "-", "fillstyle": "full"},
     "corrected": {"ls": "--", "fillstyle": "none"},
 }
+WIDTHS = (0.7, 1.6, 3.0, 4.8)
+"""Of lines by mu, the largest first: the wide ones lie behind the narrow ones."""
 MARKERS = {"small": "o", "large": "s"}
 """By the size of the initial data, with which the name of a case ends."""
 KEPT = ["error", "order", "visible_from", "omega"]
@@ -93,14 +95,22 @@ def _draw_orders(axes: Axes, data: xr.Dataset) -> None:
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
     """Draw the error of (3) over mu^3 against time, from the small data, each mu to its end."""
     mus = data["mu"].values[2:]
+    looks = [
+        {"lw": width, "alpha": alpha}
+        for width, alpha in zip(WIDTHS, np.linspace(1.0, 0.35, len(WIDTHS)), strict=True)
+    ]
     for case in _cases(data):
         if not case.endswith("small"):
             continue
         look = _look(data, case, "leading")
-        for i, mu in enumerate(mus):
+        for mu, line in zip(mus, looks, strict=False):
             error = data["error"].sel(case=case, expansion="leading", mu=mu) / (mu * mu * mu)
-            axes.loglog(data["end"], error, color=look["color"], lw=0.7 + 0.5 * i,
-                        alpha=0.4 + 0.6 * i / max(1, len(mus) - 1))  # fmt: skip
+            axes.loglog(data["end"], error, color=look["color"], zorder=2.0 + mu, **line)
+    named = [
+        Line2D([], [], color="0.2", label=rf"$\mu = {mu:g}$", **line)
+        for mu, line in zip(mus, looks, strict=False)
+    ]
+    axes.legend(handles=named, loc="upper left", fontsize=7)
     axes.set(xlabel=r"slow time $\tau$", ylabel=r"error of (3) over $\mu^3$, rad")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_locator(NullLocator())  # several decades, whose ticks take time
@@ -116,9 +126,10 @@ def _draw_horizons(axes: Axes, data: xr.Dataset) -> None:
             horizon = data["visible_from"].sel(case=case, expansion=expansion).values
             shown = np.where(np.isfinite(horizon), horizon, np.nan)
             axes.semilogx(data["mu"], shown, lw=0.8, **_look(data, case, expansion))
-    axes.set(xlabel=r"$\mu$", ylabel=r"slow time $\tau$", ylim=(0, None))
+    axes.set(xlabel=r"$\mu$", ylabel=r"slow time $\tau$ at which the error is visible")
+    axes.set_ylim(-0.03 * axes.get_ylim()[1], None)  # all of the marks at zero
     _name_mus(axes, data["mu"].values)
-    axes.set_title(r"(c) error visible, $\Omega = 0$", loc="left")
+    axes.set_title(r"(c) $\Omega = 0$", loc="left")
 
 
 def _name_mus(axes: Axes, mus: np.ndarray) -> None:
