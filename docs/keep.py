@@ -28,6 +28,8 @@ from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
+from pendula.studies.breathers.fate_contents import LONGEST, TERMS  # noqa: E402
+from pendula.studies.breathers.fate_figures import MAPS  # noqa: E402
 from pendula.studies.breathers.fates import FATES  # noqa: E402
 from pendula.studies.breathers.nearest import NEAR  # noqa: E402
 from pendula.studies.unbounded.bulk import (  # noqa: E402
@@ -277,7 +279,7 @@ def _maxima(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
 
 
 def keep_long_breathers(results: Path, folder: Path) -> None:
-    """Keep the shares of the long studies of fates and of sensitivity, without their maps."""
+    """Keep the shares of the long studies of fates and of sensitivity, and the maps of fates."""
     fates, spread = (
         read(results / f"breathers/long/{name}.nc") for name in ("fates", "sensitivity")
     )
@@ -286,50 +288,74 @@ def keep_long_breathers(results: Path, folder: Path) -> None:
     kept = {
         **{name: _as_it_is(fates[name]) for name in whole},
         **{name: _as_it_is(spread[name]) for name in shares},
+        **{name: _as_it_is(fates[name]) for name in (*AXES, *MAPS)},
         **_nearness(fates),
         **_on_other_terms(fates),
         **_scanned(spread),
     }
     sizes = {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
-    about = {name: fates.attrs[name] for name in ("epsilon", "gamma", "half_width", "end_time")}
-    title = "The long study of breathers, reduced to what the documents quote"
-    members = {"members": spread.attrs["members"]}
-    _write(folder / "breathers.nc", title, kept, **about, **sizes, **members)
+    about = {name: fates.attrs[name] for name in TERMS}
+    title = "The long study of breathers, reduced to what the documents quote and a figure shows"
+    more = {"members": spread.attrs["members"], "margin": MARGIN}
+    _write(folder / "breathers.nc", title, kept, **about, **sizes, **more)
 
 
 def _as_it_is(values: xr.DataArray) -> Variable:
-    return Variable(values.dims, values.values, values.attrs["long_name"])
+    others = {name: one for name, one in values.attrs.items() if name.startswith("flag_")}
+    about = (values.attrs["long_name"], values.attrs.get("units", "1"), others)
+    return Variable(values.dims, values.values, *about)
+
+
+AXES = ("a0", "b0", "turned_a0", "phase")
+MARGIN = 2.0
+"""By which factor the limit of P that does not return is changed, to see what rests on it."""
 
 
 def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
-    """Return how near breathers are to periodic ones where A_0 and B_0 differ, by Omega.
+    """Return how much of what stays is periodic where A_0 and B_0 differ, by Omega, and how near.
 
-    Where no family is known at the frequency of any breather, shares of none are NaN.
+    Shares of none are NaN.
     """
     unequal = fates["a0"] != fates["b0"]
-    rows = []
-    for omega in fates["omega"].values:
-        here = fates[["fate", "family_distance", "nearest"]].sel(omega=omega).where(unequal)
-        distance = here["family_distance"].values[np.isfinite(here["family_distance"].values)]
-        alone = here["nearest"].values[np.isfinite(here["family_distance"].values)] == 1
-        breathers = int((here["fate"] == FATES.index("breather")).sum())
-        shares = ((distance <= NEAR).mean(), alone.mean()) if distance.size else (np.nan, np.nan)
-        median = np.median(distance) if distance.size else np.nan
-        rows.append((distance.size / breathers if breathers else np.nan, *shares, median))
-    words = {
-        "compared": "share of breathers with a family of periodic ones at their frequency",
-        "near": f"share of these no further than {NEAR} from a family",
-        "nearest_alone": "share of these whose nearest family is that with A only",
-        "median_distance": "median distance of these",
+    names = ["fate", "periodic", "unreturned", "breather_family", "family_distance"]
+    here = fates[names].where(unequal & (fates["fate"] == FATES.index("stays")))
+    stays, periodic = here["fate"].notnull(), here["periodic"] == 1
+    left, distance = here["unreturned"], here["family_distance"]
+    shares = {
+        "periodic_share": ("share of what stays that is periodic", periodic, stays),
+        "periodic_if_less": (
+            f"the same if waves explained {MARGIN:g} times less P", left <= 1.0 / MARGIN, stays
+        ),
+        "periodic_if_more": (
+            f"the same if waves explained {MARGIN:g} times more P", left <= MARGIN, stays
+        ),
+        "unknown_share": (
+            "share of what stays of which it is not known whether it is periodic",
+            here["periodic"] == -1, stays,
+        ),
+        "alone": ("share of breathers of the family with A only", here["breather_family"] == 1,
+                  periodic),
+        "compared": ("share of breathers whose family is known at their frequency",
+                     distance.notnull(), periodic),
+        "near": (f"share of these no further than {NEAR} from it", distance <= NEAR,
+                 distance.notnull()),
+    }  # fmt: skip
+    found = {
+        name: Variable(("omega",), some.where(whole).mean(("a0", "b0")).values, words)
+        for name, (words, some, whole) in shares.items()
     }
-    columns = zip(words.items(), np.transpose(rows), strict=True)
-    return {name: Variable(("omega",), values, said) for (name, said), values in columns}
+    return found | {
+        "median_distance": Variable(
+            ("omega",), distance.median(("a0", "b0")).values, "median distance of these"
+        )
+    }
 
 
 def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
     """Return how many data change their fate on other terms, and the shares of fates there."""
     checked = fates["checked_fate"].rename(conditions="terms")
     changed = (checked != checked.isel(terms=0)).mean("checked")
+    stay = checked == FATES.index("stays")
     shares = [(checked == kind).mean("checked").values for kind in range(fates.sizes["fate_name"])]
     return {
         "terms": _as_it_is(fates["conditions"].rename(conditions="terms")),
@@ -339,6 +365,13 @@ def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
         "terms_share": Variable(
             ("fate_name", "terms", "omega"), np.array(shares), "share of these data with a fate"
         ),
+        "stay": Variable((), int(stay.isel(terms=0).sum()), "of these data that stay on the map"),
+        "stay_on": Variable(
+            ("terms",),
+            (stay & stay.isel(terms=0)).sum(("omega", "checked")).values,
+            "of these data that stay on other terms too",
+        ),
+        "longest": Variable((), LONGEST * fates.attrs["end_time"], "longest time of these runs"),
         "checked": Variable((), checked.sizes["checked"], "data at each Omega run on all terms"),
     }
 

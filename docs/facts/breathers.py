@@ -4,6 +4,8 @@ import numpy as np
 import xarray as xr
 from pendula.report.words import number, percent
 from pendula.studies.breathers.claims import DATA_POWER, OF_PAPER
+from pendula.studies.breathers.fate_contents import LONGEST
+from pendula.studies.breathers.nearest import HALF_PERIODS, NEAR, WAVES
 from pendula.studies.breathers.section import share_with_limits
 
 from .baseline import Baseline
@@ -77,7 +79,6 @@ def fates(baseline: Baseline) -> dict:
     """Return shares of fates, and of runs that spread, from the long study of breathers."""
     long = baseline["quoted/breathers"]
     start = long["from_amplitude"].values
-    families = long.dropna("omega", subset=["near"])
     return {
         "end": number(long.attrs["end_time"]),
         "members": number(long.attrs["members"]),
@@ -98,28 +99,44 @@ def fates(baseline: Baseline) -> dict:
             for plane in long["plane"].values
             for omega in long["omega"].values
         ],
-        "near": [
+        "periodic": [
             {
-                "omega": number(omega),
-                "share": percent(families["near"].sel(omega=omega)),
-                "alone": percent(families["nearest_alone"].sel(omega=omega)),
-                "median": number(families["median_distance"].sel(omega=omega), 2),
+                "omega": number(one["omega"]),
+                "share": percent(one["periodic_share"]),
+                "less": percent(one["periodic_if_less"]),
+                "more": percent(one["periodic_if_more"]),
+                "unknown": percent(one["unknown_share"]),
+                "alone": percent(one["alone"]),
+                "near": percent(one["near"]),
+                "median": number(one["median_distance"], 2),
             }
-            for omega in families["omega"].values
+            for omega in long["omega"].values
+            for one in [long.sel(omega=omega)]
+            if np.isfinite(one["near"])
         ],
+        "half_periods": number(HALF_PERIODS),
+        "waves": number(WAVES),
+        "less_waves": number(WAVES / long.attrs["margin"]),
+        "more_waves": number(WAVES * long.attrs["margin"]),
+        "within": percent(NEAR),
+        "stay": number(long["stay"]),
+        "stay_on": number(long["stay_on"].sel(terms=f"{LONGEST:g} times the time")),
+        "longest": number(long["longest"]),
+        "common": number(baseline["breathers/fates"]["common"].sum()),
+        "agreed": number(baseline["breathers/fates"]["agreed"].sum()),
         "checked": number(long["checked"]),
         "terms": [
             {
                 "cases": str(terms),
                 "changed": percent(long["changed"].sel(terms=terms).max()),
-                "breather": percent(_at_most_mixed(long, terms, "breather")),
+                "stays": percent(_at_most_mixed(long, terms, "stays")),
                 "spreads": percent(_at_most_mixed(long, terms, "spreads")),
             }
             for terms in long["terms"].values
         ],
         "mixed": number(_most_mixed(long)),
         "mixed_are": "most runs that stay are"
-        if families["near"].sel(omega=_most_mixed(long)) > 0.5
+        if long["periodic_share"].sel(omega=_most_mixed(long)) > 0.5
         else "most runs that stay are not",
     }
 

@@ -17,10 +17,15 @@ def map_fates(
     checked: int,
     cases: dict[str, dict],
     kernels: list[str] | tuple = (),
+    fine: str | None = None,
 ) -> None:
-    """Write the fate of (A_0, B_0), of B_0 turned in phase, and of the paper's `cases`."""
+    """Write the fate of (A_0, B_0), of B_0 turned in phase, and of the paper's `cases`.
+
+    `fine` has committed maps, which those of this run are compared with.
+    """
     grid = Grid(np.array(amplitudes), np.array(turned), np.array(phases), ratio, checked)
-    write(data, *fates_contents(by_name(problems), grid, by_name(cases), read(periodic)))
+    beside = None if fine is None else read(fine)
+    write(data, *fates_contents(by_name(problems), grid, by_name(cases), read(periodic), beside))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import made_up_unbounded as made_up
 import numpy as np
 import pytest
 import xarray as xr
+from pendula.studies.breathers.fates import FATES
 
 
 def _stable(exponent, speed):
@@ -77,21 +78,26 @@ def breathers(tmp_path):
     long.mkdir(parents=True)
     nan, over = np.nan, ("omega", "a0", "b0")
     fate = [[[1, 1, 3], [1, 1, 1], [3, 1, 1]], [[3, 3, 3], [3, 3, 3], [3, 3, 3]]]
-    distance = [[[0.0, 0.05, nan], [0.05, 0.0, 0.4], [nan, 0.4, 0.0]], np.full((3, 3), nan)]
+    left = [[[0.1, 0.6, nan], [0.6, 0.1, 9.0], [nan, nan, 0.1]], np.full((3, 3), nan)]
+    distance = [[[0.0, 0.05, nan], [0.15, 0.0, nan], [nan, nan, 0.0]], np.full((3, 3), nan)]
     area = np.arange(8.0).reshape(1, 2, 4)
+    periodic = np.where(np.isnan(left), -1, np.array(left) <= 1.0).astype(np.int8)
+    turned = (("omega", "turned_a0", "phase"), np.ones((2, 1, 2), np.int8))
     fates = xr.Dataset(
         {
-            "fate": (over, np.array(fate, dtype=np.int8)),
-            "family_distance": (over, distance),
-            "nearest": (over, np.array([[[1, 1, 0], [1, 3, 2], [0, 2, 1]], np.zeros((3, 3))])),
+            "fate": (over, np.array(fate, dtype=np.int8), {"flag_meanings": " ".join(FATES)}),
+            "periodic": (over, periodic), "turned_fate": turned, "turned_periodic": turned,
+            "unreturned": (over, left), "family_distance": (over, distance),
+            "breather_family": (over, (periodic == 1).astype(np.int8)),
             **dict.fromkeys(AREAS, (("plane", "omega", "fate_name"), area)),
             "checked_fate": (("conditions", "omega", "checked"),
-                             [[[1, 3], [3, 3]], [[1, 1], [3, 3]]]),
+                             [[[1, 3], [3, 1]], [[1, 1], [3, 3]]]),
         },
-        {"omega": [-4.0, 0.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0],
-         "plane": ["amplitudes"], "fate_name": ["disperses", "breather", "moves", "spreads"],
+        {"omega": [-4.0, 0.0], "a0": [1.0, 2.0, 3.0], "b0": [1.0, 2.0, 3.0], "turned_a0": [1.0],
+         "plane": ["amplitudes"], "fate_name": list(FATES),
          "conditions": ["as on the map", "twice the time"], "phase": [0.0, 1.0]},
-        {"epsilon": 1.0, "gamma": 1.0, "half_width": 30, "end_time": 70.0},
+        {"epsilon": 1.0, "gamma": 1.0, "half_width": 30, "end_time": 70.0, "ratio": 0.2,
+         "boundary": "dirichlet", "solver": "taylor", "solver_rtol": 1e-7},
     )  # fmt: skip
     spread = xr.Dataset(
         {
@@ -111,17 +117,22 @@ def breathers(tmp_path):
 AREAS = ("area", "area_low", "area_high")
 
 
-def test_the_long_studies_of_breathers_are_reduced_to_their_shares(breathers, tmp_path):
+def test_the_long_studies_of_breathers_are_reduced_to_shares_and_maps(breathers, tmp_path):
     keep.main(breathers, tmp_path / "quoted")
     with xr.open_dataset(tmp_path / "quoted/breathers.nc") as kept:
         here = kept.sel(omega=-4.0)
-        assert float(here["compared"]) == pytest.approx(4 / 4)
-        assert float(here["near"]) == pytest.approx(2 / 4)
-        assert float(here["median_distance"]) == pytest.approx(0.225)
-        assert float(here["nearest_alone"]) == pytest.approx(2 / 4)
+        assert float(here["periodic_share"]) == float(here["periodic_if_more"]) == 2 / 4
+        assert float(here["periodic_if_less"]) == 0.0
+        assert float(here["unknown_share"]) == pytest.approx(1 / 4)
+        assert float(here["alone"]) == float(here["compared"]) == 1.0
+        assert float(here["near"]) == pytest.approx(1 / 2)
+        assert float(here["median_distance"]) == pytest.approx(0.1)
         assert np.isnan(kept["near"].sel(omega=0.0))
         assert here["changed"].values.tolist() == [0.0, 0.5]
-        assert here["terms_share"].sel(fate_name="breather").values.tolist() == [0.5, 1.0]
+        assert here["terms_share"].sel(fate_name="stays").values.tolist() == [0.5, 1.0]
+        assert int(kept["stay"]) == 2 and kept["stay_on"].values.tolist() == [2, 1]
+        assert kept["fate"].dtype == np.int8 and kept["fate"].shape == (2, 3, 3)
+        assert kept["fate"].attrs["flag_meanings"] == " ".join(FATES)
         assert kept["scan_share"].values.tolist() == pytest.approx([1 / 2, 1 / 3])
         assert float(kept["scan_spread"]) == pytest.approx(0.4)
         assert float(kept["largest_that_spreads"]) == 4.0

@@ -249,7 +249,7 @@ def breathers_results(folder, **attributes) -> made_up.MadeUp:
             "case_b0": ("case", [1.0, 1.0]),
         },
         {"omega": [8.0, 0.0], "plane": ["amplitudes"], "case": ["fig2_large", "fig4_large"],
-         "fate_name": ["disperses", "breather", "spreads"]},
+         "fate_name": ["disperses", "stays", "spreads"]},
     )  # fmt: skip
     power = [[[20.0, np.nan]], [[16.0, np.nan]]]
     periodic = xr.Dataset(

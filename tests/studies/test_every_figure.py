@@ -193,7 +193,6 @@ def test_each_width_of_a_line_is_named_and_each_axis_says_what_it_is():
         )
     }
     assert looks == set(named) and len(looks) == 4
-    assert [f"{mu:g}" in text for mu, text in zip(drawn["mu"].values[2:], named.values())] == 4 * [
-        1
-    ]
+    pairs = zip(drawn["mu"].values[2:], named.values(), strict=True)
+    assert all(f"{mu:g}" in text for mu, text in pairs)
     assert "at which the error is visible" in horizon.get_ylabel()

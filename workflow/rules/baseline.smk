@@ -25,6 +25,7 @@ def everything():
         *rules.hard_cases.output,
         *references(*PAPER_CASES, "fig4_small.double"),
         *committed_proofs(),
+        fine_maps_of_fates(),
     }
     return sorted(path for path in made if path.endswith((".nc", ".json", ".md", ".png", ".pdf")))
 

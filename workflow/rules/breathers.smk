@@ -111,6 +111,7 @@ rule map_fates:
         code=code("breathers/map_fates.py"),
         kernels=kernels("taylor"),
         periodic="results/breathers/periodic.nc",
+        fine=fine_maps_of_fates(),
     output:
         data="results/breathers/fates.nc",
     log:
@@ -127,6 +128,10 @@ rule map_fates:
 
 use rule map_fates as map_long_fates with:
     "The same on a fine grid"
+    input:
+        code=code("breathers/map_fates.py"),
+        kernels=kernels("taylor"),
+        periodic="results/breathers/periodic.nc",
     output:
         data="results/breathers/long/fates.nc",
     log:
@@ -186,6 +191,7 @@ rule draw_fates:
     input:
         code=code("breathers/draw_fates.py"),
         fates="results/breathers/fates.nc",
+        fine=fine_maps_of_fates(),
     output:
         **figure("fates"),
     log:

@@ -84,7 +84,7 @@ def made_up_fates():
     fate[0, 0] = 3
     fate[1] = 3 - 2 * np.eye(3, dtype=np.int8)
     turned = np.array([[[1, 3]], [[3, 3]], [[0, 1]]], dtype=np.int8)
-    words = {"flag_meanings": "disperses breather moves spreads"}
+    words = {"flag_meanings": "disperses stays moves spreads"}
     return xr.Dataset(
         {
             "fate": (("omega", "a0", "b0"), fate, words),

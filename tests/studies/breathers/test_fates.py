@@ -2,14 +2,17 @@
 
 import numpy as np
 import pytest
+import xarray as xr
+from pendula.datasets.netcdf import as_xarray
 from pendula.measures.confidence import share_limits
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
+from pendula.studies.breathers.fate_contents import Grid, fates_contents
 from pendula.studies.breathers.fates import (
-    BREATHER,
     DISPERSES,
     MOVES,
     SPREADS,
+    STAYS,
     at_the_end,
     ends,
     fate_of,
@@ -46,9 +49,9 @@ def moduli(power: dict[int, float], half_width=3) -> np.ndarray:
 @pytest.mark.parametrize(
     ("power", "expected"),
     [
-        ({0: 6, 5: 3, -5: 2}, BREATHER),
-        ({0: 3, 1: 2, -1: 2, 5: 6}, BREATHER),  # wide, and still at the centre
-        ({1: 3, -1: 3, 5: 5}, BREATHER),  # on both sides of the centre
+        ({0: 6, 5: 3, -5: 2}, STAYS),
+        ({0: 3, 1: 2, -1: 2, 5: 6}, STAYS),  # wide, and still at the centre
+        ({1: 3, -1: 3, 5: 5}, STAYS),  # on both sides of the centre
         ({4: 3, -4: 3, 0: 1}, MOVES),  # neither of the two holds half by itself
         ({3: 2, 4: 2, 5: 2, 0: 5}, MOVES),  # wide
         ({0: 5, 5: 2.5, -5: 2.5}, DISPERSES),  # exactly half is no majority
@@ -93,7 +96,7 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
 
 @pytest.mark.parametrize(
     ("omega", "a", "b", "expected"),
-    [(8.0, 5.0, 1.0, BREATHER), (8.0, 1.0, 0.1, DISPERSES), (-4.0, 1.0, 0.1, DISPERSES),
+    [(8.0, 5.0, 1.0, STAYS), (8.0, 1.0, 0.1, DISPERSES), (-4.0, 1.0, 0.1, DISPERSES),
      (0.0, 5.0, 1.0, SPREADS), (0.0, 1.0, 1.0, DISPERSES)],
 )  # fmt: skip
 def test_known_fates(omega, a, b, expected):
@@ -122,14 +125,14 @@ def test_exchanging_the_components_changes_no_fate():
     found = map_of_amplitudes(pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0]), NONE).fate
     assert np.array_equal(found, found.T)
     assert found[0, 0] == DISPERSES
-    assert found[2, 2] == BREATHER
+    assert found[2, 2] == STAYS
 
 
 def test_a_map_of_phases_turns_b_alone():
     """At phase 0 and pi the data are real: those of the other map, and with the sign of B."""
     problem, phases = pair_problem(8.0, 1.0, 1.0, 20.0), np.array([-0.5 * np.pi, 0.0, np.pi])
     found = map_of_phases(problem, np.array([1.0, 5.0]), phases, 0.2, NONE)
-    assert found.fate.tolist() == [3 * [DISPERSES], 3 * [BREATHER]]
+    assert found.fate.tolist() == [3 * [DISPERSES], 3 * [STAYS]]
     for phase, b in enumerate((-1.0j, 1.0, -1.0)):
         alone = ends([on_one_pair(problem, 5.0, b)], NONE)
         assert found.held[1, phase] == pytest.approx(alone.held[0], rel=1e-9)
@@ -146,7 +149,7 @@ def test_no_choice_of_a_run_decides_fates_where_motion_is_regular(change):
     runs = [pair_problem(*one, 70.0) for one in data]
     changed = ends([run.changed(**change) for run in runs], NONE).fate
     assert ends(runs, NONE).fate.tolist() == changed.tolist()
-    assert sorted(set(changed)) == [DISPERSES, BREATHER, SPREADS]
+    assert sorted(set(changed)) == [DISPERSES, STAYS, SPREADS]
 
 
 def test_a_disc_has_its_area_within_the_limits():
@@ -156,25 +159,55 @@ def test_a_disc_has_its_area_within_the_limits():
     for _ in range(40):
         x, y = 20.0 + rng.uniform(-0.5, 0.5, 2)
         inside = (grid[:, None] - x) ** 2 + (grid - y) ** 2 < radius**2
-        found = shares_of_area(np.where(inside, BREATHER, DISPERSES))
+        found = shares_of_area(np.where(inside, STAYS, DISPERSES))
         area = np.pi * radius**2 / points**2
-        held += found.low[BREATHER] < area < found.high[BREATHER]
-        missed.append(found.value[BREATHER] - area)
+        held += found.low[STAYS] < area < found.high[STAYS]
+        missed.append(found.value[STAYS] - area)
     assert held >= 38
     scattered = share_limits(round(area * points**2), points**2)
-    assert found.half[BREATHER] < 0.5 * scattered.half  # known between equal neighbours
-    assert np.std(missed) < 0.5 * found.half[BREATHER]  # and wide enough
+    assert found.half[STAYS] < 0.5 * scattered.half  # known between equal neighbours
+    assert np.std(missed) < 0.5 * found.half[STAYS]  # and wide enough
+
+
+def maps(points, fine=None, **changes):
+    """Return maps at Omega = -4 and 8 of so many real amplitudes, and of six phases."""
+    cells = [5.0 * (np.arange(one) + 0.5) / one for one in (points, 2)]
+    phases = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
+    problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0).changed(**changes) for omega in (-4, 8)}
+    families = xr.Dataset(coords={"family": ["A only"], "omega": []})
+    grid = Grid(*cells, phases, 0.2, 1)
+    return as_xarray(*fates_contents(problems, grid, {"one": problems[8]}, families, fine))
+
+
+def test_a_map_is_compared_with_a_finer_one_where_they_have_data_in_common():
+    """Nine amplitudes have three among them, the middles of wider cells, and none of six."""
+    fine = maps(9)
+    counted = maps(3, fine)
+    assert counted["common"].values.tolist() == [[9, 9], [6, 6]]
+    assert (counted["agreed"] == counted["common"]).all()
+    assert (maps(6, fine)["common"].sel(plane="amplitudes") == 0).all()
+
+
+def test_a_wrong_map_is_noticed():
+    fine = maps(9)
+    exchanged = fine.assign_coords(omega=[8.0, -4.0]).sortby("omega")
+    other = fine.assign(fate=fine["fate"].copy(data=3 - fine["fate"].values))
+    for wrong in (exchanged, other):
+        found = maps(3, wrong)
+        assert (found["agreed"] < found["common"]).sel(plane="amplitudes").any()
+    assert (maps(3, fine, end_time=9.0, output_step=9.0)["common"] == 0).all()
+    assert (maps(3, fine, half_width=29)["common"] == 0).all()
 
 
 def test_scattered_fates_have_the_limits_of_independent_draws():
-    drawn = np.random.default_rng(5).choice([BREATHER, SPREADS], size=(60, 60), p=[0.7, 0.3])
+    drawn = np.random.default_rng(5).choice([STAYS, SPREADS], size=(60, 60), p=[0.7, 0.3])
     found, exact = shares_of_area(drawn), share_limits(int((drawn == SPREADS).sum()), 3600)
     assert found.value[SPREADS] == pytest.approx(exact.value)
     assert found.half[SPREADS] == pytest.approx(exact.half, rel=0.05)
 
 
 def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
-    drawn = np.random.default_rng(6).choice([BREATHER, SPREADS], size=(40, 40))
+    drawn = np.random.default_rng(6).choice([STAYS, SPREADS], size=(40, 40))
     drawn = np.where(np.tri(40, dtype=bool), drawn, drawn.T)
     np.fill_diagonal(drawn, DISPERSES)
     found, twice = shares_of_area(drawn, mirrored=True), shares_of_area(drawn)

@@ -5,8 +5,18 @@ import pytest
 import xarray as xr
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
-from pendula.studies.breathers.fates import BREATHER, ends
-from pendula.studies.breathers.nearest import Families, Follower, distances, swing
+from pendula.studies.breathers.fates import STAYS, ends, on_one_pair
+from pendula.studies.breathers.nearest import (
+    HALF_PERIODS,
+    INSTANTS,
+    WAVES,
+    Families,
+    Follower,
+    Swing,
+    distances,
+    swing,
+    unreturned,
+)
 from pendula.studies.breathers.periodic import FAMILIES, family_of
 
 WIDTHS = {"least": 8, "most": 30}
@@ -66,6 +76,7 @@ def test_a_breather_is_at_no_distance_from_its_own_family(periodic, family, freq
     own = FAMILIES.index(family)
     assert off[own] < 1e-2  # what interpolation and the steps to the instants leave
     assert np.delete(off, own).min() > 0.3
+    assert unreturned(found, 0.0) < 0.1  # its instants are more exact than they need to be
 
 
 def test_the_component_that_leads_is_compared_with_the_one_that_leads(periodic):
@@ -111,9 +122,10 @@ def test_ends_tell_how_the_run_swings(periodic):
     dispersed = np.zeros_like(state)
     dispersed[0, state.shape[1] // 2] = 0.5
     found = ends([problem_of(state), problem_of(dispersed, end_time=40.0)], families)
-    assert found.fate[0] == BREATHER != found.fate[1]
+    assert found.fate[0] == STAYS != found.fate[1]
     assert found.frequency[0] == pytest.approx(12.0, rel=1e-3)
-    assert found.nearest.tolist() == [1, 0]
+    assert found.family.tolist() == [1, 0]
+    assert found.periodic.tolist() == [1, -1]
     assert found.distance[0] < 5e-3
     assert np.isnan(found.frequency[1]) and np.isnan(found.distance[1])
 
@@ -133,3 +145,57 @@ def test_b_follows_near_the_family_and_has_a_frequency_of_its_own_far_from_it():
     near, far = rates_of(7.0, 0.2), rates_of(6.0, 4.0)
     assert near[1] == pytest.approx(-near[0], rel=0.01)  # the image of A, by the drive
     assert 0.3 * far[0] < far[1] < 0.8 * far[0]
+
+
+def test_what_stays_is_periodic_only_if_it_returns(periodic):
+    """At Omega = 8 B follows A if it starts small, and has a frequency of its own if it is large.
+
+    At Omega = -4 the second motion belongs to no family, and is at no distance from any.
+    """
+    one = problem_of(np.zeros((2, 61), complex), 8.0, 70.0)
+    runs = [on_one_pair(one, *pair) for pair in ((7.0, 0.2), (5.0, 1.0), (6.0, 4.0), (4.0, 3.3))]
+    found = ends(runs, Families.of(periodic, 8.0))
+    assert (found.fate == STAYS).all()
+    assert found.periodic.tolist() == [1, 1, 0, 0]
+    other = on_one_pair(problem_of(np.zeros((2, 61), complex), -4.0, 70.0), 6.65, 5.25)
+    irregular = ends([other], Families.of(periodic, -4.0))
+    assert [irregular.fate[0], irregular.periodic[0], irregular.family[0]] == [STAYS, 0, 0]
+    assert np.isnan([irregular.distance[0], irregular.frequency[0]]).all()
+
+
+def test_a_breather_is_held_against_the_family_of_its_symmetry_alone(periodic):
+    """At a frequency where only A = B is known, A = -B is at an unknown distance."""
+    known = periodic["amplitude"].where(periodic["family"] == "A = B")
+    families = Families.of(periodic.assign(amplitude=known), -4.0)
+    states = [whole(breather(family, 12.0).data) for family in FAMILIES]
+    found = ends([problem_of(state) for state in states], families)
+    assert found.family.tolist() == [1 + FAMILIES.index(family) for family in FAMILIES]
+    assert found.periodic.tolist() == [1, 1, 1]
+    own = [family == "A = B" for family in FAMILIES]
+    assert np.isfinite(found.distance).tolist() == own
+
+
+def made_up_swing(b):
+    """Return instants at which A is 5 and B takes these values."""
+    return Swing(12.0, np.stack([np.full(len(b), 5.0 + 0.0j), b], axis=1))
+
+
+def test_waves_may_move_the_pair_and_a_second_frequency_may_not():
+    """Even waves have P of 2 w^2 at the centre; a B with a phase of its own keeps its modulus."""
+    rng, waves = np.random.default_rng(2), 0.01
+    limit = WAVES * waves + INSTANTS**2 * 25.0
+    left = []
+    for _ in range(100):
+        noise = rng.normal(size=(HALF_PERIODS + 1, 4)) @ np.array(
+            [[1, 0], [1j, 0], [0, 1], [0, 1j]]
+        )
+        moved = made_up_swing(np.full(HALF_PERIODS + 1, -0.3 + 0.0j))
+        left.append(
+            unreturned(moved._replace(pairs=moved.pairs + noise * (waves / 2) ** 0.5), waves)
+        )
+    assert max(left) < 1.0 and np.mean(left) > 0.3
+    turning = np.exp(2j * np.pi * np.arange(HALF_PERIODS) / HALF_PERIODS)
+    for factor in (0.9, 1.1):
+        found = unreturned(made_up_swing(factor * limit**0.5 * turning), waves)
+        assert found == pytest.approx(factor**2)
+    assert unreturned(made_up_swing(np.full(9, 0.5j)), 0.0) == 0.0

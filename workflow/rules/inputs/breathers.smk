@@ -56,6 +56,11 @@ def long_breathers_figure(name):
     return {key: f"results/breathers/long/{name}.{kind}" for key, kind in kinds.items()}
 
 
+def fine_maps_of_fates():
+    """Return the maps of `snakemake fates` as they are committed."""
+    return committed("tests/baseline/quoted/breathers.nc", "quoted")
+
+
 def fate_params(breathers, size):
     given, plain = breathers.fates, ("half_width", "end_time")
     like = {"output_step": given.end_time, **{name: getattr(given, name) for name in plain}}

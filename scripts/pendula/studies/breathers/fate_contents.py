@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.checks import rounded
-from pendula.datasets.netcdf import Variable
+from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.trajectories import Contents, describe_run
 from pendula.problem import Problem
 
@@ -17,6 +17,8 @@ from .nearest import Families
 DIGITS = 6
 """Significant digits of what is read off the end of a run."""
 PLANES = ("amplitudes", "phases")
+PERIODIC = ("unknown", "no", "yes")
+"""What the numbers from -1 on of a variable `periodic` stand for."""
 
 
 class Grid(NamedTuple):
@@ -31,11 +33,12 @@ class Grid(NamedTuple):
 
 def fates_contents(
     problems: Mapping[float, Problem], grid: Grid, cases: Mapping[str, Problem],
-    periodic: xr.Dataset,
+    periodic: xr.Dataset, fine: xr.Dataset | None = None,
 ) -> Contents:  # fmt: skip
     """Return the fate of the data at each detuning, beside the families of periodic breathers.
 
-    `problems` are by detuning, `cases` those of the paper, with data of their own.
+    `problems` are by detuning, `cases` those of the paper, with data of their own. With `fine`, the
+    maps of another run, it is counted at how many common data both runs find the same.
     """
     families = {omega: Families.of(periodic, omega) for omega in problems}
     first = [
@@ -64,21 +67,24 @@ def fates_contents(
     about = {
         key: value for key, value in described.items() if key not in ("omega", "initial", "case")
     }
-    about["ratio"] = grid.ratio
-    return variables, {"title": "What becomes of data on one pair", **about}
+    about |= {"ratio": grid.ratio, "title": "What becomes of data on one pair"}
+    if fine is not None:
+        variables |= _beside(as_xarray(variables, about), fine)
+    return variables, about
 
 
-def _flags(names) -> dict:
+def _flags(names, first: int = 0) -> dict:
     """Return the attributes of a variable of numbers that stand for names, as CF has them."""
     words = " ".join(str(name).replace(" ", "") for name in names)
-    return {"flag_values": np.arange(len(names), dtype=np.int8), "flag_meanings": words}
+    values = np.arange(first, first + len(names), dtype=np.int8)
+    return {"flag_values": values, "flag_meanings": words}
 
 
 def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Dataset) -> dict:
     """Return what one map shows at each detuning, under names that begin with `start`."""
     about = " (B_0 turned in phase)" if start else ""
     along = ("omega", *over)
-    nearest = _flags(["none", *periodic["family"].values])
+    families = _flags(["none", *periodic["family"].values])
     fate = np.array([one.fate for one in found], dtype=np.int8)
     return {
         f"{start}fate": Variable(
@@ -87,16 +93,25 @@ def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Datas
         f"{start}held": _kept(
             along, [one.held for one in found], f"share of P on the three central pairs{about}"
         ),
+        f"{start}unreturned": _kept(
+            along, [one.unreturned for one in found],
+            f"P that does not return after half periods, over the most that waves explain{about}",
+        ),
+        f"{start}periodic": Variable(
+            along, np.array([one.periodic for one in found]),
+            f"whether what stays is periodic, a breather{about}",
+            attributes=_flags(PERIODIC, first=-1),
+        ),
         f"{start}breather_frequency": _kept(
             along, [one.frequency for one in found], f"frequency of the final breather{about}"
         ),
-        f"{start}nearest": Variable(
-            along, np.array([one.nearest for one in found]),
-            f"family of periodic breathers nearest to the final one{about}", attributes=nearest,
+        f"{start}breather_family": Variable(
+            along, np.array([one.family for one in found], dtype=np.int8),
+            f"family whose symmetry the final breather has{about}", attributes=families,
         ),
         f"{start}family_distance": _kept(
             along, [one.distance for one in found],
-            f"relative distance from the nearest family of periodic breathers{about}",
+            f"relative distance of the final breather from this family{about}",
         ),
     }  # fmt: skip
 
@@ -124,6 +139,31 @@ def _shares(first: list[End], second: list[End]) -> dict[str, Variable]:
     }
 
 
+TERMS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "ratio", "solver", "solver_rtol")
+"""What two maps must have in common to be compared."""
+
+
+def _beside(coarse: xr.Dataset, fine: xr.Dataset) -> dict[str, Variable]:
+    """Return how many data both maps have on each plane, and of how many they find the same.
+
+    None are common to maps of other terms.
+    """
+    alike = all(coarse.attrs[name] == fine.attrs.get(name) for name in TERMS)
+    counts = np.zeros((2, len(PLANES), coarse.sizes["omega"]), dtype=int)
+    for i, start in enumerate(("", "turned_") if alike else ()):
+        names = [f"{start}fate", f"{start}periodic"]
+        here = coarse[names].to_array()
+        there = fine[names].reindex_like(here, method="nearest", tolerance=1e-9).to_array()
+        common, same = there.notnull().all("variable"), (here == there).all("variable")
+        for j, both in enumerate((common, common & same)):
+            counts[j, i] = both.sum([name for name in both.dims if name != "omega"])
+    along = ("plane", "omega")
+    return {
+        "common": Variable(along, counts[0], "data of this map on the committed fine one too"),
+        "agreed": Variable(along, counts[1], "data of these of which both maps find the same"),
+    }
+
+
 def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, Variable]:
     """Return what becomes of the paper's data."""
     found = [ends([one], Families.of(periodic, one.constants.omega)) for one in cases.values()]
@@ -140,6 +180,11 @@ def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, V
             along, np.array([int(one.fate[0]) for one in found], dtype=np.int8),
             "fate of the data of the case", attributes=_flags(FATES),
         ),
+        "case_periodic": Variable(
+            along, np.array([one.periodic[0] for one in found]),
+            "whether the case, if it stays, is periodic, a breather",
+            attributes=_flags(PERIODIC, first=-1),
+        ),
         "case_breather_frequency": _kept(
             along, [one.frequency[0] for one in found],
             "frequency of the final breather of the case",
@@ -155,10 +200,15 @@ def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, V
     }  # fmt: skip
 
 
+LONGEST = 10.0
+"""How many times the end time of the maps the longest runs last."""
 OTHERWISE = {
     "twice the chain": lambda one: one.changed(half_width=2 * one.half_width),
     "twice the time": lambda one: one.changed(
         end_time=2.0 * one.end_time, output_step=2.0 * one.output_step
+    ),
+    f"{LONGEST:g} times the time": lambda one: one.changed(
+        end_time=LONGEST * one.end_time, output_step=LONGEST * one.output_step
     ),
     "a hundredth of the tolerance": lambda one: one.changed(
         solver={**one.solver, "rtol": 0.01 * one.solver["rtol"], "atol": 0.01 * one.solver["atol"]}

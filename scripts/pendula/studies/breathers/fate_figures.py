@@ -3,44 +3,46 @@
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LinearSegmentedColormap, ListedColormap, Normalize, to_rgba
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pendula.drawing import style
 
-FAR = "#bcd0ee"
-FATE_LOOKS = {
-    "disperses": ("#e4e4e0", "disperses"),
-    "breather": (style.BLUE, "stays as a breather"),
-    "moves": ("#16876b", "moves away"),
-    "spreads": ("#e8622c", "spreads"),
+LOOKS = {
+    "disperses": "#e4e4e0",
+    "stays, not periodic": "#8fb8e8",
+    "stays, periodic: a breather": style.BLUE,
+    "stays, not known whether periodic": "#c9a2c9",
+    "moves away": "#16876b",
+    "spreads": "#e8622c",
 }
-"""Grey, blue, green and orange, of lightness so different that they stay apart in grey and for
-people who see two colours."""
-FATES = tuple(FATE_LOOKS)
-BREATHER = FATES.index("breather")
-NEARNESS = LinearSegmentedColormap.from_list("nearness", [style.BLUE, "#4f7cc4", FAR])
-FARTHEST = 1.0
-"""The distance that is drawn as the largest: the other amplitude is then as large as the leading
-one, or a family is too far to name."""
-SHADES = NEARNESS.N
-COLOURS = ListedColormap(
-    [*NEARNESS(np.arange(SHADES)), *(to_rgba(colour) for colour, _ in FATE_LOOKS.values())],
-    name="shades of breathers, then fates",
-)
-"""All colours of a map, so that it is one image: first the shades of breathers, the nearest one
-first, then the fates in their order."""
+"""The fates in their order; what stays is divided by whether it is periodic. The colours are of
+lightness so different that they stay apart in grey and for people who see two colours."""
+KINDS = tuple(LOOKS)
+COLOURS = ListedColormap([*LOOKS.values()], name="kinds of ends")
 
-MAPS = ("fate", "family_distance", "turned_fate", "turned_family_distance")
-OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate")
+MAPS = ("fate", "periodic", "turned_fate", "turned_periodic")
+OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate", "case_periodic")
 
 
-def gather_fates(fates: xr.Dataset) -> xr.Dataset:
-    """Return both maps and what becomes of the paper's data, as they are drawn."""
-    return fates[[*MAPS, *OF_CASES]].assign_attrs(ratio=fates.attrs["ratio"])
+def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Dataset:
+    """Return both maps and what becomes of the paper's data, as they are drawn.
+
+    The maps are those of `fine` if these are of the same runs: if they have data in common with
+    `fates` at each Omega.
+    """
+    shown = fates
+    if fine is not None and bool((fates["common"] > 0).all()):
+        shown = fine.sel(omega=fates["omega"])
+    maps = shown[[*MAPS]].assign(fates[[*OF_CASES]])
+    return maps.assign_attrs(ratio=fates.attrs["ratio"])
+
+
+def kind_of(fate: np.ndarray, periodic: np.ndarray) -> np.ndarray:
+    """Return the number in KINDS of each end of a run; `periodic` is -1, 0 or 1."""
+    return np.choose(fate, [0, 1 + periodic % 3, 4, 5])
 
 
 @style.styled
@@ -53,7 +55,7 @@ def draw_fates(data: xr.Dataset) -> Figure:
         here = data.sel(omega=omega)
         above, below = grid[:, column]
         _draw(above, here, ("a0", "b0"), "")
-        turned = _all_round(here[["turned_fate", "turned_family_distance"]])
+        turned = _all_round(here[["turned_fate", "turned_periodic"]])
         _draw(below, turned, ("phase", "turned_a0"), "turned_")
         _mark(above, data, omega, lambda a, b: (a, b))
         _mark(below, data, omega, _at_no_phase(data.attrs["ratio"]))
@@ -64,19 +66,17 @@ def draw_fates(data: xr.Dataset) -> Figure:
         below.set_xticks(np.pi * np.arange(-1, 2), [r"$-\pi$", "$0$", r"$\pi$"])
     grid[0, 0].set_ylabel("$B_0$")
     grid[1, 0].set_ylabel(rf"$A_0$, with $|B_0| = {data.attrs['ratio']:g}\,A_0$")
-    _explain(figure, grid, data)
+    _explain(figure, data)
     return figure
 
 
 def _draw(axes: Axes, here: xr.Dataset, over: tuple[str, str], start: str) -> None:
-    """Draw one map: its fates, and by its shade how near to a periodic one each breather is."""
+    """Draw one map by the kind of each end."""
     across, up = over
-    fate = here[f"{start}fate"].transpose(up, across).values
-    far = here[f"{start}family_distance"].transpose(up, across).fillna(FARTHEST).values
-    shade = np.rint(np.minimum(far / FARTHEST, 1.0) * (SHADES - 1))
+    ends = (here[f"{start}{name}"].transpose(up, across).values for name in ("fate", "periodic"))
     axes.imshow(
-        np.where(fate == BREATHER, shade, fate + float(SHADES)), cmap=COLOURS, vmin=-0.5,
-        vmax=COLOURS.N - 0.5, extent=(*_ends(here[across].values), *_ends(here[up].values)),
+        kind_of(*ends), cmap=COLOURS, vmin=-0.5, vmax=COLOURS.N - 0.5,
+        extent=(*_ends(here[across].values), *_ends(here[up].values)),
         origin="lower", aspect="auto", interpolation="none",
     )  # fmt: skip
 
@@ -104,25 +104,19 @@ def _mark(axes: Axes, data: xr.Dataset, omega: float, place) -> None:
         one = data.sel(case=case)
         at = place(float(one["case_a0"]), float(one["case_b0"]))
         if at:
-            colour, _ = FATE_LOOKS[FATES[int(one["case_fate"])]]
+            colour = COLOURS(kind_of(one["case_fate"].values, one["case_periodic"].values))
             axes.plot(*at, marker="o", markersize=7.5, color="white")
             axes.plot(*at, marker="o", markersize=5, color="black", markerfacecolor=colour)
 
 
-def _explain(figure: Figure, grid: np.ndarray, data: xr.Dataset) -> None:
-    """Name the fates that occur, and give the scale of the breathers' blue."""
-    occur = np.unique(
-        np.concatenate([data[name].values.ravel() for name in ("fate", "turned_fate")])
-    )
-    shown = [
-        Patch(color=colour, label=words)
-        for number, (colour, words) in enumerate(FATE_LOOKS.values())
-        if number in occur
-    ]
+def _explain(figure: Figure, data: xr.Dataset) -> None:
+    """Name the kinds of ends that occur on the maps."""
+    occur = {
+        int(kind)
+        for start in ("", "turned_")
+        for kind in np.unique(kind_of(data[f"{start}fate"].values, data[f"{start}periodic"].values))
+    }
+    shown = [Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in sorted(occur)]
     paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
                    color="black", label="the paper's data")  # fmt: skip
-    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=5)
-    if BREATHER in occur:
-        scale = ScalarMappable(Normalize(0.0, FARTHEST), NEARNESS)
-        bar = figure.colorbar(scale, ax=grid.ravel().tolist(), pad=0.015, aspect=30, extend="max")
-        bar.set_label("breathers: distance from the nearest periodic one")
+    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)

@@ -1,9 +1,9 @@
-"""What becomes of data on one pair: they disperse, stay as a breather, move away, or spread.
+"""What becomes of data on one pair: they disperse, stay at it, move away, or spread.
 
 The four fates are told apart by the end of a run on an even chain, without a number to choose:
 
 - three neighbouring pairs, or three and their mirror image, hold more than half of P: the central
-  ones, then the motion ends as a *breather*, or others, then it *moves*;
+  ones, then the motion *stays*, or others, then it *moves*;
 - no three do, and P is no larger than linear waves could have made it: it *disperses*;
 - no three do, and P is larger: it *spreads*, and the drive feeds the sea that fills the chain.
 
@@ -14,6 +14,8 @@ Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) con
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
 factor (|kappa| + 2 gamma) / (|kappa| - 2 gamma); waves of A + B keep theirs. Where zero is unstable
 no wave has a bound, and all growth counts.
+
+A motion that stays is a breather only if it is periodic: `nearest` says how this is measured.
 """
 
 from collections.abc import Iterable
@@ -28,10 +30,18 @@ from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import find_reduction, unpack
 from pendula.simulation.simulate import Trajectory, integrate
 
-from .nearest import Families, Follower, alone, distances, swing
+from .nearest import (
+    Families,
+    Follower,
+    alone,
+    distances,
+    family_of_shape,
+    swing,
+    unreturned,
+)
 
-FATES = ("disperses", "breather", "moves", "spreads")
-DISPERSES, BREATHER, MOVES, SPREADS = range(len(FATES))
+FATES = ("disperses", "stays", "moves", "spreads")
+DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
 MAJORITY = 0.5
 ROUNDING = 1e-6
 """By how much a run may miss the conservation of P where it holds."""
@@ -88,7 +98,7 @@ def fate_of(modulus: np.ndarray, initial_power: float, gain: float) -> int:
     """Return the fate that the moduli (component, site) at the end of a run show."""
     place = place_of(modulus)
     if place is not None:
-        return MOVES if place else BREATHER
+        return MOVES if place else STAYS
     grown = folded_power(modulus).sum() > gain * (1.0 + ROUNDING) * initial_power
     return SPREADS if grown else DISPERSES
 
@@ -99,24 +109,27 @@ def at_the_end(run: Trajectory) -> np.ndarray:
 
 
 class End(NamedTuple):
-    """What runs have come to; how they swing is known of breathers alone, else NaN and 0."""
+    """What runs have come to; NaN and 0 where a quantity is not known."""
 
     fate: int | np.ndarray
     held: float | np.ndarray  # share of P on the three pairs at the centre
-    frequency: float | np.ndarray  # lambda of the breather
-    distances: np.ndarray  # (family,): from each family of periodic breathers
+    unreturned: float | np.ndarray  # of what stays: P that does not return, see `nearest`
+    frequency: float | np.ndarray  # lambda, if it is periodic, and so a breather
+    family: int | np.ndarray  # of the breather, from 1 on
+    distances: np.ndarray  # (family,): of the breather from each family of periodic ones
 
     @property
-    def nearest(self) -> np.ndarray:
-        """The number of the nearest family from 1 on, 0 where there is none."""
-        off = np.where(np.isnan(self.distances), np.inf, self.distances)
-        return np.where(np.isinf(off).all(axis=-1), 0, 1 + off.argmin(axis=-1)).astype(np.int8)
+    def periodic(self) -> np.ndarray:
+        """1 where a motion that stays is periodic, 0 where not, -1 where this is not known."""
+        known = np.where(np.isnan(self.unreturned), -1, self.unreturned <= 1.0)
+        return known.astype(np.int8)
 
     @property
     def distance(self) -> np.ndarray:
-        """The distance from the nearest family, NaN where there is none."""
-        off = np.where(np.isnan(self.distances), np.inf, self.distances).min(axis=-1)
-        return np.where(np.isinf(off), np.nan, off)
+        """The distance of a breather from its own family, NaN where that is not known."""
+        own = np.maximum(np.asarray(self.family) - 1, 0)[..., None]
+        off = np.take_along_axis(np.asarray(self.distances), own, -1)[..., 0]
+        return np.where(np.asarray(self.family) > 0, off, np.nan)
 
 
 def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
@@ -128,14 +141,20 @@ def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
     modulus = np.sqrt(squares)
     fate = fate_of(modulus, power_of(problem.initial), largest_linear_gain(problem.constants))
     held = held_by_three(modulus)[0]
-    end = End(fate, held, np.nan, np.full(len(families.names), np.nan))
-    if fate != BREATHER:
+    end = End(fate, held, np.nan, np.nan, 0, np.full(len(families.names), np.nan))
+    if fate != STAYS:
         return end
     guess = alone(problem.constants, float(squares.max()))
     found = swing(Follower(problem, state, stop), guess)
     if found is None:
         return end
-    return end._replace(frequency=found.frequency, distances=distances(found, families))
+    end = end._replace(unreturned=unreturned(found, float(folded_power(modulus)[2:].mean() / 2.0)))
+    if end.unreturned > 1.0:
+        return end
+    return end._replace(
+        frequency=found.frequency, family=1 + family_of_shape(found, families.names),
+        distances=distances(found, families),
+    )  # fmt: skip
 
 
 def power_of(amplitudes: np.ndarray) -> float:

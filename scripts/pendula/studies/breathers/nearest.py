@@ -1,4 +1,4 @@
-"""How a run that stays at one pair swings, and which family of periodic breathers it is near.
+"""How a run that stays at one pair swings: whether it is a periodic breather, and of which family.
 
 A periodic breather of `periodic` has A and B real twice in a period, with opposite signs. So a run
 is followed beyond its end and looked at whenever the larger one of A_0 and B_0, the leading one, is
@@ -11,6 +11,15 @@ where (a, b) is the pair at the centre of the family's breather of this frequenc
 of the leading one. The distance of a breather from its own family is zero but for interpolation,
 and grows with all that the run has besides: other phases of the other one, other frequencies.
 Exchanging A and B changes no equation: where B leads, a run is compared with (b, a).
+
+The motion is periodic if the pair is back at each instant where it was, but for the waves that are
+left on the chain. With z_k = +-(A_0, B_0)(tau_k) and its mean over k
+
+    P that does not return = mean over k of |z_k - mean z|^2,
+
+and a pair outside the centre has P = w^2 on average. Waves that are even in n have an antinode at
+the centre, and so twice w^2 there; the few tau of K half periods give their P within a factor of
+two. A second frequency is therefore seen where more than 4 w^2 do not return.
 """
 
 from typing import NamedTuple
@@ -25,7 +34,7 @@ from pendula.simulation.models import make_chain
 from pendula.simulation.observables import blank_record
 from pendula.simulation.solvers import SOLVERS
 
-HALF_PERIODS = 6
+HALF_PERIODS = 24
 STRIDE = np.pi / 6.0
 """The phase that one run covers on the way to the next instant at which the amplitude is real.
 
@@ -132,6 +141,24 @@ def _phase_left(z: complex) -> float | None:
     return tangent / (1.0 + 0.28 * tangent * tangent)
 
 
+WAVES = 4.0
+"""P at the centre that waves explain, over the mean P of a pair outside, see the module's text."""
+INSTANTS = 0.01
+"""By how much of its amplitudes a pair may miss itself since its instants are not exact."""
+
+
+def unreturned(swing: Swing, waves: float) -> float:
+    """Return P that does not return after half periods, over the most that `waves` explain.
+
+    `waves` is the mean P of a pair outside the centre. Where this is at most 1, the motion is
+    periodic.
+    """
+    mean = swing.pairs.mean(axis=0)
+    off = swing.pairs - mean
+    left, whole = ((one.real**2 + one.imag**2).sum(axis=-1).mean() for one in (off, mean))
+    return float(left / (WAVES * waves + INSTANTS**2 * whole))
+
+
 # --- Families -------------------------------------------------------------------------------------
 
 NODES = 4
@@ -187,6 +214,16 @@ def _lagrange(x: np.ndarray, y: np.ndarray, at: float) -> float:
                 weight = weight * (at - xj) / (xi - xj)
         total += weight
     return float(total)
+
+
+SHAPES = {"A only": (1.0, 0.0), "A = -B": (0.5**0.5, -(0.5**0.5)), "A = B": (0.5**0.5, 0.5**0.5)}
+"""The direction of (a, b) that the symmetry of a family gives: exactly but where A leads."""
+
+
+def family_of_shape(swing: Swing, names: list[str]) -> int:
+    """Return the index of the family whose direction the mean pair is nearest to."""
+    mean = swing.pairs.mean(axis=0).real
+    return int(np.argmax([(mean * SHAPES[name]).sum() for name in names]))
 
 
 NEAR = 0.1

@@ -11,7 +11,8 @@ from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import number, percent, span, symbols
 
-from .nearest import NEAR
+from .fate_contents import LONGEST
+from .nearest import HALF_PERIODS, NEAR, WAVES
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
 GROWTH, SENSITIVITY, MAP = "breathers/growth", "breathers/sensitivity", "breathers/fates"
@@ -184,9 +185,11 @@ def _sensitivity(results: Results) -> dict[str, Any]:
 
 
 def _fates(results: Results) -> dict[str, Any]:
-    """Return shares of area, how near breathers are to periodic ones, and runs on other terms."""
+    """Return shares of area, which of what stays is periodic, and runs on other terms."""
     data = results[MAP]
     omegas = [float(omega) for omega in data["omega"].values]
+    stay = data["checked_fate"] == list(data["fate_name"].values).index("stays")
+    stay_on = stay.isel(conditions=0) & stay.sel(conditions=f"{LONGEST:g} times the time")
     return {
         "head": ["Ω", "data", *map(str, data["fate_name"].values)],
         "planes": {
@@ -195,9 +198,16 @@ def _fates(results: Results) -> dict[str, Any]:
         },
         "ratio": results.quote(MAP, float(data.attrs["ratio"])),
         "end": results.quote(MAP, float(data.attrs["end_time"])),
-        "near": [_near(results, omega) for omega in omegas
-                 if np.isfinite(_distances(data, omega)).any()],
+        "periodic": [one for omega in omegas if (one := _periodic(results, omega))],
+        "half_periods": results.quote(MAP, HALF_PERIODS),
+        "waves": results.quote(MAP, WAVES),
         "within": results.quote(MAP, NEAR),
+        "stay": results.quote(MAP, int(stay.isel(conditions=0).sum())),
+        "stay_on": results.quote(MAP, int(stay_on.sum())),
+        "longest": results.quote(MAP, LONGEST * float(data.attrs["end_time"])),
+        "fine": bool((data["common"] > 0).all()),
+        "common": results.quote(MAP, int(data["common"].sum()), 6),
+        "agreed": results.quote(MAP, int(data["agreed"].sum()), 6),
         "checked": [_checked(results, str(one)) for one in data["conditions"].values[1:]],
         "checked_points": results.quote(MAP, data["checked_fate"][0].size),
         "cases": [_case(results, str(case)) for case in data["case"].values],
@@ -230,22 +240,23 @@ def _in_per_cent(share: float) -> str:
     return nearly if 0 < rest < 0.1 else number(100.0 * share, 3)
 
 
-def _distances(data, omega: float) -> np.ndarray:
-    here = data.sel(omega=omega)
-    return here["family_distance"].where(here["a0"] != here["b0"]).values
+def _periodic(results: Results, omega: float) -> dict[str, Any] | None:
+    """Return the share of what stays on the first map that is periodic, and how near to families.
 
-
-def _near(results: Results, omega: float) -> dict[str, Any]:
-    """Return the share of breathers on the first map that are near to a periodic one.
-
-    A = B is left out as in the shares: it has families of its own.
+    A = B is left out as in the shares: it has families of its own. Returns None if nothing stays.
     """
-    distance = _distances(results[MAP], omega)
-    known = distance[np.isfinite(distance)]
+    data = results[MAP]
+    here = data[["fate", "periodic", "family_distance"]].sel(omega=omega)
+    here = here.where(here["a0"] != here["b0"])
+    stays = here["fate"] == list(data["fate_name"].values).index("stays")
+    known = here["family_distance"].values[np.isfinite(here["family_distance"].values)]
+    if not stays.any():
+        return None
     return {
         "omega": results.quote(MAP, omega),
-        "share": results.say(MAP, percent(float((known <= NEAR).mean()))),
-        "median": results.quote(MAP, float(np.median(known)), 2),
+        "share": results.say(MAP, percent(float((here["periodic"] == 1).sum() / stays.sum()))),
+        "near": known.size and results.say(MAP, percent(float((known <= NEAR).mean()))),
+        "median": known.size and results.quote(MAP, float(np.median(known)), 2),
     }
 
 
@@ -282,7 +293,7 @@ def _pictures(results: Results) -> dict[str, Picture]:
         "sensitivity": "The share of runs that spread against the size of a random change of the "
         "data, and the largest norm against the initial amplitude.",
         "fates": "What becomes of data on one pair, by their amplitudes, and by the phase between "
-        f"them. {said}.",
+        f"them: they disperse, stay, move or spread. By this run's coarse map, {said}.",
     }
     return {name: results.picture(name, alt) for name, alt in described.items()}
 

@@ -57,12 +57,12 @@ def _fates(results: Results, case: str) -> dict[str, Any] | None:
     if omega not in data["omega"].values:
         return None
     area = data["area"].sel(omega=omega, plane="amplitudes")
-    shares = {kind: percent(float(area.sel(fate_name=kind))) for kind in ("breather", "spreads")}
+    shares = {kind: percent(float(area.sel(fate_name=kind))) for kind in ("stays", "spreads")}
     return {
         "omega": results.quote(FATES, omega),
         "own": _own_fate(data, case, json.loads(about["initial"])),
         "points": results.quote(FATES, data["fate"].sel(omega=omega).size, 6),
-        "stays": results.say(FATES, shares["breather"]),
+        "stays": results.say(FATES, shares["stays"]),
         "spreads": results.say(FATES, shares["spreads"]),
     }
 
