@@ -26,30 +26,26 @@ def problem(half_width=2, end_time=0.6, **changes):
 
 
 def steps_of(given, bits=BITS, order=ORDER):
+    """Return the chain, and the steps of its curve from each output to the next."""
     chain = fixed_point.half_chain(given, bits)
     found = fixed_point.follow(fixed_point.start(given, chain)[0], chain, order)
-    return chain, [step for _ in given.times[1:] for step in next(found)]
+    return chain, [next(found) for _ in given.times[1:]]
 
 
-def walk(given, steps, chain, per_frame=10):
-    """Return the bound at the end of steps, as frames.certify finds it for steps of its own."""
-    state, off = fixed_point.start(given, chain)
-    begins = [[own[0] for own in part] for part in steps[0].terms]
-    off += fixed_point.as_double(
-        sum(abs(x - y) for x, y in zip(joined(*state), joined(*begins), strict=True)),
-        Fraction(1, 2**chain.bits),
-    )
-    tube, before = frames.begin(chain, off), None
-    for i, step in enumerate(steps):
-        jumped = fixed_point.jump(before, step, chain) if before else 0.0
-        tube, before = frames.advance(tube, step, chain, jumped), step
-        if (i + 1) % per_frame == 0:
-            tube = frames.reframe(tube)
-    return float(frames.distances(tube)[:3].sum())
+def certify(given, steps, bits=BITS, order=ORDER, per_frame=10):
+    """Return what frames.certify finds of steps that it is given in place of its own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(frames, "follow", lambda state, chain, order: iter(steps))
+        return frames.certify(given, bits, order, per_frame)
+
+
+def bound(given, steps, **how):
+    """Return the bound at the end, without what is due to the output in doubles."""
+    return float(certify(given, steps, **how).parts[:3, -1].sum())
 
 
 def exact_end(steps, chain):
-    whole = np.array(fixed_point.end(steps[-1].terms), object)
+    whole = np.array(fixed_point.end(steps[-1][-1].terms), object)
     return [[Fraction(int(x), 2**chain.bits) for x in part] for part in whole]
 
 
@@ -63,7 +59,7 @@ def right():
     """A problem, its chain, the steps of its curve, and their bound."""
     given = problem()
     chain, steps = steps_of(given)
-    return given, chain, steps, walk(given, steps, chain)
+    return given, chain, steps, bound(given, steps)
 
 
 def test_a_curve_with_twice_the_digits_lies_within_the_bound(right):
@@ -72,12 +68,12 @@ def test_a_curve_with_twice_the_digits_lies_within_the_bound(right):
     off = apart(exact_end(steps, chain), exact_end(better, finer))
     assert off > 1e-30
     for per_frame in (1, 7, 1000):
-        assert off < walk(given, steps, chain, per_frame) < 1e-18
+        assert off < bound(given, steps, per_frame=per_frame) < 1e-18
 
 
 def test_the_defect_is_what_a_curve_misses_of_the_equation():
     given = problem(end_time=0.05)
-    chain, (step, *_) = steps_of(given, 48, 8)
+    chain, ((step, *_), *_) = steps_of(given, 48, 8)
     h, theta = chain.interval / step.pieces, Fraction(1, 3)
     p, slope = (
         np.array([[sum(w(k) * own[k] for k in range(9)) for own in part] for part in step.terms])
@@ -106,7 +102,7 @@ def test_the_half_chain_has_the_field_of_the_whole():
 
 def test_the_tangent_polynomials_are_the_slope_of_the_flow():
     given = problem(end_time=0.05)
-    chain, (step, *_) = steps_of(given, BITS, 30)
+    chain, ((step, *_), *_) = steps_of(given, BITS, 30)
     size = 4 * chain.sites
     p = fixed_point.doubles(step, chain, 30)
     h = float(chain.interval / step.pieces)
@@ -126,33 +122,114 @@ def test_the_tangent_polynomials_are_the_slope_of_the_flow():
 def test_a_bound_that_is_no_longer_small_is_infinite(right):
     _, chain, steps, _ = right
     tube = frames.begin(chain, 1.0)
-    assert np.isinf(frames.distances(frames.advance(tube, steps[0], chain, 0.0))[2])
+    assert np.isinf(frames.distances(frames.advance(tube, steps[0][0], chain, 0.0))[2])
 
 
-def _raised(steps, place, by):
-    index, part, site, k = place
-    terms = [[list(own) for own in each] for each in steps[index].terms]
+def _raised(steps, output, place, by):
+    """Return steps of which the first behind an output has another coefficient."""
+    (part, site, k), (first, *rest) = place, steps[output]
+    terms = [[list(own) for own in each] for each in first.terms]
     terms[part][site][k] += by
-    return [*steps[:index], steps[index]._replace(terms=terms), *steps[index + 1 :]]
+    return [*steps[:output], [first._replace(terms=terms), *rest], *steps[output + 1 :]]
+
+
+def _of(given, **changes):
+    return steps_of(given.changed(**changes))[1]
 
 
 WRONG = {
-    "a constant": lambda given, steps: steps_of(given.changed(gamma=0.7 + 1e-9))[1],
-    "the data": lambda given, steps: steps_of(given.changed(initial=(1 + 1e-9) * given.initial))[1],
-    "a coefficient": lambda given, steps: _raised(steps, (3, 0, 1, 5), 2 ** (BITS - 40)),
-    "a jump": lambda given, steps: _raised(steps, (4, 1, 2, 0), 2 ** (BITS - 40)),
-    "a step": lambda given, steps: steps[:4] + steps[5:],
+    "a constant": lambda given, steps: _of(given, gamma=0.7 + 1e-9),
+    "the data": lambda given, steps: _of(given, initial=(1 + 1e-9) * given.initial),
+    "the first state": lambda given, steps: _raised(steps, 0, (0, 2, 0), 2 ** (BITS - 10)),
+    "a coefficient": lambda given, steps: _raised(steps, 3, (0, 1, 5), 2 ** (BITS - 40)),
+    "a jump": lambda given, steps: _raised(steps, 4, (1, 2, 0), 2 ** (BITS - 40)),
+    "an interval": lambda given, steps: steps[:4] + steps[5:] + steps[-1:],
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_curve_is_found_out(name, right):
-    given, chain, steps, bound = right
+    given, _, steps, small = right
     wrong = WRONG[name](given, steps)
-    off = apart(exact_end(wrong, chain), exact_end(steps, chain))
-    found = walk(given, wrong, chain)
-    assert found > 1e6 * bound
-    assert found > 0.99 * off or name == "a step"
+    off = apart(exact_end(wrong, _), exact_end(steps, _))
+    found = bound(given, wrong)
+    assert found > 1e6 * small
+    assert found > 0.99 * off
+
+
+def _in_eight(state, chain):
+    """Return eight steps that lead over the time between two outputs."""
+    steps = []
+    for _ in range(8):
+        terms = fixed_point.taylor(state, chain, chain.interval / 8, ORDER)
+        state = fixed_point.end(terms)
+        steps.append(fixed_point.Step(8, terms))
+    return steps
+
+
+UNEVEN = {
+    "one left out": lambda eight: eight[:3] + eight[4:],
+    "one too many": lambda eight: [*eight, eight[-1]],
+    "none": lambda eight: [],
+    "one that is longer": lambda eight: [eight[0]._replace(pieces=7), *eight[1:]],
+    "one back in time": lambda eight: [*eight, *eight[:2], eight[0]._replace(pieces=-4)],
+}
+
+
+@pytest.mark.parametrize("name", UNEVEN)
+def test_steps_that_do_not_cover_the_time_between_outputs_are_refused(name):
+    given = problem(end_time=0.05)
+    chain = fixed_point.half_chain(given, BITS)
+    eight = _in_eight(fixed_point.start(given, chain)[0], chain)
+    assert bound(given, [eight]) < 1e-20
+    with pytest.raises(fixed_point.StepError, match="more or less than the time"):
+        certify(given, [UNEVEN[name](eight)])
+
+
+@pytest.mark.parametrize("order", [8, 11, 23, 24, 30])
+def test_what_the_tangent_polynomials_miss_is_bounded_for_curves_of_any_order(order):
+    """Against exact coefficients of J M - M', in fractions."""
+    given = problem(half_width=1, end_time=0.05)
+    chain, ((step, *_), *_) = steps_of(given, 32, order)
+    h, size = chain.interval / step.pieces, 4 * chain.sites
+    p = frames.doubles(step, chain, order)
+    identity = np.eye(size).reshape(2, 2, chain.sites, size)
+    terms = frames.tangents(identity, p, float(h), chain, frames.ORDER)
+    sizes = np.sqrt((p**2).sum(axis=1).max(axis=(1, 2)))
+    norms = np.array([np.sqrt((term * term).sum()) for term in terms])
+    claimed = frames.missed(norms, sizes, float(h), chain)
+    true = sum(
+        np.sqrt(float((coefficient**2).sum())) / (k + 1)
+        for k, coefficient in enumerate(exactly_missed(terms, step, chain))
+    )
+    assert true < claimed < 1e4 * true
+
+
+def exactly_missed(terms, step, chain):
+    """Return the coefficients of h (J M - M') over theta, (part, component, site, column)."""
+    h = chain.interval / step.pieces
+    x, y = np.array(step.terms, object).reshape(2, 2, chain.sites, -1, 1) / Fraction(2**chain.bits)
+    to_fraction = np.vectorize(Fraction, otypes=[object])
+    m = [to_fraction(term) for term in terms]
+    order, last = x.shape[2] - 1, len(terms) - 1
+    found = [0 * m[0] for _ in range(last + 2 * order + 1)]
+    for k, (real, imaginary) in enumerate(m):
+        q, field = fixed_point.scaled_linear(
+            [list(part.reshape(-1, part.shape[-1])) for part in (real, imaginary)], chain
+        )
+        linear = np.array(field, object).reshape(m[0].shape) / q
+        found[k] = found[k] + h * np.stack([linear[1], -linear[0]])
+        if k:
+            found[k - 1] = found[k - 1] - k * m[k]
+        for i in range(order + 1):
+            for j in range(order + 1):
+                a, b, c, d = x[:, :, i], y[:, :, i], x[:, :, j], y[:, :, j]
+                square, across = a * c + b * d, a * d
+                turned = (a * c - b * d) / 2
+                field = square * real + turned * real + across * imaginary
+                other = square * imaginary + across * real - turned * imaginary
+                found[i + j + k] = found[i + j + k] + h * np.stack([other, -field])
+    return found
 
 
 def test_the_data_must_be_even():

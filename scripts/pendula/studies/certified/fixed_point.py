@@ -5,10 +5,12 @@ and data, and solutions are unique. So the sites 0 to M are enough, with u_{-1} 
 
 Each time between two outputs is cut into equal steps, and in each step the curve is a polynomial in
 theta = (tau - start of the step) / step. A step begins with the sum of the coefficients of the one
-before, which is an integer as well: the curve has no jumps.
+before, which is an integer as well, so that the curve has no jumps.
 
-Nothing here needs to be a good solution, since `defect` measures exactly what a polynomial misses
-of (4). With step = 1 / H and q a common denominator of the constants, the numbers
+`follow` finds the curve, and no proof rests on it. `whole` requires that the steps between two
+outputs cover this time exactly; `jump` measures how far the start of a step is from the end of the
+one before, or from the data; and `defect` measures exactly what a polynomial misses of (4). With
+step = 1 / H and q a common denominator of the constants, the numbers
 
     2 q H 4^bits i P'(theta) - 2 q 4^bits L P - q |P|^2 P,
 
@@ -46,7 +48,7 @@ class NotEvenError(ValueError):
 
 
 class StepError(ArithmeticError):
-    """No step that is long enough makes the last term of the polynomials small."""
+    """The steps do not lead from one output to the next."""
 
 
 class Chain(NamedTuple):
@@ -201,9 +203,16 @@ def defect(step: Step, chain: Chain) -> float:
     return as_double(int(total), unit)
 
 
-def jump(before: Step, after: Step, chain: Chain) -> float:
-    """Return a bound of the l2 distance from the end of a step to the start of the next."""
-    ends = zip(joined(*end(before.terms)), joined(*after.terms), strict=True)
+def whole(steps: list[Step]) -> list[Step]:
+    """Return the steps if they cover the time between two outputs exactly; raises StepError."""
+    if any(step.pieces < 1 for step in steps) or sum(Fraction(1, s.pieces) for s in steps) != 1:
+        raise StepError("the steps between two outputs are more or less than the time between them")
+    return steps
+
+
+def jump(state: list[list[int]], after: Step, chain: Chain) -> float:
+    """Return a bound of the l2 distance from a state to the start of a step."""
+    ends = zip(joined(*state), joined(*after.terms), strict=True)
     return as_double(sum(abs(last - own[0]) for last, own in ends), Fraction(1, 2**chain.bits))
 
 

@@ -34,8 +34,9 @@ gamma_n = n u / (1 - n u) times the product of the two columns' norms, in whatev
 
 The tangent polynomials. With S_i and P_i the coefficients of |A|^2 and A^2, computed from the
 doubles nearest to those of p, T_{k+1} = h F_k / (k + 1), where F_k is -i times L T_k + sum over i
-<= k of (S_i T_{k-i} + P_i conj(T_{k-i}) / 2). So what T misses of M' = J M has the coefficients,
-over theta,
+<= k of (S_i T_{k-i} + P_i conj(T_{k-i}) / 2). The sum has all i, beyond the order of p as well: S
+and P have twice the order of p, which may be smaller than that of T. So what T misses of M' = J M
+has the coefficients, over theta,
 
 - for k below the order K of T: rounding only. The terms go through 4 K + 16 roundings at most: one
   of the coefficients and one of a constant, the product of two and its sum over up to K + 1
@@ -72,7 +73,18 @@ import numpy as np
 from pendula.numerics.elementary import log
 from pendula.problem import Problem
 
-from .fixed_point import Chain, Step, defect, doubles, end, follow, half_chain, jump, start
+from .fixed_point import (
+    Chain,
+    Step,
+    defect,
+    doubles,
+    end,
+    follow,
+    half_chain,
+    jump,
+    start,
+    whole,
+)
 from .norm import UP
 from .regular import TINY, UNIT, Certified, exponential, tree_sum
 
@@ -115,7 +127,7 @@ def distances(tube: Tube) -> np.ndarray:
 
 
 def advance(tube: Tube, step: Step, chain: Chain, jumped: float, order: int = ORDER) -> Tube:
-    """Return the tube at the end of a step that starts `jumped` from the end of the one before."""
+    """Return the tube at the end of a step that starts `jumped` from where the tube is."""
     coefficients = doubles(step, chain, len(step.terms[0][0]))
     sizes = UP * np.sqrt(np.max(np.sum(coefficients**2, axis=1), axis=(1, 2))) + TINY
     h = float(chain.interval / step.pieces)
@@ -148,12 +160,12 @@ def _quadratic(w: float, moved: float, largest: float, time: float) -> float:
 
 def tangents(matrix: np.ndarray, p: np.ndarray, h: float, chain: Chain, order: int) -> list:
     """Return the tangent polynomials' coefficients, each of the shape of the matrix."""
-    square, real, imaginary = products(p[: order + 1])
+    square, real, imaginary = products(p, order)
     plus, minus, across = square + 0.5 * real, square - 0.5 * real, 0.5 * imaginary
     terms = [matrix]
     for k in range(order):
         x, y = linear(terms[k], chain)
-        for i in range(min(k + 1, len(square))):
+        for i in range(k + 1):
             own_x, own_y = terms[k - i]
             x += plus[i][..., None] * own_x
             x += across[i][..., None] * own_y
@@ -167,10 +179,11 @@ def tangents(matrix: np.ndarray, p: np.ndarray, h: float, chain: Chain, order: i
     return terms
 
 
-def products(p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the coefficients of |A|^2 and of both parts of A^2, (order, component, site)."""
-    square, real, imaginary = np.zeros((3, len(p), *p.shape[2:]))
-    for k in range(len(p)):
+def products(p: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return so many coefficients of |A|^2 and of both parts of A^2, (order, component, site)."""
+    p = np.concatenate([p[:count], np.zeros((max(count - len(p), 0), *p.shape[1:]))])
+    square, real, imaginary = np.zeros((3, count, *p.shape[2:]))
+    for k in range(count):
         own, other = p[: k + 1], p[k::-1]
         xx, yy = np.sum(own[:, 0] * other[:, 0], axis=0), np.sum(own[:, 1] * other[:, 1], axis=0)
         square[k], real[k] = xx + yy, xx - yy
@@ -293,15 +306,15 @@ def follow_outputs(problem: Problem, bits: int, order: int, per_frame: int) -> I
     """Yield the start and every further output up to the end of the problem."""
     chain = half_chain(problem, bits)
     state, off = start(problem, chain)
-    tube, before = begin(chain, off), None
+    tube = begin(chain, off)
     yield _output(state, tube, chain, 0.0)
     steps_between = follow(state, chain, order)
     for count in range(1, len(problem.times)):
-        for step in next(steps_between):
-            jumped = jump(before, step, chain) if before else 0.0
-            tube, before = advance(tube, step, chain, jumped), step
+        for step in whole(next(steps_between)):
+            tube = advance(tube, step, chain, jump(state, step, chain))
+            state = end(step.terms)
         late = float(abs(Fraction(float(problem.times[count])) - count * chain.interval))
-        yield _output(end(before.terms), tube, chain, late)
+        yield _output(state, tube, chain, late)
         if count % per_frame == 0:
             tube = reframe(tube)
 
