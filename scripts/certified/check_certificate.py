@@ -9,16 +9,102 @@ printed decimals to the polynomial is at most that bound at the end of the step,
 
     end > exp(x) (start + k (jump + integral of |defect| + h (3 a end + end^2) end / 2)),
 
-k = sqrt(m2 / m1), x the integral of the rate, a the largest modulus; see docs/certified.md.
+k = sqrt(m2 / m1), x the integral of the rate, a the largest modulus; see docs/certified.md. A
+certificate of another form than that page describes is rejected with a sentence on the field.
 """
 
 import json
+import re
 import sys
 from fractions import Fraction
 from math import isqrt
 from operator import mul
 
+WHAT = (
+    "i A_n' = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n + gamma (conj B_n - conj A_n) + "
+    "|A_n|^2 A_n / 2, the same with A and B exchanged, A = B = 0 beyond the ends"
+)
+CONSTANTS = ("epsilon", "gamma", "omega")
+UNITS = {"steps_per_tau": 2**20, "bits": 1024, "rate_bits": 1024, "bound_bits": 1024}
+KEYS = ("what", *CONSTANTS, "initial", *UNITS, "end_time", "steps")
+NUMBER = "-?[0-9]{1,99}([.][0-9]{1,99}|/0{0,9}[1-9][0-9]{0,89})?"
 TINY = Fraction(1, 2**40)
+
+
+class RejectedError(ValueError):
+    """The certificate proves nothing; the text is the reason."""
+
+
+# --- The form of a certificate --------------------------------------------------------------------
+
+
+def require(holds, reason):
+    """Raise RejectedError unless something holds."""
+    if not holds:
+        raise RejectedError(reason)
+
+
+def keys(value, names, name):
+    """Return an object that has all of the keys and no others."""
+    require(type(value) is dict, f"{name} must be an object")
+    for key in (*names, *value):
+        require(key in value, f"{name} lacks {key}")
+        require(key in names, f"{name} must not have the key {key!a:.40}")
+    return value
+
+
+def items(value, name, least, most=None):
+    """Return a list with an allowed number of items."""
+    require(type(value) is list, f"{name} must be a list")
+    require(len(value) >= least, f"{name} must have {least} items at least")
+    require(most is None or len(value) <= most, f"{name} must have {most} items at most")
+    return value
+
+
+def integer(value, name, least=None, most=None):
+    """Return an integer in a range; true, false, 1.0 and texts are none."""
+    require(type(value) is int, f"{name} must be an integer")
+    require(least is None or value >= least, f"{name} must be at least {least}")
+    require(most is None or value <= most, f"{name} must be at most {most}")
+    return value
+
+
+def fraction(value, name):
+    """Return the number that a text like -4, 0.1 or 1/10 stands for."""
+    right = type(value) is str and re.fullmatch(NUMBER, value)
+    require(right, f"{name} must be a decimal or a fraction as a text, like 0.1 or 1/10")
+    return Fraction(value)
+
+
+def states(value, name, sites, number):
+    """Return a state in one row: Re A, Im A, Re B, Im B on all sites."""
+    rows = items(value, name, 4, 4)
+    return [
+        number(x, f"{name}[{i}][{j}]")
+        for i, row in enumerate(rows)
+        for j, x in enumerate(items(row, f"{name}[{i}]", sites, sites))
+    ]
+
+
+def read(path):
+    """Return what a file of JSON holds, in which no object has a key twice."""
+
+    def once(pairs):
+        require(len(dict(pairs)) == len(pairs), "an object has the same key twice")
+        return dict(pairs)
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file, object_pairs_hook=once)
+    except RejectedError:
+        raise
+    except OSError as error:
+        raise RejectedError(f"the file cannot be read: {error.strerror}") from None
+    except (ValueError, RecursionError):
+        raise RejectedError("the file is not valid JSON in UTF-8") from None
+
+
+# --- The proof ------------------------------------------------------------------------------------
 
 
 def root(x):
@@ -117,34 +203,60 @@ def growth(terms, rates, eq, h, sign, k):
 
 
 def check(certificate):
-    """Return why the certificate proves nothing; an empty text where it holds."""
-    eq = {name: Fraction(certificate[name]) for name in ("epsilon", "gamma", "omega")}
-    h, unit = Fraction(1, certificate["steps_per_tau"]), Fraction(1, 2 ** certificate["bits"])
-    low = eq["omega"] - max(0, 4 * eq["epsilon"]) - 2 * abs(eq["gamma"])
-    high = eq["omega"] - min(0, 4 * eq["epsilon"]) + 2 * abs(eq["gamma"])
-    end = len(certificate["steps"]) * h
-    if low <= 0 <= high or end <= 0 or end != Fraction(certificate["end_time"]):
-        return "the linear flow keeps no norm, or the steps do not lead to the end"
-    k = root(max(abs(low), abs(high)) / min(abs(low), abs(high)))
-    state, bound = [Fraction(x) for row in certificate["initial"] for x in row], Fraction(0)
-    for number, step in enumerate(certificate["steps"]):
-        whole = [[int(u) for row in term for u in row] for term in step["terms"]]
+    """Raise RejectedError unless the certificate proves its bounds."""
+    keys(certificate, KEYS, "the certificate")
+    require(certificate["what"] == WHAT, "what must be equations (4) as this script has them")
+    eq = {name: fraction(certificate[name], name) for name in CONSTANTS}
+    unit_of = {name: integer(certificate[name], name, 1, most) for name, most in UNITS.items()}
+    h = Fraction(1, unit_of.pop("steps_per_tau"))
+    unit, rate_unit, bound_unit = (Fraction(1, 2**bits) for bits in unit_of.values())
+    sites = len(items(items(certificate["initial"], "initial", 4, 4)[0], "initial[0]", 1))
+    state, bound = states(certificate["initial"], "initial", sites, fraction), Fraction(0)
+    steps = items(certificate["steps"], "steps", 1)
+    end_time = fraction(certificate["end_time"], "end_time")
+    require(len(steps) * h == end_time, "end_time must be where the last of the steps ends")
+    sign, k = norm(eq)
+    for number, step in enumerate(steps):
+        name = f"steps[{number}]"
+        keys(step, ("terms", "rates", "bound"), name)
+        whole = [
+            states(term, f"{name}.terms[{i}]", sites, integer)
+            for i, term in enumerate(items(step["terms"], f"{name}.terms", 1))
+        ]
+        rates = [  # they stand at both ends of the step at least
+            integer(rate, f"{name}.rates[{i}]", 0) * rate_unit
+            for i, rate in enumerate(items(step["rates"], f"{name}.rates", 2))
+        ]
+        end = integer(step["bound"], f"{name}.bound", 1) * bound_unit
         terms = [[u * unit for u in term] for term in whole]
         jump = root(sum((a - b) ** 2 for a, b in zip(terms[0], state, strict=True)))
-        rates = [Fraction(rate, 2 ** certificate["rate_bits"]) for rate in step["rates"]]
-        factor, a = growth(terms, rates, eq, h, 1 if low > 0 else -1, k)
-        if factor is None or len(rates) < 2:  # they stand at both ends of the step at least
-            return f"step {number}: a rate is too small, or too large for one step"
-        end = Fraction(step["bound"], 2 ** certificate["bound_bits"])
+        factor, a = growth(terms, rates, eq, h, sign, k)
+        require(factor, f"{name}.rates: a rate is too small, or too large for one step")
         off = jump + defect(whole, eq, h, unit) + h * (3 * a * end + end**2) * end / 2
-        if not factor * (bound + k * off) < end:
-            return f"step {number}: the bound is too small"
+        require(factor * (bound + k * off) < end, f"{name}.bound is too small for this curve")
         bound, state = end, [sum(column) for column in zip(*terms, strict=True)]
-    return ""
+
+
+def norm(eq):
+    """Return the sign of the quadratic part of the energy, and sqrt(m2 / m1) rounded up."""
+    low = eq["omega"] - max(0, 4 * eq["epsilon"]) - 2 * abs(eq["gamma"])
+    high = eq["omega"] - min(0, 4 * eq["epsilon"]) + 2 * abs(eq["gamma"])
+    require(not low <= 0 <= high, "epsilon, gamma and omega: the linear flow keeps no norm")
+    small, large = sorted((abs(low), abs(high)))
+    return (1 if low > 0 else -1), root(large / small)
+
+
+def main(paths):
+    """Print yes, or no with the reason; return the exit status."""
+    try:
+        require(len(paths) == 1, "give the path of one certificate")
+        check(read(paths[0]))
+    except RejectedError as reason:
+        print(f"no: {reason}")
+        return 1
+    print("yes")
+    return 0
 
 
 if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as file:
-        reason = check(json.load(file))
-    print(f"no: {reason}" if reason else "yes")
-    sys.exit(bool(reason))
+    sys.exit(main(sys.argv[1:]))
