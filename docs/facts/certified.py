@@ -48,7 +48,9 @@ def certified(baseline: Baseline) -> dict:
             }
             for case in framed
         ],
-        "bound": _upward(max(curves[case]["bound"].max() for case in known if case not in framed)),
+        "count": number(len(known)),
+        "largest": _upward(max(curves[case]["bound"].max() for case in known)),
+        "until": number(min(float(curves[case]["tau"][-1]) for case in known)),
         "contained": number(int(whole.sum())),
         "in_lines": _upward(share.where(np.isfinite(share)).max()),
         "certificate": _short_case(baseline.folder / "proofs/short_case.json"),

@@ -94,6 +94,21 @@ def test_another_case_has_no_horizon():
     assert found["horizon"].isnull().all() and found["difference"].isnull().all()
 
 
+@pytest.mark.parametrize(
+    ("omega", "end", "slope", "until"),
+    [(8.0, 5.0, 0.002, 5.0), (8.0, 3.0, 0.008, 1.0), (7.0, 5.0, 0.002, np.nan)],
+)
+def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope, until):
+    """The bound is a part of the smallest full scale, that of B, which is 1."""
+    proved = run(omega=omega).sel(tau=slice(end))
+    proved["bound"] = slope * proved["tau"]
+    found = trust({("case", "run"): run()}, {"case": run()}, None, {"case": proved})
+    bound = found["proven_bound"].sel(case="case")
+    expected = slope * bound["tau"] if omega == 8.0 else np.nan * bound
+    np.testing.assert_allclose(bound, expected.where(bound["tau"] <= end))
+    np.testing.assert_array_equal(found["proved_until"], [until])
+
+
 def test_data_as_printed_and_the_doubles_next_to_them_lead_apart():
     rounded = run(changes={("l2", 0, 3): 2.0 + 1e-9, ("l2", 0, 7): 2.5})
     found = trust({("case", "run"): run()}, {"case": run()}, (run(), rounded))

@@ -32,6 +32,7 @@ def chaotic_results(folder, rate: float, lost: float, until: float = 10.0) -> ma
         decimal_size=("decimal_level", [1e-12, 0.01]),
         known_until=(("case", "solver"), np.full((4, 2), until)),
         run_end=("case", [10.0] * 4),
+        proved_until=("case", [10.0, np.nan, 10.0, 7.5]),
     )
     inside = {"run_inside": 0.875, "band_width": 0.3, "band_middle": 10.0}
     ensembles = made_up.by_case(
@@ -77,6 +78,18 @@ def lives() -> xr.Dataset:
 
 def gathered(results: made_up.MadeUp) -> dict:
     return chaos.gather(results, None)
+
+
+def test_the_proofs_are_counted_with_their_ends(tmp_path):
+    results = chaotic_results(tmp_path, 2.5, 4.5)
+    found = gathered(results)
+    assert {key: str(words) for key, words in found["proved"].items()} == {
+        "count": "3",
+        "until": "7.5 to 10",
+    }
+    assert str(found["ends"]) == "10"
+    results[chaos.TRUST]["proved_until"][:] = np.nan
+    assert str(gathered(results)["proved"]["until"]) == "none"
 
 
 def test_a_double_is_no_tenth(tmp_path):

@@ -181,7 +181,7 @@ rule solver_figures:
 
 
 rule measure_trust:
-    "When the norms of each solver leave those of the multiprecision reference"
+    "When the norms of each solver leave those of the reference, and until when curves are proved"
     input:
         code=code("paper/measure_trust.py"),
         trajectories=expand(
@@ -189,6 +189,7 @@ rule measure_trust:
         ),
         references=references(*PAPER_CASES),
         decimal=references("fig4_small", "fig4_small.double"),
+        proved=[*proved_curves(), *committed_proofs()],
     output:
         data="results/checks/trust.nc",
     log:
@@ -198,6 +199,7 @@ rule measure_trust:
     params:
         cases=PAPER_CASES,
         solvers=ALL_SOLVERS,
+        certified=[*SETTINGS.certified.curves.cases, *SETTINGS.certified.frames],
     message:
         "Measuring until when the trajectories can be trusted"
     script:

@@ -25,6 +25,9 @@ from .thrift import DPI, thrifty
 LINE_WIDTH = 0.7
 """The width of a line, in points."""
 
+MOST_COLUMNS = 6
+"""Entries of a legend that two columns of a journal page have room for; more stand in two rows."""
+
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
 
@@ -116,9 +119,8 @@ def name_legend(figure: Figure, *panels: Axes) -> None:
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
-    legend = figure.legend(
-        named.values(), named.keys(), loc="outside upper center", ncols=len(named)
-    )
+    columns = len(named) if len(named) <= MOST_COLUMNS else -(-len(named) // 2)
+    legend = figure.legend(named.values(), named.keys(), loc="outside upper center", ncols=columns)
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
 

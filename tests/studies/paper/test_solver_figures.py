@@ -41,3 +41,17 @@ def test_a_mark_shows_when_a_solver_leaves_the_reference(gathered):
         first, *others = (mark.get_xdata()[0] for mark in marks)
         assert first == float(data["tau"][-1])  # it never leaves: at the end of its curve
         assert others == list(data["horizon"].sel(case=case)[1:])
+
+
+def test_a_proven_bound_is_drawn_to_its_end_and_only_where_there_is_one(gathered):
+    drawn = gathered["trust"].copy(deep=True)
+    first = drawn["case"].values[0]
+    end = float(drawn["tau"][3])
+    drawn["proved_until"].loc[{"case": first}] = end
+    drawn["largest_bound"].loc[{"case": first}] = 1e-14
+    for axes, case in zip(figures.draw_trust(drawn).axes, drawn["case"].values, strict=True):
+        bounds = [line for line in axes.get_lines() if line.get_label() == "proven bound"]
+        marks = [line for line in axes.get_lines() if line.get_marker() == "*"]
+        assert len(bounds) == int(case == first) and len(marks) == 2 * len(bounds)
+        assert all(line.get_xdata()[-1] == end for line in marks)
+        assert all(set(line.get_ydata()) == {1e-14} for line in marks)

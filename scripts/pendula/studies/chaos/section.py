@@ -32,7 +32,6 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     rates = growth["exponent"].max("parity")
     chaotic = [str(case) for case in growth["case"].values[growth["chaotic"].values == 1]]
     solvers = [str(solver) for solver in trust["solver"].values]
-    ends = {float(edge(trust["run_end"])) for edge in (np.min, np.max)}
     bands = [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values]
     return {
         "cases": results.quote(LYAPUNOV, growth.sizes["case"]),
@@ -41,7 +40,11 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "rates": results.say(LYAPUNOV, span(rates.sel(case=chaotic), 2) if chaotic else "none"),
         "limit": number(float(exp(MANY))),
         "visible": percent(float(trust["size"].sel(level="visible"))),
-        "ends": results.say(TRUST, " to ".join(number(end, 4) for end in sorted(ends))),
+        "ends": results.say(TRUST, _from_to(trust["run_end"])),
+        "proved": {
+            "count": results.quote(TRUST, int(trust["proved_until"].count())),
+            "until": results.say(TRUST, _from_to(trust["proved_until"])),
+        },
         "head": ["case", "rate of even changes", "rate of odd changes",
                  *(f"{SOLVER_NAMES[name]} leaves at τ" for name in solvers), "uneven from τ"],
         "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
@@ -56,6 +59,12 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "members": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["members"]),
         "size": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["perturbation"]),
     }  # fmt: skip
+
+
+def _from_to(times) -> str:
+    """Return the first and the last of the times that are known, once where they agree."""
+    ends = {float(edge(times)) for edge in (np.nanmin, np.nanmax)} if times.count() else {}
+    return " to ".join(number(end, 4) for end in sorted(ends)) or "none"
 
 
 def _row(results: Results, case: str, solvers: list[str]) -> list:
@@ -200,7 +209,9 @@ def _pictures(results: Results) -> dict[str, Picture]:
     described = {
         "trust_horizons": "Errors of the norms against τ. "
         + "; ".join(f"{one['solver']} leaves {one['count']} cases"
-                    + (f", at τ = {one['times']}" if one["any"] else "") for one in lost),
+                    + (f", at τ = {one['times']}" if one["any"] else "") for one in lost)
+        + f". Proven bounds of {trust['proved_until'].count().item()} cases, to τ = "
+        + _from_to(trust["proved_until"]),
         "lyapunov": f"Growth of small changes. Rates: {'; '.join(rates)}",
         "symmetry": "The odd part of even solutions against τ. By rounding alone it becomes "
         f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",

@@ -172,7 +172,9 @@ def draw_sweeps(data: xr.Dataset) -> Figure:
 
 LABELS = ["omega", "initial"]
 DIFFERENCE = "largest difference of the norms up to this time"
+BOUND = "largest proven bound of the error of the certified curve up to this time"
 UNKNOWN = "no reference of this case is known"
+PROVEN = {"color": style.BLUE, "lw": 1.0, "marker": "*", "markersize": 8}
 DRAWN = ["ode45", "dop853", "delfour_fortin_payre", "crank_nicolson"]  # noisy below smooth
 # the curves of the two implicit schemes nearly coincide: dashes of one lie on a band of the other
 BAND_AND_DASHES = {
@@ -259,9 +261,12 @@ def _draw_visible(axes: Axes, visible: float) -> None:
 
 
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
-    """Return by case and solver how far the norms are from the reference, and when they leave."""
-    drawn = trust[["horizon", "size", *LABELS]]
-    return drawn.assign(largest_so_far=_so_far(trust["difference"], DIFFERENCE))
+    """Return by case how far each solver is from the reference, when it leaves, and the proof."""
+    drawn = trust[["horizon", "size", "proved_until", *LABELS]]
+    return drawn.assign(
+        largest_so_far=_so_far(trust["difference"], DIFFERENCE),
+        largest_bound=_so_far(trust["proven_bound"], BOUND),
+    )
 
 
 @style.styled
@@ -269,6 +274,7 @@ def draw_trust(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a solver, a mark where its curve is visibly another.
 
     A curve that never is has its mark at the end, so that marks tell the curves apart everywhere.
+    A curve of polynomials with a proof has its bound, and a mark where the proof ends.
     """
     return panels.draw_cases(data, _draw_trust, "largest error so far")
 
@@ -286,5 +292,9 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
             _mark(axes, one["horizon"], visible, **look)
         else:
             _mark(axes, curve["tau"][-1], curve[-1], **look, clip_on=False)
+    if np.isfinite(case["proved_until"]):
+        bound = case["largest_bound"].sel(tau=slice(case["proved_until"]))
+        _draw_difference(axes, bound, label="proven bound", **PROVEN)
+        _mark(axes, bound["tau"][-1], bound[-1], **PROVEN, clip_on=False)
     _draw_visible(axes, visible)
     axes.set_ylim(1e-17, 3.0)

@@ -15,6 +15,7 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.difference import (
     ABSENT,
     LEVELS,
+    NORMS,
     VISIBLE,
     difference,
     divergence_time,
@@ -59,6 +60,9 @@ TRUSTED = {
     "horizon": f"first tau at which a norm is off by the level, {ABSENT}",
     "known_until": "last tau at which run and reference are both known; NaN: no reference",
     "run_end": "end of the runs of the case",
+    "proven_bound": "proven bound of the error of the certified curve, as a part of the smallest "
+    "full scale of its norms; NaN: nothing is proved",
+    "proved_until": "last tau at which this bound is not visible; NaN: nothing is proved",
     "decimal_size": "size of a level, as a part of full scale",
     "decimal_horizon": "first tau at which data rounded to doubles lead away from data as printed",
 }
@@ -143,14 +147,19 @@ def trust(
     runs: Runs,
     references: Mapping[str, xr.Dataset],
     decimal: tuple[xr.Dataset, xr.Dataset] | None = None,
+    proved: Mapping[str, xr.Dataset] | None = None,
 ) -> xr.Dataset:
     """Return by case and solver how far the norms are from the reference's, and from when on.
 
     A run that does not solve its reference's problem has no horizon: there it is NaN. `decimal`
-    holds the references from data as printed (a tenth, say) and from the doubles next to them.
+    holds the references from data as printed (a tenth, say) and from the doubles next to them, and
+    `proved` curves with a proven bound, which is beside the runs where it is of their problem.
     """
     cases = list(dict.fromkeys(case for case, _ in runs))
-    by_case = [_trust_case(_by_solver(runs, case), references[case]) for case in cases]
+    by_case = [
+        _trust_case(_by_solver(runs, case), references[case], (proved or {}).get(case))
+        for case in cases
+    ]
     data = _stack(by_case, "case", cases).assign(size=("level", list(LEVELS.values())))
     if decimal is not None:
         apart = difference(*decimal)
@@ -161,13 +170,26 @@ def trust(
     return _described(data, TRUSTED, runs, title)
 
 
-def _trust_case(runs: Mapping[str, xr.Dataset], reference: xr.Dataset) -> xr.Dataset:
+def _trust_case(
+    runs: Mapping[str, xr.Dataset], reference: xr.Dataset, proved: xr.Dataset | None
+) -> xr.Dataset:
     errors = [_error(run, reference) for run in runs.values()]
     apart = xr.concat(errors, xr.Variable("solver", list(runs)))
     times = [divergence_time(apart, level) for level in LEVELS.values()]
     horizon = xr.concat(times, xr.Variable("level", list(LEVELS)))
     known = {"known_until": known_until(apart), "run_end": _end(runs)}
-    return xr.merge([apart.to_dataset().assign(horizon=horizon, **known), _problem(runs)])
+    bound = _proven_bound(next(iter(runs.values())), proved)
+    until = known_until(bound.where(bound <= VISIBLE))
+    found = apart.to_dataset().assign(horizon=horizon, **known)
+    return xr.merge([found.assign(proven_bound=bound, proved_until=until), _problem(runs)])
+
+
+def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
+    """Return the proven bound of a curve of the run's problem, as a part of full scale, (tau)."""
+    if proved is None or not is_of_same_case(run, proved):
+        return xr.full_like(run["tau"], np.nan)
+    known = proved[["bound", *NORMS]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
+    return known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
 
 
 def _end(runs: Mapping[str, xr.Dataset]) -> float:
