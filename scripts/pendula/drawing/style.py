@@ -25,9 +25,6 @@ from .thrift import DPI, thrifty
 LINE_WIDTH = 0.7
 """The width of a line, in points."""
 
-MOST_COLUMNS = 6
-"""Entries of a legend that two columns of a journal page have room for; more stand in two rows."""
-
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
 
@@ -119,7 +116,7 @@ def name_legend(figure: Figure, *panels: Axes) -> None:
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
-    columns = len(named) if len(named) <= MOST_COLUMNS else -(-len(named) // 2)
+    columns = -(-len(named) // (1 + len(named) // 7))  # seven are too many for one row
     legend = figure.legend(named.values(), named.keys(), loc="outside upper center", ncols=columns)
     for line in legend.get_lines():
         line.set_linewidth(max(1.6, line.get_linewidth()))
