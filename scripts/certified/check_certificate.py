@@ -27,7 +27,7 @@ WHAT = (
 CONSTANTS = ("epsilon", "gamma", "omega")
 UNITS = {"steps_per_tau": 2**20, "bits": 1024, "rate_bits": 1024, "bound_bits": 1024}
 KEYS = ("what", *CONSTANTS, "initial", *UNITS, "end_time", "steps")
-NUMBER = "-?[0-9]{1,99}([.][0-9]{1,99}|/0{0,9}[1-9][0-9]{0,89})?"
+NUMBER = "-?[0-9]{1,99}([.][0-9]{1,99}|/[1-9][0-9]{0,98})?"
 TINY = Fraction(1, 2**40)
 
 
