@@ -7,7 +7,7 @@ import xarray as xr
 from pendula.configuration.messages import load
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import REFUTED, Verdict
-from pendula.ledger.rows import tally
+from pendula.ledger.tables import tally
 from pendula.report.words import case_of, number, percent, symbols
 from pendula.studies.paper.claims_second_solver import SIGNIFICANT
 
@@ -61,15 +61,10 @@ def ledger(baseline: Baseline) -> dict:
     }
 
 
-def _in_words(counts: Counter) -> list[str]:
+def _in_words(counts: Counter) -> str:
     """Return how many claims have each verdict, such as "5 do not carry over"."""
-    plural = {Verdict.NOT_CARRIED: "do not carry over"}
-    return [
-        f"{number} {plural.get(verdict) or ('is ' if number == 1 else 'are ') + verdict}"
-        if verdict != Verdict.UNDECIDED
-        else f"{number} {verdict}"
-        for verdict, number in counts.items()
-    ]
+    verbs = {Verdict.NOT_CARRIED: "do not carry over", Verdict.UNDECIDED: "cannot be decided"}
+    return ", ".join(f"{n} {verbs.get(one, f'are {one}')}" for one, n in counts.items())
 
 
 def solvers(baseline: Baseline) -> dict:
@@ -137,7 +132,6 @@ def second_solver(baseline: Baseline) -> dict:
         "by_averages": number(swept["measured"]["chance_caption_fig6_right"], 2),
         "least_chance": number(SIGNIFICANT.value),
         "by_finer_steps": number(swept["measured"]["chance_by_finer_steps_fig6_right"], 2),
-        "finer_steps": [number(one) for one in found["finer_step"].values[1:]],
     }
 
 

@@ -7,8 +7,7 @@ from pendula.datasets.netcdf import read
 from pendula.ledger.claim import all_claims, evaluate, needed, sections
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.distortions import distorted, in_words
-from pendula.ledger.rows import joined
-from pendula.ledger.tables import check_lines, in_short, tables, write_json
+from pendula.ledger.tables import by_sentence, check_lines, in_short, tables, write_json
 from pendula.report.words import write_markdown
 from pendula.studies.theory.settings import WRONG_FOLDER
 
@@ -46,8 +45,8 @@ def decide_claims(
         "distortions": in_words(distorted(asked, sources)),
     }
     write_json(part, told)
-    write_markdown(table, *tables(joined(rows), chain(*lines.values())))
-    print(in_short(joined(rows)))
+    write_markdown(table, *tables(by_sentence(rows), chain(*lines.values())))
+    print(in_short(by_sentence(rows)))
     for name, check in checks.items():
         if broken(check):
             print(describe(name.removeprefix("checks/"), check))

@@ -5,8 +5,7 @@ from pathlib import Path
 
 from pendula.datasets.netcdf import readable
 from pendula.ledger.claim import controls_of, in_order
-from pendula.ledger.rows import joined
-from pendula.ledger.tables import in_short, tables, write_json
+from pendula.ledger.tables import by_sentence, in_short, tables, write_json
 from pendula.report.words import write_markdown
 
 
@@ -17,7 +16,7 @@ def join_claims(parts: list[str], names: list[str], ledger: str, controls: str, 
     """
     read = [_read(path) for path in parts]
     sections = {module: at for part in read for module, at in part["sections"].items()}
-    rows = joined(in_order([row for part in read for row in part["rows"]], sections))
+    rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
     checks = {name: lines for part in read for name, lines in part["checks"].items()}
     write_json(ledger, rows)
     distortions = [row for part in read for row in part["distortions"]]

@@ -90,7 +90,7 @@ COUNTED = {
         "hard_cases.unexpected",
     ),
     *("chaos.count", "chaos.cases", "solvers.cases", "solvers.diverged", "solvers.kept_early"),
-    *("solvers.kept", "ensembles.peak_at", "ensembles.late_from"),
+    *("solvers.kept", "solvers.keeping", "ensembles.peak_at", "ensembles.late_from"),
     *("proofs.states", "proofs.stable", "proofs.unstable", "proofs.bits", "proofs.constants"),
     "proofs.chain_sites",
 }

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from pendula.ledger.claim import Origin, all_claims
-from pendula.ledger.rows import tally
+from pendula.ledger.tables import tally
 
 KEPT = Path(__file__).parents[1] / "baseline/quoted/claims.json"
 ROWS = json.loads(KEPT.read_text(encoding="utf-8"))

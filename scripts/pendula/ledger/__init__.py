@@ -8,7 +8,7 @@
 `distortions` general distortions of every dataset, and what the claims' functions say of them
 `missing`    what is missing from a dataset, and confirms nothing
 `section`    the ledger's part of the report
-`tables`     the ledger as files: JSON, and tables to read
+`tables`     the readings of a sentence as one row, counts of rows, and the ledger as files
 
 Each study keeps its claims in its own folder, in modules whose names start with `claims`.
 """

@@ -161,7 +161,7 @@ def cases_reversed(check):
 
 
 wrong_check, wrong_run = _wrong_in("checks"), _wrong_in("trajectories")
-wrong_sweep, wrong_unbounded = _wrong_in("sweeps"), _wrong_in("unbounded")
+wrong_sweep = _wrong_in("sweeps")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 

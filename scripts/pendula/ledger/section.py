@@ -10,7 +10,7 @@ from pendula.report.words import Quote, number, plainly, symbols
 
 from .claim import controls_of, cutoff_lines
 from .criterion import Verdict
-from .rows import tally
+from .tables import tally
 
 LEDGER = "claims.json"
 

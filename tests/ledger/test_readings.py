@@ -3,7 +3,7 @@
 import pytest
 from pendula.ledger.claim import Claim, Control, evaluate
 from pendula.ledger.criterion import Above, Verdict, judge
-from pendula.ledger.rows import joined, tally
+from pendula.ledger.tables import by_sentence, tally
 
 
 def grows(run):
@@ -12,7 +12,7 @@ def grows(run):
 
 def rows_of(monkeypatch, sources, *claims):
     monkeypatch.setattr("pendula.ledger.claim.all_claims", lambda: claims)
-    return joined(evaluate(sources))
+    return by_sentence(evaluate(sources))
 
 
 def reading(name, place="Section 0", says="It grows."):
