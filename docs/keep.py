@@ -28,7 +28,7 @@ from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
-from pendula.studies.breathers.fate_contents import LONGEST, TERMS  # noqa: E402
+from pendula.studies.breathers.fate_contents import TERMS, TIMES  # noqa: E402
 from pendula.studies.breathers.fate_figures import MAPS  # noqa: E402
 from pendula.studies.breathers.fates import FATES  # noqa: E402
 from pendula.studies.breathers.nearest import NEAR  # noqa: E402
@@ -371,7 +371,7 @@ def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
             (stay & stay.isel(terms=0)).sum(("omega", "checked")).values,
             "of these data that stay on other terms too",
         ),
-        "longest": Variable((), LONGEST * fates.attrs["end_time"], "longest time of these runs"),
+        "longest": Variable((), TIMES * fates.attrs["end_time"], "longest time of these runs"),
         "checked": Variable((), checked.sizes["checked"], "data at each Omega run on all terms"),
     }
 

@@ -120,7 +120,7 @@ def fates(baseline: Baseline) -> dict:
         "more_waves": number(WAVES * long.attrs["margin"]),
         "within": percent(NEAR),
         "stay": number(long["stay"]),
-        "stay_on": number(long["stay_on"].sel(terms=f"{LONGEST:g} times the time")),
+        "stay_on": number(long["stay_on"].sel(terms=LONGEST)),
         "longest": number(long["longest"]),
         "common": number(baseline["breathers/fates"]["common"].sum()),
         "agreed": number(baseline["breathers/fates"]["agreed"].sum()),

@@ -200,15 +200,15 @@ def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, V
     }  # fmt: skip
 
 
-LONGEST = 10.0
-"""How many times the end time of the maps the longest runs last."""
+LONGEST, TIMES = "ten times the time", 10.0
+"""The name of the longest runs, and how many times the end time of the maps they last."""
 OTHERWISE = {
     "twice the chain": lambda one: one.changed(half_width=2 * one.half_width),
     "twice the time": lambda one: one.changed(
         end_time=2.0 * one.end_time, output_step=2.0 * one.output_step
     ),
-    f"{LONGEST:g} times the time": lambda one: one.changed(
-        end_time=LONGEST * one.end_time, output_step=LONGEST * one.output_step
+    LONGEST: lambda one: one.changed(
+        end_time=TIMES * one.end_time, output_step=TIMES * one.output_step
     ),
     "a hundredth of the tolerance": lambda one: one.changed(
         solver={**one.solver, "rtol": 0.01 * one.solver["rtol"], "atol": 0.01 * one.solver["atol"]}

@@ -11,7 +11,7 @@ from pendula.report.page import Picture
 from pendula.report.results import Results, Section
 from pendula.report.words import number, percent, span, symbols
 
-from .fate_contents import LONGEST
+from .fate_contents import LONGEST, TIMES
 from .nearest import HALF_PERIODS, NEAR, WAVES
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
@@ -189,7 +189,7 @@ def _fates(results: Results) -> dict[str, Any]:
     data = results[MAP]
     omegas = [float(omega) for omega in data["omega"].values]
     stay = data["checked_fate"] == list(data["fate_name"].values).index("stays")
-    stay_on = stay.isel(conditions=0) & stay.sel(conditions=f"{LONGEST:g} times the time")
+    stay_on = stay.isel(conditions=0) & stay.sel(conditions=LONGEST)
     return {
         "head": ["Ω", "data", *map(str, data["fate_name"].values)],
         "planes": {
@@ -204,7 +204,7 @@ def _fates(results: Results) -> dict[str, Any]:
         "within": results.quote(MAP, NEAR),
         "stay": results.quote(MAP, int(stay.isel(conditions=0).sum())),
         "stay_on": results.quote(MAP, int(stay_on.sum())),
-        "longest": results.quote(MAP, LONGEST * float(data.attrs["end_time"])),
+        "longest": results.quote(MAP, TIMES * float(data.attrs["end_time"])),
         "fine": bool((data["common"] > 0).all()),
         "common": results.quote(MAP, int(data["common"].sum()), 6),
         "agreed": results.quote(MAP, int(data["agreed"].sum()), 6),
