@@ -72,14 +72,13 @@ def _finer(problem: Problem, half_widths, windows) -> dict[str, Variable]:
         for step in steps
     ]
     grid = ("finer_step", "half_width", "quantity", "statistic", "window")
+    names = [f"[{start:g}, {end:g}]" for start, end in windows]
+    axes = (list(half_widths), list(QUANTITIES), list(STATISTICS), names)
     return {
         "finer_step": Variable(grid[:1], steps, "step of the second solver in a chaotic sweep"),
-        "half_width": Variable(grid[1:2], list(half_widths), "half-width M of the chain"),
-        "quantity": Variable(grid[2:3], list(QUANTITIES), "A, B or the pair"),
-        "statistic": Variable(grid[3:4], list(STATISTICS), "statistic over the window"),
-        "window": Variable(grid[4:], [f"[{a:g}, {b:g}]" for a, b in windows], "window of tau"),
-        "l2": Variable(grid, np.array([one.l2 for one in runs]), "l2 norm over the chain"),
-        "linf": Variable(grid, np.array([one.linf for one in runs]), "l-infinity norm"),
+        **{name: Variable((name,), axis) for name, axis in zip(grid[1:], axes, strict=True)},
+        "l2": Variable(grid, np.array([one.l2 for one in runs])),
+        "linf": Variable(grid, np.array([one.linf for one in runs])),
     }
 
 

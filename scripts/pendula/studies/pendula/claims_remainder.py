@@ -158,7 +158,8 @@ def remainder_bounded(remainder) -> Finding:
     errors = remainder["error"].sel(end=end, **expansion).sortby("mu").isel(mu=[0, 1])
     if not np.isfinite(errors).all():
         raise UndecidableError("no two mu follow the pendula to one slow time in all cases")
-    fine, coarse = (errors / errors["mu"] ** 3).transpose("mu", "case").values
+    mus = errors["mu"]
+    fine, coarse = (errors / (mus * mus * mus)).transpose("mu", "case").values
     measured = {f"growth_{case}": one for case, one in zip(ALL, fine / coarse, strict=True)}
     mu, late, growth = over_late_half(remainder, ALL, SPAN)
     caveat = (
@@ -166,7 +167,7 @@ def remainder_bounded(remainder) -> Finding:
         f" remainder to tau = {late:g} is {float(growth.min()):.3g} to {float(growth.max()):.3g}"
         " times that of the first half"
     )
-    times = float(errors["mu"][1] / errors["mu"][0]) ** 2
+    times = float(mus[1] * mus[1] / (mus[0] * mus[0]))
     says = f"growth of the remainder at tau = {end:g} as t grows {times:g} times"
     return judge(measured, Below(FACTOR, *measured, says=says), caveat)
 
