@@ -67,13 +67,15 @@ def _main(results: Results, ledger: Ledger) -> dict[str, Any]:
 def _maximum(results: Results, ledger: Ledger) -> dict[str, Any]:
     """Return the largest modulus of N neighbours in the bulk, beside that of the thermal state."""
     row = "unbounded_maximum"
-    known = bool(np.isfinite(ledger.value(row, "norm_over_thermal")))
+    names = ("norm_over_thermal", "norm_over_thermal_error")
+    norm, error = (ledger.value(row, name) for name in names)
+    known = bool(np.isfinite(norm))
     sizes = results[MAIN]["neighbours"].values if known else []
     return {
         "known": known,
         "because": ledger.because(row),
         "last": ledger.quote(row, "last"),
-        "norm": ledger.quote(row, "norm_over_thermal"),
+        "norm": results.quote_error(MAIN, norm, error),
         "sizes": [
             [results.quote(MAIN, int(n)), *(ledger.quote(row, f"{of}_{n}_sites", 4) for of in OF)]
             for n in sizes
