@@ -78,7 +78,8 @@ def test_maxima_that_differ_much_between_the_members_decide_nothing(sources):
 @pytest.mark.parametrize(
     ("change", "why"),
     [
-        (lambda run: run.isel(member=[0]), "it takes two runs"),
+        (lambda run: run.isel(member=[0]), "it takes two whole runs"),
+        (lambda run: run.assign(linf=run["linf"].where(run["tau"] < 150.0)), "two whole runs"),
         (lambda run: run.assign(bulk_maximum=run["bulk_maximum"] * np.nan), "as the largest block"),
         (lambda run: run.assign(omega=run["omega"] + 1.0), "no law of the largest amplitude"),
     ],

@@ -138,12 +138,12 @@ def unbounded_maximum(run, thermal) -> Finding:
         raise UndecidableError("no law of the largest amplitude was solved at this Omega")
     found = one["bulk_maximum"].transpose("neighbours", "member", "piece_tau").values
     found, expected = late_means(found, run)[0], mean_maximum(thermal, sizes)
-    if run.sizes["member"] < 2 or not np.isfinite(found).all():
-        raise UndecidableError("it takes two runs, and a bulk as long as the largest block")
-    tries = len(sizes)
-    blocks = mean_limits((found / expected[:, None]).T, 1.0 - (1.0 - SURE.value) / tries)
     fronts = late_means(one["front"].sel(front_power=FRONT).values, run)[0]
     norms = curves_of(run, "linf")[:, late].mean(axis=1) / mean_maximum(thermal, fronts)
+    if len(norms) < 2 or not np.isfinite([*found, norms]).all():
+        raise UndecidableError("it takes two whole runs, and a bulk as long as the largest block")
+    tries = len(sizes)
+    blocks = mean_limits((found / expected[:, None]).T, 1.0 - (1.0 - SURE.value) / tries)
     norm, ahead = mean_limits(norms, SURE.value), float(one["predicted_speed"]) * FAR_AHEAD
     measured = {
         **{f"of_{n}_sites": mean for n, mean in zip(sizes, found.mean(axis=1), strict=True)},
