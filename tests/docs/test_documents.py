@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import render
 from facts.baseline import Baseline
+from held_digits import blurred, unlike
 from pendula.ledger.claim import all_claims
 from pendula.report.words import number
 from pendula.studies.pendula.threshold import pendula_threshold
@@ -265,48 +266,8 @@ class Blurred(Baseline):
 
     def __getitem__(self, name):
         if name not in self._read:
-            data = self._read[name] = self.once[name].copy(deep=True)
-            for key, variable in data.data_vars.items():
-                if variable.dtype.kind == "f":
-                    sign = self.rng.choice([-1.0, 1.0], variable.shape)
-                    data[key] = variable.astype(float) + sign * last_half(variable)
+            self._read[name] = blurred(self.once[name], self.rng)
         return self._read[name]
-
-
-def last_half(variable) -> np.ndarray:
-    """Return half of the last digit of each number: of single precision, or as declared.
-
-    A number of at most eleven binary digits, such as a count or the end of a run, is exact.
-    """
-    values = abs(np.where(np.isfinite(variable), variable, 0.0).astype(float))
-    digits = variable.attrs.get("significant_digits", np.finfo(float).precision)
-    first = np.floor(np.log10(np.where(values > 0.0, values, 1.0)))
-    declared = np.where(values > 0.0, 0.5 * 10.0 ** (first + 1.0 - digits), 0.0)
-    single = 2.0**-24 * values * (variable.dtype == np.float32)
-    exact = np.frexp(values)[0] * 2.0**11 % 1.0 == 0.0
-    return np.where(exact, 0.0, np.maximum(declared, single))
-
-
-NUMBER = re.compile(r"(\d[\d,]*(?:\.(\d+))?)(?:\s×\s10([⁻⁰¹²³⁴-⁹]+))?")
-LOWERED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-
-
-def unlike(before: str, after: str) -> bool:
-    """Return whether a number in a text has moved by more than one of its last place."""
-    pairs = list(zip(NUMBER.finditer(before), NUMBER.finditer(after), strict=False))
-    if NUMBER.sub("#", before) != NUMBER.sub("#", after):
-        return True
-    for pair in pairs:
-        (one, unit), (other, finer) = map(value_and_unit, pair)
-        if abs(one - other) > 1.01 * min(unit, finer):
-            return True
-    return False
-
-
-def value_and_unit(found: re.Match) -> tuple[float, float]:
-    """Return a printed number, and one of its last place."""
-    power = 10.0 ** int((found[3] or "⁰").translate(LOWERED))
-    return float(found[1].replace(",", "")) * power, power * 10.0 ** -len(found[2] or "")
 
 
 def test_no_page_prints_a_digit_that_the_file_behind_it_does_not_hold(once, known):

@@ -3,7 +3,16 @@
 import re
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
+from held_digits import blurred, unlike
+from helpers import ROOT
+from pendula import studies
+from pendula.configuration.files import gather
+from pendula.configuration.messages import STUDIES, load
+from pendula.ledger.section import Ledger
+from pendula.report.results import Results
+from pendula.report.words import Quote
 
 VOID = {"area", "br", "col", "hr", "img", "input", "link", "meta", "rect", "line"}
 
@@ -96,3 +105,54 @@ def test_no_number_is_missing_by_accident(html):
 
 def test_nothing_of_the_machine_but_its_processor_stands_in_it(html, full_run):
     assert str(full_run) not in html and "/home/" not in html
+
+
+class Blurred(Results):
+    """The files of a run with every number moved by half of the last digit that is held."""
+
+    def __getitem__(self, name):
+        if name not in self._read:
+            self._read[name] = blurred(super().__getitem__(name), np.random.default_rng(len(name)))
+        return self._read[name]
+
+
+def texts(found, place: str = "") -> dict[str, str]:
+    """Return the texts of nested facts by their places; pictures and films are left out."""
+    if isinstance(found, str | Quote):
+        return {} if place.endswith("frames") else {place: str(found)}
+    if isinstance(found, dict | list | tuple):
+        items = found.items() if isinstance(found, dict) else enumerate(found)
+        return {at: text for key, one in items for at, text in texts(one, f"{place}.{key}").items()}
+    return {}
+
+
+def settings() -> dict:
+    """Return the configuration of the quick run, as the sections of the studies read it."""
+    given = load(
+        gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES, "quick")], {})
+    )
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in given.sweeps.items()
+    }
+    return {"sweeps": swept} | {name: getattr(given, name).model_dump() for name in STUDIES}
+
+
+def said(kind: type[Results], run) -> dict[str, str]:
+    """Return all that the sections of the studies print."""
+    files = [str(path) for path in (run / "results").rglob("*") if path.is_file()]
+    results = kind(files, str(run / "results/report.html"), settings())
+    ledger = Ledger(results)
+    return {
+        f"{section.name}{place}": text
+        for module in studies.all_modules("section")
+        for section in getattr(module, "SECTIONS", ())
+        for place, text in texts(section.gather(results, ledger)).items()
+    }
+
+
+def test_the_report_prints_no_digit_that_its_datasets_do_not_hold(full_run):
+    before, after = (said(kind, full_run) for kind in (Results, Blurred))
+    moved = {place: (text, after.get(place, "")) for place, text in before.items()}
+    assert len(before) > 1000
+    assert {place: pair for place, pair in moved.items() if unlike(*pair)} == {}
