@@ -105,7 +105,7 @@ def fates(baseline: Baseline) -> dict:
                 "share": percent(one["periodic_share"]),
                 "less": percent(one["periodic_if_less"]),
                 "more": percent(one["periodic_if_more"]),
-                "unknown": percent(one["unknown_share"]),
+                "unknown": percent(one["unknown_share"]) if one["unknown_share"] else "",
                 "alone": percent(one["alone"]),
                 "near": percent(one["near"]),
                 "median": number(one["median_distance"], 2),

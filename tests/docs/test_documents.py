@@ -71,6 +71,8 @@ COUNTED = {
     *(f"breathers.collisions.{name}" for name in ("count", "pairs", "quartets", "omegas")),
     "breathers.collisions.signatures",
     *("fates.members", "fates.mixed", "fates.scanned", "fates.terms.0"),
+    *("fates.common", "fates.agreed", "fates.stay", "fates.stay_on"),
+    *("fates.half_periods", "fates.waves", "fates.within", "fates.periodic.1.unknown"),
     *(
         "speed.processor",
         "pendula_speed.target",
