@@ -201,13 +201,15 @@ def test_the_ledger_is_shown_and_counted(tmp_path):
     rows = [
         made_up.claim("a", place="Section 5, Fig 5 left"),
         made_up.claim("b", "not reproduced", because="the l2 norm grows"),
+        made_up.claim("c", place="Beyond the paper, Fig 5", origin="of this project"),
     ]
     results = made_up.MadeUp(
         tmp_path, {"checks/chart": xr.Dataset()}, **{"claims.json": made_up.ledger(*rows)}
     )
     shown = claims.gather(results)
-    assert str(shown["total"]) == "2"
-    ((origin, number, counts),) = shown["counts"]
+    assert str(shown["total"]) == "3"
+    (origin, number, counts), (_, own, _) = shown["counts"]
+    assert str(own) == "1"
     assert (origin, str(number), shown["verdicts"]) == ("of the paper", "2", list(dict(counts)))
     assert [str(count) for _, count in counts] == ["1", "1"]
     assert shown["rows"][1]["because"] == "the ℓ² norm grows"

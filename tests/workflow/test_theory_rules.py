@@ -65,7 +65,10 @@ def test_the_ledger_names_the_rules_that_decide(full_run):
     assert rules["theorem_3"] == ["check_bounds", "trajectory"]
     assert rules["growth_bound"] == ["check_bounds", "trajectory"]
     swept = ["sweep", "sweep_by_second_solver"]
-    assert rules["second_solver_sweeps"] == [*swept, "measure_lyapunov", "measure_ensembles"]
+    assert rules["second_solver_sweeps"] == [
+        *swept,
+        *("measure_lyapunov", "measure_ensembles", "measure_second_solver"),
+    ]
 
 
 def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):

@@ -1,14 +1,13 @@
 """The ledger of claims: every row with its verdict, and how many there are of each."""
 
 import json
-from collections import Counter
 from typing import Any
 
 from pendula.datasets.netcdf import readable
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
-from .claim import controls_of, cutoff_lines
+from .claim import Origin, controls_of, cutoff_lines
 from .criterion import Verdict
 from .tables import tally
 
@@ -100,10 +99,9 @@ class Ledger:
         return self.verdict(claim) in (Verdict.CONFIRMED, Verdict.CAVEAT)
 
     def counts(self, place: str) -> list[tuple[str, int]]:
-        """Return how many of the claims on a place such as "Fig 5" have each verdict."""
-        rows = (row for row in self._all if place in row["place"])
-        counted = Counter(row["verdict"] for row in rows)
-        return [(str(verdict), counted[verdict]) for verdict in Verdict if counted[verdict]]
+        """Return how many of the paper's claims on a place such as "Fig 5" have each verdict."""
+        rows = [row for row in self._all if place in row["place"]]
+        return list(tally(rows).get(Origin.PAPER, {}).items())
 
     def because(self, claim: str) -> str:
         """Return the reason of the verdict, in words."""

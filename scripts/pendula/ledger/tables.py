@@ -103,7 +103,7 @@ def counted(rows: list[dict]) -> list[str]:
     """Return a line for each origin of claims: how many there are, and with which verdicts."""
     return [
         f"{sum(verdicts.values())} claims {origin}: "
-        + ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+        + ", ".join(f"{n} {one.replace('does not', 'do not')}" for one, n in verdicts.items())
         for origin, verdicts in tally(rows).items()
     ]
 
