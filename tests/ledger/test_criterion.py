@@ -55,6 +55,13 @@ def test_a_verdict_follows_from_the_criterion_alone():
     assert found.verdict == Verdict.NOT_REPRODUCED and found.because == "too large"
 
 
+def test_what_is_unknown_is_neither_confirmed_nor_refuted():
+    low = Below(1.0, "x", "y")
+    found = judge({"x": 0.5, "y": math.nan}, low, "but", "too large")
+    assert found.verdict == Verdict.UNDECIDED and found.because == "unknown: y"
+    assert judge({"x": 1.5, "y": math.nan}, low).verdict == Verdict.NOT_REPRODUCED
+
+
 @pytest.mark.parametrize(
     ("limit", "text"), [(1.0000001, "1.0000001"), (1 / 3, "0.3333"), (2e-6, "2e-06"), (0, "0")]
 )

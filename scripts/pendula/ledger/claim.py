@@ -258,7 +258,7 @@ def decide(claim: Claim, sources: Mapping) -> Finding:
         return undecided({}, str(reason))
     if finding.verdict in REFUTED:
         return finding._replace(verdict=claim.refuted)
-    lacking = missing(claim.needs, sources) if confirmed(finding) else ""
+    lacking = missing(claim.needs, sources, claim.on) if confirmed(finding) else ""
     return undecided(finding.measured, lacking) if lacking else finding
 
 

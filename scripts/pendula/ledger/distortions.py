@@ -28,7 +28,7 @@ OMEGAS = {"case": 2, "spectrum_case": 1, "sweep": 1, "omega": 1, "growth_omega":
 """Coordinates along which Omega changes, and after how many places: each case has two sizes."""
 COMPONENTS = ("component", "quantity")
 SEED, NOISE = 2017, 0.1
-ROUNDING = 1e-6
+ROUNDING = 1e-2
 """Of a ratio that a factor leaves as it is, far less than any distortion moves."""
 
 

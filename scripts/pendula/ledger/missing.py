@@ -38,18 +38,26 @@ NO_NUMBER = {
 """The variables in which NaN has a meaning; the functions that read these look at it themselves."""
 
 
-def missing(names: Iterable[str], datasets: Mapping[str, xr.Dataset]) -> str:
-    """Return what of these datasets is too little to confirm anything, empty if nothing is."""
+def missing(
+    names: Iterable[str], datasets: Mapping[str, xr.Dataset], on: tuple[str, ...] = ()
+) -> str:
+    """Return what of these datasets is too little to confirm anything, empty if nothing is.
+
+    `on` names the cases and sweeps that are read, where a dataset holds others as well.
+    """
     return "; ".join(
         f"{what} of {name}"
         for name in names
         if isinstance(datasets[name], xr.Dataset)
-        for what in _missing(name, datasets[name])
+        for what in _missing(name, datasets[name], on)
     )
 
 
 @once
-def _missing(name: str, dataset: xr.Dataset) -> list[str]:
+def _missing(name: str, dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
+    several = [along for along in ("case", "sweep") if along in dataset.indexes]
+    read = {along: [one for one in dataset[along].values if one in on] for along in several}
+    dataset = dataset.sel(read) if any(read.values()) else dataset
     return [*_unknown(name, dataset), *_few(name, dataset)]
 
 

@@ -80,14 +80,14 @@ def swept() -> xr.Dataset:
             "l2_error": (dims, np.full(shape, 0.3)),
             "linf_mean": (dims, np.full(shape, 6.0)),
             "linf_error": (dims, np.full(shape, 0.1)),
-            "l2": (("case", "quantile", "quantity", "tau"), np.full((1, 1, 1, 2), np.sqrt(26.0))),
+            "l2": (("case", "quantile", "quantity", "tau"), np.full((1, 1, 1, 3), np.sqrt(26.0))),
             "omega": ("case", [-4.0]),
             "swept_members": ("sweep", [8, 8]),
         },
         {
             "sweep": ["fig5_right", "fig6_right"], "half_width": HALF_WIDTHS,
             "quantity": ["pair"], "statistic": ["max"], "window": windows,
-            "case": ["fig3_large"], "quantile": [0.5], "tau": [0.0, 1.0],
+            "case": ["fig3_large"], "quantile": [0.5], "tau": [0.0, 1.0, 2.0],
         },
         {"perturbation": 1e-7, "epsilon": 1.0, "gamma": 1.0},
     )  # fmt: skip
@@ -103,8 +103,8 @@ def single_sweep(l2: float) -> xr.Dataset:
 def sources():
     lyapunov = made_up_chaos.lyapunov()
     chaotic = lyapunov.assign(chaotic=("case", [0, 1]))
-    lives = made_up_chaos.lifetimes().isel(start_amplitude=[0, 0])
-    lives = lives.assign_coords(start_amplitude=[1.0, 5.0])
+    lives = made_up_chaos.lifetimes().isel(start_amplitude=[0, 0, 0])
+    lives = lives.assign_coords(start_amplitude=[1.0, 3.0, 5.0])
     return {
         MEMBERS: members(),
         EVEN: swept(),
