@@ -120,7 +120,6 @@ include: "workflow/rules/pendula.smk"
 include: "workflow/rules/certified.smk"
 include: "workflow/rules/ledger.smk"
 include: "benchmarks/benchmarks.smk"
-include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/archive.smk"
@@ -155,7 +154,8 @@ onstart:
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
         tell_faults()
-    atexit.register(print, where_to_look(workflow.dag.targetjobs), file=sys.stderr)
+    else:
+        atexit.register(print, where_to_look(workflow.dag.targetjobs), file=sys.stderr)
 
 
 onerror:

@@ -40,7 +40,6 @@ MY_BASELINE = "my_baseline"
 PARTS = (
     *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
     *("tests/baseline/reference", "tests/baseline/proofs", "tests/baseline/speed"),
-    *("tests/baseline/tolerances.yaml", "tests/baseline/spreads.nc"),
     "tests/baseline/quoted/breathers.nc",
 )
 """What of the project a run needs."""

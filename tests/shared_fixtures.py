@@ -93,8 +93,6 @@ def accepted_once(full_run, made_once) -> Path:
 
     def make(folder):
         clone = copy_of_sources(folder / "clone")
-        for name in ("accepted.json", "hashes.json"):  # which this run cannot replace
-            shutil.copy(ROOT / "tests/baseline" / name, clone / "tests/baseline")
         finished = shutil.copytree(full_run, folder / "finished")
         command = ("accept_figures", "--config", f"baseline={MY_BASELINE}")
         result = snakemake(clone, finished, *command)

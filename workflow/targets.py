@@ -24,7 +24,7 @@ GROUPS = (WHOLE, FIGURES, STUDIES, CHECKS, OWN, UPKEEP)
 
 BY_FILE = {
     "own": OWN,
-    **dict.fromkeys(("archive", "baseline", "benchmarks", "figure_diff", "reference"), UPKEEP),
+    **dict.fromkeys(("archive", "benchmarks", "figure_diff", "reference"), UPKEEP),
 }
 """The group of all targets in a file of rules. The others go by what they make below results/."""
 

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import xarray as xr
+from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
 
 
@@ -25,7 +26,7 @@ class Baseline:
 
     def claims(self) -> list[dict]:
         """Return the rows of the ledger of the last full run that was accepted."""
-        return json.loads((self.folder / "quoted/claims.json").read_text(encoding="utf-8"))
+        return load_json(self.folder / "quoted/claims.json")["rows"]
 
     def reproduction(self) -> dict | None:
         """Return where the time of the whole reproduction went that was measured last, if any."""

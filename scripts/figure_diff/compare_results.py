@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from pendula.datasets import complete_or_absent
+from pendula.datasets.json_files import write_json
 from pendula.figure_diff import comparison_page
 from pendula.figure_diff.baseline import compare
 
@@ -11,23 +12,18 @@ def compare_results(
     results: list[str],
     baseline: str,
     configuration: dict,
+    any_bits: bool,
+    rests_on_chaos: list[list[str]],
     html: str,
     verdict: str,
-    accepted: list[str] | tuple = (),
-    any_bits: bool = False,
 ) -> None:
-    """Compare the files `results` (results/topic/name) with the folder `baseline`.
-
-    `accepted` are the files of that folder; the rule names them so that a change of one reruns this
-    job. With `any_bits` the allowances decide about files that do not have the accepted bits.
-    Faults do not fail this job, so that Snakemake keeps the page; they fail the rule figure_diff.
-    """
-    made, folder = Path(results[0]).parts[0], Path(baseline)
-    names = [Path(path).relative_to(made).as_posix() for path in results]
-    found = compare(names, Path(made), folder, configuration, any_bits)
-    with complete_or_absent(html) as new_html, complete_or_absent(verdict) as new_verdict:
-        new_html.write_text(comparison_page.render(found, Path(made), folder), "utf-8")
-        comparison_page.dump(found, new_verdict)
+    """Compare the files `results` with the folder `baseline`; the end of a run tells its faults."""
+    names = [path.removeprefix("results/") for path in results]
+    made, folder = Path("results"), Path(baseline)
+    found = compare(names, made, folder, configuration, any_bits, rests_on_chaos)
+    with complete_or_absent(html) as partial:
+        partial.write_text(comparison_page.render(found, made, folder), "utf-8")
+    write_json(verdict, {"faults": found.faults, "counts": found.counts, "lines": found.lines})
 
 
 if __name__ == "__main__":

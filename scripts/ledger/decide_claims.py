@@ -3,11 +3,12 @@
 from itertools import chain
 
 from pendula.datasets.checks import broken, describe
+from pendula.datasets.json_files import write_json
 from pendula.datasets.netcdf import read
 from pendula.ledger.claim import all_claims, evaluate, needed, sections
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.distortions import distorted, in_words
-from pendula.ledger.tables import by_sentence, check_lines, in_short, tables, write_json
+from pendula.ledger.tables import by_sentence, check_lines, in_short, tables
 from pendula.report.words import write_markdown
 from pendula.studies.theory.settings import WRONG_FOLDER
 

@@ -1,11 +1,13 @@
 """A file that a disk gives back wrong is refused in one sentence, or holds what was written."""
 
+import json
 import random
 
 import numpy as np
 import pytest
 import xarray as xr
 from oracle import SOLVERS
+from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import DatasetError, Variable, read, readable, save, write
 from pendula.datasets.seal import LENGTH
 from pendula.datasets.trajectories import sweep_contents, trajectory_contents
@@ -113,3 +115,25 @@ def test_whatever_a_library_makes_of_a_damaged_file_names_it(tmp_path):
         readable(tmp_path / "a.json"),
     ):
         raise KeyError
+
+
+def test_a_changed_byte_of_json_is_told_wherever_it_is(tmp_path):
+    path = tmp_path / "claims.json"
+    write_json(path, {"rows": [{"says": "Ω > 2γ", "measured": 0.25, "verdict": "reproduced"}]})
+    content = path.read_bytes()
+    assert load_json(path)["rows"][0]["says"] == "Ω > 2γ" and "sha256" in json.loads(content)
+    for place in range(len(content)):
+        path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :])
+        with pytest.raises(DatasetError, match=r"claims\.json is damaged .*run snakemake to make"):
+            load_json(path)
+
+
+@pytest.mark.parametrize("change", ["whole", "shorter", "longer", "absent"])
+def test_json_by_hand_is_told_by_its_missing_checksum(tmp_path, change):
+    path = tmp_path / "claims.json"
+    write_json(path, {"rows": []})
+    text = path.read_text()
+    by_hand = {"whole": '{"rows": []}', "shorter": text[:-3], "longer": text + " ", "absent": ""}
+    path.write_text(by_hand[change])
+    with pytest.raises(DatasetError, match="delete it and run snakemake"):
+        load_json(path)

@@ -30,7 +30,7 @@ ASK = Path(__file__).with_name("ask_ready.py")
 PIPES = "asked", "answered"
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
-MADE_ONCE = ("reference", "proofs", "speed", "quoted", "tolerances.yaml", "spreads.nc")
+MADE_ONCE = ("reference", "proofs", "speed", "quoted")
 """What of the baseline no acceptance writes."""
 
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from pendula.datasets.netcdf import read
-from pendula.ledger.blind import BLIND
 from pendula.ledger.claim import all_claims, confirmed, decide, needed
-from pendula.ledger.distortions import DISTORTIONS, MISSING, Said, distorted, in_words
+from pendula.ledger.distortions import BLIND, DISTORTIONS, MISSING, Said, distorted, in_words
 
 BASELINE = Path(__file__).parents[1] / "baseline"
 

@@ -1,13 +1,13 @@
 """The ledger of the accepted full run: enough rows, and no verdict that could not have failed."""
 
-import json
 from pathlib import Path
 
+from pendula.datasets.json_files import load_json
 from pendula.ledger.claim import Origin, all_claims
 from pendula.ledger.tables import tally
 
 KEPT = Path(__file__).parents[1] / "baseline/quoted/claims.json"
-ROWS = json.loads(KEPT.read_text(encoding="utf-8"))
+ROWS = load_json(KEPT)["rows"]
 
 
 def test_the_paper_is_read_in_many_rows_and_each_sentence_once():

@@ -1,6 +1,5 @@
 """What is published in two places is the same number in both: every place reads one dataset."""
 
-import json
 import re
 from itertools import combinations
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
 
 BASELINE = Path(__file__).parents[1] / "baseline"
@@ -80,7 +80,7 @@ def test_the_table_quotes_the_dataset_of_the_solvers(full_run):
 def test_the_ledger_measures_what_the_dataset_of_the_solvers_holds():
     """Both are those of the accepted full run: a short run decides nothing on the energy."""
     solvers = read(BASELINE / "checks/solvers.nc")
-    rows = json.loads((BASELINE / "quoted/claims.json").read_text())
+    rows = load_json(BASELINE / "quoted/claims.json")["rows"]
     measured = {row["name"]: row["measured"] for row in rows}
     papers = solvers.sel(pair="ode45 - crank_nicolson", solver="ode45", span="whole")
     for case in map(str, solvers["case"].values):

@@ -1,9 +1,9 @@
 """Made-up results for the sections of the report: datasets in memory, pictures of one pixel."""
 
-import json
 from pathlib import Path
 
 import xarray as xr
+from pendula.datasets.json_files import sealed
 from pendula.report.page import Picture
 from pendula.report.results import Results
 
@@ -70,7 +70,7 @@ def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **chang
 
 def ledger(*rows: dict) -> str:
     """Return a ledger as the file holds it."""
-    return json.dumps(list(rows))
+    return sealed({"rows": list(rows)})
 
 
 def text_of(value) -> str:

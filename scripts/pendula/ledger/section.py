@@ -1,9 +1,8 @@
 """The ledger of claims: every row with its verdict, and how many there are of each."""
 
-import json
 from typing import Any
 
-from pendula.datasets.netcdf import readable
+from pendula.datasets.json_files import load_json
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, plainly, symbols
 
@@ -16,8 +15,7 @@ LEDGER = "claims.json"
 
 def load(results: Results) -> list[dict]:
     """Return the rows of the ledger."""
-    with readable(path := results.path(LEDGER)):
-        return json.loads(path.read_text(encoding="utf-8"))
+    return load_json(results.path(LEDGER))["rows"]
 
 
 def gather(results: Results) -> dict[str, Any]:

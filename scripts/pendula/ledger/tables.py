@@ -4,13 +4,9 @@ A sentence may be decided for a single run, for ensembles and for the infinite c
 of several studies. They make one row, which holds where all of them hold.
 """
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import Any
 
-from pendula.datasets import complete_or_absent
 from pendula.datasets.checks import broken, deciding
 from pendula.report.words import markdown
 
@@ -73,13 +69,6 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
         for origin in Origin
     }
     return {origin: counted for origin, counted in by_origin.items() if counted}
-
-
-def write_json(path: str, content: Any) -> None:
-    """Write rows of the ledger, or a part of it."""
-    text = json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False)
-    with complete_or_absent(path) as partial:
-        Path(partial).write_text(f"{text}\n", encoding="utf-8")
 
 
 def tables(rows: list[dict], checks: Iterable[list]) -> list[str]:

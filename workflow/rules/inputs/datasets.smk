@@ -80,3 +80,23 @@ def points_of_cases():
     problems = [SETTINGS.problem(case) for case in PAPER_CASES]
     problems = [problem for problem in problems if problem["epsilon"]]
     return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
+
+
+# Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of the
+# file or along a dimension. Where their bits differ, they cannot be judged.
+RESTS_ON_CHAOS = [
+    # Maps and scans over data, some of which lead to chaos
+    *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*", "figures/sensitivity:*"),
+    *("checks/lifetimes:*", "figures/lifetimes:*"),
+    # Chains of other lengths, and without ends, at the detuning of a chaotic case
+    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/front:*"),
+    *(f"unbounded/{name}:*" for name in ("amplitudes", "front", "omegas", "tolerances")),
+    *("unbounded/front:modulus", "figures/front:modulus"),
+    # The sea that fills a chain of pendula
+    *("pendula/sea:*", "figures/pendula_over_the_top:wave_power"),
+    "figures/pendula_over_the_top:sea_density",
+    # The largest of all sweeps; and a count of errors of rounding that are larger than some bound
+    *("checks/sweeps:swept_ratio", "checks/wrong/dispersion:contradictions"),
+]
+# Variables that are divided by the largest value of a whole run: in a chaotic case it is one of the tail.
+DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]

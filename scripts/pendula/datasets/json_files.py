@@ -1,0 +1,53 @@
+"""JSON results with a checksum, so that a changed byte is told before anything reads a number.
+
+A dataset has its checksum after the last byte of HDF5 (`seal`). JSON allows nothing after its end,
+so that the checksum is the last entry of the object: the SHA-256 of all bytes before it.
+"""
+
+import json
+import re
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from . import complete_or_absent
+from .netcdf import readable
+
+ENTRY = "sha256"
+"""The name of the entry; no result may have one of its own."""
+
+END = re.compile(rf',\n "{ENTRY}": "([0-9a-f]{{64}})"\n}}\n\Z')
+
+
+def write_json(path: str | Path, content: Mapping[str, Any]) -> None:
+    """Write an object with its checksum; raises ValueError as `sealed` does."""
+    with complete_or_absent(path) as partial:
+        Path(partial).write_bytes(sealed(content).encode())
+
+
+def sealed(content: Mapping[str, Any]) -> str:
+    """Return the JSON of an object that has an entry, a line for each number, and its checksum.
+
+    Raises ValueError for NaN and infinity, which JSON has no word for.
+    """
+    text = json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False).removesuffix("\n}")
+    return f'{text},\n "{ENTRY}": "{_checksum(text)}"\n}}\n'
+
+
+def load_json(path: str | Path) -> dict[str, Any]:
+    """Return what `write_json` wrote, without the checksum.
+
+    Raises DatasetError, which names the file and the way out, for one that is missing, damaged or
+    edited.
+    """
+    with readable(path):
+        text = Path(path).read_bytes().decode()
+        end = END.search(text)
+        if end is None or end[1] != _checksum(text[: end.start()]):
+            raise ValueError("its content is not the one that was written")
+        return {key: value for key, value in json.loads(text).items() if key != ENTRY}
+
+
+def _checksum(text: str) -> str:
+    return sha256(text.encode()).hexdigest()

@@ -1,0 +1,102 @@
+"""Which numbers rest on chaos, so that two right runs may differ in them by any amount.
+
+One definition of the horizon of trust, from the accepted run: the time at which the run by Taylor's
+method, whose only errors are roundings, leaves the reference by MARGIN of the tolerance. Until then
+those of any right run are smaller than the tolerance. A case without such a time is regular.
+"""
+
+import re
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from pendula.datasets.netcdf import read
+
+from .hashes import are_words
+
+TOLERANCE = 1e-6
+"""How far a number may be off, as a part of the largest: single precision alone gives 6e-8."""
+
+ROUNDING = 1e-8
+"""A variable with nothing larger holds errors of rounding, of which no digit can be compared."""
+
+MARGIN = 0.01
+"""Other solvers round ten times as often as Taylor's, or more, and roundings add up."""
+
+TRUST, ROUNDED_ONLY = "checks/trust.nc", "taylor"
+"""The dataset with the differences to the references, and the solver among those of it."""
+
+
+class Chaos(NamedTuple):
+    """What is known of chaos in the accepted run."""
+
+    horizons: Mapping[str, float]
+    """The horizon of trust of each chaotic case, and -inf for each sweep over one, by name."""
+    variables: tuple[str, ...] = ()
+    """Patterns of variables that rest on chaos though no name shows it, as `pendula/sea:*`."""
+    scaled: tuple[str, ...] = ()
+    """Patterns of variables that are divided by a value of the tail, and so have no horizon."""
+
+    def beyond(self, name: str, key: str, data: xr.Dataset) -> np.ndarray:
+        """Return which values of the variable `key` of the dataset `name` cannot be judged.
+
+        A case or a sweep is known by the parts of its name in the name of the file and in the words
+        along the dimensions: the curve `large` in figures/fig3 is of fig3_large.
+        """
+        variable, stem = data.variables[key], name.removesuffix(".nc")
+        label, found = f"{stem}:{key}", np.zeros(variable.shape, bool)
+        if are_coordinates(key, variable):  # a star does not mean them
+            return found | (label in self.variables)
+        if any(fnmatchcase(label, pattern) for pattern in self.variables):
+            return ~found
+        has_horizon = not any(fnmatchcase(label, pattern) for pattern in self.scaled)
+        times = _times(variable, data) if has_horizon else np.inf
+        labels = [_labels(dimension, data) for dimension in variable.dims]
+        for place in np.ndindex(*map(len, labels)):
+            pairs = list(zip(labels, place, strict=True))
+            words = _parts(stem).union(*(along[i] for along, i in pairs))
+            hits = [at for known, at in self.horizons.items() if _parts(known) <= words]
+            if hits:
+                index = (slice(i, i + 1) if len(along) > 1 else slice(None) for along, i in pairs)
+                found[tuple(index)] = times >= min(hits)
+        return found
+
+
+def are_coordinates(key: str, variable: xr.Variable) -> bool:
+    """Return whether a variable of this name says where the values along a dimension lie."""
+    return variable.dims in ((key,), (key.removesuffix("_tau"),))
+
+
+def horizons(folder: Path, sweeps: Mapping[str, Any]) -> dict[str, float]:
+    """Return the horizons that the baseline in `folder`, which has these sweeps, tells."""
+    trust = read(folder / TRUST)
+    apart = trust["difference"].sel(solver=ROUNDED_ONLY) > MARGIN * TOLERANCE
+    first = trust["tau"].values[apart.argmax("tau").values]
+    pairs = zip(trust["case"].values, first, apart.any("tau").values, strict=True)
+    found = {str(case): float(tau) for case, tau, is_chaotic in pairs if is_chaotic}
+    return found | {name: -np.inf for name, sweep in sweeps.items() if sweep["case"] in found}
+
+
+def _parts(text: str) -> set[str]:
+    return set(re.findall(r"[a-z0-9]+", text))
+
+
+def _labels(dimension: str, data: xr.Dataset) -> list[set[str]]:
+    """Return the words at each place along a dimension; one empty set for one without words."""
+    along = data.variables.get(dimension)
+    return [set()] if along is None or not are_words(along) else [*map(_parts, along.values)]
+
+
+def _times(variable: xr.Variable, data: xr.Dataset) -> np.ndarray | float:
+    """Return the times along the dimensions of a variable; infinity for one without a time."""
+    for dimension in variable.dims:
+        for name in (dimension, f"{dimension}_tau"):
+            if name.endswith("tau") and name in data and data[name].dims == (dimension,):
+                return data[name].values.reshape(
+                    [-1 if d == dimension else 1 for d in variable.dims]
+                )
+    return np.inf

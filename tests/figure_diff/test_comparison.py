@@ -1,0 +1,132 @@
+"""What decides: environment, bits, chaos; missing and extra files; the page and the last lines."""
+
+import made_up_results as made_up
+import numpy as np
+import pytest
+from figure_diff.compare_results import compare_results
+from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
+from pendula.datasets.json_files import load_json
+from pendula.datasets.netcdf import read
+from pendula.figure_diff import Status, baseline
+from pendula.figure_diff.chaos import Chaos, horizons
+
+
+def nudge(found):
+    """Return a dataset that differs by less than the tolerance."""
+    return found.assign(l2=found["l2"] * (1 + 1e-9))
+
+
+def test_another_right_run_is_refused_with_the_accepted_bits_alone(run):
+    """Chaos takes another path in it, in all that rests on it; nothing else moves."""
+    made_up.make_run(run.made, seed=1)
+    strictly, found = run.judge(), run.judge(any_bits=True)
+    assert strictly.counts.keys() == {Status.DIFFERENT, Status.IDENTICAL}
+    assert not found.faults and found.counts.keys() == {Status.BEYOND, Status.IDENTICAL}
+    moved = {each.name for each in found.findings if each.status == Status.BEYOND}
+    assert {CHAOTIC, made_up.SWEEP, made_up.MAP, LEDGER, REPORT, "figures/fig4.png"} < moved
+    assert not any("fig2" in name for name in moved)
+    assert found.lines[-1].endswith("were not judged: they may be right or wrong")
+
+
+@pytest.mark.parametrize(
+    ("package", "status"),
+    [
+        *((f"data.{name}", Status.WITHIN) for name in ("numpy", "scipy", "numba", "machine")),
+        *((f"drawing.{name}", Status.DIFFERENT) for name in ("matplotlib", "freetype", "zlib")),
+    ],
+)
+def test_another_environment_compares_numbers_where_it_decides_them(run, package, status):
+    run.change(REGULAR, nudge)
+    run.pretend(*package.split("."))
+    assert f"{package} is " in run.judge().judged and run.findings()[REGULAR].status == status
+
+
+def test_pictures_of_other_versions_are_judged_by_their_descriptions(run):
+    pdf = run.made / "figures/fig2.pdf"
+    pdf.write_bytes(pdf.read_bytes().replace(b"%PDF-1.4", b"%PDF-1.5"))
+    run.pretend("drawing", "zlib")
+    found = run.findings()["figures/fig2.pdf"]
+    assert found.status == Status.BEYOND and "its description; that is identical" in found.says
+
+
+def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run):
+    run.change(REGULAR, nudge)
+    made_up.put_words(run.made, largest=6.60404)  # a last digit follows
+    assert run.findings(any_bits=True)[LEDGER].status == Status.WITHIN
+    made_up.put_words(run.made, largest=6.70403)  # nothing that moved is so large
+    assert run.findings(any_bits=True)[LEDGER].status == Status.DIFFERENT
+    made_up.make_run(run.made, seed=1)
+    made_up.put_words(run.made, largest=6.9, verdict="not reproduced")
+    found = run.findings(any_bits=True)
+    assert found[LEDGER].status == Status.DIFFERENT and "not reproduced" in found[LEDGER].says
+
+
+def test_times_and_speed_of_a_machine_are_no_part_of_the_report(run):
+    run.edit(REPORT, "96 s", "77 s")
+    assert run.findings()[REPORT].status == Status.IDENTICAL
+
+
+# Which numbers rest on chaos
+
+
+def test_the_horizon_is_that_of_roundings_alone_and_sweeps_have_none(run):
+    found = horizons(run.accepted, CONFIGURATION["sweeps"])
+    assert found.keys() == {"fig4_small", "fig5_right"}
+    assert found["fig4_small"] == pytest.approx(HORIZON, abs=0.2)
+    assert found["fig5_right"] == -np.inf
+
+
+@pytest.mark.parametrize(
+    ("name", "variable", "expected"),
+    [
+        ("trajectories/fig4_small.ode45", "l2", 0.818),  # by the file, after the horizon
+        ("trajectories/fig2_small", "l2", 0.0),
+        ("trajectories/fig4_large", "l2", 0.0),
+        ("checks/lyapunov", "exponent", 0.5),  # by the words along a dimension, without a time
+        ("checks/trust", "difference", 0.5),  # divided by the largest of the tail
+        ("trajectories/fig4_small", "tau", 0.0),
+        ("unbounded/omegas", "l2", 1.0),  # by its pattern
+        ("unbounded/omegas", "tau", 0.0),
+    ],
+)
+def test_what_rests_on_chaos(run, name, variable, expected):
+    files = {"exponent": made_up.EXPONENTS, "difference": made_up.TRUST}
+    data = read(run.made / files.get(variable, REGULAR))
+    chaos = Chaos({"fig4_small": HORIZON}, ("unbounded/omegas:*",), ("checks/*:difference",))
+    assert chaos.beyond(f"{name}.nc", variable, data).mean() == pytest.approx(expected, abs=0.003)
+
+
+# Files, and what is written
+
+
+def test_missing_and_extra_files_and_another_configuration_are_named(run):
+    names = [*(name for name in NAMES if name != PICTURE), "checks/new.nc"]
+    (run.made / "checks/new.nc").write_bytes((run.made / REGULAR).read_bytes())
+    lines = run.judge(names).lines
+    assert f"missing: {PICTURE}: is in the baseline, but no longer among the results" in lines
+    assert "extra: checks/new.nc: is not in the baseline" in lines
+    shorter = CONFIGURATION | {"cases": {"fig2_small": {"end_time": 4, "omega": 8}}}
+    fault = baseline.compare(NAMES, *run, shorter).findings[0]
+    says = "is not the accepted one: cases.fig2_small.end_time is 4 in place of 50"
+    assert fault == ("configuration", "different", says)
+
+
+def test_without_a_baseline_all_is_extra(run, tmp_path):
+    verdict = run._replace(accepted=tmp_path / "nothing").judge()
+    assert verdict.counts == {Status.EXTRA: len(NAMES)} and verdict.faults == len(NAMES)
+
+
+def test_the_page_shows_findings_and_both_pictures_and_needs_no_network(run, monkeypatch):
+    monkeypatch.chdir(run.made.parent)
+    made_up.put(run.made, "fig2", made_up.norms(False), label="norm")
+    results = [f"results/{name}" for name in NAMES]
+    given = results, str(run.accepted), CONFIGURATION, False, made_up.RESTS_ON_CHAOS
+    compare_results(*given, "diff/index.html", "diff/verdict.json")
+    page, told = (run.made.parent / "diff/index.html").read_text(), load_json("diff/verdict.json")
+    assert told["faults"] == 3 and told["counts"] == {"different": 3, "identical": len(NAMES) - 3}
+    assert (
+        len(told["lines"]) == 5 and told["lines"][-1] == f"3 different, {len(NAMES) - 3} identical"
+    )
+    assert "Figure diff: 3 faults" in page and "figures/fig2.json" in page
+    assert page.count('src="data:image/png;base64,') == 2
+    assert "http" not in page and str(run.made) not in page
