@@ -353,22 +353,28 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
 
 def _on_other_terms(fates: xr.Dataset) -> dict[str, Variable]:
     """Return how many data change their fate on other terms, and the shares of fates there."""
-    checked = fates["checked_fate"].rename(conditions="terms")
-    changed = (checked != checked.isel(terms=0)).mean("checked")
+    checked = fates["checked_fate"]
+    changed = (checked != checked.isel(conditions=0)).mean("checked")
     stay = checked == FATES.index("stays")
     shares = [(checked == kind).mean("checked").values for kind in range(fates.sizes["fate_name"])]
     return {
-        "terms": _as_it_is(fates["conditions"].rename(conditions="terms")),
+        "conditions": _as_it_is(fates["conditions"]),
         "changed": Variable(
-            ("terms", "omega"), changed.values, "share of data whose fate differs from the map's"
+            ("conditions", "omega"),
+            changed.values,
+            "share of data whose fate differs from the map's",
         ),
         "terms_share": Variable(
-            ("fate_name", "terms", "omega"), np.array(shares), "share of these data with a fate"
+            ("fate_name", "conditions", "omega"),
+            np.array(shares),
+            "share of these data with a fate",
         ),
-        "stay": Variable((), int(stay.isel(terms=0).sum()), "of these data that stay on the map"),
+        "stay": Variable(
+            (), int(stay.isel(conditions=0).sum()), "of these data that stay on the map"
+        ),
         "stay_on": Variable(
-            ("terms",),
-            (stay & stay.isel(terms=0)).sum(("omega", "checked")).values,
+            ("conditions",),
+            (stay & stay.isel(conditions=0)).sum(("omega", "checked")).values,
             "of these data that stay on other terms too",
         ),
         "longest": Variable((), TIMES * fates.attrs["end_time"], "longest time of these runs"),

@@ -120,7 +120,7 @@ def fates(baseline: Baseline) -> dict:
         "more_waves": number(WAVES * long.attrs["margin"]),
         "within": percent(NEAR),
         "stay": number(long["stay"]),
-        "stay_on": number(long["stay_on"].sel(terms=LONGEST)),
+        "stay_on": number(long["stay_on"].sel(conditions=LONGEST)),
         "longest": number(long["longest"]),
         "common": number(baseline["breathers/fates"]["common"].sum()),
         "agreed": number(baseline["breathers/fates"]["agreed"].sum()),
@@ -128,11 +128,11 @@ def fates(baseline: Baseline) -> dict:
         "terms": [
             {
                 "cases": str(terms),
-                "changed": percent(long["changed"].sel(terms=terms).max()),
+                "changed": percent(long["changed"].sel(conditions=terms).max()),
                 "stays": percent(_at_most_mixed(long, terms, "stays")),
                 "spreads": percent(_at_most_mixed(long, terms, "spreads")),
             }
-            for terms in long["terms"].values
+            for terms in long["conditions"].values
         ],
         "mixed": number(_most_mixed(long)),
         "mixed_are": "most runs that stay are"
@@ -151,9 +151,9 @@ def _area(long: xr.Dataset, plane: str, omega: float, fate: str) -> str:
 
 def _most_mixed(long: xr.Dataset) -> float:
     """Return the Omega at which other terms change the most fates."""
-    return float(long["omega"][int(long["changed"].max("terms").argmax("omega"))])
+    return float(long["omega"][int(long["changed"].max("conditions").argmax("omega"))])
 
 
 def _at_most_mixed(long: xr.Dataset, terms: str, fate: str) -> float:
-    at = {"fate_name": fate, "terms": terms, "omega": _most_mixed(long)}
+    at = {"fate_name": fate, "conditions": terms, "omega": _most_mixed(long)}
     return float(long["terms_share"].sel(at))
