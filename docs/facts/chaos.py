@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from pendula.report.words import case_of, number, percent, span, with_error
+from pendula.report.words import case_of, measured, number, percent, span, with_error
 from pendula.studies.chaos.claims import END
 
 from .baseline import Baseline
@@ -68,7 +68,7 @@ def ensembles(baseline: Baseline) -> dict:
 
 def _limits(data: xr.Dataset, name: str, digits: int = 3) -> str:
     """Return confidence limits."""
-    return " to ".join(number(data[f"{name}_{end}"], digits) for end in ("low", "high"))
+    return " to ".join(measured(data[f"{name}_{end}"], digits) for end in ("low", "high"))
 
 
 def _chance(life: xr.Dataset) -> str:
@@ -86,6 +86,7 @@ def lifetimes(baseline: Baseline) -> dict:
         "first_fast": number(fast["start_amplitude"].min()),
         "last_fast": number(fast["start_amplitude"].max()),
         "from": number(slow["start_amplitude"].min()),
+        "members": str(int(lives.attrs["members"])),
         "of_paper": number(END),
         "end": number(lives["tau"].max()),
         "fast": span(fast.values, 2),
@@ -95,7 +96,7 @@ def lifetimes(baseline: Baseline) -> dict:
                 "kept_of_paper": percent(life["surviving"].sel(tau=END)),
                 "kept": percent(life["surviving"][-1]),
                 "first": time_of_output(life["life"].min()),
-                "rate": number(life["rate"], 2),
+                "rate": measured(life["rate"], 2),
                 "limits": _limits(life, "rate", 2),
                 "chance": _chance(life),
             }

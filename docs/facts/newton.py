@@ -2,7 +2,7 @@
 
 import numpy as np
 import xarray as xr
-from pendula.report.words import number, percent
+from pendula.report.words import measured, number, percent
 from pendula.studies.pendula.claims_phases import pendula_norms
 from pendula.studies.pendula.claims_remainder import STABLE, UNSTABLE, common_end
 
@@ -23,7 +23,7 @@ def pendula(baseline: Baseline) -> dict:
         "second_low": number(data["resonance_low"].sel(mu=largest)),
         "second_high": number(data["resonance_high"].sel(mu=largest)),
         "rows": [
-            {"mu": number(mu), **{side: number(data["gamma_0"].sel(omega=omega, mu=mu), 12)
+            {"mu": number(mu), **{side: measured(data["gamma_0"].sel(omega=omega, mu=mu), 12)
                                   for side, omega in (("below", -4.0), ("above", 8.0))}}
             for mu in data["mu"].values
         ],

@@ -15,7 +15,7 @@ import render
 from facts.baseline import Baseline
 from held_digits import blurred, unlike
 from pendula.ledger.claim import all_claims
-from pendula.report.words import number
+from pendula.report.words import measured
 from pendula.studies.pendula.threshold import pendula_threshold
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -61,6 +61,7 @@ WORDS = (
 )
 ALLOWED_WORDS = [
     r"double precision|double nearest",  # the type of a number
+    r"a quarter of a period",  # an instant of a breather
     r"twice the frequency",  # how the chain is driven
 ]
 COUNTED = {
@@ -69,7 +70,8 @@ COUNTED = {
     *("unbounded.members", "unbounded.neighbours", "unbounded.grown"),
     *("breathers_study.fates.reached", "fates.points", "fates.checked"),
     *(f"breathers.collisions.{name}" for name in ("count", "pairs", "quartets", "omegas")),
-    "breathers.collisions.signatures",
+    *("breathers.collisions.signatures", "breathers.data_power"),
+    *(f"lifetimes.{name}" for name in ("members", "of_paper", "first_fast", "last_fast")),
     *("fates.members", "fates.mixed", "fates.scanned", "fates.terms.0"),
     *("fates.common", "fates.agreed", "fates.stay", "fates.stay_on"),
     *("fates.half_periods", "fates.waves", "fates.within", "fates.periodic.1.unknown"),
@@ -241,7 +243,7 @@ def may_be_typed(names: set[str], before: dict[str, str]) -> set[str]:
         name
         for name in names
         if not NO_NUMBERS.match(name)
-        and before[name] not in ("never", "none seen", "later", "-")
+        and before[name] not in ("never", "none seen", "later", "-", "0 %")
         and not any(name.startswith(counted) for counted in COUNTED)
     }
 
@@ -286,7 +288,7 @@ def test_the_thresholds_of_the_pendula_are_printed_as_they_are_computed(known):
     rows = known["pendula"]["rows"]
     for side, omega in (("below", -4.0), ("above", 8.0)):
         mus = [float(row["mu"]) for row in rows]
-        exact = [number(pendula_threshold(omega, mu, 1.0), 12) for mu in mus]
+        exact = [measured(pendula_threshold(omega, mu, 1.0), 12) for mu in mus]
         assert [row[side] for row in rows] == exact
 
 

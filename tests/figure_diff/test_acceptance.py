@@ -48,6 +48,15 @@ def test_a_name_of_nothing_is_refused_with_the_nearest():
         choose(["fig4", "fig22"], NAMES)
 
 
+@pytest.mark.parametrize(("digits", "kept"), [(6, np.float32), (7, np.float64)])
+def test_a_variable_that_declares_more_digits_than_single_precision_keeps_them(run, digits, kept):
+    run.change(
+        REGULAR, lambda found: found.assign(l2=found["l2"].assign_attrs(significant_digits=digits))
+    )
+    run.accept()
+    assert read(run.accepted / REGULAR)["l2"].dtype == kept
+
+
 def test_accepting_takes_what_changed_and_the_same_run_again_changes_no_byte(run):
     run.change(REGULAR, larger)
     before = contents(run.accepted)

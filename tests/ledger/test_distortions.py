@@ -39,8 +39,8 @@ def four_unknown(steady):
 
 
 def of_half_power(periodic):
-    power = periodic["power"]
-    return periodic.assign(power=power.where(periodic["family"] != "A = B", 0.5 * power))
+    least = periodic["least_power"]
+    return periodic.assign(least_power=least.where(periodic["family"] != "A = B", 0.5 * least))
 
 
 HOLES = [

@@ -76,18 +76,12 @@ def test_a_median_that_was_not_lived_to_see_is_infinite():
     assert confidence.median_limits([1.0, 2.0]) == (1.5, -np.inf, np.inf)
 
 
-def test_mean_life_enclosed_though_half_of_the_lives_are_censored():
+def test_a_rate_is_enclosed_though_half_of_the_lives_are_censored():
     def limits(rng):
         lives = rng.exponential(5.0, size=40)
-        return confidence.mean_life(np.where(lives < 3.5, lives, np.inf), 3.5)
+        return confidence.event_rate(np.where(lives < 3.5, lives, np.inf), 0.0, 3.5)
 
-    assert 0.92 < covered(limits, 5.0) <= 0.99
-
-
-def test_no_death_bounds_the_mean_life_from_below_only():
-    value, low, high = confidence.mean_life([np.inf] * 20, 10.0)
-    assert value == high == np.inf
-    assert low == pytest.approx(200.0 / -np.log(0.025), rel=1e-5)
+    assert 0.92 < covered(limits, 0.2) <= 0.99
 
 
 def test_the_limits_of_a_rate_hold_it_where_few_events_are_seen():
@@ -116,15 +110,6 @@ def test_one_more_draw_has_every_chance_alike(stats):
     assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == pytest.approx(known, abs=1e-6)
 
 
-def test_the_limits_of_a_ratio_of_rates_hold_it_as_often_as_they_say():
-    random, inside = np.random.default_rng(1), 0
-    for _ in range(400):
-        first, second = (confidence.mean_life(random.exponential(s, 30), 1e9) for s in (1.0, 3.0))
-        ratio = confidence.ratio_of_limits(second, first)
-        inside += ratio.low < 3.0 < ratio.high
-    assert 0.92 < inside / 400 < 0.985
-
-
 def test_a_ratio_of_means_without_errors_is_exact():
     assert confidence.ratio_limits((2.0, 3.0), (0.0, 0.0), 6) == (1.5, 1.5, 1.5)
 
@@ -145,11 +130,11 @@ def test_every_chance_of_an_exponential_law_is_alike_where_it_holds():
     assert confidence.chance_of_law([3.0], 10.0) == pytest.approx(0.097, abs=1e-3)
 
 
-def test_limits_of_a_mean_life_are_those_of_chi_squared(stats):
+def test_limits_of_a_rate_are_those_of_chi_squared(stats):
     """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
-    found = confidence.mean_life([1.0, np.inf, 2.0, np.inf], 3.0)
-    low, high = 18.0 / stats.chi2.ppf(0.975, 6), 18.0 / stats.chi2.ppf(0.025, 4)
-    assert tuple(found) == pytest.approx((4.5, low, high), rel=1e-5)
+    found = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)
+    low, high = stats.chi2.ppf(0.025, 4) / 18.0, stats.chi2.ppf(0.975, 6) / 18.0
+    assert tuple(found) == pytest.approx((2.0 / 9.0, low, high), rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -174,13 +159,6 @@ def test_the_limits_of_a_ratio_are_just_what_student_s_t_allows():
         assert abs(means[1] - ratio * means[0]) / error == pytest.approx(2.36462, rel=1e-5)
     assert found.value == 2.0 and found.low < 2.0 < found.high
     assert np.isinf(confidence.ratio_limits((2.36462, 1.0), (1.0, 1.0), 8).high)
-
-
-def test_distances_of_the_limits_of_a_ratio_add_in_squares_of_logarithms():
-    found = confidence.ratio_of_limits(
-        confidence.Limits(8.0, 4.0, 32.0), confidence.Limits(2.0, 0.25, 16.0)
-    )
-    assert found == pytest.approx((4.0, 4.0 * 2.0 ** -np.sqrt(10.0), 4.0 * 2.0 ** np.sqrt(13.0)))
 
 
 def test_shares_of_another_confidence_are_exact(stats):

@@ -253,10 +253,8 @@ def breathers_results(folder, **attributes) -> made_up.MadeUp:
         {"omega": [8.0, 0.0], "plane": ["amplitudes"], "case": ["fig2_large", "fig4_large"],
          "fate_name": ["disperses", "stays", "spreads"]},
     )  # fmt: skip
-    power = [[[20.0, np.nan]], [[16.0, np.nan]]]
     periodic = xr.Dataset(
-        {"power": (("component", "omega", "frequency"), power)},
-        {"omega": [-4.0], "frequency": [9.0, 12.0]},
+        {"least_power": (("instant", "omega", "family"), [[[40.0]], [[36.0]]])}, {"omega": [-4.0]}
     )
     shares = sensitivity(1.0, 0.9, 0.4, 0.15).assign_attrs(omega=-4.0)
     found = {"breathers/sensitivity": shares, "breathers/fates": fate}

@@ -22,9 +22,9 @@ NO_RESULT = ("version", "history")
 LEAST = 1e-30
 """Single precision loses digits below 1e-38 and ends at 3e38; this keeps well away from both."""
 
-SINGLE = 7
-"""Significant digits of single precision. A variable of which more are right says so by the
-attribute `significant_digits`."""
+SINGLE = np.finfo(np.float32).precision
+"""Decimal digits that single precision keeps of every number. A variable with more digits that are
+right has the attribute `significant_digits`."""
 
 FEW, PACKED = 100, {"zlib": True, "complevel": 9, "shuffle": True}
 

@@ -69,7 +69,7 @@ BLIND = {
             unbounded_large_maximum unbounded_determined same_sea expansion_order
             next_order_of_the_expansion""",
         "the drive's ratio 2 is in the middle": "resonance",
-        "backwards the runs end with their data": "pendula_stay_below_the_top unbounded_maximum",
+        "backwards the runs end with their data": "pendula_stay_below_the_top",
         "that dataset is told beside what decides, or for a largest number":
             "unbounded_in_time unbounded_large horizon_logarithmic",
     },

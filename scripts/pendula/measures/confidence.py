@@ -1,4 +1,4 @@
-"""Confidence limits: of a mean of few members, of a share, of a median, of a life or a rate.
+"""Confidence limits: of a mean of few members, of a share, of a median, of a rate.
 
 Quantiles of the distributions are rounded to six digits, because the last bits of the special
 functions behind them differ between machines.
@@ -9,8 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy import special
-
-from pendula.numerics.elementary import exp, log
 
 CONFIDENCE = 0.95
 """Limits enclose the true value in so many of all repetitions, as is the custom."""
@@ -83,18 +81,6 @@ def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> L
     return Limits(ratio, (above * below - root) / bottom, (above * below + root) / bottom)
 
 
-def ratio_of_limits(above: Limits, below: Limits) -> Limits:
-    """Return the ratio of two independent positive numbers, above / below, from their own limits.
-
-    The distances of the limits add in squares on a logarithmic scale: the method of variance
-    estimates recovery (Zou and Donner, Stat. Med. 27 (2008) 1693). Limits have one confidence.
-    """
-    down = _both(log(above.value / above.low), log(below.high / below.value))
-    up = _both(log(above.high / above.value), log(below.value / below.low))
-    ratio = above.value / below.value
-    return Limits(ratio, ratio * float(exp(-down)), ratio * float(exp(up)))
-
-
 def share_limits(count: int, members: int, confidence: float = CONFIDENCE) -> Limits:
     """Return the share of `members` that `count` are, with the exact limits of Clopper and Pearson.
 
@@ -123,36 +109,20 @@ def median_limits(values, confidence: float = CONFIDENCE) -> Limits:
     return Limits(float(median), float(low), float(high))
 
 
-def mean_life(lives, watched: float, confidence: float = CONFIDENCE) -> Limits:
-    """Return the mean life of an exponential law, by the likelihood of lives that may be censored.
-
-    `lives` is (member,), infinite where a life went on after the time `watched`. The limits are
-    those of chi-squared; where no life ended the mean and its upper limit are infinite.
-    """
-    lives = np.asarray(lives, dtype=float)
-    ended = int(np.isfinite(lives).sum())
-    at_risk, tail = float(np.minimum(lives, watched).sum()), 0.5 * (1.0 - confidence)
-    low = 2.0 * at_risk / _rounded(special.chdtri(2 * (ended + 1), tail))
-    if not ended:
-        return Limits(np.inf, low, np.inf)
-    high = 2.0 * at_risk / _rounded(special.chdtri(2 * ended, 1.0 - tail))
-    return Limits(at_risk / ended, low, high)
-
-
-def event_rate(times, start: float, end: float) -> Limits:
+def event_rate(times, start: float, end: float, confidence: float = CONFIDENCE) -> Limits:
     """Return the events per unit of time among those members that had none by `start`.
 
-    `times` is (member,), infinite where no event came by `end`. The rate is the number of events
-    over the time for which all these members together were watched. At a constant rate this number
-    is one of Poisson, whose exact limits these are (F. Garwood, Biometrika 28 (1936) 437), however
-    few events there are. NaN where no member was left at `start`.
+    `times` is (member,), infinite where no event came by `end`. The limits are the exact ones of a
+    Poisson count, however small (F. Garwood, Biometrika 28 (1936) 437). NaN where none was left.
     """
-    times = np.asarray(times, dtype=float)
-    left = times[times > start] - start
+    left = np.asarray([time - start for time in times if time > start])
     if not left.size:
         return Limits(np.nan, np.nan, np.nan)
-    life = mean_life(left, end - start)
-    return Limits(1.0 / life.value, 1.0 / life.high, 1.0 / life.low)
+    events, tail = int(np.isfinite(left).sum()), 0.5 * (1.0 - confidence)
+    watched = float(np.minimum(left, end - start).sum())
+    low = _rounded(special.chdtri(2 * events, 1.0 - tail)) if events else 0.0
+    high = _rounded(special.chdtri(2 * (events + 1), tail))
+    return Limits(events / watched, 0.5 * low / watched, 0.5 * high / watched)
 
 
 def chance_of_law(lives, watched: float) -> float:
@@ -161,14 +131,13 @@ def chance_of_law(lives, watched: float) -> float:
     `lives` is (member,), infinite where a life went on after the time `watched`. If the law holds,
     the time that all members together lived until each end is uniform (Epstein, Technometrics 2
     (1960) 83); the distribution of the statistic is Stephens's (J. R. Stat. Soc. B 32 (1970) 115).
-    Without an end nothing speaks against the law, and the chance is one.
+    Without an end the chance is one.
     """
     lives = np.asarray(lives, dtype=float)
     ends = np.sort(lives[np.isfinite(lives)])
-    count = len(ends)
-    at_risk = np.minimum(lives, watched).sum() if count else 0.0
-    if at_risk == 0.0:
+    if not (count := len(ends)):
         return 1.0
+    at_risk = np.minimum(lives, watched).sum()
     share = np.array([np.minimum(lives, end).sum() for end in ends]) / at_risk
     steps = np.arange(count + 1) / count
     off = max((steps[1:] - share).max(), (share - steps[:-1]).max())

@@ -125,7 +125,7 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
             ("stable_family", "chain_half_width"),
             found,
             "Omega below which a family is stable",
-            4,
+            6,
         ),
     }
 

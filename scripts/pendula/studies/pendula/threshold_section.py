@@ -3,7 +3,7 @@
 from typing import Any
 
 from pendula.report.results import Results
-from pendula.report.words import number, percent
+from pendula.report.words import measured, number, percent
 
 DATA = "pendula/threshold"
 DIGITS = 12
@@ -38,7 +38,7 @@ def _outside(data) -> list[float]:
 
 def _row(results: Results, omega: float) -> list:
     one = results[DATA].sel(omega=omega)
-    exact = [results.quote(DATA, float(value), DIGITS) for value in one["gamma_0"].values]
+    exact = [results.say(DATA, measured(value, DIGITS)) for value in one["gamma_0"].values]
     return [number(omega), results.quote(DATA, float(one["gamma_0_lemma"])), *exact]
 
 
