@@ -177,7 +177,7 @@ def copy_of_sources(project: Path) -> Path:
                 copy_function=shutil.copy,
             )
         else:
-            project.mkdir(parents=True, exist_ok=True)
+            (project / part).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, project / part)
     return project
 
