@@ -5,7 +5,9 @@ from itertools import chain as joined
 
 import numpy as np
 import pytest
+import yaml
 from helpers import ROOT
+from pendula.configuration.schema import PAPER_CASES
 from pendula.datasets.netcdf import read
 from pendula.problem import Constants, Problem, on_sites, read_initial
 from pendula.studies.certified import fixed_point, frames
@@ -249,6 +251,17 @@ def test_no_committed_bound_is_below_the_distance_to_the_reference(path):
     for name in ("linf", "l2"):
         assert (abs(one[name] - known[name].values[:, :count]) <= one["bound"]).all()
     assert one["bound"][-1] < 1e-9
+
+
+def test_every_case_of_figs_2_to_4_is_proved_to_its_end():
+    kept = ROOT / "tests/baseline"
+    cases = yaml.safe_load((ROOT / "config/config.yaml").read_text())["cases"]
+    for case in PAPER_CASES:
+        paths = [kept / f"{folder}/{case}.nc" for folder in ("proofs", "certified")]
+        (proved,) = (read(path) for path in paths if path.exists())
+        end = cases[case].get("end_time", 50.0)
+        assert float(proved["tau"][-1]) == end, case
+        assert float(proved["bound"].max()) < 1e-9, case
 
 
 @pytest.mark.parametrize("path", BY_FRAMES, ids=lambda path: path.stem)
