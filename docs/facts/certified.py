@@ -44,7 +44,7 @@ def certified(baseline: Baseline) -> dict:
         "framed": [
             {
                 **_certified_curve(curves[case], case),
-                "growth": number(float(curves[case]["error_exponent"][-1]), 2),
+                "growth": number(float(curves[case]["error_exponent"][-1]), 3),
             }
             for case in framed
         ],
