@@ -39,7 +39,7 @@ def test_a_case_of_ones_own_needs_a_few_lines(tmp_path):
     result = snakemake_with(settings, ROOT, tmp_path, "results/trajectories/mine.nc")
     assert result.returncode == 0, result.stderr
     last = result.stderr.rstrip().splitlines()[-1]
-    assert last == "Done. Look at results/trajectories/mine.nc."
+    assert last == f"Done. Look at {tmp_path}/results/trajectories/mine.nc."
     shown = [line for line in result.stderr.splitlines() if line.startswith("[")]
     did = [" Compiling dop853", " Integrating mine by its own solver"]
     assert [line.partition("]")[2] for line in shown] == did
@@ -68,7 +68,7 @@ def test_a_failing_job_says_why_on_the_screen_and_keeps_the_traceback_in_its_log
     assert "the log has the traceback: results/logs/trajectories/wild.log" in result.stderr
     assert not (tmp_path / "results/trajectories/wild.nc").exists()
     told = result.stderr.partition("\nFailed:\n")[2]
-    assert "see results/logs/trajectories/wild.log\n    auto: runs in double" in told
+    assert f"see {tmp_path}/results/logs/trajectories/wild.log\n    auto: runs in double" in told
 
 
 def test_a_damaged_dataset_is_named_with_the_way_out(finished):
