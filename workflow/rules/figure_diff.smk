@@ -1,58 +1,6 @@
 # What a run made against the accepted baseline, which is tests/baseline unless --config baseline=FOLDER.
 # Neither rule has an output, so that Snakemake runs them whenever they are asked for. The end of the run
 # tells the faults: Snakemake would print an error of its own about a job that nobody called.
-if not isinstance(OPTIONS["baseline"], str | None):
-    stop(f"--config baseline={OPTIONS['baseline']}: give the path of a folder, as in baseline=./7")
-ACCEPTED = str(OPTIONS["accept"] or "").split()
-BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{workflow.basedir}/tests/baseline")
-PAGE, VERDICT = "results/figure_diff/index.html", "results/figure_diff/verdict.json"
-if OPTIONS["bits"] not in (None, "any"):
-    stop(
-        f"--config bits={OPTIONS['bits']}: the only value is bits=any, which compares the numbers of "
-        "files with other bits; without it they are faults"
-    )
-
-
-def everything():
-    """Return each file that a full run makes or needs, but for logs and records of code."""
-    made = {
-        *rules.all.input,
-        *(f"results/{name}.nc" for name in makers()),
-        *rules.hard_cases.output,
-        *references(*PAPER_CASES, "fig4_small.double"),
-        *committed_proofs(),
-        fine_maps_of_fates(),
-        *expand("results/claims/{part}.json", part=CLAIMS_OF),
-        *expand("results/tables/claims_{part}.md", part=CLAIMS_OF),
-    }
-    kinds = (".nc", ".json", ".md", ".html", ".png", ".pdf")
-    return sorted(path for path in made if path.endswith(kinds))
-
-
-def plain(settings):
-    """Return the configuration without the limits of a run, which change no number."""
-    return json.loads(settings.model_dump_json(exclude={"limits"}))
-
-
-def baseline_told_at_the_end(wildcards):
-    if workflow.execution_settings.no_hooks:
-        stop("figure_diff fails at the end of a run: call it without --no-hooks")
-    return BASELINE
-
-
-def accepted_files(wildcards):
-    """Return the files to accept, or stop before any job with the reason."""
-    from pendula.figure_diff import acceptance  # here, since only accepting needs it
-
-    try:
-        names = [path.removeprefix("results/") for path in everything()]
-        names = acceptance.choose(ACCEPTED, names) if ACCEPTED else names
-        if not OPTIONS["baseline"]:
-            committed, whose = load(gather(CONFIG_FILES, {})), "the configuration of config/*.yaml"
-            acceptance.check(plain(SETTINGS), plain(committed), whose, acceptance.OWN)
-        return [f"results/{name}" for name in names]
-    except acceptance.AcceptanceError as error:
-        stop(error)
 
 
 rule figure_diff:
@@ -94,13 +42,3 @@ rule accept_figures:
         "Taking datasets, figures and words as the baseline"
     script:
         "../../scripts/figure_diff/accept_results.py"
-
-
-def tell_faults():
-    """Say in one line each what is not as in the baseline, and fail if any of it is a fault."""
-    from pendula.datasets.json_files import load_json  # here, since few runs compare
-
-    verdict = load_json(VERDICT)
-    print(*verdict["lines"], sep="\n", end=f"; see {PAGE}\n", file=sys.stderr)
-    if verdict["faults"]:
-        sys.exit(1)
