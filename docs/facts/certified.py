@@ -52,7 +52,7 @@ def certified(baseline: Baseline) -> dict:
         "largest": _upward(max(curves[case]["bound"].max() for case in known)),
         "until": number(min(float(curves[case]["tau"][-1]) for case in known)),
         "contained": number(int(whole.sum())),
-        "in_lines": _upward(share.where(np.isfinite(share)).max()),
+        "in_lines": _upward(share.where(whole & np.isfinite(share)).max()),
         "certificate": _short_case(baseline.folder / "proofs/short_case.json"),
     }
 

@@ -251,7 +251,7 @@ def with_half_in(family: str):
 
 @claim(
     PLACE,
-    "The large data at Omega = -4 have less P at any time than any breather known there.",
+    "The large data at Omega = -4 have less P at any time than every periodic breather there.",
     (PERIODIC,),
     (
         Control("breathers at Omega = 8", {PERIODIC: at_eight}),
@@ -425,7 +425,7 @@ def spread_on(fate):
 
 @claim(
     "Beyond the paper, Figs 2 and 4",
-    "The detuning decides whether unequal A_0 and B_0 spread: at Omega = 0 all do, at 8 none.",
+    "The detuning decides whether unequal data of the map spread: at Omega = 0 all do, at 8 none.",
     (MAP,),
     (
         Control("the maps of both detunings exchanged", {MAP: with_detunings_exchanged}),
