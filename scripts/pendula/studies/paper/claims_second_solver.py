@@ -304,13 +304,19 @@ def regular_difference(first, second) -> float:
     return float(max(off))
 
 
+@once
+def runs_by_step(steps) -> list:
+    """Return the norms by each step, which are then measured once."""
+    return [steps[["l2", "linf"]].isel(finer_step=i) for i in range(steps.sizes["finer_step"])]
+
+
 def finer_chance(name: str, second, ensembles, steps) -> float:
     """Return the chance that runs of a sweep by finer steps are draws from its ensemble.
 
     Zero where there are none, or where the sweep is not that of the solver whose steps these are.
     """
     at = {"half_width": steps["half_width"], "window": steps["window"]}
-    own = steps[["l2", "linf"]].isel(finer_step=0)
+    own, *finer = runs_by_step(steps)
     if not set(steps["half_width"].values) <= set(second["half_width"].values):
         return 0.0
     if (
@@ -318,10 +324,7 @@ def finer_chance(name: str, second, ensembles, steps) -> float:
         > REPEATED.value
     ):
         return 0.0
-    found = [
-        swept_draws(name, steps[["l2", "linf"]].isel(finer_step=finer), ensembles)
-        for finer in range(1, steps.sizes["finer_step"])
-    ]
+    found = [swept_draws(name, run, ensembles) for run in finer]
     return together([draws[reading] for draws in found for reading in ("text", "caption")])
 
 
