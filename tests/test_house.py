@@ -24,7 +24,8 @@ STOREYS = (
     ("measures",),
     ("configuration",),
     ("feasibility",),
-    ("simd", "compiled", "kernel_parts", "kernel_cache", "numerics", "sources", "spent", "problem"),
+    ("problem", "ends"),
+    ("simd", "compiled", "kernel_parts", "kernel_cache", "numerics", "sources", "spent"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
 

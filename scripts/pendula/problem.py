@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-BOUNDARIES = ("dirichlet", "free", "periodic")
+from pendula.ends import ends_of
+
 AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 """The amplitude equations (4), and Newton's equations (1) of the pendula."""
 
@@ -58,8 +59,8 @@ class Problem:
     `snapshot_every` keeps the size of each component at every site at each so many outputs; 0 keeps
     none.
 
-    Raises ValueError where data lie outside the chain, and where there is no such model, or mu is
-    missing or means nothing.
+    Raises ValueError where data lie outside the chain, where there is no such model or there are no
+    such ends, and where mu is missing or means nothing.
     """
 
     constants: Constants
@@ -75,6 +76,7 @@ class Problem:
 
     def __post_init__(self):
         require_model(self.model, self.mu, self.constants.omega)
+        ends_of(self.boundary)
         initial = np.array(self.initial, complex)
         if initial.ndim != 2 or len(initial) != 2 or initial.shape[1] % 2 == 0:
             raise ValueError(f"data of A and B on an odd number of sites, not {initial.shape}")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from oracle import BOUNDARIES, boundaries, chains, constants, random_chain, slope
+from pendula.ends import DIRICHLET, FREE, PERIODIC
 from pendula.models.amplitudes import (
     Chain,
     chain_of_tile,
@@ -15,7 +16,7 @@ from pendula.models.amplitudes import (
     rates,
     rates_at_site,
 )
-from pendula.models.chain import DIRICHLET, FREE, MIRROR, PERIODIC, can_be_tiled
+from pendula.models.chain import MIRROR, can_be_tiled
 from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 

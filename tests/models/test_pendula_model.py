@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from on_pendula import TIGHT, final, pendula, slope, start
 from pendula.compiled import kernel
-from pendula.models.chain import DIRICHLET
+from pendula.ends import DIRICHLET
 from pendula.models.pendula import (
     amplitudes_of,
     at_time,

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains, random_chain
-from pendula.models.chain import DIRICHLET, FREE, MIRROR, PERIODIC
+from pendula.ends import DIRICHLET, FREE, PERIODIC
+from pendula.models.chain import MIRROR
 from pendula.simulation.lattice import (
     WHOLE,
     Reduction,

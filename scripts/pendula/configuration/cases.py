@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from pendula.ends import ENDS
 from pendula.feasibility import find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants
 
@@ -99,7 +100,7 @@ class Case(Model):
     epsilon: Number = 1.0
     gamma: Number = 1.0
     half_width: Natural = 30
-    boundary: Literal["dirichlet", "free", "periodic"] = "dirichlet"
+    boundary: Literal[tuple(ENDS)] = "dirichlet"
     initial: Initial = {0: (1, 0.1)}
     end_time: Positive = 50.0
     output_step: Positive = 0.025

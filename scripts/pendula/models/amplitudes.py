@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.ends import DIRICHLET, PERIODIC
 from pendula.numerics import elementary
 
-from .chain import DIRICHLET, MIRROR, PERIODIC, at_every_site, close
+from .chain import MIRROR, at_every_site, close
 
 
 class Chain(NamedTuple):

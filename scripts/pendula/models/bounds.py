@@ -22,6 +22,7 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.ends import DIRICHLET, kind_of
 from pendula.problem import Constants
 
 
@@ -162,13 +163,14 @@ def theorem_3_bound(energy, sites: int, constants: Constants):
 
 def proven_region(energy: float, start: float, constants: Constants, boundary: str) -> str:
     """Return which theorem bounds P independently of N, in the words of the ledger."""
+    at_rest = kind_of(boundary) == DIRICHLET
     if np.isfinite(theorem_1_bound(energy, constants)):
         return "theorem 1"
     if 0 < start < theorem_2_constants(constants)[0]:
         return "theorem 2"
     if np.isfinite(theorem_2_bound(energy, start, constants)):
         return "theorem 2 by its energy"
-    if boundary == "dirichlet" and np.isfinite(widened_bound(energy, start, constants)):
+    if at_rest and np.isfinite(widened_bound(energy, start, constants)):
         return "theorem 2 widened"
     return "none"
 
@@ -182,6 +184,6 @@ def best_bound(
         theorem_2_bound(energy, start, constants),
         theorem_3_bound(energy, sites, constants),
     ]
-    if boundary == "dirichlet":
+    if kind_of(boundary) == DIRICHLET:
         bounds.append(widened_bound(energy, start, constants))
     return float(min(bounds))

@@ -15,12 +15,11 @@ A `chain` is what a model takes for its parameters, with the kinds of its two en
 """
 
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.ends import FREE, PERIODIC
 from pendula.simd import LANES, vector_views
 
-DIRICHLET, FREE, PERIODIC, MIRROR = range(4)
-"""Kinds of ends: a site at rest beyond the end, none, the other end, or the other half (n = 0)."""
-ENDS = {"dirichlet": DIRICHLET, "free": FREE, "periodic": PERIODIC}
-"""The kinds of ends that a person can choose, by name."""
+MIRROR = 3
+"""The kind of end at the centre of an even chain, beyond which lies its other half."""
 
 
 @kernel

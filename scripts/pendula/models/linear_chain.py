@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from pendula.ends import ends_of
 from pendula.numerics import elementary
 from pendula.numerics.elementary import complex_of
 from pendula.numerics.matrices import times
@@ -19,33 +20,15 @@ from pendula.numerics.matrices import times
 @lru_cache(maxsize=16)
 def curvatures(sites: int, boundary: str) -> np.ndarray:
     """Return, to be read only, lambda_k = 4 sin^2(theta_k / 2) of every mode, shape (sites,)."""
-    k = np.arange(sites)
-    half_angle = {
-        "dirichlet": np.pi * (k + 1) / (2 * (sites + 1)),
-        "free": np.pi * k / (2 * sites),
-        "periodic": np.pi * k / sites,
-    }[boundary]
+    half_angle = ends_of(boundary).half_angle(np.arange(sites), sites)
     return _read_only(4.0 * elementary.sin(half_angle) ** 2)
 
 
 @lru_cache(maxsize=16)
 def modes(sites: int, boundary: str) -> np.ndarray:
-    """Return, to be read only, the real orthonormal modes of the lattice Laplacian, (mode, site).
-
-    Angles are reduced to one turn in whole numbers, so that long chains lose no digits. On a ring,
-    cos + sin serves both waves of a pair.
-    """
+    """Return, to be read only, the orthonormal modes of the lattice Laplacian, (mode, site)."""
     k, j = np.arange(sites)[:, None], np.arange(sites)
-    if boundary == "dirichlet":
-        turns = (k + 1) * (j + 1) % (2 * (sites + 1)) / (2 * (sites + 1))
-        return _read_only(np.sqrt(2 / (sites + 1)) * elementary.sin(2 * np.pi * turns))
-    if boundary == "free":
-        turns = k * (2 * j + 1) % (4 * sites) / (4 * sites)
-        weights = np.where(k == 0, np.sqrt(1 / sites), np.sqrt(2 / sites))
-        return _read_only(weights * elementary.cos(2 * np.pi * turns))
-    turns = k * j % sites / sites
-    sine, cosine = elementary.sine_and_cosine(2 * np.pi * turns)
-    return _read_only(np.sqrt(1 / sites) * (cosine + sine))
+    return _read_only(ends_of(boundary).mode(k, j, sites))
 
 
 def _read_only(values: np.ndarray) -> np.ndarray:
@@ -77,8 +60,8 @@ def flow(
 ) -> np.ndarray:
     """Return the amplitudes (A, B), shape (2, N), that the linear equations make of `amplitudes`.
 
-    `amplitudes` is complex of shape (2, N), `tau` may be negative, `boundary` is "dirichlet",
-    "free" or "periodic". Exact up to rounding. Of an array of `omega` the result is (..., 2, N).
+    `amplitudes` is complex of shape (2, N), `tau` may be negative. Exact up to
+    rounding. Of an array of `omega` the result is (..., 2, N).
     """
     sites = amplitudes.shape[1]
     basis = modes(sites, boundary)

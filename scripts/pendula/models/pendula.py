@@ -19,10 +19,11 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
+from pendula.ends import DIRICHLET, PERIODIC, kind_of, neighbours
 from pendula.numerics import elementary
 from pendula.numerics.elementary import HALF_PI, SPLITTER, complex_of, modulus, product
 
-from .chain import DIRICHLET, at_every_site, close
+from .chain import at_every_site, close
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
@@ -230,7 +231,8 @@ def undriven_energy(constants, mu: float, boundary: str, angles, velocities) -> 
     bonds, those to the ends at rest among them. `angles` and `velocities` are (2, N).
     """
     own = 0.5 * velocities * velocities + 2.0 * elementary.sin(0.5 * angles) ** 2
-    around = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[boundary]
-    sides = (1, 0) if boundary == "periodic" else (1, 1)
-    bonds = np.diff(np.pad(angles, ((0, 0), sides), mode=around))
+    right, left = neighbours(angles, boundary)
+    around = np.concatenate([left[:, :1], angles, right[:, -1:]], axis=1)
+    joined = kind_of(boundary) == PERIODIC  # one bond joins the two ends
+    bonds = np.diff(around[:, :-1] if joined else around)
     return float(own.sum() + 0.5 * constants.epsilon * mu * mu * (bonds * bonds).sum())

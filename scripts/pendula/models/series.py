@@ -9,6 +9,7 @@ whole.
 """
 
 from pendula.compiled import inlined_by_llvm, uncached
+from pendula.ends import FREE, PERIODIC
 from pendula.integrators.taylor import (
     BLOCK_SIZE,
     LEFT,
@@ -22,7 +23,7 @@ from pendula.integrators.taylor import (
 )
 from pendula.simd import fill, keep_lanes, left_neighbours, load, right_neighbours, store
 
-from .chain import FREE, MIRROR, PERIODIC
+from .chain import MIRROR
 
 # --- The ends of the chain: `close` of `amplitudes`, one order at a time ------------------------
 # The padding of a last block holds what its ghost holds, in every order: so it never exceeds what

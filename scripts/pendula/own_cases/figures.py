@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
+from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
 
 FEW = 8
@@ -16,7 +17,6 @@ FEW = 8
 
 RUNS = [Strip("", "the run"), Strip("second_", "second run, by another method")]
 DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
-ENDS = {"dirichlet": "ends at rest", "free": "free ends", "periodic": "ring"}
 LONGEST = 46
 """A formula with more characters leaves no room for the rest of a title."""
 
@@ -37,7 +37,7 @@ def name_data(attributes: Mapping) -> str:
 
 def name_data_and_ends(attributes: Mapping) -> str:
     """Return the initial data and the kind of ends."""
-    return f"{name_data(attributes)},  {ENDS[attributes['boundary']]}"
+    return f"{name_data(attributes)},  {ends_of(attributes['boundary']).label}"
 
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:

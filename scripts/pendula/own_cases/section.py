@@ -9,6 +9,7 @@ import numpy as np
 from pendula import __version__
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
+from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, read_initial
@@ -31,11 +32,6 @@ STEEPEST = 1.01
 """Growth of P that is steeper than its bound by more than this is seen in the digits shown."""
 WEAKEST = 1e-6
 """A drive that lets P grow by less over a whole run cannot be told from rounding."""
-ENDS = {
-    "dirichlet": "{} = 0 beyond them",
-    "free": "free",
-    "periodic": "joined to a ring",
-}
 EIGHT = 8.0
 """Outputs in a period of the pendula that show how they swing."""
 FEW = 8
@@ -247,7 +243,7 @@ def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     rows = [("model", EQUATIONS)] if _is_of_pendula(attributes) else []
     rows += [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
     at_rest = "x = y" if _is_of_pendula(attributes) else "A = B"
-    rows.append(("ends of the chain", ENDS[attributes["boundary"]].format(at_rest)))
+    rows.append(("ends of the chain", ends_of(attributes["boundary"]).words.format(at_rest)))
     rows += data(attributes)
     rows.append(("end time τ, output step", f"{exact(attributes['end_time'])}, "
                  f"{exact(attributes['output_step'])}"))  # fmt: skip

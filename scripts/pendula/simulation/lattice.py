@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.models.chain import ENDS, FREE, MIRROR, PERIODIC
+from pendula.ends import FREE, PERIODIC, kind_of
+from pendula.models.chain import MIRROR
 
 CACHE_LINE = 64
 """Bytes of a line of the cache."""
@@ -35,7 +36,7 @@ def find_reduction(amplitudes: np.ndarray) -> Reduction:
 
 def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
     """Return the kinds of the left and the right end of the part that is integrated."""
-    end = ENDS[boundary]
+    end = kind_of(boundary)
     if not reduction.even:
         return end, end
     # an even solution on a ring has A_{M+1} = A_{-M} = A_M: the far end looks free

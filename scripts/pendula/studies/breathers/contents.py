@@ -8,8 +8,9 @@ from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
+from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain, energy
-from pendula.models.chain import DIRICHLET, MIRROR
+from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.problem import Constants, Problem, output_times
 

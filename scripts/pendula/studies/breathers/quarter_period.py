@@ -8,9 +8,10 @@ would change with the data.
 import numpy as np
 
 from pendula.compiled import copy, kernel
+from pendula.ends import DIRICHLET
 from pendula.integrators.dop853 import combine
 from pendula.models.amplitudes import Chain, rates
-from pendula.models.chain import DIRICHLET, MIRROR, close
+from pendula.models.chain import MIRROR, close
 from pendula.models.tangent import ROWS, write_tangent_rates
 from pendula.problem import Constants
 from pendula.simulation.lattice import aligned

@@ -26,6 +26,7 @@ from flint import acb, arb
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
+from pendula.ends import DIRICHLET, FREE, PERIODIC, kind_of
 from pendula.problem import Constants, Problem
 
 from . import balls
@@ -79,8 +80,9 @@ def energy(k: Parameters, boundary: str, amplitudes: np.ndarray) -> arb:
 
 def _bonds(own: list[acb], boundary: str) -> list[arb]:
     """Return |A_{n+1} - A_n|^2 of all bonds, those to resting neighbours of the ends included."""
-    rest = {"dirichlet": [acb(0)], "free": [], "periodic": []}[boundary]
-    chain = [*rest, *own, *(rest or ([own[0]] if boundary == "periodic" else []))]
+    chain = {
+        DIRICHLET: [acb(0), *own, acb(0)], FREE: own, PERIODIC: [*own, own[0]]
+    }[kind_of(boundary)]  # fmt: skip
     return [_square(after - before) for before, after in pairwise(chain)]
 
 
@@ -177,7 +179,8 @@ def of_cases(problems: Mapping[str, Problem]) -> list[Enclosed]:
             values["theorem_1"] = h / above
         if k.gap > 0:
             values |= {"delta_0": k.gap * k.gap / k.extent, "c_0": 2 * k.extent / k.gap}
-            if problem.boundary == "dirichlet" and k.epsilon > 0 and values["start"] < top(k):
+            at_rest = kind_of(problem.boundary) == DIRICHLET
+            if at_rest and k.epsilon > 0 and values["start"] < top(k):
                 values["widened"] = widened(k, -h)
         found += _enclosed("checks/cases", {"case": case}, values)
     return found
@@ -268,7 +271,7 @@ def all_of_them(problems: Mapping[str, Problem], theory: Mapping[str, Mapping]) 
             ("threshold", "finite_gap"),
         ),
     ]  # fmt: skip
-    if chart["boundary"] == "dirichlet":
+    if kind_of(chart["boundary"]) == DIRICHLET:
         grid = chart["omegas"]
         omegas = np.linspace(grid["first"], grid["last"], grid["points"])
         names = ("finite_threshold", "infinite_threshold")

@@ -40,6 +40,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.ends import FREE, PERIODIC, kind_of
 from pendula.problem import Constants, Problem
 
 BAND = 5
@@ -107,7 +108,7 @@ def find_rates(states: np.ndarray, problem: Problem, form: Form) -> np.ndarray:
     On a ring it is the crude one, since the matrix has entries in its corners there.
     """
     crude = crude_rates(states, form)
-    if problem.boundary == "periodic":
+    if kind_of(problem.boundary) == PERIODIC:
         return crude
     found = crude.copy()
     for first in range(0, len(states), CHUNK):
@@ -175,7 +176,7 @@ def _on_sites(problem: Problem) -> np.ndarray:
     """Return what S holds on each site, (row, column, site, 1)."""
     epsilon, gamma = problem.constants.epsilon, problem.constants.gamma
     own = np.full(problem.sites, problem.constants.omega - 2.0 * epsilon)
-    if problem.boundary == "free":
+    if kind_of(problem.boundary) == FREE:
         own[0] += epsilon
         own[-1] += epsilon
     here = np.zeros((4, 4, problem.sites, 1))

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.ends import neighbours
 from pendula.problem import Problem
 
 ORDER = 20
@@ -90,17 +91,6 @@ def linear(values: np.ndarray, problem: Problem) -> np.ndarray:
     drive = np.array([constants.gamma, -constants.gamma])[:, None, None]
     coupling = constants.epsilon * ((right + left) - 2.0 * values)
     return coupling + constants.omega * values + drive * (values[..., ::-1, :] - values)
-
-
-def neighbours(values: np.ndarray, boundary: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return the values to the right and to the left of each site (last axis)."""
-    right, left = np.zeros_like(values), np.zeros_like(values)
-    right[..., :-1], left[..., 1:] = values[..., 1:], values[..., :-1]
-    if boundary == "free":
-        right[..., -1], left[..., 0] = values[..., -1], values[..., 0]
-    elif boundary == "periodic":
-        right[..., -1], left[..., 0] = values[..., 0], values[..., -1]
-    return right, left
 
 
 def add_up(terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

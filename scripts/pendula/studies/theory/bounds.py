@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.datasets.checks import columns, table, tabulate, variable
+from pendula.ends import DIRICHLET, kind_of
 from pendula.measures.norms import growth_margin, power_of, total_power
 from pendula.models.bounds import (
     best_bound,
@@ -46,13 +47,14 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     energy, power = float(trajectory["energy"][0]), total_power(trajectory)
     start, observed = float(power[0]), np.float64(power.max())
     delta_0, c_0 = theorem_2_constants(constants)
+    at_rest = kind_of(boundary) == DIRICHLET
     numbers = {
         "energy": energy,
         "start": start,
         "observed": observed,
         "theorem_1": theorem_1_bound(energy, constants),
         "theorem_2": theorem_2_bound(energy, start, constants),
-        "widened": widened_bound(energy, start, constants) if boundary == "dirichlet" else np.inf,
+        "widened": widened_bound(energy, start, constants) if at_rest else np.inf,
         "theorem_3": theorem_3_bound(energy, sites, constants),
         "best": best_bound(energy, start, sites, constants, boundary),
         "delta_0": delta_0,

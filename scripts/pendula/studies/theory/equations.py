@@ -15,7 +15,6 @@ from pendula.feasibility import find_fault
 from pendula.integrators import DONE
 from pendula.measures.norms import power_of
 from pendula.models.amplitudes import energies, energy, rates
-from pendula.models.chain import ENDS
 from pendula.numerics import elementary
 from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import complex_of, modulus, product
@@ -28,7 +27,8 @@ from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.solvers import SOLVERS
 
 EPS = np.finfo(float).eps
-BOUNDARIES = tuple(ENDS)
+BOUNDARIES = ("dirichlet", "free", "periodic")
+"""The ends that are checked, and drawn from: written out, since other ones would move all draws."""
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-14}
 TIGHT = {"name": "dop853", **TOLERANCES}
 

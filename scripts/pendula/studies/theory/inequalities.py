@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from pendula.datasets.checks import table, variable
+from pendula.ends import DIRICHLET, kind_of
 from pendula.measures.norms import power_of
 from pendula.models.bounds import coercivity, extent, theorem_2_gap
 from pendula.numerics.draws import uniform
@@ -66,7 +67,7 @@ def energy_excess(
     upper, energy = (total_energy(k, boundary, amplitudes) for k in (high, low))
     high, low = (misstated(k, gamma_times=gamma_times) for k in (high, low))
     margin = high.omega - 2.0 * high.gamma - 4.0 * high.epsilon
-    widened = float(coercivity(power, low)) if boundary == "dirichlet" else -np.inf
+    widened = float(coercivity(power, low)) if kind_of(boundary) == DIRICHLET else -np.inf
     found = [
         margin * power - upper,
         theorem_2_gap(low) * power - power * power / 4.0 + energy,

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from pendula.datasets.checks import tabulate
+from pendula.ends import neighbours
 from pendula.models.linear_chain import curvatures, modes
 from pendula.numerics import elementary
 from pendula.numerics.elementary import modulus, product, square_modulus
@@ -100,11 +101,7 @@ def check_symmetries(
 
 def laplacian(w: np.ndarray, boundary: str) -> np.ndarray:
     """Return w_{n+1} - 2 w_n + w_{n-1} along the last axis, with what the ends see beyond them."""
-    right, left = np.roll(w, -1, axis=-1), np.roll(w, 1, axis=-1)
-    if boundary == "dirichlet":
-        right[..., -1] = left[..., 0] = 0.0
-    elif boundary == "free":
-        right[..., -1], left[..., 0] = w[..., -1], w[..., 0]
+    right, left = neighbours(w, boundary)
     return right + left - 2.0 * w
 
 

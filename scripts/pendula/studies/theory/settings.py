@@ -21,6 +21,7 @@ from pendula.configuration.values import (
     Window,
     model,
 )
+from pendula.ends import ENDS
 
 Size = Annotated[Count, Field(le=100_000)]
 """A number of sites, samples or members: more of them take hours in every check."""
@@ -52,7 +53,7 @@ ARGUMENTS = {
     "omegas": Annotated[list[Number], Field(min_length=1)],
     "gammas": Grid,
     "points": Annotated[list[tuple[Number, Number]], Field(min_length=1)],  # (Omega, gamma)
-    "boundary": Literal["dirichlet", "free", "periodic"],
+    "boundary": Literal[tuple(ENDS)],
     "solver": Solver,
     # chains and their data
     "sites": Size,

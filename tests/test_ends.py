@@ -1,0 +1,143 @@
+"""A kind of ends that is new to the table works or is refused, wherever ends are asked for."""
+
+import re
+
+import numpy as np
+import pytest
+from oracle import BOUNDARIES, laplacian, random_chain
+from pendula import sources
+from pendula.configuration.cases import Case
+from pendula.datasets.trajectories import describe_run
+from pendula.ends import ENDS, neighbours
+from pendula.models.bounds import best_bound, proven_region
+from pendula.models.linear_chain import curvatures, flow, modes
+from pendula.models.pendula import undriven_energy
+from pendula.own_cases.figures import name_data_and_ends
+from pendula.own_cases.section import parameters
+from pendula.problem import PENDULA
+from pendula.simulation.lattice import WHOLE
+from pendula.simulation.simulate import simulate
+from pendula.studies.certified import constants, norm, polynomials
+from pendula.studies.theory.equations import right_hand_side, total_energy
+from pendula.studies.theory.inequalities import check_inequalities
+from pendula.studies.theory.other_forms import pt_rates
+from problems import make_problem
+
+NUMBERS = (0.5, 0.4, -9.0)
+Z = 0.1 * random_chain(3)
+
+
+def problem(boundary, **changes):
+    return make_problem(Z, NUMBERS, boundary, **changes)
+
+
+def pendula(boundary):
+    return simulate(problem(boundary, model=PENDULA, mu=0.1), WHOLE).final
+
+
+def rates_of_errors(boundary):
+    given = problem(boundary)
+    states = np.stack([Z.real, Z.imag])[None]
+    return norm.find_rates(states, given, norm.find_form(given.constants))
+
+
+def described(boundary, written):
+    return written(describe_run("mine", problem(boundary), {"name": "taylor"}))
+
+
+BY_THE_TABLE = {
+    "eigenvalues": lambda boundary: curvatures(7, boundary),
+    "modes": lambda boundary: modes(7, boundary),
+    "linear flow": lambda boundary: flow(Z, 1.5, *NUMBERS, boundary),
+    "neighbours": lambda boundary: neighbours(Z, boundary),
+}
+TAUGHT = {
+    "kernels": lambda boundary: simulate(problem(boundary), WHOLE).final,
+    "series": lambda boundary: simulate(problem(boundary, solver="taylor"), WHOLE).final,
+    "pendula": pendula,
+    "rates": lambda boundary: right_hand_side(problem("free").constants, boundary, Z),
+    "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
+    "energy of pendula": lambda boundary: undriven_energy(
+        problem("free").constants, 0.1, boundary, Z.real, Z.imag
+    ),
+    "proven energy": lambda boundary: float(
+        constants.energy(constants.Parameters.of(problem("free").constants), boundary, Z)
+    ),
+    "proven rates": rates_of_errors,
+    "region": lambda boundary: proven_region(-1.0, 0.5, problem("free").constants, boundary),
+    "bound": lambda boundary: best_bound(-1.0, 0.5, 7, problem("free").constants, boundary),
+}
+NAMED = {
+    "problem": problem,
+    "polynomials": lambda boundary: polynomials.find_curve(problem(boundary)).terms,
+    "PT form": lambda boundary: pt_rates(problem("free").constants, boundary, Z),
+    "title": lambda boundary: described(boundary, name_data_and_ends),
+    "table": lambda boundary: dict(described(boundary, parameters))["ends of the chain"],
+}
+READERS = BY_THE_TABLE | TAUGHT | NAMED
+
+
+@pytest.fixture(autouse=True)
+def no_modes_kept():
+    """Forget the modes of ends that a test has made up."""
+    yield
+    for kept in (curvatures, modes):
+        kept.cache_clear()
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_ends_that_are_not_in_the_table_are_refused_with_those_that_are(reader):
+    with pytest.raises(ValueError, match=r"'antiperiodic'; there are dirichlet, free, periodic"):
+        READERS[reader]("antiperiodic")
+
+
+def test_a_configuration_names_the_ends_of_the_table():
+    with pytest.raises(ValueError, match="'dirichlet', 'free' or 'periodic'"):
+        Case(omega=1, boundary="antiperiodic")
+
+
+@pytest.mark.parametrize("known", BOUNDARIES)
+@pytest.mark.parametrize("reader", READERS)
+def test_a_new_name_for_known_ends_needs_a_line_of_the_table_and_no_more(
+    reader, known, monkeypatch
+):
+    monkeypatch.setitem(ENDS, "new", ENDS[known])
+    if reader != "problem":
+        np.testing.assert_array_equal(READERS[reader]("new"), READERS[reader](known))
+    assert READERS["problem"]("new").boundary == "new"
+
+
+@pytest.mark.parametrize("reader", TAUGHT)
+def test_equations_and_proofs_refuse_ends_that_they_were_not_taught(reader, monkeypatch):
+    monkeypatch.setitem(ENDS, "reflecting", ENDS["free"]._replace(sees=(1, -2)))
+    with pytest.raises(ValueError, match=r"'reflecting' see the sites \(1, -2\), which no equat"):
+        TAUGHT[reader]("reflecting")
+
+
+def test_new_ends_move_no_draw_of_the_theory(monkeypatch):
+    arguments = {"count": 6, "seed": 1}
+    before = check_inequalities(**arguments)
+    monkeypatch.setitem(ENDS, "new", ENDS["free"])
+    np.testing.assert_equal(check_inequalities(**arguments), before)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_each_line_of_the_table_is_of_one_laplacian(boundary):
+    matrix = laplacian(7, boundary)
+    right, left = neighbours(Z, boundary)
+    np.testing.assert_allclose(right + left - 2.0 * Z, Z @ matrix.T, atol=1e-15)
+    own = ENDS[boundary].mode(np.arange(7)[:, None], np.arange(7), 7)
+    expected = np.diag(-4.0 * np.sin(ENDS[boundary].half_angle(np.arange(7), 7)) ** 2)
+    np.testing.assert_allclose(own @ matrix @ own.T, expected, atol=1e-14)
+
+
+def test_no_other_module_asks_for_ends_by_their_names():
+    """A comparison with a name would let ends fall through that it does not name."""
+    asked = re.compile(r'boundary(?:"\])? [!=]= "|\{"(?:dirichlet|free|periodic)": ')
+    found = {
+        str(path.relative_to(sources.SCRIPTS))
+        for path in sources.SCRIPTS.rglob("*.py")
+        if asked.search(path.read_text()) and path.name != "ends.py"
+    }
+    allowed = ("certified/fixed_point.py", "reference/verified_run.py")  # they refuse all others
+    assert found == {f"pendula/studies/{one}" for one in allowed}
