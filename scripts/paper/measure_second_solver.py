@@ -11,12 +11,14 @@ def measure_second_solver(
     swept: dict,
     half_widths: list[int],
     windows: list[tuple[float, float]],
+    ensemble: dict[str, float],
     data: str,
     kernels: list[str] | tuple = (),
 ) -> None:
     """Write the dataset; `firsts` are the runs of the first solver in the order of `problems`."""
     runs = dict(zip(problems, map(read, firsts), strict=True))
-    write(data, *measure(by_name(problems), runs, Problem.of(swept), half_widths, windows))
+    sweep = Problem.of(swept), half_widths, windows, ensemble
+    write(data, *measure(by_name(problems), runs, *sweep))
 
 
 if __name__ == "__main__":

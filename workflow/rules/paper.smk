@@ -156,6 +156,7 @@ rule measure_second_solver:
         swept=SETTINGS.swept_problem("fig6_right", "crank_nicolson"),
         half_widths=SETTINGS.chaos.ensembles.sweeps["fig6_right"].half_widths,
         windows=SETTINGS.sweeps["fig6_right"].windows,
+        ensemble={key: getattr(SETTINGS.chaos.ensembles, key) for key in ("size", "seed")},
     message:
         "Measuring what the scheme and the step of the second solver decide"
     script:

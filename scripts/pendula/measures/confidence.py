@@ -64,6 +64,18 @@ def chance_of_draw(value, mean, deviation, members: int):
     return np.round(2.0 * special.stdtr(members - 1, -score), 6)
 
 
+def chance_of_means(one, other):
+    """Return the chance that means of normal draws are as far apart as these, by Welch.
+
+    Both are a mean, a deviation and a number of draws; means and deviations are of one shape.
+    """
+    (mean, deviation, draws), (other_mean, other_deviation, other_draws) = one, other
+    parts = deviation * deviation / draws, other_deviation * other_deviation / other_draws
+    score = np.abs(mean - other_mean) / np.sqrt(sum(parts))
+    below = sum(part * part / (n - 1) for part, n in zip(parts, (draws, other_draws), strict=True))
+    return np.round(2.0 * special.stdtr(sum(parts) * sum(parts) / below, -score), 6)
+
+
 def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> Limits:
     """Return the ratio of two means over `members` each, mean[1] / mean[0], and its limits.
 

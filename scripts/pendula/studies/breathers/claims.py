@@ -335,6 +335,7 @@ def spreading_is_an_accident(sensitivity) -> Finding:
     measured = {
         "small_at_least": sensitivity["share_low"].values[small].min(),
         "large_at_most": sensitivity["share_high"].values[large].max(),
+        "of_large": sensitivity["share"].values[large].max(),
         "scanned": sensitivity.sizes["initial"],
         "of_the_scan": sensitivity["spread"].mean(),
         "members": float(sensitivity.attrs["members"]),
@@ -347,7 +348,9 @@ def spreading_is_an_accident(sensitivity) -> Finding:
             MAJORITY, "large_at_most", says="upper limit of the share that spreads, large changes"
         ),
     )
-    return judge(measured, criterion)
+    spread = measured["of_large"]
+    some = f"{100 * spread:.2g} % of the runs from data changed by a hundredth spread too"
+    return judge(measured, criterion, some if spread > 0 else "")
 
 
 def with_case(name: str):

@@ -13,14 +13,17 @@ from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.norms import drift
 from pendula.problem import Problem
+from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, sweep
 
 SCHEMES = ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
 FACTORS = (2.0, 1.0, 0.5)
 """Steps in units of the configured one, each half of the one before."""
-FINER = (1.0, 0.25, 0.125)
-"""The same for a chaotic sweep, where runs by all steps differ: if none matters they are draws."""
+FINER = (1.0, 0.25)
+"""The same for a chaotic sweep, where runs by all steps differ: there ensembles are compared."""
+DRAWS = 10
+"""Members of these ensembles, which tell means apart that differ by a tenth."""
 GRID = ("case", "scheme", "step")
 RICHARDSON = 4.0 / 3.0
 """A method of second order is off by so many times its difference from half the step."""
@@ -32,11 +35,13 @@ def measure(
     swept: Problem,
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
+    ensemble: Mapping[str, float],
 ) -> Contents:
     """Return how far the schemes are from the runs `firsts` of the first solver, by case.
 
     `problems` are those of the cases by the second solver, at the configured step. `swept` is that
-    of a chaotic sweep, which is run at FINER steps too, on some of its half-widths.
+    of a chaotic sweep, of which an ensemble is run at each of the FINER steps, on some of its
+    half-widths; `ensemble` says the size of the changes and the seed.
     """
     found = [_measure_case(problem, firsts[case]) for case, problem in problems.items()]
     described, shared = describe_cases(problems)
@@ -58,28 +63,45 @@ def measure(
     }
     for name, (grid, long_name) in about.items():
         variables[name] = Variable(grid, np.array([one[name] for one in found]), long_name)
-    variables |= _finer(swept, half_widths, windows)
+    variables |= _finer(swept, half_widths, windows, **ensemble)
     attributes = {key: value for key, value in shared.items() if not key.startswith("solver")}
     title = "The second solver by both readings and by the scheme that conserves the energy"
     return variables, {"title": title, **attributes, "configured_step": step}
 
 
-def _finer(problem: Problem, half_widths, windows) -> dict[str, Variable]:
-    """Return the norms of a sweep by the first scheme at FINER steps, as sweeps have them."""
+def _finer(problem: Problem, half_widths, windows, size: float, seed: int) -> dict[str, Variable]:
+    """Return the norms of draws of a sweep by the first scheme at FINER steps.
+
+    The first draw has the data themselves. Each half-width has draws of its own, and other ones
+    than the first solver, so that all means are independent of each other.
+    """
     steps = [problem.solver["step"] * factor for factor in FINER]
-    runs = [
-        sweep(problem.changed(solver={**problem.solver, "step": step}), half_widths, windows)
-        for step in steps
-    ]
-    grid = ("finer_step", "half_width", "quantity", "statistic", "window")
+    by_step = []
+    for step in steps:
+        own = problem.changed(solver={**problem.solver, "step": step})
+        by_width = [
+            [own, *draw_members(own, size, DRAWS - 1, [seed, width, 1])] for width in half_widths
+        ]
+        draws = zip(*by_width, strict=True)
+        by_step.append([_swept(problems, half_widths, windows) for problems in draws])
+    grid = ("finer_step", "draw", "half_width", "quantity", "statistic", "window")
     names = [f"[{start:g}, {end:g}]" for start, end in windows]
     axes = (list(half_widths), list(QUANTITIES), list(STATISTICS), names)
     return {
         "finer_step": Variable(grid[:1], steps, "step of the second solver in a chaotic sweep"),
-        **{name: Variable((name,), axis) for name, axis in zip(grid[1:], axes, strict=True)},
-        "l2": Variable(grid, np.array([one.l2 for one in runs])),
-        "linf": Variable(grid, np.array([one.linf for one in runs])),
+        "draw": Variable(("draw",), np.arange(DRAWS), "draw, the first from the data themselves"),
+        **{name: Variable((name,), axis) for name, axis in zip(grid[2:], axes, strict=True)},
+        **{
+            norm: Variable(grid, np.array([[one[k] for one in draws] for draws in by_step]))
+            for k, norm in enumerate(("l2", "linf"))
+        },
     }
+
+
+def _swept(problems, half_widths, windows) -> np.ndarray:
+    """Return both norms of a sweep whose problems may differ, (norm, half_width, ...)."""
+    runs = [sweep(one, [width], windows) for one, width in zip(problems, half_widths, strict=True)]
+    return np.array([[run.l2[0] for run in runs], [run.linf[0] for run in runs]])
 
 
 def _measure_case(problem: Problem, first) -> dict[str, np.ndarray]:

@@ -245,4 +245,6 @@ def horizon_logarithmic(remainder, lyapunov) -> Finding:
         Near(2.0, TOLD, "leading_order", says=says),
         Near(4.0, TOLD, "corrected_order", says=f"{says}, with the next order"),
     )
-    return judge(measured, criterion)
+    until = measured["latest"]
+    caveat = f"the horizons are read up to tau = {until:.2g}, and the rate is that of a later time"
+    return judge(measured, criterion, caveat)
