@@ -140,3 +140,11 @@ def test_every_dataset_of_the_ledger_rests_on_keys_that_are_there():
             for key in path.split("."):
                 assert key in inner, (name, path)
                 inner = inner[key]
+
+
+def test_what_a_claim_rests_on_is_among_what_its_datasets_rest_on():
+    """The rules hand a part of the ledger only the differences that concern its datasets."""
+    for claim in all_claims():
+        for control in (claim, *claim.controls):
+            for name in dict.fromkeys((*claim.needs, *getattr(control, "names", ()))):
+                assert set(rests_on(name, control.on)) <= set(rests_on(name)), (claim.name, name)

@@ -1,8 +1,15 @@
 """A claim is on the paper's case: where another one was run, neither it nor its controls decide."""
 
+from functools import partial
+from pathlib import Path
+
 import pytest
-from pendula.ledger.claim import Claim, Control, evaluate
+from pendula.configuration.paper import paper
+from pendula.datasets.netcdf import read
+from pendula.ledger.claim import Claim, Control, all_claims, apart, decide, evaluate, feed, needed
 from pendula.ledger.criterion import Above, Verdict, judge
+
+BASELINE = Path(__file__).parents[1] / "baseline"
 
 FIG2 = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
 
@@ -43,3 +50,52 @@ def test_a_control_that_is_fed_an_edited_case_is_not_asked(monkeypatch):
 )
 def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(monkeypatch, on, verdict):
     assert row_of(monkeypatch, FIG2, ("checks/members",), on=on)["verdict"] == verdict
+
+
+@pytest.fixture(scope="module")
+def accepted():
+    return {name: read(str(BASELINE / f"{name}.nc")) for name in needed()}
+
+
+def edited(dataset, along, name):
+    """Yield a dataset of many cases with other numbers in one of them, and without this case."""
+    here = dataset[along] == name
+    numbers = {
+        key: values.where(~here, 1.2345 * values)
+        for key, values in dataset.items()
+        if along in values.dims and values.dtype.kind == "f"
+    }
+    yield dataset.assign(numbers)
+    yield dataset.assign_coords({along: dataset[along].where(~here, "another")})
+
+
+def said(function, sources):
+    try:
+        found = function(sources)
+    except (LookupError, ValueError):
+        return None
+    return found.verdict, {name: str(value) for name, value in found.measured.items()}
+
+
+def silent_on(claim, control, names, sources):
+    """Yield the cases of datasets of many that change what is said, although an edit of them does
+    not make the claim, or its control, not applicable."""
+    function = partial(feed, claim, control) if control else partial(decide, claim)
+    right = said(function, sources)
+    for along, key in (("case", "omega"), ("sweep", "windows")):
+        told = {one for one in paper()[f"{along}s"]
+                if apart({f"{along}s.{one}.{key}": "edited"}, claim, control)}  # fmt: skip
+        for need in names:
+            held = set(sources[need][along].values) if along in sources[need].dims else set()
+            for one in (held & set(paper()[f"{along}s"])) - told:
+                for wrong in edited(sources[need], along, one):
+                    if said(function, {**sources, need: wrong}) != right:
+                        yield need, one
+
+
+@pytest.mark.parametrize("claim", all_claims(), ids=lambda claim: claim.name)
+def test_a_claim_rests_on_no_case_that_it_does_not_name(accepted, claim):
+    assert set(silent_on(claim, None, claim.needs, accepted)) == set()
+    for control in claim.controls:
+        names = dict.fromkeys((*claim.needs, *control.names))
+        assert set(silent_on(claim, control, names, accepted)) == set(), control.says

@@ -66,7 +66,8 @@ def test_a_refuted_claim_shows_that_its_function_can_confirm(row):
     right = Control("a falling run", {"run": "falling"}, confirms=True)
     found = row(shrinks, {"run": 5.0, "falling": 0.1}, right)
     assert found["verdict"] == Verdict.NOT_REPRODUCED and found["controls"][0]["passes"]
-    assert not passes(right, shrinks(5.0))
+    found = row(shrinks, {"run": 5.0, "falling": 5.0}, right)
+    assert found["verdict"] == Verdict.UNDECIDED and "a falling run" in found["because"]
 
 
 def test_a_control_without_its_dataset_is_not_decided(row):
@@ -74,6 +75,8 @@ def test_a_control_without_its_dataset_is_not_decided(row):
     assert found["controls"][0]["verdict"] == Verdict.UNDECIDED
     assert not found["controls"][0]["passes"]
     assert "flat was not made" in found["controls"][0]["because"]
+    assert found["verdict"] == Verdict.UNDECIDED
+    assert found["because"].endswith("a flat run must be refused, found: cannot be decided")
 
 
 @pytest.mark.parametrize(

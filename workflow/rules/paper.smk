@@ -144,7 +144,7 @@ rule measure_second_solver:
     input:
         code=code("paper/measure_second_solver.py"),
         kernels=kernels("crank_nicolson", "delfour_fortin_payre"),
-        firsts=expand("results/trajectories/{case}.nc", case=PAPER_CASES),
+        firsts=trajectories(".ode45"),
     output:
         data="results/checks/second_solver.nc",
     log:

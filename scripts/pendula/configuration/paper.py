@@ -192,15 +192,21 @@ def _unbounded(name: str) -> tuple[str, ...]:
     return (*whole, *own, *extent, *_keys(varied["case"] if varied else name, *DATA))
 
 
+MAPS = "the maps"
+"""What a statement on fates is on that looks at the maps alone, and at no case of the paper."""
+
+
 def _breathers(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     """Return what a part of the study of breathers rests on, but for its longer variant.
 
-    Fates are compared with periodic breathers; those of the paper's data rest on its cases.
+    Fates are compared with periodic breathers; those of the paper's data rest on its cases. `on`
+    leaves some of these alone, and with MAPS none.
     """
     given = paper()["breathers"]
     parts = (name, "periodic") if name == "fates" else (name,)
+    followed = [case for case in paper()["cases"] if name == "fates" and (not on or case in on)]
     own = tuple(f"breathers.{part}.{key}" for part in parts for key in given[part] if key != "long")
-    cases = [case for case in (given[name].get("case"), *on) if case]
+    cases = [case for case in (given[name].get("case"), *followed) if case]
     return ("breathers.epsilon", "breathers.gamma", *own, *_of_all(cases, *FINITE))
 
 

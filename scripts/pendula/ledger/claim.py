@@ -311,8 +311,8 @@ def evaluate(
 
     `modules` are those of the claims, as `all_claims` takes them; without any they are all.
 
-    A verdict that changes where a cut-off moves by a third says so. Where a function confirms a
-    claim and a wrong case too, the claim cannot be decided by it. `differs` says where the
+    A verdict that changes where a cut-off moves by a third says so. Where a control comes out
+    wrong, its function cannot decide the claim. `differs` says where the
     configuration is not the paper's: a claim or a control that rests on such a key is not
     applicable.
     """
@@ -320,9 +320,9 @@ def evaluate(
 
 
 def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
-    apart = reason(differs, claim.needs, claim.on)
-    if apart:
-        finding, cutoffs, moved = not_applicable(apart), set(), []
+    why = apart(differs, claim)
+    if why:
+        finding, cutoffs, moved = not_applicable(why), set(), []
     else:
         with recorded() as cutoffs:
             finding = decide(claim, sources)
@@ -330,7 +330,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     controls = [
         (control, not_applicable(why) if why else feed(claim, control, sources))
         for control in claim.controls
-        for why in (apart or _reason_of(control, claim, differs),)
+        for why in (apart(differs, claim, control),)
     ]
     finding = _severe(finding, moved, controls)
     return {
@@ -355,8 +355,11 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
     }
 
 
-def _reason_of(control: Control, claim: Claim, differs: Differences) -> str:
-    """Return why what a control is fed is not the paper's case that it names."""
+def apart(differs: Differences, claim: Claim, control: Control | None = None) -> str:
+    """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
+    own = reason(differs, claim.needs, claim.on)
+    if own or control is None:
+        return own
     of_same = reason(differs, claim.needs, control.on) if control.on else ""
     return of_same or reason(differs, control.names, control.on)
 
@@ -385,9 +388,11 @@ def _severe(
     finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
 ) -> Finding:
     """Return the finding with what the moved cut-offs and the controls say against it."""
-    wrong = next((c for c, fed in controls if not c.confirms and confirmed(fed)), None)
-    if wrong is not None and confirmed(finding):
-        return undecided(finding.measured, f"what decides it confirms a wrong case: {wrong.says}")
+    failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
+    if failed is not None and finding.verdict != Verdict.UNDECIDED:
+        control, fed = failed
+        wrong = f"{control.says} must {control.must}, found: {fed.verdict}"
+        return undecided(finding.measured, f"what decides it fails a control: {wrong}")
     if not moved:
         return finding
     rests = f"rests on the cut-off: {'; '.join(map(str, moved))}"

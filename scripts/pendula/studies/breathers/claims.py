@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.configuration.paper import MAPS
 from pendula.ledger.almost_equal import FAR_AS_NEAR, MAJORITY, SENSITIVITY
 from pendula.ledger.claim import CHANGE, FACTOR, Control, claim
 from pendula.ledger.criterion import (
@@ -372,7 +373,7 @@ def with_families_exchanged(fates):
     "The large data at Omega = 8 end as a breather near the stable family in which B follows A.",
     (MAP, PERIODIC),
     (
-        Control("the large data at Omega = -4", {MAP: with_case("fig3_large")}),
+        Control("the large data at Omega = -4", {MAP: with_case("fig3_large")}, on=("fig3_large",)),
         Control("distances from the families in another order", {MAP: with_families_exchanged}),
         Control("distances twenty times as large", {MAP: lambda fates: fates.assign(
             case_distance=20.0 * fates["case_distance"])}),
@@ -434,6 +435,7 @@ def spread_on(fate):
         Control("the maps of both detunings exchanged", {MAP: with_detunings_exchanged}),
         Control("one point at Omega = 0 that disperses", {MAP: with_one_that_disperses}),
     ),
+    on=(MAPS,),
 )
 def detuning_decides(fates) -> Finding:
     """Count fates on both maps; A = B conserves P, has no area, and is left out."""

@@ -74,7 +74,7 @@ def with_some_mu(dataset):
     (PHASES,),
     (
         Control("norms of another case in the limit", {PHASES: lambda one: one.assign(
-            l2=one["l2"].where(one["mu"] > 0, np.roll(one["l2"], 1, axis=0)))}),
+            l2=one["l2"].where(one["mu"] > 0, np.roll(one["l2"], 1, axis=0)))}, on=("fig4_large",)),
         Control("norms with an error of the order mu", {PHASES: lambda one: one.assign(
             l2=one["l2"].sel(mu=0.0) * (1.0 + one["mu"]))}),
     ),

@@ -103,7 +103,7 @@ def expansion_order(remainder) -> Finding:
         Control("the third harmonic with the amplitudes of (4)",
                 {REMAINDER: of_wrong("a third harmonic alone", "corrected")}),
     ),
-    on=STABLE,
+    on=ALL,  # the orders are taken at the end that every run reaches
 )  # fmt: skip
 def next_order_of_the_expansion(remainder) -> Finding:
     return judged_order(remainder, "corrected", 5.0)
