@@ -3,7 +3,7 @@
 Snakemake tells of each job in six lines: a date, a number, that it selects jobs, that it executes
 some. Here a job is one line as it starts, such as
 
-    [12/65, about 40 s left] Drawing Fig 4, norms against time at Omega = 0
+    [12/65, about 40 s left] Drawing Fig 4, norms against time
 
 and while nothing else happens, a line now and then says what still runs. Errors are shown as
 Snakemake shows them. So are dry runs and calls with --verbose, and its log file holds what it

@@ -5,10 +5,18 @@ from pendula.drawing.style import save
 from pendula.studies.breathers.figures import draw_breathers, gather_breathers
 
 
-def draw(periodic: str, growth: str, png: str, pdf: str, data: str, description: str) -> None:
+def draw(
+    periodic: str,
+    growth: str,
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
+    differs: list[str] | None = None,
+) -> None:
     """Draw the figure, and write what was drawn."""
     drawn = gather_breathers(read(periodic), read(growth))
-    save(draw_breathers(drawn), drawn, png, pdf, data, description)
+    save(draw_breathers(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -6,11 +6,17 @@ from pendula.studies.breathers.fate_figures import draw_fates, gather_fates
 
 
 def draw(
-    fates: str, png: str, pdf: str, data: str, description: str, fine: str | None = None
+    fates: str,
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
+    fine: str | None = None,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the figure, from the committed maps `fine` if these are of the same runs."""
     drawn = gather_fates(read(fates), None if fine is None else read(fine))
-    save(draw_fates(drawn), drawn, png, pdf, data, description)
+    save(draw_fates(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -5,10 +5,17 @@ from pendula.drawing.style import save
 from pendula.studies.certified import figures
 
 
-def draw_curves(curves: list[str], png: str, pdf: str, data: str, description: str) -> None:
+def draw_curves(
+    curves: list[str],
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
+    differs: list[str] | None = None,
+) -> None:
     """Draw the figure, and write what was drawn."""
     drawn = figures.gather_curves([read(path) for path in curves])
-    save(figures.draw_curves(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_curves(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

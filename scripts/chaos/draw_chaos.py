@@ -10,13 +10,14 @@ def draw_chaos(
     symmetry: str,
     exponents: list[str],
     odd_parts: list[str],
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the exponents, then the odd parts beside what the exponents predict."""
     growth = read(lyapunov)
     drawn = figures.gather_lyapunov(growth)
-    save(figures.draw_lyapunov(drawn), drawn, *exponents)
+    save(figures.draw_lyapunov(drawn), drawn, *exponents, differs)
     drawn = figures.gather_symmetry(read(symmetry), growth)
-    save(figures.draw_symmetry(drawn), drawn, *odd_parts)
+    save(figures.draw_symmetry(drawn), drawn, *odd_parts, differs)
 
 
 if __name__ == "__main__":

@@ -6,11 +6,17 @@ from pendula.studies.chaos import figures
 
 
 def draw_ensembles(
-    ensembles: str, comparison: str, png: str, pdf: str, data: str, description: str
+    ensembles: str,
+    comparison: str,
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the bands and the swept maxima, and write what was drawn."""
     drawn = figures.gather_ensembles(read(ensembles), read(comparison))
-    save(figures.draw_ensembles(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_ensembles(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -6,11 +6,18 @@ from pendula.studies.pendula.over_the_top_figure import draw_over_the_top, gathe
 
 
 def draw(
-    sea: str, over_the_top: str, thermal: str, png: str, pdf: str, data: str, description: str
+    sea: str,
+    over_the_top: str,
+    thermal: str,
+    png: str,
+    pdf: str,
+    data: str,
+    description: str,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the figure, and write what was drawn."""
     drawn = gather_over_the_top(*map(read, (sea, over_the_top, thermal)))
-    save(draw_over_the_top(drawn), drawn, png, pdf, data, description)
+    save(draw_over_the_top(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ def draw_norms(
     ensembles: list[str],
     norms: list[str],
     spacetime: list[str],
+    differs: list[str] | None = None,
 ) -> None:
     """Draw small and large data with the true norms of `references`, and write what was drawn.
 
@@ -21,9 +22,9 @@ def draw_norms(
     trajectories = [read(small), read(large)]
     bands = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_norms(trajectories, [read(path) for path in references], bands)
-    save(figures.draw_norms(drawn), drawn, *norms)
+    save(figures.draw_norms(drawn), drawn, *norms, differs)
     drawn = figures.gather_spacetime(trajectories, drawn)
-    save(figures.draw_spacetime(drawn), drawn, *spacetime)
+    save(figures.draw_spacetime(drawn), drawn, *spacetime, differs)
 
 
 if __name__ == "__main__":

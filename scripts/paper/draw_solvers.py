@@ -9,13 +9,14 @@ def draw_solvers(
     solvers: str,
     energy: list[str],
     agreement: list[str],
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the drift of the energy and the differences of the norms, as they were measured."""
     measured = read(solvers)
     drawn = figures.gather_drift(measured)
-    save(figures.draw_drift(drawn), drawn, *energy)
+    save(figures.draw_drift(drawn), drawn, *energy, differs)
     drawn = figures.gather_agreement(measured)
-    save(figures.draw_agreement(drawn), drawn, *agreement)
+    save(figures.draw_agreement(drawn), drawn, *agreement, differs)
 
 
 if __name__ == "__main__":

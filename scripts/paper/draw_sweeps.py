@@ -16,6 +16,7 @@ def draw_sweeps(
     pdf: str,
     data: str,
     description: str,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw two sweeps, read as the text and as the caption say, and write what was drawn.
 
@@ -23,7 +24,7 @@ def draw_sweeps(
     """
     bars = read(ensembles[0]) if ensembles else None
     drawn = figures.gather_sweeps(read(left), read(right), text_window, caption_window, norms, bars)
-    save(figures.draw_sweeps(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_sweeps(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -5,10 +5,12 @@ from pendula.drawing.style import save
 from pendula.studies.paper import figures
 
 
-def draw_trust(trust: str, png: str, pdf: str, data: str, description: str) -> None:
+def draw_trust(
+    trust: str, png: str, pdf: str, data: str, description: str, differs: list[str] | None = None
+) -> None:
     """Draw the errors of the solvers' norms, as they were measured."""
     drawn = figures.gather_trust(read(trust))
-    save(figures.draw_trust(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_trust(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

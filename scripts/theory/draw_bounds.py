@@ -16,11 +16,12 @@ def draw_bounds(
     pdf: str,
     data: str,
     description: str,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the cases, the sweeps and what data reach, and write what was drawn."""
     found = map(read, (cases, sweeps, samples, worst, sharpness, growth))
     drawn = bounds_figure.gather_bounds(*found)
-    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data, description)
+    save(bounds_figure.draw_bounds(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ def draw_stability(
     of_paper: bool,
     stability: list[str],
     growth: list[str],
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the chart with the cases' `points` (Omega, gamma), and the growth rates.
 
@@ -21,9 +22,9 @@ def draw_stability(
     """
     charts = read(chart), read(short_chart)
     drawn = figures.gather_chart(*charts, read(windows), points, of_paper)
-    save(figures.draw_chart(drawn), drawn, *stability)
+    save(figures.draw_chart(drawn), drawn, *stability, differs)
     drawn = figures.gather_rates(*charts, read(threshold))
-    save(figures.draw_rates(drawn), drawn, *growth)
+    save(figures.draw_rates(drawn), drawn, *growth, differs)
 
 
 if __name__ == "__main__":

@@ -5,10 +5,12 @@ from pendula.drawing.style import save
 from pendula.studies.unbounded import figures
 
 
-def draw_growth_law(growth: str, png: str, pdf: str, data: str, description: str) -> None:
+def draw_growth_law(
+    growth: str, png: str, pdf: str, data: str, description: str, differs: list[str] | None = None
+) -> None:
     """Draw the measured growth, and write what was drawn."""
     drawn = read(growth)
-    save(figures.draw_growth_law(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_growth_law(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

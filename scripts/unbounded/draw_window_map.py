@@ -13,13 +13,14 @@ def draw_window_map(
     pdf: str,
     data: str,
     description: str,
+    differs: list[str] | None = None,
 ) -> None:
     """Draw the maps, one of each of `sweeps`, and write what was drawn.
 
     `paper_ends` are the ends T of the windows that the paper draws, in the same order.
     """
     drawn = figures.gather_window_map(dict(zip(sweeps, map(read, maps), strict=True)), paper_ends)
-    save(figures.draw_window_map(drawn), drawn, png, pdf, data, description)
+    save(figures.draw_window_map(drawn), drawn, png, pdf, data, description, differs)
 
 
 if __name__ == "__main__":

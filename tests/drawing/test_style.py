@@ -1,5 +1,6 @@
 """How figures are saved, and how cases are named in them."""
 
+import json
 import time
 
 import numpy as np
@@ -17,12 +18,12 @@ def data():
     return xr.Dataset({"height": ("place", [0.0, 2.0, 1.0], attributes)})
 
 
-def save(folder, data, drawn=None):
+def save(folder, data, drawn=None, differs=None):
     folder.mkdir(exist_ok=True)
     figure = style.new_figure(1, 1)
     figure.add_subplot().plot((data if drawn is None else drawn)["height"])
     paths = [folder / name for name in NAMES]
-    style.save(figure, data, *paths)
+    style.save(figure, data, *paths, differs)
     return [path.read_bytes() for path in paths]
 
 
@@ -44,6 +45,17 @@ def test_the_saved_data_are_those_given(data, tmp_path):
     xr.testing.assert_equal(saved, data)
     assert saved["height"].attrs == data["height"].attrs
     assert saved.attrs["title"] == "What the figure figure shows" and saved.attrs["version"]
+
+
+def test_a_figure_says_where_the_configuration_is_not_the_papers(data, tmp_path):
+    """The picture says the first of it, the data all: else a changed end of the chain leaves no
+    trace in a figure."""
+    edits = [f"fig2_large.{key} (other)" for key in ("boundary", "gamma", "omega", "end_time")]
+    told = json.loads(save(tmp_path, data, differs=edits)[-1])["texts"]
+    assert [all(edit in text["text"] for edit in edits[:3]) for text in told] == [True]
+    assert xr.load_dataset(tmp_path / "figure.nc").attrs["comment"].endswith(", ".join(edits))
+    assert "texts" not in json.loads(save(tmp_path, data)[-1])
+    assert "comment" not in xr.load_dataset(tmp_path / "figure.nc").attrs
 
 
 def test_a_fault_leaves_older_files_as_they_were_and_no_others(data, tmp_path):

@@ -152,6 +152,8 @@ rule draw_breathers:
         "results/logs/figures/breathers.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing breathers and their growth by the drive"
     script:
@@ -169,6 +171,8 @@ rule draw_sensitivity:
         "results/logs/figures/sensitivity.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing which of almost equal data spread"
     script:
@@ -198,6 +202,8 @@ rule draw_fates:
         "results/logs/figures/fates.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing what becomes of data on one pair"
     script:

@@ -103,6 +103,8 @@ rule certified_curves:
         "results/logs/figures/certified_curves.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the proven bounds of curves"
     script:

@@ -110,6 +110,8 @@ rule lifetimes:
         "results/logs/figures/lifetimes.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing how long the central pendulum stays localised"
     script:
@@ -129,6 +131,8 @@ rule chaos_figures:
         "results/logs/figures/chaos.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing Lyapunov exponents, and how evenness is lost"
     script:
@@ -171,6 +175,8 @@ rule ensembles:
         "results/logs/figures/ensembles.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing ensembles of the chaotic cases and sweeps beside the paper's runs"
     script:

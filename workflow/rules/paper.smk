@@ -19,7 +19,7 @@ rule fig1:
 
 
 rule fig2:
-    "Fig 2: norms against time at Omega = 8, for small and for large data"
+    "Fig 2: norms against time, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig2_small.nc",
@@ -33,14 +33,16 @@ rule fig2:
         "results/logs/figures/fig2.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
-        "Drawing Fig 2, norms against time at Omega = 8"
+        "Drawing Fig 2, norms against time"
     script:
         "../../scripts/paper/draw_norms.py"
 
 
 use rule fig2 as fig3 with:
-    "Fig 3: norms against time at Omega = -4, for small and for large data"
+    "Fig 3: norms against time, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig3_small.nc",
@@ -53,11 +55,11 @@ use rule fig2 as fig3 with:
     log:
         "results/logs/figures/fig3.log",
     message:
-        "Drawing Fig 3, norms against time at Omega = -4"
+        "Drawing Fig 3, norms against time"
 
 
 use rule fig2 as fig4 with:
-    "Fig 4: norms against time at Omega = 0, for small and for large data"
+    "Fig 4: norms against time, for small and for large data"
     input:
         code=code("paper/draw_norms.py"),
         small="results/trajectories/fig4_small.nc",
@@ -70,7 +72,7 @@ use rule fig2 as fig4 with:
     log:
         "results/logs/figures/fig4.log",
     message:
-        "Drawing Fig 4, norms against time at Omega = 0"
+        "Drawing Fig 4, norms against time"
 
 
 rule fig5:
@@ -88,6 +90,7 @@ rule fig5:
         "../envs/pinned.yaml"
     params:
         **drawn_windows("fig5_left"),
+        differs=differs_of,
         norms=["l2", "linf"],
     message:
         "Drawing Fig 5, norms against half-width for small data"
@@ -108,6 +111,7 @@ use rule fig5 as fig6 with:
         "results/logs/figures/fig6.log",
     params:
         **drawn_windows("fig6_left"),
+        differs=differs_of,
         norms=["l2"],
     message:
         "Drawing Fig 6, norms against half-width for large data"
@@ -175,6 +179,8 @@ rule solver_figures:
         "results/logs/figures/solvers.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing how the solvers conserve the energy, and until when they agree"
     script:
@@ -218,6 +224,8 @@ rule trust_horizons:
         "results/logs/figures/trust_horizons.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing until when each solver's trajectories can be trusted"
     script:

@@ -34,6 +34,8 @@ rule pendula_threshold:
         "results/logs/figures/pendula_threshold.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the chart of Lemma 1 for the pendula"
     script:
@@ -79,6 +81,8 @@ rule pendula_remainder:
         "results/logs/figures/pendula_remainder.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing how far the expansion is from the pendula"
     script:
@@ -203,6 +207,8 @@ rule pendula_phases:
         "results/logs/figures/pendula_phases.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the phases of the pendula"
     script:
@@ -222,6 +228,8 @@ rule pendula_over_the_top:
         "results/logs/figures/pendula_over_the_top.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the sea of the pendula"
     script:

@@ -21,7 +21,7 @@ rule check_equations:
 
 
 use rule check_equations as check_not_shown with:
-    "Section 5: the sweep for small data at Omega = 8, which the paper mentions and does not show"
+    "Section 5: the sweep for small data that the paper mentions and does not show"
     output:
         datasets=checks(*GROUPS["not_shown"]),
     log:
@@ -106,6 +106,7 @@ rule stability_figures:
     conda:
         "../envs/pinned.yaml"
     params:
+        differs=differs_of,
         points=points_of_cases(),
         of_paper=points_are_the_papers(),
     message:
@@ -130,6 +131,8 @@ rule bounds:
         "results/logs/figures/bounds.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing observed norms against the bounds of the theorems"
     script:

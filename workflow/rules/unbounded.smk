@@ -155,6 +155,8 @@ rule growth_law:
         "results/logs/figures/growth_law.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the growth law of the chain without ends"
     script:
@@ -183,6 +185,8 @@ rule front:
         "results/logs/figures/front.log",
     conda:
         "../envs/pinned.yaml"
+    params:
+        differs=differs_of,
     message:
         "Drawing the front on the chain without ends"
     script:
@@ -212,6 +216,7 @@ rule window_map:
     conda:
         "../envs/pinned.yaml"
     params:
+        differs=differs_of,
         sweeps=PAPER_SWEEPS,
         paper_ends=[paper()["sweeps"][sweep]["draw"]["max"][1] for sweep in PAPER_SWEEPS],
     message:

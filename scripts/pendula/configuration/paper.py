@@ -109,7 +109,11 @@ def reason(differs: Differences, names: Iterable[str], on: Iterable[str] = ()) -
     `names` are paths below results/ without their ending. `on` names cases and sweeps where a
     statement is about some alone of all that a dataset of many holds.
     """
-    said = list(concerning(differs, names, on).values())
+    return in_short(list(concerning(differs, names, on).values()))
+
+
+def in_short(said: list[str]) -> str:
+    """Return some differences as half a sentence; an empty text where there are none."""
     if not said:
         return ""
     more = f" and {len(said) - 3} more" if len(said) > 3 else ""

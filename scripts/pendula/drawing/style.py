@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
+from textwrap import fill
 
 import matplotlib
 import xarray as xr
@@ -13,6 +14,7 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
+from pendula.configuration.paper import in_short
 from pendula.datasets import complete_or_absent
 from pendula.datasets.digest import fingerprint
 from pendula.datasets.netcdf import save as save_dataset
@@ -27,6 +29,8 @@ LINE_WIDTH = 0.7
 
 DOUBLE = 7.0
 """The width of two columns of a journal page, in inches."""
+NOTE = 130
+"""The width of a note below the panels, in letters."""
 
 RED, BLUE = "#e8402f", "#123b8c"
 """The paper's two colours, of a lightness so different that they stay apart in grey."""
@@ -170,12 +174,20 @@ def save(
     pdf: str | Path,
     netcdf: str | Path,
     description: str | Path,
+    differs: list[str] | None = None,
 ) -> None:
     """Write the figure twice, its data and its description: whole files, the same bytes every time.
+
+    `differs` says where the configuration is not the paper's. The data have all of it as `comment`,
+    and the first of it stands below the panels.
 
     Both pictures carry the fingerprint of the description, and the description that of the data, so
     that a picture of other data is told by its content.
     """
+    about = {"title": f"What the figure {Path(netcdf).stem} shows"}
+    if differs:
+        about["comment"] = f"the configuration differs in {', '.join(differs)}"
+        figure.supxlabel(fill(f"Not the paper's: {in_short(differs)}", NOTE), fontsize=6.5)
     with (
         complete_or_absent(png) as new_png,
         complete_or_absent(pdf) as new_pdf,
@@ -188,14 +200,13 @@ def save(
         text = as_text(describe(figure, data)) + "\n"
         new_description.write_text(text, encoding="utf-8")
         mark = fingerprint(text)
-        about = {"Software": None, "Panels": _panels(figure), "Description": mark}
+        inside = {"Software": None, "Panels": _panels(figure), "Description": mark}
         pixels, quick = figure.canvas.buffer_rgba(), {"compress_level": 3}
-        imsave(new_png, pixels, dpi=figure.dpi, metadata=about, format="png", pil_kwargs=quick)
+        imsave(new_png, pixels, dpi=figure.dpi, metadata=inside, format="png", pil_kwargs=quick)
         figure.set_layout_engine("none")  # the margins are found: the PDF takes them as they are
         undated = {"CreationDate": None, "Creator": None, "Producer": None}
         FigureCanvasPdf(figure).print_pdf(new_pdf, metadata={**undated, "Keywords": mark})
-        title = f"What the figure {Path(netcdf).stem} shows"
-        save_dataset(new_netcdf, data.assign_attrs({"title": title}))
+        save_dataset(new_netcdf, data.assign_attrs(about))
 
 
 def _panels(figure: Figure) -> str:

@@ -64,6 +64,18 @@ def name_of(path):
     return path.removeprefix("results/").removesuffix(".nc")
 
 
+def differs_of(wildcards, input):
+    """Return in words where the configuration of what a figure shows is not the paper's.
+
+    Of the datasets of many cases it shows those of its trajectories and sweeps, if it has such.
+    """
+    known = makers()
+    names = [name for name in map(name_of, input) if name in known]
+    own = [name.split("/") for name in names]
+    on = [rest for folder, rest in own if folder in ("trajectories", "sweeps")]
+    return list(concerning(DIFFERS, names, on).values())
+
+
 def other_cases(solver):
     """Return the cases by a solver that the configuration has changed: no longer the paper's."""
     return [case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.{solver}"])]
