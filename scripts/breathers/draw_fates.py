@@ -15,7 +15,7 @@ def draw(
     differs: list[str] | None = None,
 ) -> None:
     """Draw the figure, from the committed maps `fine` if these are of the same runs."""
-    drawn = gather_fates(read(fates), None if fine is None else read(fine))
+    drawn = gather_fates(read(fates), None if fine is None else read(fine), not differs)
     save(draw_fates(drawn), drawn, png, pdf, data, description, differs)
 
 

@@ -39,6 +39,11 @@ def by_case(cases=CASES, **variables) -> xr.Dataset:
     return xr.Dataset(data, coords={"case": list(cases)})
 
 
+def lyapunov(*chaotic: str, cases=CASES) -> xr.Dataset:
+    """Return which of some cases are chaotic."""
+    return by_case(cases, chaotic=("case", [int(case in chaotic) for case in cases]))
+
+
 def claim(name: str, verdict: str = "confirmed", place: str = "Lemma 1", **changes) -> dict:
     """Return a row of the ledger."""
     return {

@@ -212,6 +212,7 @@ def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
         allowed_drift=("case", [2e-6] * 4),
         until=(("case", "span"), [[10.0, 50.0]] * 4),
         divergence_time=(("case", "pair"), [[np.inf]] * 3 + [[7.5]]),
+        largest_difference=(("case", "pair"), [[0.02]] * 3 + [[0.4]]),
         visible=0.01,
     ).assign_coords(
         solver=["ode45", "crank_nicolson"],
@@ -224,7 +225,11 @@ def test_the_solvers_are_held_to_what_the_paper_states(tmp_path):
     )
     steps.attrs["configured_step"] = 0.0025
     datasets = {"checks/solvers": solvers, "checks/second_solver": steps}
+    datasets["checks/lyapunov"] = made_up.lyapunov("fig3_large")
     found = paper.gather_solvers(made_up.MadeUp(tmp_path, datasets), None)
+    assert not found["coarse"]  # the regular cases differ less than the chaotic one
+    datasets["checks/lyapunov"] = made_up.lyapunov("fig2_large")
+    assert paper.gather_solvers(made_up.MadeUp(tmp_path, datasets), None)["coarse"]
     names = ("kept", "kept_early", "early", "end", "cases", "apart", "first", "allowed")
     assert [str(found[name]) for name in names] == ["3", "4", "10", "50", "4", "1", "7.5", "2"]
     assert [str(row[-1]) for row in found["drift"]] == ["yes", "yes", "yes", "no"]

@@ -43,13 +43,16 @@ def trusted_until(time: float, until: float = 4.0) -> xr.Dataset:
     return trust.assign_coords(solver=["ode45"], level=["visible"])
 
 
-def norms_results(folder, trust: xr.Dataset, scale: float = 1.0, **attributes) -> made_up.MadeUp:
+def norms_results(
+    folder, trust: xr.Dataset, scale: float = 1.0, chaotic=("fig2_large",), **attributes
+) -> made_up.MadeUp:
     """Return the results of Fig 2; `attributes` are those of its runs, not of those judged."""
     judged = {f"fig2_{size}.ode45": run_of(size, scale) for size in ("small", "large")}
     own = {name.partition(".")[0]: run.assign_attrs(attributes) for name, run in judged.items()}
     runs = {f"trajectories/{name}": run for name, run in {**judged, **own}.items()}
     ensembles = xr.Dataset(coords={"case": ["fig3_large"]})
     datasets = {"checks/cases": observed(), paper.TRUST: trust, paper.ENSEMBLES: ensembles}
+    datasets["checks/lyapunov"] = made_up.lyapunov(*chaotic)
     return made_up.MadeUp(folder, datasets | runs)
 
 
@@ -84,6 +87,21 @@ def test_a_caption_says_no_more_of_a_reference_than_is_known(
             results._paths[f"trajectories/fig2_{size}.other.nc"] = tmp_path
             results._read[f"trajectories/fig2_{size}.other"] = run
     said = caption(paper._norms(results, 2))
+    assert told in said and untold not in said
+
+
+@pytest.mark.parametrize(
+    ("chaotic", "told", "untold"),
+    [
+        (("fig2_large",), "another solution of the same kind", "error of its solver"),
+        ((), "error of its solver where the case is not chaotic (Ω", "of the same kind"),
+    ],
+)
+def test_a_regular_run_that_leaves_its_reference_is_no_other_solution(
+    tmp_path, chaotic, told, untold
+):
+    results = norms_results(tmp_path, trusted_until(3.5), chaotic=chaotic)
+    said = plain(caption(paper._norms(results, 2)))
     assert told in said and untold not in said
 
 
@@ -129,8 +147,9 @@ def samples(mean: float) -> dict[str, xr.Dataset]:
 
 
 def swept_results(folder, right: list[float], mean: float) -> made_up.MadeUp:
-    results = made_up.MadeUp(folder, {**sweeps(right), **samples(mean)})
-    windows = {"drawn": {"max": [10, 50], "mean": [10, 50]}}
+    growth = made_up.lyapunov("fig4_small", cases={"fig4_small": (0.0, made_up.SMALL)})
+    results = made_up.MadeUp(folder, {**sweeps(right), **samples(mean), "checks/lyapunov": growth})
+    windows = {"case": "fig4_small", "drawn": {"max": [10, 50], "mean": [10, 50]}}
     results.settings = {"sweeps": dict.fromkeys(("fig5_left", "fig5_right"), windows)}
     return results
 
@@ -161,7 +180,14 @@ def test_the_way_of_a_sweep_is_found_from_its_numbers(tmp_path, values, shape, l
 def test_a_chaotic_run_is_set_beside_its_ensemble(tmp_path, mean, off, below):
     (sample,) = paper._sweeps(swept_results(tmp_path, [1] * 6, mean), 5)["samples"]
     assert (str(sample["off"]), sample["below"], str(sample["runs"])) == (off, below, "8")
-    assert str(sample["width"]) == "160"
+    assert str(sample["width"]) == "160" and sample["chaotic"]
+
+
+def test_a_run_of_a_regular_sweep_is_no_sample_of_chaos(tmp_path):
+    results = swept_results(tmp_path, [1] * 6, 10.0)
+    results._read["checks/lyapunov"] = made_up.lyapunov()
+    (sample,) = paper._sweeps(results, 5)["samples"]
+    assert not sample["chaotic"]
 
 
 def moving_chain() -> xr.Dataset:

@@ -45,9 +45,9 @@ class Results:
     def __contains__(self, name: str) -> bool:
         return f"{name}.nc" in self._paths
 
-    def apart(self, *names: str) -> str:
+    def apart(self, *names: str, on: tuple[str, ...] = ()) -> str:
         """Return why datasets are not about the paper's cases; an empty text where they are."""
-        return reason(self.differs, names)
+        return reason(self.differs, names, on)
 
     def path(self, link: str) -> Path:
         """Return where the file is to which the page links."""

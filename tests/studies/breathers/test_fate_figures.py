@@ -46,6 +46,8 @@ def legend_of(figure):
 )
 def test_the_legend_names_the_ends_that_occur(drawn, named):
     assert legend_of(draw_fates(gather_fates(maps(*drawn)))) == [*named, "the paper's data"]
+    others = gather_fates(maps(*drawn), of_paper=False)
+    assert legend_of(draw_fates(others)) == [*named, "the data of Figs 2 to 4"]
 
 
 def test_what_is_not_known_is_drawn_as_nothing_else():

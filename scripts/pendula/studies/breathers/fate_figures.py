@@ -27,17 +27,20 @@ MAPS = ("fate", "periodic", "turned_fate", "turned_periodic")
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate", "case_periodic")
 
 
-def gather_fates(fates: xr.Dataset, fine: xr.Dataset | None = None) -> xr.Dataset:
-    """Return both maps and what becomes of the paper's data, as they are drawn.
+def gather_fates(
+    fates: xr.Dataset, fine: xr.Dataset | None = None, of_paper: bool = True
+) -> xr.Dataset:
+    """Return both maps and what becomes of the data of the cases, as they are drawn.
 
     The maps are those of `fine` if these are of the same runs: if they have data in common with
-    `fates` at each Omega.
+    `fates` at each Omega. `of_paper` says whether the cases are the paper's.
     """
     shown = fates
     if fine is not None and bool((fates["common"] > 0).all()):
         shown = fine.sel(omega=fates["omega"])
     maps = shown[[*MAPS]].assign(fates[[*OF_CASES]])
-    return maps.assign_attrs(ratio=fates.attrs["ratio"])
+    about = {} if of_paper else {"marked": "the data of Figs 2 to 4"}
+    return maps.assign_attrs(about, ratio=fates.attrs["ratio"])
 
 
 def kind_of(fate: np.ndarray, periodic: np.ndarray) -> np.ndarray:
@@ -118,5 +121,5 @@ def _explain(figure: Figure, data: xr.Dataset) -> None:
     }
     shown = [Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in sorted(occur)]
     paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
-                   color="black", label="the paper's data")  # fmt: skip
+                   color="black", label=data.attrs.get("marked", "the paper's data"))  # fmt: skip
     figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)

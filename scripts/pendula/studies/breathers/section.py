@@ -24,6 +24,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
         "steady_head": ["family", *(f"Ω = {omega:g}" for omega in _omegas(results))],
         "steady": [_steady_row(results, str(name)) for name in results[STEADY]["family"].values],
         "large": results.quote(SENSITIVITY, float(results[SENSITIVITY].attrs["omega"])),
+        "all_spread": ledger.holds("detuning_decides"),
         "forbidden": results.quote(STEADY, _forbidden(results)),
         "born": [_birth(results, i) for i in range(results[STEADY].sizes["born_family"])],
         "thresholds": [
@@ -211,6 +212,7 @@ def _fates(results: Results) -> dict[str, Any]:
         "checked": [_checked(results, str(one)) for one in data["conditions"].values[1:]],
         "checked_points": results.quote(MAP, data["checked_fate"][0].size),
         "cases": [_case(results, str(case)) for case in data["case"].values],
+        "of_paper": not results.apart(MAP),
     }  # fmt: skip
 
 

@@ -34,6 +34,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     solvers = [str(solver) for solver in trust["solver"].values]
     bands = [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values]
     return {
+        "as_paper": not any(path.startswith("solvers.ode45.") for path in results.differs),
         "cases": results.quote(LYAPUNOV, growth.sizes["case"]),
         "chaotic": [case_of(growth.sel(case=case)) for case in chaotic],
         "count": results.quote(LYAPUNOV, len(chaotic)),

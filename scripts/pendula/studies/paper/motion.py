@@ -9,6 +9,8 @@ from pendula.ledger.section import Ledger
 from pendula.report.results import Results
 from pendula.report.words import case_in_words, case_of, measured, number, percent
 
+from .known import is_chaotic, trusted
+
 SIZES = ("small", "large")
 
 PLAYED = "fig4_small"
@@ -25,6 +27,11 @@ def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
         "pictures": [_spacetime(results, which) for which in (2, 3, 4)],
         "played": played(results, f"trajectories/{PLAYED}"),
         "visible": percent(float(trust["size"].sel(level="visible"))),
+        "regular": [
+            case_of(trust.sel(case=case))
+            for case in map(str, trust["case"].values)
+            if trusted(results, case)[0] == "off" and not is_chaotic(results, case)
+        ],
         "unknown": [
             case_of(trust.sel(case=case))
             for case in trust["case"].values

@@ -1,6 +1,6 @@
 """The report's part on the paper's figures: norms against time, and against the half-width."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -16,13 +16,13 @@ from pendula.report.words import (
     NORMS,
     STATISTICS,
     case_in_words,
-    horizon_in_words,
     measured,
     number,
     percent,
     span,
 )
 
+from .known import KNOWN, TRUST, is_chaotic, trusted
 from .motion import SIZES, gather_motion
 from .section_breathers import beside_breathers
 from .section_solvers import gather_solvers
@@ -32,7 +32,7 @@ DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 
 SWEPT = ("fig5_left", "fig5_right", "fig6_left", "fig6_right")
 
-TRUST, SAMPLES = "checks/trust", "checks/ensemble_runs"
+SAMPLES = "checks/ensemble_runs"
 ENSEMBLES = "checks/ensembles"
 
 
@@ -74,6 +74,8 @@ def _norms(results: Results, which: int) -> dict[str, Any]:
         "end": results.quote(last, end),
         "rows": [panel["row"] for panel in panels],
         "divergences": [(panel["case"], panel["time"]) for panel in known["off"]],
+        "chaotic": any(panel["chaotic"] for panel in known["off"]),
+        "regular": [panel["case"] for panel in known["off"] if not panel["chaotic"]],
         "bands": any(panel["band"] for panel in known["off"]),
         "even": all(panel["even"] for panel in known["off"]),
         "agree": [panel["case"] for panel in known["agrees"]],
@@ -97,7 +99,7 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
     l2 = np.sqrt((data["l2"].values ** 2).sum(axis=0))
     late = l2[len(l2) // 2 :]
     case = case_in_words(data.attrs["omega"], data.attrs["initial"])
-    off, time, until = _trusted(results, name, data)
+    off, time, until = trusted(results, name)
     row = [
         case,
         results.say(run, span(l2)),
@@ -113,41 +115,13 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
         "alt": f"{alt}amplitude {peak}",
         "case": case,
         "known": off,
+        "chaotic": is_chaotic(results, name),
         "time": results.say(TRUST, time),
         "until": results.quote(TRUST, until),
         "end": results.quote(run, float(data["tau"][-1])),
         "band": name in results[ENSEMBLES]["case"].values,
         "even": is_even(data.attrs["initial"]),
     }
-
-
-KNOWN = ("off", "agrees", "ended", "unknown")
-"""What is known of a run beside its reference: it leaves it; it agrees to its own end, or to that
-of the reference, which ends before; there is no reference of this case or by this solver."""
-
-
-def _trusted(results: Results, case: str, run) -> tuple[str, str, float]:
-    """Return which of KNOWN a run is, when it leaves the reference, and until when both are known.
-
-    Runs by the shared controls of each solver were judged; one by other controls was not.
-    """
-    trust, solver = results[TRUST].sel(case=case), run.attrs["solver"]
-    by_shared = results[f"trajectories/{case}.{solver}"].attrs
-    if controls_of(by_shared) != controls_of(run.attrs) or solver not in trust["solver"].values:
-        return "unknown", "not judged", float("nan")
-    judged = trust.sel(solver=solver, level="visible")
-    time, until, end = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
-    words = horizon_in_words(time, until, end)
-    if np.isnan(until):
-        return "unknown", words, until
-    if np.isfinite(time):
-        return "off", words, until
-    return "agrees" if until >= end else "ended", words, until
-
-
-def controls_of(attributes: Mapping) -> dict[str, Any]:
-    """Return the solver and its controls, from the attributes of a run."""
-    return {key: value for key, value in attributes.items() if key.startswith("solver")}
 
 
 def _bound(results: Results, case: str) -> list:
@@ -250,6 +224,7 @@ def _sample(results: Results, name: str, last) -> dict[str, Any]:
     off, members = float(last["deviations"]), results[ENSEMBLES]["swept_members"].sel(sweep=name)
     return {
         "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
+        "chaotic": is_chaotic(results, results.settings["sweeps"][name]["case"]),
         "solver": SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
         "width": results.quote(SAMPLES, int(last["half_width"]), 6),
         "runs": results.quote(ENSEMBLES, int(members)),

@@ -3,6 +3,7 @@
 import json
 from typing import Any
 
+from pendula.configuration.paper import MAPS
 from pendula.report.results import Results
 from pendula.report.words import number, percent
 
@@ -17,7 +18,7 @@ def beside_breathers(results: Results, which: int) -> dict[str, dict[str, Any]]:
     data.
     """
     names = (SENSITIVITY, PERIODIC, FATES)
-    if not all(name in results for name in names) or results.apart(*names):
+    if not all(name in results for name in names) or results.apart(*names, on=(MAPS,)):
         return {"breathers": {}}
     below, above, within = "fig3_small", "fig2_large", "fig4_large"
     parts = {
@@ -27,7 +28,11 @@ def beside_breathers(results: Results, which: int) -> dict[str, dict[str, Any]]:
         5: {"small": (_small, below), "fates": (_fates, "fig4_small")},
         6: {"fates": (_fates, above), "knife": (_knife, SENSITIVITY)},
     }[which]
-    found = {name: part(results, of) for name, (part, of) in parts.items()}
+    found = {
+        name: part(results, of)
+        for name, (part, of) in parts.items()
+        if of == SENSITIVITY or not results.apart(f"trajectories/{of}")
+    }
     return {"breathers": {"small": None, "fates": None, "knife": None} | found}
 
 

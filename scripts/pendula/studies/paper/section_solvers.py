@@ -10,6 +10,7 @@ from pendula.report.page import Picture
 from pendula.report.results import Results
 from pendula.report.words import FIRM, case_of, number, percent
 
+from .known import is_chaotic
 from .solvers import ORDER
 
 COMPARED, STEPS = "checks/solvers", "checks/second_solver"
@@ -24,6 +25,8 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
     stated = data["stated_drift"].dropna("case")
     held = data.sel(case=stated["case"]) if len(stated) else data
     apart = int(np.isfinite(papers).sum())
+    chaotic = np.array([is_chaotic(results, str(case)) for case in data["case"].values])
+    largest = data["largest_difference"].max("pair").values
     solvers = [SOLVER_NAMES[str(solver)] for solver in data["solver"].values]
     return {
         "drift_head": ["case", "as stated", *solvers, *_kept_heads(early, held)],
@@ -43,6 +46,7 @@ def gather_solvers(results: Results, ledger: Ledger) -> dict[str, Any]:
         "apart": results.quote(COMPARED, apart),
         "first": results.quote_time(COMPARED, float(papers.min())),
         "visible": percent(float(data["visible"])),
+        "coarse": bool((largest[~chaotic] >= largest[chaotic].min(initial=np.inf)).any()),
         "schemes": _schemes(results),
         "pictures": _solver_pictures(results, ode45["largest_drift"].values, apart),
     }

@@ -23,6 +23,7 @@ def phases(results: Results) -> dict[str, Any]:
         "head": ["case", *(_name(mu) for mu in mus)],
         "rows": _norms(results),
         "least_mu": results.quote(PHASES, min(mu for mu in mus if mu)),
+        "border": not results.apart("trajectories/fig3_large"),
         "sea": _sea(results),
         "passages": _passages(results),
         "picture": results.picture("pendula_phases", _alt(results[PHASES])),
@@ -91,6 +92,7 @@ def _passages(results: Results) -> dict[str, Any]:
         "end": results.quote(TOP, float(data["tau"][-1])),
         "members": results.quote(TOP, float(data.sizes["member"])),
         "settled": results.quote(TOP, float(data.attrs["settled"])),
+        "of_paper": not results.apart(TOP),
     }
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from pendula.report.results import Results
 from pendula.report.words import number, symbols, with_error
 
-from .claims_remainder import common_end
+from .claims_remainder import UNSTABLE, common_end
 
 DATA = "pendula/remainder"
 
@@ -20,6 +20,7 @@ def remainder(results: Results) -> dict[str, Any]:
         "head": ["case", "Ω", "order", "error / μ³, rad", "order, corrected", "error / μ⁵, rad"],
         "rows": [_row(results, str(case)) for case in data["case"].values],
         "end": results.quote(DATA, common_end(data)),
+        "of_paper": not results.apart(DATA, on=(UNSTABLE, "fig4_large")),
         "horizon_head": ["case", "expansion", *(f"μ = {number(mu)}" for mu in mus)],
         "horizons": [
             _horizons(results, str(case), str(expansion))

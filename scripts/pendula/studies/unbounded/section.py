@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from pendula.ledger.section import Ledger
+from pendula.problem import is_even
 from pendula.report.results import Results, Section
 from pendula.report.words import MINUS, case_of, number, span
 
@@ -26,6 +27,7 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
     fronts = _fronts(results)
     return {
         "cases": cases,
+        "even": all(map(is_even, map(str, results[GROWTH]["initial"].values))),
         "main": _main(results, ledger),
         "maximum": _maximum(results, ledger),
         "bulk": _bulk(results, ledger),
@@ -125,7 +127,7 @@ def _case(results: Results, name: str) -> dict[str, Any]:
     end = float(results[run]["tau"].max())
     return {
         "case": case_of(case),
-        "grows": last - error > SLOW,
+        "grows": last - float(np.nan_to_num(error)) > SLOW,  # a single run has no error
         "row": [
             case_of(case),
             results.quote(run, end, 4),
