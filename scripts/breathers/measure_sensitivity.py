@@ -18,9 +18,7 @@ def measure_sensitivity(
 ) -> None:
     """Write the share that spreads for each size of a change, and a scan of `amplitudes`."""
     given = Problem.of(problem)
-    a, b = given.initial[:, given.initial.shape[1] // 2].real
-    scanned = np.array(amplitudes)
-    write(data, *sensitivity_contents(name, given, sizes, members, seed, scanned, float(b / a)))
+    write(data, *sensitivity_contents(name, given, sizes, members, seed, np.array(amplitudes)))
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ rule trajectory:
         "../envs/pinned.yaml"
     params:
         name="{case}",
-        problems=lambda wildcards: [SETTINGS.problem(wildcards.case)],
+        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case)],
     message:
         "Integrating {wildcards.case} by its own solver"
     script:

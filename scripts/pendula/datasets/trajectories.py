@@ -1,6 +1,6 @@
 """Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -134,6 +134,21 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
         "initial": Variable(("case",), [one["initial"] for one in each]),
     }
     return variables, shared_by(each, *variables)
+
+
+def side_by_side(arrays: Sequence[np.ndarray], axis: int) -> np.ndarray:
+    """Return arrays on chains of any lengths as one array, with NaN beyond the ends of the shorter.
+
+    `axis` is that of the sites, whose middle is site 0; the first axis of the result is new.
+    """
+    longest = max(one.shape[axis] for one in arrays)
+
+    def padded(one: np.ndarray) -> np.ndarray:
+        beyond = [(0, 0)] * one.ndim
+        beyond[axis] = ((longest - one.shape[axis]) // 2,) * 2
+        return np.pad(one, beyond, constant_values=np.nan)
+
+    return np.stack([padded(one) for one in arrays])
 
 
 def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:

@@ -26,11 +26,13 @@ NO_NUMBER = {
     "checks/lyapunov": "exponents*",  # beyond the last exponent of a shorter chain
     "checks/ensembles*": "l2_* linf_*",  # at a half-width without an ensemble
     "checks/lifetimes": "rate*",  # where no member was ever localised
+    "checks/members": "rms",  # beyond the ends of a shorter chain
     "checks/trust": "*horizon known_until",  # without a reference
     "breathers/steady": "*",  # where a family has no state
     "breathers/periodic": "*",  # where a family has no breather, or nothing grows or collides
     "breathers/fates": "*frequency *distance *unreturned",  # of what does not stay
     "pendula/over_the_top": "passage_rate*",  # where nobody waited
+    "pendula/phases": "larger_modulus",  # beyond the ends of a shorter chain
     "pendula/remainder": "error* order* largest_angle",  # beyond the end of a run
     "pendula/threshold": "gamma_0_finite",  # where no drive makes the chain unstable
     "unbounded/*": "bulk_maximum",  # of more neighbours than the bulk has

@@ -239,6 +239,6 @@ def test_shares_have_exact_limits_and_draws_of_their_own():
 
 
 def test_a_scan_starts_from_each_amplitude():
-    largest, spread = scan(pair_problem(8.0, 5.0, 1.0, 1e-3), np.array([1.0, 5.0]), 0.2)
+    largest, spread = scan(pair_problem(8.0, 5.0, 1.0, 1e-3), np.array([1.0, 5.0]))
     assert largest == pytest.approx(np.sqrt(1.04) * np.array([1.0, 5.0]), rel=1e-2)
     assert not spread.any()

@@ -46,10 +46,13 @@ def test_small_data_at_omega_minus_4_are_regular(parity):
     assert not is_chaotic(growth.tau, growth.log_growth[0], growth.size)
 
 
-def test_data_that_are_not_even_have_no_parities():
+def test_along_data_that_are_not_even_the_whole_chain_is_followed():
     lopsided = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
-    with pytest.raises(ValueError, match="even in n"):
-        lyapunov.follow_parity(lopsided, "odd", 1.0, SEED)
+    tangent = random_tangent(5, "even", np.random.default_rng([SEED, 0]))
+    np.testing.assert_array_equal(
+        lyapunov.follow_parity(lopsided, "even", 1.0, SEED).log_growth,
+        grow(lopsided, tangent[None], 1.0).log_growth,
+    )
 
 
 def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):

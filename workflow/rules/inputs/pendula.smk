@@ -28,7 +28,7 @@ def long_remainder_figure():
 
 
 def phases_params(given):
-    changes = {"output_step": given.output_step}
+    changes = {"output_step": given.output_step, "end_time": longest(PAPER_CASES)}
     problems = followed(PAPER_CASES, given.tolerance, "taylor", **changes)
     plain = given.model_dump(include={"mus", "look_every", "ensemble"})
     return {"problems": problems, **plain}

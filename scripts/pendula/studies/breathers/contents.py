@@ -136,11 +136,11 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
 
 def sensitivity_contents(
     name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    amplitudes: np.ndarray, ratio: float,
+    amplitudes: np.ndarray,
 ) -> Contents:  # fmt: skip
     """Return the share that spreads by the size of a change, and what each A_0 leads to."""
     share = sensitivity.shares(problem, sizes, members, seed)
-    largest, spread = sensitivity.scan(problem, amplitudes, ratio)
+    largest, spread = sensitivity.scan(problem, amplitudes)
     said = "share of runs that spread"
     variables = {
         "size": Variable(
@@ -156,7 +156,10 @@ def sensitivity_contents(
         ),
     }
     described = describe_run(name, problem, problem.solver)
-    about = {"members": members, "seed": seed, "ratio": ratio}
+    about = {"members": members, "seed": seed}
+    a, b = problem.initial[:, problem.initial.shape[1] // 2].real
+    if a:
+        about["ratio"] = float(b / a)
     return variables, {"title": f"Which data close to those of {name} spread", **described, **about}
 
 

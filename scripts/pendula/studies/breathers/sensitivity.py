@@ -11,6 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from pendula.measures.confidence import Limits, share_limits
+from pendula.numerics.elementary import modulus
 from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
@@ -46,12 +47,13 @@ def shares(problem: Problem, sizes: Iterable[float], members: int, seed: int) ->
     return Limits(*np.array(found).T)
 
 
-def scan(problem: Problem, amplitudes: np.ndarray, ratio: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the largest l2 norm from each A_0 with B_0 = `ratio` A_0, and whether the run spreads.
+def scan(problem: Problem, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the largest l2 norm from data of each largest amplitude, and whether the run spreads.
 
-    Both are (initial,).
+    All are multiples of the problem's data. Both results are (initial,).
     """
-    problems = [problem.changed(initial=np.array([[a], [ratio * a]], complex)) for a in amplitudes]
+    parts = problem.initial / modulus(problem.initial).max()
+    problems = [problem.changed(initial=a * parts) for a in amplitudes]
     runs = [simulate(one) for one in problems]
     spread = [has_spread(one, run) for one, run in zip(problems, runs, strict=True)]
     return np.array([largest_l2(run) for run in runs]), np.array(spread)

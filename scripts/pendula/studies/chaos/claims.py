@@ -106,7 +106,8 @@ def change(norm: str) -> Callable:
 
 def pendula(case) -> np.ndarray:
     """Return the late root mean square amplitudes of all pendula, (member, component, site)."""
-    return case["rms"].sel(window=LATER).transpose("member", "component", "site").values
+    late = case["rms"].sel(window=LATER).dropna("site", how="all")
+    return late.transpose("member", "component", "site").values
 
 
 def distance(found: dict[str, Limits]) -> dict[str, Limits]:
@@ -187,7 +188,8 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
     def excited(case):
-        others = np.delete(pendula(case), case.sizes["site"] // 2, axis=2)
+        amplitudes = pendula(case)
+        others = np.delete(amplitudes, amplitudes.shape[2] // 2, axis=2)
         return (others > float(case["linf_start"]) / MUCH.value).sum(axis=(1, 2))
 
     found = limits(members, "fig3_large", excited)
@@ -296,7 +298,7 @@ def ensemble_fig4_settles(members) -> Finding:
 def ensemble_fig4_many(members) -> Finding:
     def share(case):
         amplitudes = pendula(case)
-        centre = amplitudes[:, :, case.sizes["site"] // 2].max(axis=1)[:, None, None]
+        centre = amplitudes[:, :, amplitudes.shape[2] // 2].max(axis=1)[:, None, None]
         large = amplitudes > float(case["linf_start"]) / MUCH.value
         return ((amplitudes > centre / FACTOR.value) & large).mean(axis=(1, 2))
 

@@ -25,16 +25,15 @@ from .tangents import PARITIES, random_tangent
 
 
 def follow_parity(problem: Problem, parity: str, end_time: float, seed: int, **controls) -> Growth:
-    """Carry one random tangent vector of this parity along a case whose data are even.
+    """Carry one random tangent vector of this parity along a case.
 
-    The kernels keep the parity to the last bit, so that the vector turns to the fastest direction
-    among those of its parity. Raises ValueError where the data are not even in n.
+    Along even data the kernels keep the parity to the last bit, so that the vector turns to the
+    fastest direction among those of its parity. Along others it turns to the fastest of all.
     """
-    if not find_reduction(problem.amplitudes).even:
-        raise ValueError("tangent vectors keep their parity only along data that are even in n")
     rng = np.random.default_rng([seed, PARITIES.index(parity)])
     tangent = random_tangent(problem.sites, parity, rng)
-    return grow(problem, tangent[None], end_time, parity == "even", **controls)
+    half = parity == "even" and find_reduction(problem.amplitudes).even
+    return grow(problem, tangent[None], end_time, half, **controls)
 
 
 def follow_many(problem: Problem, count: int, end_time: float, seed: int, **controls) -> Growth:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases, side_by_side
 from pendula.measures.confidence import student
 from pendula.measures.levels import correlation
 from pendula.numerics.elementary import square_modulus
@@ -104,9 +104,9 @@ def member_numbers(
 ) -> Contents:
     """Return what REDUCED names of each member of both kinds of each case, and the bands' widths.
 
-    `problems` are given by case, all on one chain, and keep moduli.
+    `problems` are given by case, and keep moduli; the sites are those of the longest chain.
     """
-    kinds, chain = list(PERTURBATIONS), next(iter(problems.values()))
+    kinds, reach = list(PERTURBATIONS), max(one.half_width for one in problems.values())
     found = [
         [measure_case(one, windows, size, members, seed, kind) for one in problems.values()]
         for kind in kinds
@@ -119,14 +119,17 @@ def member_numbers(
         "quantity": Variable(("quantity",), list(QUANTITIES)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "component": COMPONENTS,
-        "site": Variable(("site",), np.arange(-chain.half_width, chain.half_width + 1)),
+        "site": Variable(("site",), np.arange(-reach, reach + 1)),
         **_starts(problems),
         **_widths(found, members),
     }
     for name, (rest, long_name) in REDUCED.items():
-        values = np.array([[stacked[name] for stacked, *_ in row] for row in found])
-        kept = values.astype(np.float32) if name == "rms" else values
-        variables[name] = Variable((*grid, *rest), kept, long_name)
+        rows = [[stacked[name] for stacked, *_ in row] for row in found]
+        if name == "rms":
+            values = np.stack([side_by_side(row, -1) for row in rows]).astype(np.float32)
+        else:
+            values = np.array(rows)
+        variables[name] = Variable((*grid, *rest), values, long_name)
     title = "Members of ensembles of every case, from almost equal data"
     about = {"perturbation": size, "members": members, "seed": seed}
     return variables, {"title": title, **shared, **about}

@@ -34,6 +34,7 @@ def film_pendula(
     problems: Mapping[str, Problem], reach: int, periods: int, per_period: int
 ) -> Contents:
     """Return films of the middle of chains of pendula, each over as many of its own periods."""
+    reach = min(reach, *(one.half_width for one in problems.values()))
     angles = np.array([filmed(one, reach, periods, per_period) for one in problems.values()])
     described, shared = describe_cases(problems)
     lengths = [period_of(one) for one in problems.values()]

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_cases, side_by_side
 from pendula.models.bounds import theorem_1_bound, theorem_3_bound
 from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
@@ -26,7 +26,7 @@ def measure_phases(
 ) -> Contents:  # fmt: skip
     """Return norms of the envelopes of all cases at mu = 0, which is (4), and at each of `mus`.
 
-    All cases are on one chain and end at one time. The larger envelope of each pair is kept at
+    All cases end at one time; the sites are those of the longest chain. The larger envelope of each pair is kept at
     every `look_every`-th output. So many members of one case are held to Theorem 1 at the largest
     of `mus`: the data of each are changed by `size`, relatively.
     """
@@ -34,8 +34,10 @@ def measure_phases(
     found = [[envelopes(at_mu(one, mu)) for mu in every] for one in problems.values()]
     tau = found[0][0][0].tau
     norms = np.array([[norms_of(moduli) for _, moduli in row] for row in found])
-    looks = [[moduli.max(axis=0)[:, ::look_every] for _, moduli in row] for row in found]
-    reach = len(looks[0][0]) // 2
+    looks = side_by_side(
+        [np.stack([moduli.max(axis=0)[:, ::look_every] for _, moduli in row]) for row in found], 1
+    )
+    reach = looks.shape[2] // 2
     described, shared = describe_cases(problems)
     over = ("case", "mu", "component", "tau")
     variables = {

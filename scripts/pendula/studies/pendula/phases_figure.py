@@ -102,6 +102,7 @@ def _draw_norm(axes: Axes, case: xr.Dataset, norm: str) -> None:
 
 def _draw_strip(axes: Axes, case: xr.Dataset):
     """Draw the moduli of all mu beside each other in one picture, which is drawn far sooner."""
+    case = case.dropna("site", how="all")  # what a chain shorter than another does not have
     moduli = case["larger_modulus"].transpose("mu", "site", "snapshot").values
     peak = float(moduli[case["mu"].values == 0.0].max()) or 1.0
     turned = 2.0 * case["mu"].values[:, None, None] * moduli > np.pi

@@ -141,7 +141,3 @@ class Film(Followed):
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases."""
         yield from self.unfit(settings, self.cases, [self.mu], "mu", where="cases")
-        for name in self.cases:
-            case = settings.cases.get(name)
-            if case and case.half_width < self.reach:
-                yield "reach", f"is {self.reach}, and {name} has sites up to {case.half_width} only"
