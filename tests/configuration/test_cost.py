@@ -14,6 +14,7 @@ from pendula.configuration.cost import (
     find_excess,
     integrated_pairs,
     steps_of,
+    with_checks,
 )
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.messages import load
@@ -116,9 +117,31 @@ def test_a_limit_may_be_raised_and_a_long_run_is_announced():
     long = {"cases": {"mine": {"omega": 1e6, "end_time": 900}}}
     with pytest.raises(ConfigurationError, match=r"mine.omega: the run would take about 2 hours"):
         load(long)
-    (said,) = load(long | {"limits": {"hours": 5}}).long_runs()
-    assert said.startswith("cases.mine: the run takes about 2 hours and ")
+    (said,) = load(long | {"limits": {"hours": 9}}).long_runs()
+    assert said.startswith("cases.mine: the run and its checks take about 8 hours and ")
     assert load({"cases": {"mine": {"omega": 8}}}).long_runs() == []
+
+
+def test_the_checks_of_an_own_case_count_and_those_of_the_paper_are_not_made():
+    long = {"omega": 1.0, "initial": {0: (1e4, 0.0)}, "end_time": 3.0, "solver": "ode45"}
+    alone = load({"cases": {"fig4_small": long}}).shown_problem("fig4_small")
+    assert estimate(alone).seconds < 3600.0 < with_checks(alone).seconds
+    text = (
+        "mine.initial: the run and its checks would take about 3 hours and .* limits.hours allows"
+    )
+    with pytest.raises(ConfigurationError, match=text):
+        load({"cases": {"mine": long}})
+
+
+def test_checks_take_a_second_run_and_a_tangent_vector():
+    """Both by dop853 here, whose vector is carried beside the solution: twice the work."""
+    given = problem(omega=-4.0, half_width=200)
+    again = problem(omega=-4.0, half_width=200, solver={"name": "dop853", "rtol": 1e-13})
+    carried = again | {"solver": {"name": "dop853", "rtol": 1e-9}}
+    own, second, tangent = (estimate(one).seconds for one in (given, again, carried))
+    assert with_checks(given).seconds == pytest.approx(own + second + 2.0 * tangent)
+    pendula = problem(model="pendula", mu=0.1)
+    assert estimate(pendula).seconds < with_checks(pendula).seconds
 
 
 @pytest.mark.parametrize(

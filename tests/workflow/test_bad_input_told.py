@@ -85,9 +85,9 @@ def test_it_is_told_before_snakemake_reads(tmp_path):
 
 
 def test_a_long_run_says_first_what_it_takes(tmp_path):
-    settings = {"cases": {"mine": {"omega": 1e5, "end_time": 2000}}}
+    settings = {"cases": {"mine": {"omega": 1e5, "end_time": 800}}}
     target = "results/trajectories/mine.nc"
     result = snakemake_with(settings, ROOT, tmp_path, "--dry-run", target)
     assert result.returncode == 0
     said = result.stdout + result.stderr
-    assert said.index("cases.mine: the run takes about") < said.index("Building DAG")
+    assert said.index("cases.mine: the run and its checks take about") < said.index("Building DAG")

@@ -7,7 +7,7 @@ size at which growth ends. The constants fit the speeds that were measured (test
 and a test asks that every estimate is within a factor of three of what was measured.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import inf
 from typing import NamedTuple
 
@@ -111,6 +111,33 @@ def _solver_seconds(solver: Mapping, problem: Mapping, pairs: float, outputs: fl
     return seconds + evaluations * (EVALUATED["seconds"] + EVALUATED["site_seconds"] * pairs)
 
 
+TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
+"""The tolerances of a second run, by which the first is checked."""
+OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
+"""The solver of tangent vectors."""
+
+
+def other_than(solver: str) -> str:
+    """Return the solver that runs a case again."""
+    return "taylor" if solver in ("dop853", "ode45") else "dop853"
+
+
+def with_checks(problem: Mapping) -> Cost:
+    """Return the cost of a user's case: of its run, and of the checks that own_cases makes of it.
+
+    These are a second run, and of the amplitudes a tangent vector beside the solution; of pendula
+    they are the amplitudes.
+    """
+    other = other_than(problem["solver"]["name"])
+    plain = {key: value for key, value in problem.items() if key not in ("mu", "model")}
+    again = {"solver": {"name": other, "rtol": TIGHTEST[other]}, "snapshot_every": 0}
+    if problem.get("mu"):
+        rest = [plain | {"solver": {"name": "taylor", "rtol": TIGHTEST["taylor"]}}]
+    else:
+        rest = 2 * [plain | {"solver": OF_TANGENTS, "output_step": problem["end_time"]}]
+    return sum_of([problem, {**problem, **again}, *(one | {"snapshot_every": 0} for one in rest)])
+
+
 def sum_of(problems: Iterable[Mapping]) -> Cost:
     """Return the cost of problems that are run one after another."""
     costs = [estimate(problem) for problem in problems]
@@ -183,28 +210,31 @@ def auto_tolerances(error: float) -> list[float]:
     return tried
 
 
-def find_excess(problem: Mapping, limits: Mapping[str, float]) -> Obstacle | None:
+def find_excess(
+    problem: Mapping, limits: Mapping[str, float], takes: Callable[[Mapping], Cost] = estimate
+) -> Obstacle | None:
     """Return the key that makes a run longer or larger than is allowed, and what it would take.
 
-    It is the key whose change to its value in PLAIN would save most.
+    It is the key whose change to its value in PLAIN would save most. `takes` estimates the cost.
     """
-    cost = estimate(problem)
+    cost = takes(problem)
     if cost.excess(limits) <= 1.0:
         return None
     rest = {
-        key: estimate({**problem, **plain})
+        key: takes({**problem, **plain})
         for key, plain in PLAIN.items()
         if key != "mu" or "mu" in problem
     }
-    return min(rest, key=lambda key: rest[key].excess(limits)), refusal(cost, limits)
+    what = "the run" if takes is estimate else "the run and its checks"
+    return min(rest, key=lambda key: rest[key].excess(limits)), refusal(cost, limits, what)
 
 
-def refusal(cost: Cost, limits: Mapping[str, float]) -> str:
+def refusal(cost: Cost, limits: Mapping[str, float], what: str = "the run") -> str:
     """Return the words for a run that costs more than is allowed."""
     over_time = cost.seconds > limits["hours"] * HOUR
     name, unit = ("hours", "h") if over_time else ("gigabytes", "GB")
     allowed = f"limits.{name} allows {limits[name]:g} {unit}"
-    return f"the run would take {cost}, and {allowed}; make it smaller, or raise the limit"
+    return f"{what} would take {cost}, and {allowed}; make it smaller, or raise the limit"
 
 
 PLAIN = {

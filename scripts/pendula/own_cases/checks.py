@@ -10,6 +10,7 @@ the chain at rest, and Lemma 2 and Theorems 1 to 3 for the trajectory.
 import numpy as np
 import xarray as xr
 
+from pendula.configuration.cost import TIGHTEST, other_than
 from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
@@ -30,7 +31,6 @@ from pendula.studies.theory.estimates import integrated_balance
 from .pendula import check_pendula
 
 TITLE = "A case beside the paper's statements"
-TIGHTEST = {"taylor": 1e-14, "dop853": 1e-13}
 
 
 def choose_solver(name: str, peak: float) -> dict:
@@ -38,7 +38,7 @@ def choose_solver(name: str, peak: float) -> dict:
 
     Data smaller than 1 need a smaller absolute tolerance, as far as its square does not vanish.
     """
-    other = "dop853" if name == "taylor" else "taylor"
+    other = other_than(name)
     rtol = TIGHTEST[other]
     atol = max(rtol * (peak if 0 < peak < 1 else 1.0), SMALLEST_ERROR)
     return {"name": other, "rtol": rtol, "atol": atol}
