@@ -127,7 +127,7 @@ def test_the_checks_of_an_own_case_count_and_those_of_the_paper_are_not_made():
     alone = load({"cases": {"fig4_small": long}}).shown_problem("fig4_small")
     assert estimate(alone).seconds < 3600.0 < with_checks(alone).seconds
     text = (
-        "mine.initial: the run and its checks would take about 3 hours and .* limits.hours allows"
+        "mine.initial: the run and its checks would take about 3 hours .* limits.hours allows"
     )
     with pytest.raises(ConfigurationError, match=text):
         load({"cases": {"mine": long}})

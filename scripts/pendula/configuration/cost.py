@@ -119,7 +119,7 @@ OF_TANGENTS = {"name": "dop853", "rtol": 1e-9}
 
 def other_than(solver: str) -> str:
     """Return the solver that runs a case again."""
-    return "taylor" if solver in ("dop853", "ode45") else "dop853"
+    return "dop853" if solver in ("taylor", "auto") else "taylor"
 
 
 def with_checks(problem: Mapping) -> Cost:
