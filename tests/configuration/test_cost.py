@@ -126,9 +126,7 @@ def test_the_checks_of_an_own_case_count_and_those_of_the_paper_are_not_made():
     long = {"omega": 1.0, "initial": {0: (1e4, 0.0)}, "end_time": 3.0, "solver": "ode45"}
     alone = load({"cases": {"fig4_small": long}}).shown_problem("fig4_small")
     assert estimate(alone).seconds < 3600.0 < with_checks(alone).seconds
-    text = (
-        "mine.initial: the run and its checks would take about 3 hours .* limits.hours allows"
-    )
+    text = "mine.initial: the run and its checks would take about 3 hours .* limits.hours allows"
     with pytest.raises(ConfigurationError, match=text):
         load({"cases": {"mine": long}})
 

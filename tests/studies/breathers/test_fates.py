@@ -68,6 +68,26 @@ def test_on_a_short_chain_nothing_is_away_from_the_centre():
     assert place_of(moduli({0: 0}, 0) + 1.0) == 0
 
 
+@pytest.mark.parametrize("half_width", [0, 1, 2])
+def test_a_chain_at_rest_holds_nothing_anywhere(half_width):
+    with np.errstate(invalid="ignore"):
+        assert place_of(moduli({}, half_width)) is None
+
+
+@pytest.mark.parametrize(
+    ("power", "place"),
+    [
+        ({1: 1, 2: 8, 3: 1, 0: 1}, 2),  # the five at the centre hold more, and are no place
+        ({4: 1, 5: 8, 6: 1, 0: 1}, 5),
+        ({0: 4, 1: 2, 6: 2, 7: 1, 8: 2}, 0),
+        ({0: 4, 6: 2, 7: 2, 8: 2}, 7),
+        ({0: 5, 6: 2, 7: 1, 8: 2}, None),  # exactly half is no majority
+    ],
+)
+def test_the_place_is_that_of_the_middle_of_three_pairs(power, place):
+    assert place_of(moduli(power, 8)) == place
+
+
 def test_pairs_are_counted_with_their_mirror_images():
     assert folded_power(moduli({-2: 1, 2: 2, 0: 5, -1: 3})).tolist() == pytest.approx([5, 3, 3, 0])
 

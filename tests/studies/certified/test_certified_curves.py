@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from helpers import ROOT
+from oracle import laplacian
 from pendula.datasets.netcdf import as_xarray, read
 from pendula.models.linear_chain import flow
 from pendula.problem import Constants, Problem, on_sites, read_initial
+from pendula.studies.certified import norm, regular
 from pendula.studies.certified.contents import curve_contents
 from pendula.studies.certified.figures import draw_curves, gather_curves
 from pendula.studies.certified.norm import (
@@ -16,7 +18,7 @@ from pendula.studies.certified.norm import (
     find_rates,
     up,
 )
-from pendula.studies.certified.polynomials import StepError, add_up, find_curve, linear
+from pendula.studies.certified.polynomials import Curve, StepError, add_up, find_curve, linear
 from pendula.studies.certified.regular import PARTS, certify, norms_at, prove
 
 
@@ -69,6 +71,34 @@ def test_a_sharp_rate_is_just_above_the_largest_eigenvalue():
     for i in range(3):
         largest = np.linalg.eigvalsh(factor @ dense(change, i) @ factor.T)[-1]
         assert largest <= rates[i] <= largest + crude[i] / 63
+
+
+def test_a_matrix_is_proven_only_above_the_margin_of_rounding():
+    """Least eigenvalues of half, once and twice the margin, of one entry and of a band."""
+    margin = 2.0**-30
+    single = margin * np.array([[[0.5, 1.0, 2.0]]])
+    assert norm._is_positive(single, np.float64(margin)).tolist() == [False, False, True]
+    band = np.zeros((7, norm.BAND + 1, 3))
+    band[:, 0], band[:-1, 1] = 2.0, -1.0
+    least = 2.0 - 2.0 * np.cos(np.pi / 8.0)  # of the second differences on seven sites
+    band[:, 0] += margin * np.array([0.5, 0.99, 1.01]) - least
+    assert norm._is_positive(band, np.float64(margin)).tolist() == [False, False, True]
+
+
+def test_the_margin_covers_the_rounding_of_every_entry_and_of_the_method(monkeypatch):
+    """See the end of the module's text: 1e-13 of the terms of an entry, 1e-14 of the largest."""
+    given, asked = problem(), []
+    proves = norm._is_positive
+
+    def watched(band, shift):
+        asked.append((np.abs(band).max(axis=(0, 1)), shift))
+        return proves(band, shift)
+
+    monkeypatch.setattr(norm, "_is_positive", watched)
+    states = np.random.default_rng(2).normal(size=(3, 2, 2, 9))
+    find_rates(states, given, find_form(given.constants))
+    assert len(asked) == norm.HALVINGS
+    assert all((shift > 1.1e-13 * largest).all() for largest, shift in asked)
 
 
 def test_a_rate_whose_matrix_would_underflow_is_the_crude_one():
@@ -185,3 +215,130 @@ def test_a_wrong_curve_is_found_out(name):
     if name == "a step":
         given = given.changed(end_time=0.9)
     assert certify(given, wrong).bound[-1] > 30.0 * certify(given, right).bound[-1]
+
+
+# --- Each part of the bound against exact sums --------------------------------------------------
+
+DRIVEN = {"epsilon": 0.5, "gamma": 0.25, "omega": -2.0}
+
+
+def short_curve(order=3, seed=5, sites=3, steps=2, step=0.125):
+    """Return polynomials of small whole numbers, which solve nothing, and their problem."""
+    drawn = np.random.default_rng(seed).integers(1, 4, size=(order + 1, steps, 2, 2, sites))
+    curve = Curve(step, drawn / 8.0 ** np.arange(1, order + 2)[:, None, None, None, None])
+    return curve, problem(half_width=sites // 2, end_time=steps * step, **DRIVEN)
+
+
+def exact_defect(curve, given):
+    """Return the coefficients of h d of each step, (order, step, component, site), as they are."""
+    z = (curve.terms[:, :, 0] + 1j * curve.terms[:, :, 1]).astype(np.clongdouble)
+    count, (epsilon, gamma, omega) = len(z), given.constants
+    cubic = np.zeros((3 * count - 2, *z.shape[1:]), np.clongdouble)
+    for i, j, k in np.ndindex(count, count, count):
+        cubic[i + j + k] += 0.5 * z[i] * z[j].conj() * z[k]
+    field = curve.step * cubic
+    matrix = laplacian(z.shape[-1], "dirichlet")
+    drive = gamma * (z[:, :, ::-1].conj() - z.conj())
+    field[:count] += curve.step * (epsilon * z @ matrix.T + omega * z + drive)
+    missed = -field
+    missed[: count - 1] += 1j * np.arange(1, count)[:, None, None, None] * z[1:]
+    return missed
+
+
+def integral(coefficients, first):
+    shares = 1.0 / np.arange(first + 1, first + 1 + len(coefficients))
+    return (np.sqrt((np.abs(coefficients) ** 2).sum(axis=(2, 3))) * shares[:, None]).sum(axis=0)
+
+
+def test_what_a_polynomial_leaves_out_is_below_its_bound_and_near_it_where_all_terms_add_up():
+    curve, given = short_curve()
+    found = regular._left_out(regular._sizes(curve), given, curve.step)
+    exact = integral(exact_defect(curve, given)[3:], 3)
+    assert (exact <= found).all() and (found < 4.0 * exact).all()
+    one = curve.terms * 0.0
+    one[0, :, 0, 0, 1], one[3, :, 0, 0, 1] = 2.0, 0.5  # on one site, real: nothing cancels
+    alone, still = Curve(curve.step, one), given.changed(epsilon=0.0, gamma=0.0, omega=2.0)
+    found = regular._left_out(regular._sizes(alone), still, curve.step)
+    assert found == pytest.approx(integral(exact_defect(alone, still)[3:], 3), rel=1e-8)
+
+
+def test_the_linear_part_is_as_strong_as_its_bound_on_the_shortest_wave():
+    """Of a long chain whose sites and components alternate in sign, where the drive adds to it."""
+    given = problem(half_width=200, epsilon=-0.7, gamma=0.3, omega=1.9)
+    wave = (-1.0) ** np.arange(401) * np.sin(np.pi * (np.arange(401) + 1) / 402)
+    real, none = np.array([wave, -wave]), np.zeros((2, 401))
+    strongest = max(
+        np.linalg.norm(linear(np.array(parts), given)) / np.linalg.norm(real)
+        for parts in ((real, none), (none, real))
+    )
+    assert 0.999 < strongest / regular._strength(given) <= 1.0
+
+
+def test_what_is_rounded_away_is_below_its_bound_and_each_rounding_counts():
+    curve, given = short_curve()
+    sizes, exact = regular._sizes(curve), integral(exact_defect(curve, given)[:3], 0)
+    found = regular._rounding(curve, given, sizes)
+    assert (exact <= found).all() and found == pytest.approx(exact, rel=1e-8)
+    # without any defect what is left are the roundings that Higham's bound allows
+    rest = regular._rounding(Curve(curve.step, 0.0 * curve.terms), given, sizes)
+    unit, strength = 2.0**-53, 4 * 0.5 + 2.0 + 2 * 0.25
+    cubic = regular._cubic(sizes)
+    expected = sum(
+        unit * (9 * strength * 0.125 * sizes.norm[k] + (2 * k + 10) * 0.125 * cubic[k]
+                + 3 * (k + 1) * sizes.norm[k + 1]) / (k + 1)
+        for k in range(3)
+    )  # fmt: skip
+    assert rest == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_jump_counts_with_the_rounding_of_its_sum():
+    curve, _ = short_curve()
+    sizes = regular._sizes(curve)
+    ends = curve.terms.sum(axis=0)[0] - curve.terms[0, 1]  # these sums are exact
+    first, second = regular._jumps(curve, sizes)
+    assert first == 0.0 and second == pytest.approx(np.linalg.norm(ends), rel=1e-8)
+    whole = curve.terms.copy()
+    whole[0, 1] = whole.sum(axis=0)[0]  # no jump: what is left is the error of the errors
+    left = regular._jumps(Curve(curve.step, whole), sizes)[1]
+    assert left == pytest.approx(4.0 * (4 * 2.0**-53) ** 2 * sizes.norm[:, 0].sum(), rel=1e-6)
+
+
+@pytest.mark.parametrize("x", [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0])
+def test_the_factor_of_growth_is_an_upper_bound_to_third_order(x):
+    assert np.exp(np.longdouble(x)) <= regular.exponential(x) <= np.exp(x) + x**3 / 8 + 1e-14
+
+
+def test_a_factor_beyond_its_range_is_infinite():
+    assert np.isinf(regular.exponential(1.0 + 1e-12)) and np.isinf(regular.exponential(np.nan))
+
+
+def test_the_rate_between_two_times_counts_bend_rounding_and_jumps():
+    curve, given = short_curve()
+    form, sizes = find_form(given.constants), regular._sizes(curve)
+    states = regular.sample(curve)
+    delta, rates = curve.step / regular.SAMPLES, find_rates(states, given, form)
+    growth = regular._growth(curve, given, form, sizes)
+    extra = growth / delta - 0.5 * (rates[:-1] + rates[1:])
+    # by differences in each interval: how far squares are from their linear interpolation
+    for step in range(2):
+        z = curve.terms[:, step, 0] + 1j * curve.terms[:, step, 1]
+        for i in range(regular.SAMPLES):
+            theta = (i + np.linspace(0.0, 1.0, 21)) / regular.SAMPLES
+            values = np.array([sum(z[k] * t**k for k in range(len(z))) for t in theta])
+            off = 0.0
+            for square in (np.abs(values) ** 2, values**2):
+                line = np.linspace(0.0, 1.0, 21)[:, None, None]
+                off = off + np.abs(square - square[0] - line * (square[-1] - square[0]))
+            assert 1.5 * form.condition * 0.5 * off.max() <= extra[step * regular.SAMPLES + i]
+    still = Curve(curve.step, curve.terms.copy())
+    still.terms[1:] = 0.0  # what does not move still is rounded, and jumps
+    sizes = regular._sizes(still)
+    rates = find_rates(regular.sample(still), given, form)
+    extra = regular._growth(still, given, form, sizes) / delta - 0.5 * (rates[:-1] + rates[1:])
+    jump = np.linalg.norm(still.terms[0, 1] - still.terms[0, 0])
+    largest = sizes.largest[0]
+    assert extra[: regular.SAMPLES] == pytest.approx(
+        1.5 * form.condition * (2.0 * largest[0] * jump + jump * jump), rel=1e-6
+    )
+    rounded = 2.0**-44 * sizes.norm[0, 1]
+    assert extra[-1] > 0.9 * 1.5 * form.condition * 2.0 * largest[1] * rounded

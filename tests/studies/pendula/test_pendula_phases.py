@@ -10,6 +10,7 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.pendula import envelope, film, over_the_top, phases, sea
 from problems import problem_of
 from scipy.fft import dst
+from scipy.special import ellipk
 
 FAST = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
 
@@ -117,6 +118,16 @@ def test_a_pendulum_goes_over_the_top_with_more_energy_than_there(share, goes):
     found = over_the_top.passage(moving, 16)
     assert np.isfinite(found.time) == goes
     assert (found.angle[-1] > np.pi) == goes and (np.diff(found.angle) >= 0.0).all()
+
+
+def test_a_passage_is_at_the_first_output_beyond_the_top():
+    """With the velocity v at the bottom it is there after (2 / v) K(m), m = (2 / v)^2."""
+    velocity = 2.4
+    moving = one_pendulum(0.0, end_time=3.0).changed(initial=np.full((2, 1), -1.2j / 0.3))
+    assert angles_of(moving.initial, 0.0, 0.3)[1, 0, 0] == pytest.approx(velocity)
+    exact = 2.0 / velocity * ellipk((2.0 / velocity) ** 2) * 0.3**2 / 2.0
+    step = over_the_top.period_of(moving) / 16
+    assert exact < over_the_top.passage(moving, 16).time < exact + step
 
 
 def test_shares_and_rates_count_who_was_waiting():
