@@ -152,13 +152,13 @@ def _growth(results: Results) -> dict[str, Any]:
     growth = results[GROWTH]
     law = float(growth["predicted_gain"].max())
     strong = growth.sel(gamma=growth["gamma"].max())
-    passed = strong["time"].where(strong["gained"] > law).min()
+    passed = float(strong["time"].where(strong["gained"] > law).min())
     return {
         "start": results.quote(GROWTH, growth.attrs["start_frequency"]),
         "drives": results.say(GROWTH, span(growth["gamma"].values, 2)),
         "law": results.quote(GROWTH, law),
         "strongest": results.quote(GROWTH, float(strong["gamma"])),
-        "passed": results.quote_time(GROWTH, float(passed)),
+        "passed": np.isfinite(passed) and results.quote_time(GROWTH, passed),
     }
 
 

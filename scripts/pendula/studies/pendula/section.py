@@ -9,7 +9,6 @@ from .phases_section import film, phases
 from .remainder_section import remainder
 from .threshold_section import threshold
 
-
 HOLD = ("pendula_norms", "same_sea")
 """Claims whose sentences the part on the phases has, where they hold."""
 

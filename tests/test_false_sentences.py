@@ -1,0 +1,175 @@
+"""The program that reads what a run says: it finds every false sentence that is planted."""
+
+import json
+import os
+import shutil
+
+import pytest
+import xarray as xr
+from false_sentences import SENTENCES, false_sentences
+
+SMALL_8, LARGE_8 = "Ω = 8, (A₀, B₀) = (1, 0.1)", "Ω = 8, (A₀, B₀) = (5, 1)"
+
+
+def rewritten(path, text: str) -> None:
+    path.unlink()  # else the shared run would change, to whose file this is a link
+    path.write_text(text, encoding="utf-8")
+
+
+def said(sentence: str):
+    """Return what writes a sentence into the report."""
+    return replaced("report.html", '<main id="main">', f'<main id="main"><p>{sentence}</p>')
+
+
+def replaced(name: str, old: str, new: str):
+    """Return what replaces words in a file of the results."""
+
+    def plant(results) -> None:
+        text = (results / name).read_text(encoding="utf-8")
+        assert old in text, f"{name} has no {old}"
+        rewritten(results / name, text.replace(old, new))
+
+    return plant
+
+
+def dataset(name: str, change):
+    """Return what changes a dataset."""
+
+    def plant(results) -> None:
+        path = results / f"{name}.nc"
+        changed = change(xr.load_dataset(path))
+        path.unlink()
+        changed.to_netcdf(path)
+
+    return plant
+
+
+def run_with(case: str, **keys):
+    """Return what makes the run of a case one with other keys."""
+    return dataset(f"trajectories/{case}", lambda run: run.assign_attrs(keys))
+
+
+def row_of(claim: str, change, name: str = "claims.json"):
+    """Return what changes a row of the ledger, or of its controls."""
+
+    def plant(results) -> None:
+        told = json.loads((results / name).read_text(encoding="utf-8"))
+        for row in told["rows"]:
+            if claim in (row.get("name"), row.get("claim")):
+                change(row)
+        rewritten(results / name, json.dumps(told))
+
+    return plant
+
+
+def diverged(figure):
+    return figure.assign(divergence_time=xr.full_like(figure["divergence_time"], 3.0))
+
+
+def one_that_stays(fates):
+    return fates.assign(fate=0 * fates["fate"])
+
+
+def off_the_centre(growth):
+    return growth.assign(initial=("case", ['{"1": [5.0, 1.0]}'] * growth.sizes["case"]))
+
+
+def far_apart(solvers):
+    return solvers.assign(largest_difference=0.0 * solvers["largest_difference"] + 1.0)
+
+
+def failed(row):
+    row["controls"][0]["passes"] = False
+
+
+PLANTED = [
+    ((said(f"One run of a chaotic case is one sample ({SMALL_8})."),), "One run of a chaotic"),
+    ((said(f"The runs visibly leave the references, at τ = 3 ({LARGE_8}): a dashed line marks it. "
+           "After that a run is another solution of the same kind"),), "visibly leave"),
+    ((dataset("figures/fig2", diverged),), "one solution of many of the same kind"),
+    ((dataset("checks/solvers", far_apart),
+      said("where it reaches full scale, chaos has separated the runs")), "chaos has separated"),
+    ((run_with("fig3_large", gamma=0.5), said("The paper's large data at Ω = −4 may spread.")),
+     "The paper's large data at Ω = −4"),
+    ((run_with("fig3_large", gamma=0.5), said("The large data at Ω = −4 stand on a knife edge.")),
+     "knife edge"),
+    ((run_with("fig3_large", gamma=0.5),
+      said("The larger data at the detuning of Fig 3 lie near a border")), "near a border"),
+    ((run_with("fig4_large", omega=8.0), said("At the detuning of Fig 4 it grows exponentially")),
+     "grows exponentially"),
+    ((said("the pendula fill the chain with the same sea as the amplitudes"),), "the same sea"),
+    ((said("Where the motion is regular they agree at μ = 0.2"),), "they agree at μ"),
+    ((run_with("fig4_small", omega=8.0),
+      said("The bound of Theorem 3 does not hold for the pendula then")), "The bound of Theorem 3"),
+    ((dataset("breathers/fates", one_that_stays),
+      said("At the detuning of Fig 4 all unequal data of the maps spread.")), "all unequal data"),
+    ((run_with("fig2_small", gamma=0.5), said("A circle marks the paper's data")), "A circle"),
+    ((dataset("unbounded/growth", off_the_centre),), "All data are even in n"),
+    ((dataset("trajectories/fig2_small.ode45", lambda run: run.assign_attrs(solver_rtol=0.1)),),
+     "The paper's solver, ode45,"),
+    ((run_with("fig2_small", omega=7.0),), "norms against time, Ω = 8"),
+    ((said("1 of these controls came out wrong; the claims that they belong to are not decided"),),
+     "the claims that they belong to"),
+    ((said("At Ω = 3, (A₀, B₀) = (1, 0.1) nothing moves."),), "names Ω = 3"),
+    ((run_with("fig2_small", boundary="periodic"),), "does not begin with fig2_small.boundary"),
+    ((run_with("fig2_small", boundary="periodic"),), "of fig2 do not say that fig2_small.boundary"),
+    ((run_with("fig3_small", gamma=0.5),), "of fig5 do not say that fig3_small.gamma"),
+    ((run_with("fig3_large", gamma=0.5),), "of lyapunov do not say that fig3_large.gamma"),
+    ((replaced("report.html", "fig2_small.end_time (4 in", "fig2_small.end_time (5 in"),),
+     "fig2_small.end_time (5 in place of 50), which was not run"),
+    ((replaced("report.html", "with other settings", "replicated"),), "The title".lower()),
+    ((row_of("fig2_bounded", lambda row: row.update(verdict="confirmed")),),
+     "the claim fig2_bounded is confirmed, and fig2_small is edited"),
+    ((row_of("hamiltonian", lambda row: row.update(verdict="not reproduced")),),
+     "the report has another verdict on hamiltonian"),
+    ((row_of("hamiltonian", lambda row: row.update(verdict="not reproduced")),),
+     "claims.md has another verdict on hamiltonian"),
+    ((row_of("hamiltonian", failed),), "hamiltonian is confirmed, and its control"),
+    ((row_of("hamiltonian", failed),), "does not say that 1 controls came out wrong"),
+    ((row_of("hamiltonian", lambda row: row.update(passes=False), "controls.json"),),
+     "controls.json says another thing of hamiltonian"),
+    ((run_with("fig3_large", gamma=0.5), row_of("ends_near_stable", lambda row: [
+        one.update(verdict="not reproduced") for one in row["controls"]])),
+     "ends_near_stable was fed the large data at Omega = -4"),
+    ((replaced("figures/fig2.json", "Omega = 8", "Omega = 6"),), "fig2 has titles at Omega = [6.0"),
+    ((replaced("figures/fig2.json", "Not the paper's", "As"),), "fig2 and its data do not both"),
+    ((dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
+     "of fig2 do not say that fig2_small.end_time"),
+    ((run_with("fig2_small", gamma=0.5),
+      replaced("figures/fates.json", "the data of Figs 2 to 4", "the paper's data")),
+     "fates names data as the paper's"),
+    ((replaced("tables/solvers.md", "| fig2_small | none: another case", "| fig2_small | 1e-06"),),
+     "solvers.md holds fig2_small to what the paper states"),
+]  # fmt: skip
+
+
+def planted_in(full_run, folder, plants) -> list[str]:
+    """Return what is false of a copy of a run with all these plants."""
+    shutil.copytree(full_run / "results", folder / "results", copy_function=os.link)
+    for plant in plants:
+        plant(folder / "results")
+    return false_sentences(folder)
+
+
+@pytest.fixture(scope="module")
+def said_of(full_run, tmp_path_factory):
+    """Return what is false of the copies, each with every second planted falsehood."""
+    folders = [tmp_path_factory.mktemp("planted") / "run" for _ in range(2)]
+    return [
+        planted_in(full_run, folder, [plant for plants, _ in PLANTED[first::2] for plant in plants])
+        for first, folder in enumerate(folders)
+    ]
+
+
+def test_nothing_is_false_of_the_quick_run(full_run):
+    assert false_sentences(full_run) == []
+
+
+@pytest.mark.parametrize("number", range(len(PLANTED)), ids=[found for _, found in PLANTED])
+def test_a_false_sentence_is_found(said_of, number):
+    assert [one for one in said_of[number % 2] if PLANTED[number][1] in one] != []
+
+
+def test_every_sentence_of_the_list_is_planted():
+    planted = [found for _, found in PLANTED]
+    assert len(set(planted)) == len(planted) >= len(SENTENCES) + 15
