@@ -1,7 +1,7 @@
 """Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import get_args
 
 from pydantic import BaseModel, ValidationError, create_model
@@ -84,14 +84,9 @@ def require(
     absent += [f"cases.{name}" for name in cases if name not in settings.cases]
     absent += [f"sweeps.{name}" for name in sweeps if name not in settings.sweeps]
     lines = [f"{path}: is missing or empty, and the figures need it" for path in absent]
-    lines += [
-        f"cases.{name}.model: the figures of the paper are of the amplitudes; "
-        "give a case of another name"
-        for name in cases
-        if name in settings.cases and settings.cases[name].model != AMPLITUDES
-    ]
     steps: dict[str, str] = {}
     for name in [name for name in cases if name in settings.cases]:
+        lines += _faults_of_figures(name, settings.cases[name])
         for solver in solvers:
             controls = getattr(settings.solvers, solver)
             for _, text in settings.cases[name].faults_of_step(controls):
@@ -100,6 +95,18 @@ def require(
     lines += _unlike_panels(settings.sweeps, sweeps)
     if lines:
         raise list_faults(lines, "the configuration")
+
+
+def _faults_of_figures(name: str, case: Case) -> Iterator[str]:
+    """Yield why a case cannot take the place of one of the paper's, of which all studies are."""
+    other = "give a case of another name"
+    if case.model != AMPLITUDES:
+        yield f"cases.{name}.model: the figures of the paper are of the amplitudes; {other}"
+    if not any(z for pair in case.initial.values() for z in pair):
+        yield f"cases.{name}.initial: is zero everywhere, and figures show what moves; {other}"
+    if case.epsilon < 0.0:
+        text = "and pendula that push each other apart speed up without bound"
+        yield f"cases.{name}.epsilon: is {case.epsilon:g}, {text}; {other}"
 
 
 def _unlike_panels(sweeps: Mapping[str, Sweep], names: list[str]) -> list[str]:

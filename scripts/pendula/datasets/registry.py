@@ -76,6 +76,7 @@ SOLVER_NAMES = {
     "delfour_fortin_payre": "Delfour\N{EN DASH}Fortin\N{EN DASH}Payre",
     "dop853": "DOP853",
     "taylor": "Taylor",
+    "auto": "Taylor by error",
     "splitting": "BM6 splitting",
     "kahan_li": "Kahan\N{EN DASH}Li",
 }

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from pendula.problem import PENDULA, Problem, name_window, write_initial
+from pendula.problem import PENDULA, Constants, Problem, name_window, write_initial
 from pendula.simulation.models import MODELS
 from pendula.simulation.simulate import Trajectory
 from pendula.simulation.sweep import STATISTICS, Sweep
@@ -125,7 +125,7 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
     """Return names, detunings and initial data of several cases as variables, and attributes.
 
     The attributes hold each value that is the same in all cases, so that a dataset of many cases
-    says what was solved, as a dataset of one case does.
+    says what was solved, as a dataset of one case does. Other constants are variables too.
     """
     each = [describe_run(name, problem, problem.solver) for name, problem in problems.items()]
     variables = {
@@ -133,7 +133,17 @@ def describe_cases(problems: Mapping[str, Problem]) -> Contents:
         "omega": Variable(("case",), [float(one["omega"]) for one in each]),
         "initial": Variable(("case",), [one["initial"] for one in each]),
     }
-    return variables, shared_by(each, *variables)
+    shared = shared_by(each, *variables)
+    for name in [name for name in ("epsilon", "gamma") if name not in shared]:
+        variables[name] = Variable(("case",), [float(one[name]) for one in each])
+    return variables, shared
+
+
+def constants_of(dataset, case: str) -> Constants:
+    """Return the constants of one of the cases that `describe_cases` has described."""
+    one = dataset.sel(case=case)
+    own = {name: one[name] for name in ("epsilon", "gamma", "omega") if name in one}
+    return Constants.of({**dataset.attrs, **own})
 
 
 def side_by_side(arrays: Sequence[np.ndarray], axis: int) -> np.ndarray:

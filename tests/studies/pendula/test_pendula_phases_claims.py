@@ -30,6 +30,9 @@ def phases():
     return xr.Dataset({"l2": (over, l2), "linf": (over, linf), **bounds}, coordinates)
 
 
+CONSTANTS = {"epsilon": 1.0, "gamma": 1.0, "omega": 0.0}
+
+
 def sea():
     powers = 18.0 + np.array([[0.1, -0.1, 0.0, 0.1], [0.2, -0.1, 0.1, 0.0]])
     cells = np.exp(-((np.arange(40) - 15.0) ** 2) / 40.0)
@@ -38,7 +41,7 @@ def sea():
     return xr.Dataset(
         {"site_power": (over, powers), "linf_level": (over, np.full((2, 4), 5.0)),
          "modulus_share": ((*over, "modulus"), shares)},
-        {"mu": [0.0, 0.1]}, {"omega": 0.0},
+        {"mu": [0.0, 0.1]}, CONSTANTS,
     )  # fmt: skip
 
 
@@ -59,7 +62,7 @@ def over_the_top():
 @pytest.fixture
 def sources():
     """Return datasets in which all claims hold."""
-    thermal = xr.Dataset({"power": ("omega", [22.5, 18.3])}, {"omega": [-1.0, 0.0]})
+    thermal = xr.Dataset({"power": ("omega", [22.5, 18.3])}, {"omega": [-1.0, 0.0]}, CONSTANTS)
     return {PHASES: phases(), SEA: sea(), TOP: over_the_top(), THERMAL: thermal}
 
 

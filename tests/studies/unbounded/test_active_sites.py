@@ -8,6 +8,8 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
     advance,
     begin,
+    find_front,
+    run_chains,
     run_long,
     site_powers,
     widen,
@@ -71,18 +73,29 @@ def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
     assert site_powers(state)[-8:].max() < 1e-290
 
 
-def test_data_must_be_even():
-    with pytest.raises(ValueError, match="even in n"):
-        begin(on_sites({0: (1.0, 0.0), 1: (1.0, 0.0)}), None)
+@pytest.mark.parametrize("half_width", [70, 150])
+def test_data_that_are_not_even_are_followed_on_both_sides(half_width):
+    lopsided = problem(half_width=half_width, initial={-2: (1.0, 0.1), 0: (0.0, 0.5j)})
+    one, whole = run_long(lopsided, REST), simulate(lopsided)
+    (chain,) = run_chains(lopsided, REST, [half_width])
+    np.testing.assert_allclose(one.l2, np.hypot(*whole.l2), rtol=1e-12)
+    np.testing.assert_allclose(chain.l2, one.l2, rtol=1e-12)
+    right = whole.final[:, half_width : half_width + 1 + one.width[-1]]
+    np.testing.assert_allclose(one.state[0, 1:-1] + 1j * one.state[1, 1:-1], right[0], atol=1e-10)
+    assert one.front[-1, 0] == find_front(one.state)[0] > 30.0
+
+
+def test_the_chain_begins_with_a_block_beside_the_data():
     even = on_sites({-1: (1.0, 0.0), 1: (1.0, 0.0)})
     assert begin(even, None).shape == (4, BLOCK + 4)
     wide = on_sites({-5: (1.0, 0.0), 5: (1.0, 0.0)})
     assert begin(wide, None).shape == (4, BLOCK + 8)
 
 
-def test_one_component_is_enough_where_a_equals_b():
+def test_both_components_are_kept_where_a_equals_b():
+    """So that all members of an ensemble have a state of the same rows."""
     one = run_long(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
-    assert one.state.shape[0] == 2
+    np.testing.assert_array_equal(one.state[:2], one.state[2:])
     np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
 
 
@@ -90,8 +103,8 @@ def test_what_is_added_is_at_rest_and_what_was_there_stays():
     """Whatever the ghosts held: the one at the right becomes a site."""
     state = np.arange(1.0, 4 * 40 + 1).reshape(4, 40)
     wider = widen(state, None, REST)
-    np.testing.assert_array_equal(wider[:, :39], state[:, :39])
-    assert wider.shape == (4, 40 + BLOCK) and not wider[:, 39:].any()
+    np.testing.assert_array_equal(wider[:, 1:39], state[:, 1:39])
+    assert wider.shape == (4, 40 + BLOCK) and not wider[:, 39:].any() and not wider[:, 0].any()
 
 
 def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_its_end():

@@ -259,7 +259,7 @@ def told_apart(run):
 @pytest.fixture(scope="module")
 def measured():
     """The fronts of made-up runs that all differ, and the runs and thermal states behind them."""
-    bulk = told_apart(spread(0.5, members=3, omegas=(0.5,)))
+    bulk = told_apart(spread(0.5, members=3, omegas=(2.0,)))
     omegas = told_apart(spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)))
     omegas["bulk_power"] = omegas["bulk_power"] * along("variant", [1.0, 1.1, 1.2])
     states, large = thermal(), told_apart(spread(0.5, omegas=(-4.0,)))
@@ -303,7 +303,7 @@ def test_the_ways_shown_are_those_of_first_members_at_their_powers(measured):
     steps = 0.3 * np.arange(3)[:, None] * PIECES
     np.testing.assert_allclose(found["front"], way + steps, rtol=1e-12)
     np.testing.assert_allclose(found["large_front"], way - 14.0, rtol=1e-12)
-    assert (found.attrs["omega"], found.attrs["large_omega"]) == (0.5, -4.0)
+    assert (found.attrs["omega"], found.attrs["large_omega"]) == (2.0, -4.0)
 
 
 def test_the_way_of_a_front_is_told_behind_its_speed_in_spans_of_log_time(measured):
@@ -324,7 +324,7 @@ def test_the_state_behind_a_front_is_the_mean_over_members_of_the_sites_behind_e
     assert len(set(fronts)) == 3
     np.testing.assert_allclose(found["scaled_site"], (np.arange(24) + 0.5) * 0.05)
     far = ((0, 0), (0, 1000))  # beyond its last site a chain is at rest
-    terms = [np.pad(energy_terms(state, constants(0.5)), far) for state in states]
+    terms = [np.pad(energy_terms(state, constants(2.0)), far) for state in states]
     for cell, (low, high) in enumerate(pairwise(np.linspace(0.0, 1.2, 25))):
         inside = [
             one[:, int(low * front) : int(high * front)].mean(axis=1)
@@ -342,12 +342,18 @@ def test_the_state_behind_a_front_is_the_mean_over_members_of_the_sites_behind_e
     np.testing.assert_allclose(found["density"], counts, rtol=1e-12)
 
 
-def test_the_bulk_is_compared_with_the_thermal_state_nearest_to_its_omega(measured):
+def test_the_bulk_is_compared_with_the_thermal_state_of_its_omega(measured):
     found, _, _, states = measured
     np.testing.assert_array_equal(found["thermal_omega"], states["omega"])
     np.testing.assert_array_equal(found["thermal_power"], states["power"])
     for name in ("modulus", "density", "spectrum"):
-        np.testing.assert_array_equal(found[f"thermal_{name}"], states.sel(omega=0.0)[name])
+        np.testing.assert_array_equal(found[f"thermal_{name}"], states.sel(omega=2.0)[name])
+
+
+def test_no_thermal_state_of_another_omega_stands_beside_the_bulk(measured):
+    _, omegas, bulk, states = measured
+    found = measure_front(omegas, bulk.assign_attrs(omega=8.0), bulk, states)
+    assert np.isnan(found["thermal_density"]).all() and np.isnan(found["thermal_spectrum"]).all()
 
 
 HASH = "ba346a3eb4b76d4a"

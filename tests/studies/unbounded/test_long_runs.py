@@ -40,7 +40,7 @@ def interrupted(monkeypatch, tmp_path):
 
 def count_pieces(monkeypatch):
     done, advance = [], active_sites.advance
-    monkeypatch.setattr(active_sites, "advance", lambda *a: done.append(1) or advance(*a))
+    monkeypatch.setattr(active_sites, "advance", lambda *a, **k: done.append(1) or advance(*a, **k))
     return done
 
 

@@ -55,8 +55,9 @@ def ensembles_of(*names):
 
 def ensemble_params(given):
     """Return what both kinds of ensembles run; the bands of cases are those of even ones."""
-    end_time = longest(given.cases)
-    cases = followed(given.cases, given.tolerance, "taylor", end_time=end_time)
+    step = min(SETTINGS.cases[case].output_step for case in given.cases)
+    times = {"end_time": longest(given.cases), "output_step": step}
+    cases = followed(given.cases, given.tolerance, "taylor", **times)
     sweeps, uneven = (swept(one, given.tolerance) for one in (given.sweeps, given.uneven))
     return {
         "problems": lambda wildcards: {} if wildcards.kind else cases,

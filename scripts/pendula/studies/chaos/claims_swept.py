@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.datasets.trajectories import constants_of
 from pendula.ledger.almost_equal import (
     FAR_AS_NEAR,
     SENSITIVITY,
@@ -39,7 +40,6 @@ from pendula.ledger.cutoff import once
 from pendula.measures.confidence import Limits, ratio_limits, student
 from pendula.measures.levels import levelling_of_means
 from pendula.models.bounds import theorem_2_constants
-from pendula.problem import Constants
 
 from .claims import LEVEL
 
@@ -324,8 +324,7 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
 )
 def ensemble_fig6_not_technical(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)
-    omega = float(even["omega"].sel(case="fig3_large"))
-    c_0 = theorem_2_constants(Constants.of({**even.attrs, "omega": omega}))[1]
+    c_0 = theorem_2_constants(constants_of(even, "fig3_large"))[1]
     start = np.square(float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0]))
     lows = {
         f"{kind}_low": np.square(means.mean[-1] - means.off[-1]) / start

@@ -20,6 +20,8 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import difference_limits, mean_limits
 from pendula.numerics.elementary import log
 
+from .sea import thermal_beside
+
 SECTION = 7
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 THERMAL = "unbounded/thermal"
@@ -236,7 +238,9 @@ def same_sea(sea, thermal) -> Finding:
     limit, *others = (sea["site_power"].sel(mu=mu).values for mu in sea["mu"].values)
     if sea.sizes["member"] < 2 or not others:
         raise UndecidableError("an ensemble takes two members, and pendula")
-    known = thermal["power"].sel(omega=sea.attrs["omega"])
+    known = thermal_beside(sea, thermal, "power")["power"]
+    if np.isnan(known):
+        raise UndecidableError("no thermal state was solved for the constants of the sea")
     away = [difference_limits(one, limit) for one in others]
     cumulated = sea["modulus_share"].mean("member").cumsum("modulus")
     apart = at_finite(abs(cumulated - cumulated.sel(mu=0.0)))

@@ -9,6 +9,8 @@ from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
 
+from .sea import thermal_beside
+
 SEA = ("o", "s", "^", "D", "v")
 MARKED = {"markersize": 3.2, "markerfacecolor": "none", "linestyle": "none", "mew": 0.8}
 THERMAL = {"color": "0.6", "lw": 2.2, "zorder": 1}
@@ -28,7 +30,7 @@ def gather_over_the_top(sea: xr.Dataset, over_the_top: xr.Dataset, thermal: xr.D
         long_name="probability density of the modulus", units="1"
     )
     turns = over_the_top["angle_so_far"] / (2.0 * np.pi)
-    known = thermal[["spectrum", "density"]].sel(omega=omega, drop=True)
+    known = thermal_beside(sea, thermal, "spectrum", "density")
     return xr.Dataset(
         {
             "wave_power": means["wave_power"].rename(mu="sea_mu"),
@@ -67,7 +69,8 @@ def draw_over_the_top(data: xr.Dataset) -> Figure:
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
     half = data["wave_number"] <= np.pi
     waves, thermal = data["wave_number"].values[half], data["thermal_spectrum"].values[half]
-    axes.plot(waves, thermal, label="thermal, no ends", **THERMAL)
+    if np.isfinite(thermal).any():
+        axes.plot(waves, thermal, label="thermal, no ends", **THERMAL)
     for mark, colour, mu in _seas(data):
         power = data["wave_power"].sel(sea_mu=mu)
         axes.plot(data["even_wave"], power, mark, color=colour, label=_name(mu), **MARKED)

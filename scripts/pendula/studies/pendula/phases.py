@@ -26,9 +26,9 @@ def measure_phases(
 ) -> Contents:  # fmt: skip
     """Return norms of the envelopes of all cases at mu = 0, which is (4), and at each of `mus`.
 
-    All cases end at one time; the sites are those of the longest chain. The larger envelope of each pair is kept at
-    every `look_every`-th output. So many members of one case are held to Theorem 1 at the largest
-    of `mus`: the data of each are changed by `size`, relatively.
+    All cases end at one time; the sites are those of the longest chain. The larger envelope of each
+    pair is kept at every `look_every`-th output. So many members of one case are held to Theorem 1
+    at the largest of `mus`: the data of each are changed by `size`, relatively.
     """
     every = [LIMIT, *mus]
     found = [[envelopes(at_mu(one, mu)) for mu in every] for one in problems.values()]

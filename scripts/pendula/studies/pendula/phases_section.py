@@ -11,6 +11,7 @@ from pendula.report.results import Results
 from pendula.report.words import case_in_words, number, percent, with_error
 
 from .claims_phases import late_levels
+from .sea import thermal_beside
 
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 FILM = "pendula/film"
@@ -53,7 +54,7 @@ def _sea(results: Results) -> dict[str, Any]:
     power = data["site_power"]
     error = power.std("member", ddof=1) / np.sqrt(power.sizes["member"])
     pairs = zip(power.mean("member").values, error.values, strict=True)
-    thermal = results["unbounded/thermal"]["power"].sel(omega=data.attrs["omega"])
+    thermal = float(thermal_beside(data, results["unbounded/thermal"], "power")["power"])
     return {
         "omega": results.quote(SEA, float(data.attrs["omega"])),
         "members": results.quote(SEA, float(data.sizes["member"])),
@@ -62,7 +63,7 @@ def _sea(results: Results) -> dict[str, Any]:
             (_name(float(mu)), results.say(SEA, with_error(float(mean), float(off))))
             for mu, (mean, off) in zip(data["mu"].values, pairs, strict=True)
         ],
-        "thermal": results.quote("unbounded/thermal", float(thermal)),
+        "thermal": results.quote("unbounded/thermal", thermal) if np.isfinite(thermal) else "",
     }
 
 

@@ -1,4 +1,4 @@
-"""An even chain without ends: only the sites 0..W that are in motion are integrated.
+"""A chain without ends: only the sites in motion are integrated, 0..W of even data, else -W..W.
 
 W grows by a block when anything above `rest` of the largest amplitude comes near the last site.
 For the numbers of a short run 1e-20 is enough, four orders below rounding. But a front that is
@@ -25,7 +25,7 @@ from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem, place
 from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, find_reduction, pack
+from pendula.simulation.lattice import Reduction, pack
 from pendula.simulation.models import make_chain
 from pendula.simulation.observables import Record, blank_record
 from pendula.simulation.simulate import IntegrationError
@@ -43,39 +43,45 @@ class Piece(NamedTuple):
     """What a piece of a run gave: norms and energy at its outputs, the state at its end."""
 
     record: Record
-    state: np.ndarray  # (row, 1 + site): sites 0..W and two ghosts
+    state: np.ndarray  # (row, 1 + site): the sites in motion and two ghosts
     outcome: Outcome
 
 
 def begin(initial: np.ndarray, half_width: int | None) -> np.ndarray:
-    """Return the state of even data on the sites 0..W; `half_width` None is a chain without ends.
-
-    Raises ValueError where the data are not even in n.
-    """
+    """Return the state of data on the sites in motion; without a `half_width` there are no ends."""
     reach = initial.shape[1] // 2
     width = reach + BLOCK if half_width is None else min(reach + BLOCK, half_width)
-    amplitudes = place(initial, width)
-    reduction = find_reduction(amplitudes)
-    if not reduction.even:
-        raise ValueError("sites are added on both sides alike: give data that are even in n")
-    return pack(amplitudes, reduction)
+    return pack(place(initial, width), Reduction(is_even(initial), synchronised=False))
+
+
+def is_even(initial: np.ndarray) -> bool:
+    """Return whether data (2, 2r + 1) are the same on sites n and -n."""
+    return np.array_equal(initial, initial[:, ::-1])
 
 
 def site_powers(state: np.ndarray) -> np.ndarray:
-    """Return |A_n|^2 + |B_n|^2 on the sites 0..W of a state (|A_n|^2 alone where A = B)."""
+    """Return |A_n|^2 + |B_n|^2 on the sites of a state."""
     return (state[:, 1:-1] ** 2).sum(axis=0)
 
 
-def widen(state: np.ndarray, half_width: int | None, rest: float) -> np.ndarray:
-    """Return the state with a block of sites at rest added where its end is no longer at rest."""
-    power = site_powers(state)
-    width = power.size - 1
-    if width == half_width or not power[-GUARD:].max() > rest * rest * power.max():
+def width_of(state: np.ndarray, even: bool) -> int:
+    """Return W, the last site of a state."""
+    return state.shape[1] - 3 if even else (state.shape[1] - 3) // 2
+
+
+def right_half(state: np.ndarray, even: bool) -> np.ndarray:
+    """Return the sites 0..W of a state with a ghost on either side."""
+    return state if even else state[:, width_of(state, even) :]
+
+
+def widen(state: np.ndarray, half_width: int | None, rest: float, even: bool = True) -> np.ndarray:
+    """Return the state with a block of sites at rest added where an end is no longer at rest."""
+    power, width = site_powers(state), width_of(state, even)
+    at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
+    if width == half_width or not at_ends > rest * rest * power.max():
         return state
-    wider = width + BLOCK if half_width is None else min(width + BLOCK, half_width)
-    opened = np.zeros((state.shape[0], wider + 3))
-    opened[:, : width + 2] = state[:, :-1]
-    return opened
+    more = BLOCK if half_width is None else min(BLOCK, half_width - width)
+    return np.pad(state[:, 1:-1], ((0, 0), (1 if even else 1 + more, 1 + more)))
 
 
 def advance(
@@ -84,8 +90,9 @@ def advance(
     times: np.ndarray,
     solver: Mapping,
     rooms: dict | None = None,
+    even: bool = True,
 ) -> Piece:
-    """Integrate `state` in place over `times` (outputs, both ends included) on its sites 0..W.
+    """Integrate `state` in place over `times` (outputs, both ends included) on its sites.
 
     `rooms` keeps the solver's work arrays from one piece to the next: to ask the system for them
     anew takes as long as a tenth of a piece. Raises IntegrationError where the solver gives up.
@@ -94,7 +101,7 @@ def advance(
     method = SOLVERS[solver["name"]]
     record = blank_record(state.shape[0] // 2, state.shape[1] - 2, len(times), 0)
     controls = tuple(float(solver[name]) for name in method.controls)
-    chain = make_chain(constants, "dirichlet", Reduction(even=True, synchronised=False))
+    chain = make_chain(constants, "dirichlet", Reduction(even, synchronised=False))
     key = solver["name"], state.shape
     if key not in rooms:
         rooms.clear()
@@ -128,6 +135,7 @@ class LongRun(NamedTuple):
     piece_tau: np.ndarray  # (piece,)
     front: np.ndarray  # (piece, level): where the power falls below each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
+    # Of data that are not even in n, front, bulk and state are those of the sites 0..W
     bulk: np.ndarray  # (piece, level, 5): means of P and of the terms of H behind each front
     maxima: np.ndarray  # (piece, size): of the moduli of so many neighbours in the bulk
     state: np.ndarray  # (row, 1 + site) at the end
@@ -141,26 +149,27 @@ def run_long(
 ) -> LongRun:
     """Return the run of `problem`, continued from the checkpoint `keep_at` if there is one.
 
-    Its data are even in n, its half-width is None where the chain has no ends; `rest` is what
-    counts as at rest ahead of the front (see above). A checkpoint is written after each
-    `keep_every` pieces, and left.
+    Its half-width is None where the chain has no ends; `rest` is what counts as at rest ahead of
+    the front (see above). A checkpoint is written after each `keep_every` pieces, and left.
     """
+    even = is_even(problem.initial)
     description = describe_run(problem, rest)
     count = round(problem.end_time / PIECE)
     kept = recall_checkpoint(keep_at, description) if keep_at else None
     series, state = _start(problem) if kept is None else _continue(kept)
     rooms = {}
     for piece in range(len(series["piece_tau"]), count):
-        state = widen(state, problem.half_width, rest)
+        state = widen(state, problem.half_width, rest, even)
         times = _times(problem, piece, piece + 1)
-        done = advance(problem.constants, state, times, problem.solver, rooms)
-        _add(series, times, done, first=piece == 0)
-        means = bulk_means(done.state, problem.constants, series["front"][-1])
+        done = advance(problem.constants, state, times, problem.solver, rooms, even)
+        half = right_half(done.state, even)
+        _add(series, times, done, half, first=piece == 0)
+        means = bulk_means(half, problem.constants, series["front"][-1])
         series["bulk"].append(means)
-        series["maxima"].append(bulk_maxima(done.state, series["front"][-1][-1]))
+        series["maxima"].append(bulk_maxima(half, series["front"][-1][-1]))
         if keep_at and (piece + 1) % keep_every == 0:
             keep_checkpoint(keep_at, description, {**_joined(series), "state": state})
-    return LongRun(**_joined(series), state=state)
+    return LongRun(**_joined(series), state=right_half(state, even))
 
 
 # --- One chain of many half-widths ----------------------------------------------------------------
@@ -181,17 +190,19 @@ def run_chains(problem: Problem, rest: float, half_widths: list[int]) -> list[No
     is run from the start, and each shorter one goes its own way when its sites have become too few;
     a chain whose end the front never reached has the norms of the longest one.
     """
-    longest = half_widths[-1]
+    longest, even = half_widths[-1], is_even(problem.initial)
     state, pieces = begin(problem.initial, longest), []
-    own = {m: (0, begin(problem.initial, m)) for m in half_widths if m + 3 < state.shape[1]}
+    width = width_of(state, even)
+    own = {m: (0, begin(problem.initial, m)) for m in half_widths if m < width}
     for piece in range(round(problem.end_time / PIECE)):
-        wider = widen(state, longest, rest)
+        wider = widen(state, longest, rest, even)
         for half_width in half_widths:
-            if half_width not in own and half_width + 3 < wider.shape[1]:
+            if half_width not in own and half_width < width_of(wider, even):
                 own[half_width] = piece, state.copy()
         state = wider
         times = _times(problem, piece, piece + 1)
-        pieces.append(_norms(times, advance(problem.constants, state, times, problem.solver)))
+        done = advance(problem.constants, state, times, problem.solver, even=even)
+        pieces.append(_norms(times, done))
     found = []
     for half_width in half_widths:
         piece, state = own.get(half_width, (len(pieces), state))
@@ -203,12 +214,12 @@ def run_chains(problem: Problem, rest: float, half_widths: list[int]) -> list[No
 
 def _alone(problem: Problem, rest: float, half_width: int, piece: int, state: np.ndarray):
     """Yield the norms of a chain from a piece on, the last ones at once when it cannot grow."""
-    count = round(problem.end_time / PIECE)
+    count, even = round(problem.end_time / PIECE), is_even(problem.initial)
     while piece < count:
-        state = widen(state, half_width, rest)
-        last = count if state.shape[1] == half_width + 3 else piece + 1
+        state = widen(state, half_width, rest, even)
+        last = count if width_of(state, even) == half_width else piece + 1
         times = _times(problem, piece, last)
-        yield _norms(times, advance(problem.constants, state, times, problem.solver))
+        yield _norms(times, advance(problem.constants, state, times, problem.solver, even=even))
         piece = last
 
 
@@ -219,8 +230,7 @@ def _times(problem: Problem, piece: int, last: int) -> np.ndarray:
 
 
 def _norms(times: np.ndarray, done: Piece) -> Norms:
-    copies = 3 - len(done.record.l2)  # A = B: the one component counts twice
-    l2 = np.sqrt(copies * (done.record.l2**2).sum(axis=0))
+    l2 = np.sqrt((done.record.l2**2).sum(axis=0))
     return Norms(times, l2, done.record.linf.max(axis=0))
 
 
@@ -259,15 +269,15 @@ def _continue(kept: dict) -> tuple[dict, np.ndarray]:
     return {name: list(kept[name]) for name in SERIES}, kept["state"]
 
 
-def _add(series: dict, times: np.ndarray, done: Piece, first: bool) -> None:
-    """Append a piece; its first output is the last of the piece before."""
+def _add(series: dict, times: np.ndarray, done: Piece, half: np.ndarray, first: bool) -> None:
+    """Append a piece; its first output is the last of the piece before, `half` its sites 0..W."""
     new = slice(0 if first else 1, None)
     for name, values in _norms(times, done)._asdict().items():
         series[name].extend(values[new])
     series["energy"].extend(done.record.energy[new])
     series["piece_tau"].append(times[-1])
-    series["front"].append(find_front(done.state))
-    series["width"].append(done.state.shape[1] - 3)
+    series["front"].append(find_front(half))
+    series["width"].append(half.shape[1] - 3)
 
 
 def _joined(series: dict) -> dict[str, np.ndarray]:

@@ -54,15 +54,12 @@ def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
 
 
 def _of_pair(squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return |A_n|^2 and |B_n|^2 from the squares of the rows; A = B where there are only two."""
-    a = squares[0] + squares[1]
-    return a, (squares[2] + squares[3] if len(squares) == 4 else a)
+    """Return |A_n|^2 and |B_n|^2 from the squares of the rows."""
+    return squares[0] + squares[1], squares[2] + squares[3]
 
 
 def _drive(sites: np.ndarray) -> np.ndarray:
     """Return Re (A_n - B_n)^2."""
-    if len(sites) == 2:
-        return np.zeros(sites.shape[1])
     real, imaginary = sites[0] - sites[2], sites[1] - sites[3]
     return real * real - imaginary * imaginary
 
@@ -70,8 +67,7 @@ def _drive(sites: np.ndarray) -> np.ndarray:
 def complex_pair(state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return A and B on the sites 0..W of a state with ghost columns."""
     inner = state[:, 1:-1]
-    a = complex_of(inner[0], inner[1])
-    return a, (complex_of(inner[2], inner[3]) if len(inner) == 4 else a)
+    return complex_of(inner[0], inner[1]), complex_of(inner[2], inner[3])
 
 
 def with_ghosts(sites: np.ndarray) -> np.ndarray:

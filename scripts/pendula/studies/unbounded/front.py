@@ -340,7 +340,7 @@ def _behind(bulk: xr.Dataset, constants: Constants) -> dict[str, Variable]:
 
 def _thermal(thermal: xr.Dataset, omega: float) -> dict[str, Variable]:
     """Return of the thermal states what the bulk is compared with, for some of it at one Omega."""
-    one = thermal.sel(omega=omega, method="nearest")
+    one = thermal.reindex(omega=[omega], method="nearest", tolerance=1e-9).isel(omega=0)
     taken = {"omega": thermal["omega"], "power": thermal["power"], "modulus": one["modulus"],
              "density": one["density"], "spectrum": one["spectrum"]}  # fmt: skip
     dims = {"omega": "state", "modulus": "cell", "wave": "wave"}

@@ -66,8 +66,14 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(data["large_tau"].values[shown], bulk[shown], color=style.BLUE, lw=1.1, label=label)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("site of the front")
-    axes.set_ylim(top=1.9 * float(data["front"].max()))
+    _end_above(axes, 1.9 * float(data["front"].max()))
     axes.legend(loc="upper left", handlelength=1.4)
+
+
+def _end_above(axes: Axes, top: float) -> None:
+    """Let an axis end at `top`, unless nothing is drawn since the data have no front."""
+    if np.isfinite(top):
+        axes.set_ylim(top=top)
 
 
 def _unstable(axes: Axes, data: xr.Dataset) -> tuple[float, float]:
@@ -124,7 +130,7 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel(rf"front $- v^*\tau$ (sites), $\Omega = {data.attrs['omega']:g}$")
-    axes.set_ylim(top=float(data["behind"].max()) + 4.8)
+    _end_above(axes, float(data["behind"].max()) + 4.8)
     axes.legend(loc="upper right", handlelength=1.6)
 
 
@@ -170,7 +176,7 @@ def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(
         data["scaled_site"], data["mean_terms"].sum("term"), color="black", lw=1.1, label="sum"
     )
-    axes.set_ylim(top=1.75 * float(data["mean_terms"].max()))
+    _end_above(axes, 1.75 * float(data["mean_terms"].max()))
     axes.set_xlabel("site over that of the front")
     axes.set_ylabel("energy per site")
     axes.legend(loc="upper right", ncols=2, columnspacing=1.0, handlelength=1.6)
