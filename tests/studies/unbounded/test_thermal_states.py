@@ -150,7 +150,7 @@ def test_the_states_are_hotter_with_more_energy():
 
 
 def test_where_every_state_has_energy_there_is_none():
-    with pytest.raises(ValueError, match="has this energy"):
+    with pytest.raises(ValueError, match="has the energy"):
         state_of((1.0, 1.0, 8.0))
 
 

@@ -72,7 +72,7 @@ def told_apart(omegas: np.ndarray, ratios: list[Limits], what: str) -> str:
 def at_energy(thermal, energy: float) -> dict[str, float]:
     """Return P and the cubic term a site of the thermal state of an energy, between solved ones."""
     solved = thermal["site_energy"].values
-    if not solved[0] <= energy <= solved[-1]:
+    if solved.size < 2 or not solved[0] <= energy <= solved[-1]:
         raise UndecidableError(f"no thermal state with the energy {energy:.3g} a site was solved")
     cubic = thermal["warm_terms"].sel(term="cubic").values
     return {

@@ -46,6 +46,10 @@ LAST_DIGIT = float(f"1e-{DIGITS}")
 """Significant digits of what is published, and the decimals of densities."""
 
 
+class NoStateError(ValueError):
+    """No thermal state between HOT and COLD has the energy."""
+
+
 class ThermalState(NamedTuple):
     """A thermal state: means of a site of the infinite chain."""
 
@@ -74,7 +78,7 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
 
     Three grids follow each other: one with half of the nodes finds beta roughly and how far the
     distribution reaches, one with three quarters gives the error, the last gives the state.
-    Raises ValueError where no state between HOT and COLD has this energy.
+    Raises NoStateError where no state between HOT and COLD has this energy.
     """
     few, some = nodes // 2, 3 * nodes // 4
 
@@ -82,7 +86,10 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
         grid = half_nodes(widest(constants, beta), few)
         return _excess(constants, beta, grid, energy)[0]
 
-    beta = _bisected(rough)
+    try:
+        beta = _bisected(rough)
+    except NoStateError as error:
+        raise NoStateError(f"{error}: {energy:g} at Omega = {constants.omega:g}") from None
     reach = widest(constants, beta)
     tried = []
     for count, wider in ((few, 1.0), (some, 1.1), (nodes, 1.0)):
@@ -106,7 +113,7 @@ def _excess(constants, beta, grid, energy, vector=None) -> tuple[float, Operator
 def _bisected(function: Callable[[float], float], halvings: int = 7) -> float:
     hot, cold = HOT, COLD
     if function(hot) > 0.0 or function(cold) < 0.0:
-        raise ValueError("no thermal state between these temperatures has this energy")
+        raise NoStateError("no thermal state between the temperatures tried has the energy")
     for _ in range(halvings):
         beta = float(np.sqrt(hot * cold))
         hot, cold = (beta, cold) if function(beta) < 0.0 else (hot, beta)
@@ -299,6 +306,9 @@ def _means(states: list[ThermalState], along: tuple, prefix: str, words: str) ->
             attributes=digits(2),
         ),
         f"{prefix}terms": Variable(
-            (*along, "term"), terms, f"terms of H per site {words}", attributes=digits()
+            (*along, "term"),
+            np.reshape(terms, (-1, len(TERMS))),
+            f"terms of H per site {words}",
+            attributes=digits(),
         ),
     }
