@@ -20,7 +20,7 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import difference_limits, mean_limits
 from pendula.numerics.elementary import log
 
-from .sea import thermal_beside
+from .thermal_beside import thermal_beside
 
 SECTION = 7
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"

@@ -9,7 +9,7 @@ from matplotlib.ticker import NullLocator
 
 from pendula.drawing import style
 
-from .sea import thermal_beside
+from .thermal_beside import thermal_beside
 
 SEA = ("o", "s", "^", "D", "v")
 MARKED = {"markersize": 3.2, "markerfacecolor": "none", "linestyle": "none", "mew": 0.8}

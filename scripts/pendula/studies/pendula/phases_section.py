@@ -11,7 +11,7 @@ from pendula.report.results import Results
 from pendula.report.words import case_in_words, number, percent, with_error
 
 from .claims_phases import late_levels
-from .sea import thermal_beside
+from .thermal_beside import thermal_beside
 
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 FILM = "pendula/film"

@@ -74,13 +74,6 @@ def measure_sea(
     return variables, {**shared, **about, "title": f"{title}; mu = 0 stands for (4)"}
 
 
-def thermal_beside(sea, thermal, *names: str):
-    """Return these variables of the thermal chain of the sea's constants, NaN if unsolved."""
-    known = thermal[list(names)].reindex(omega=[sea.attrs["omega"]])
-    alike = all(sea.attrs[name] == thermal.attrs[name] for name in ("epsilon", "gamma"))
-    return known.isel(omega=0, drop=True).where(alike)
-
-
 REDUCED = {
     "site_power": ((), "mean of |A_n|^2 + |B_n|^2 over sites and time"),
     "l2_level": ((), "mean of the l2 norm over the time window"),
