@@ -7,8 +7,16 @@ from pendula.drawing import style
 from pendula.own_cases import figures
 
 
-def test_the_second_run_stands_below_the_first_where_they_diverge(gathered, make_trajectory):
-    grid = np.reshape(figures.draw_norms(gathered["own_norms"]).axes, (2, 2))
+@pytest.fixture
+def diverging(make_trajectory):
+    """Return a run that a second one leaves at tau = 2."""
+    second = make_trajectory(scale=1.02)[["linf", "l2"]]
+    checks = second.rename(linf="second_linf", l2="second_l2").assign(divergence_time=2.0)
+    return figures.draw_norms(figures.gather_norms(make_trajectory(), checks))
+
+
+def test_the_second_run_stands_below_the_first_where_they_diverge(diverging, make_trajectory):
+    grid = np.reshape(diverging.axes, (2, 2))
     for row, run in zip(grid, [make_trajectory(), make_trajectory(scale=1.02)], strict=True):
         for axes, name in zip(row, ["linf", "l2"], strict=True):
             lines = axes.get_lines()
@@ -19,8 +27,8 @@ def test_the_second_run_stands_below_the_first_where_they_diverge(gathered, make
     assert [axes.get_xlabel() for axes in grid[1]] == [r"$\tau$"] * 2
 
 
-def test_titles_say_every_parameter(gathered):
-    left, right = figures.draw_norms(gathered["own_norms"]).axes[:2]
+def test_titles_say_every_parameter(diverging):
+    left, right = diverging.axes[:2]
     for sign, value in {r"\Omega": 8, r"\gamma": 1, r"\epsilon": 1, "M": 2}.items():
         assert f"${sign} = {value}$" in left.get_title("left")
     assert right.get_title("left") == "$(A_{0}, B_{0}) = (1, 0.1)$,  ends at rest"
@@ -39,8 +47,8 @@ def test_one_site_fills_its_picture(make_trajectory):
     assert figure.axes[0].images[0].get_extent() == [-0.5, 5.5, -0.5, 0.5]
 
 
-def test_a_sweep_has_a_panel_for_each_norm(gathered, make_sweep):
-    figure = figures.draw_sweep(gathered["own_sweep"])
+def test_a_sweep_has_a_panel_for_each_norm(make_sweep):
+    figure = figures.draw_sweep(figures.gather_sweep(make_sweep(), mean_window="[10, 40]"))
     sweep = make_sweep().sel(quantity="pair")
     for axes, name in zip(figure.axes, ["linf", "l2"], strict=True):
         full, hollow = (line.get_ydata() for line in axes.get_lines())

@@ -5,14 +5,11 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from accepted import settings, texts
 from held_digits import blurred, unlike
-from helpers import ROOT
 from pendula import studies
-from pendula.configuration.files import gather
-from pendula.configuration.messages import STUDIES, load
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results
-from pendula.report.words import Quote
 
 VOID = {"area", "br", "col", "hr", "img", "input", "link", "meta", "rect", "line"}
 
@@ -116,32 +113,10 @@ class Blurred(Results):
         return self._read[name]
 
 
-def texts(found, place: str = "") -> dict[str, str]:
-    """Return the texts of nested facts by their places; pictures and films are left out."""
-    if isinstance(found, str | Quote):
-        return {} if place.endswith("frames") else {place: str(found)}
-    if isinstance(found, dict | list | tuple):
-        items = found.items() if isinstance(found, dict) else enumerate(found)
-        return {at: text for key, one in items for at, text in texts(one, f"{place}.{key}").items()}
-    return {}
-
-
-def settings() -> dict:
-    """Return the configuration of the quick run, as the sections of the studies read it."""
-    given = load(
-        gather([ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES, "quick")], {})
-    )
-    swept = {
-        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
-        for name, sweep in given.sweeps.items()
-    }
-    return {"sweeps": swept} | {name: getattr(given, name).model_dump() for name in STUDIES}
-
-
 def said(kind: type[Results], run) -> dict[str, str]:
     """Return all that the sections of the studies print."""
     files = [str(path) for path in (run / "results").rglob("*") if path.is_file()]
-    results = kind(files, str(run / "results/report.html"), settings())
+    results = kind(files, str(run / "results/report.html"), settings("quick"))
     ledger = Ledger(results)
     return {
         f"{section.name}{place}": text

@@ -1,0 +1,208 @@
+"""The accepted results as the data of tests: datasets by name, and wrong changes of them."""
+
+import json
+import math
+import re
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+import yaml
+from pendula import studies
+from pendula.configuration.files import gather
+from pendula.configuration.messages import STUDIES, load
+from pendula.datasets.netcdf import read
+from pendula.ledger.section import Ledger
+from pendula.report.page import Picture, render
+from pendula.report.results import Results, Section
+from pendula.report.sections import Measured, gather_speed
+from pendula.report.words import Quote
+
+ROOT = Path(__file__).parents[1]
+BASELINE = ROOT / "tests/baseline"
+
+
+@cache
+def dataset(name: str) -> xr.Dataset:
+    """Return an accepted dataset such as "checks/lyapunov", which nobody may change in place."""
+    return read(BASELINE / f"{name}.nc")
+
+
+def datasets(names: Iterable[str]) -> dict[str, xr.Dataset]:
+    """Return accepted datasets by their names."""
+    return {name: dataset(name) for name in names}
+
+
+def wrong_changes(part: str) -> list[dict]:
+    """Return the rows of one part of wrong_changes.yaml, which says how they are written."""
+    return yaml.safe_load((Path(__file__).parent / "wrong_changes.yaml").read_text())[part]
+
+
+def changed(row: Mapping) -> dict[str, xr.Dataset]:
+    """Return the datasets that a row of wrong_changes.yaml changes, after the change."""
+    given = row.get("in", ())
+    names = [given] if isinstance(given, str) else given
+    with xr.set_options(keep_attrs=True):
+        return {name: _change(dataset(row.get("take", name)), row) for name in names}
+
+
+def _change(data: xr.Dataset, row: Mapping) -> xr.Dataset:
+    for along, wanted in row.get("keep", {}).items():
+        data = data.isel({along: np.flatnonzero(_found(data, along, wanted))})
+    if along := row.get("exchange"):
+        data = data.assign_coords({along: data[along].values[::-1]})
+    for verb, (given, change) in VERBS.items():
+        for name in {row[verb]} if isinstance(row.get(verb), str) else {*row.get(verb, ())}:
+            if name in data:
+                here = _here(data, row.get("at", {}))
+                data = data.assign({name: data[name].where(~here, change(data[name], row[given]))})
+    return data
+
+
+VERBS = {
+    "scale": ("by", lambda values, factor: values * factor),
+    "shift": ("by", lambda values, amount: values + amount),
+    "set": ("to", xr.full_like),
+}
+
+
+def _here(data: xr.Dataset, at: Mapping) -> xr.DataArray:
+    """Return where all coordinates are as `at` says."""
+    here = xr.DataArray(True)
+    for along, wanted in at.items():
+        here = here & _found(data, along, wanted)
+    assert here.any(), f"nothing stands at {at}"
+    return here
+
+
+def _found(data: xr.Dataset, along: str, wanted) -> xr.DataArray:
+    """Return where a coordinate, or a place if it has none, is one of a list or in a span.
+
+    The accepted files hold coordinates in single precision.
+    """
+    labels = data[along]
+    if isinstance(wanted, dict):
+        low, high = wanted.get("from", -np.inf), wanted.get("to", np.inf)
+        return (labels >= low) & (labels <= high)
+    if labels.dtype.kind == "f":
+        wanted = np.array(wanted, np.float32)
+    return labels.isin(wanted)
+
+
+def leaves(found, place: str = "") -> dict:
+    """Return what stands in nested lists and dictionaries, by its place."""
+    if not isinstance(found, dict | list):
+        return {place: found}
+    items = found.items() if isinstance(found, dict) else enumerate(found)
+    return {at: leaf for key, one in items for at, leaf in leaves(one, f"{place}.{key}").items()}
+
+
+def differing(one, other, share: float, amount: float = 0.0) -> dict[str, tuple]:
+    """Return the leaves in which two things differ, numbers by more than a share and an amount."""
+    one, other = leaves(one), leaves(other)
+    pairs = {place: (one.get(place), other.get(place)) for place in one | other}
+
+    def alike(a, b) -> bool:
+        if {type(a), type(b)} <= {float, int, np.float64}:
+            return math.isclose(a, b, rel_tol=share, abs_tol=amount)
+        return a == b
+
+    return {place: pair for place, pair in pairs.items() if not alike(*pair)}
+
+
+def check_words(row: dict, right: str, wrong: str) -> None:
+    """Check that words are told by the wrong text alone, and others by the right one alone."""
+    assert row.keys() & {"told", "untold"}
+    for words, here, elsewhere in (
+        (row.get("told"), wrong, right),
+        (row.get("untold"), right, wrong),
+    ):
+        if words:
+            assert words in here
+            assert words not in elsewhere
+
+
+class Report(Results):
+    """The accepted results as the report reads them; some datasets may be changed.
+
+    References stand in the place of the trajectories that a run makes of them.
+    """
+
+    def __init__(self, changes: Mapping[str, xr.Dataset] = {}, differs: Mapping[str, str] = {}):
+        files = [str(path) for path in BASELINE.rglob("*") if path.is_file()]
+        super().__init__(files, str(BASELINE / "report.html"), settings(), dict(differs))
+        self.changes = changes
+
+    def __getitem__(self, name: str) -> xr.Dataset:
+        return self.changes[name] if name in self.changes else dataset(_accepted(name))
+
+    def __contains__(self, name: str) -> bool:
+        return super().__contains__(_accepted(name))
+
+    def path(self, link: str) -> Path:
+        return super().path(_accepted(link))
+
+
+def _accepted(name: str) -> str:
+    return name.replace("truth/", "reference/")
+
+
+@cache
+def settings(*over: str) -> dict:
+    """Return the configuration as the sections read it, with the files of these names over it."""
+    names = ("config", *STUDIES, *over)
+    given = load(gather([ROOT / f"config/{name}.yaml" for name in names], {}))
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in given.sweeps.items()
+    }
+    return {"sweeps": swept} | {name: getattr(given, name).model_dump() for name in STUDIES}
+
+
+SPEED = Measured("speed/work_precision.nc", "speed/work_precision.md", [], False)
+
+
+def sections() -> dict[str, tuple]:
+    """Return the sections of all studies, and that on speed, by name, each with its template."""
+    speed = Section("speed", "Speed", lambda results, _: gather_speed(results, SPEED))
+    return {"speed": (speed, "sections.html.j2")} | {
+        section.name: (section, f"{study}/section.html.j2")
+        for study, module in studies.modules("section").items()
+        for section in module.SECTIONS
+    }
+
+
+def facts(name: str, results: Results) -> dict[str, str]:
+    """Return the texts that a section puts into its template, by their places."""
+    section, _ = sections()[name]
+    return texts(section.gather(results, Ledger(results)))
+
+
+def texts(found, place: str = "") -> dict[str, str]:
+    """Return the texts of nested facts by their places; pictures and films are left out."""
+    if isinstance(found, str | Quote):
+        return {} if place.endswith("frames") else {place: str(found)}
+    if isinstance(found, dict | list | tuple) and not isinstance(found, Picture):
+        items = found.items() if isinstance(found, dict) else enumerate(found)
+        return {at: text for key, one in items for at, text in texts(one, f"{place}.{key}").items()}
+    return {}
+
+
+def page_of(name: str, results: Results) -> str:
+    """Return all words of a page of the report that has this section alone."""
+    section, template = sections()[name]
+    found = section.gather(results, Ledger(results))
+    shown = {"name": name, "title": section.title, "template": template, "found": found}
+    html = render("report.html.j2", sections=[shown], differs=[])
+    told = re.sub(r"<(style|script)>.*?</\1>|<[^>]*>", " ", html, flags=re.DOTALL)
+    return " ".join(told.split())
+
+
+FACTS = BASELINE / "quoted/sections.json"
+"""What all sections say of the accepted results. `python tests/accepted.py` writes it anew."""
+
+if __name__ == "__main__":
+    told = {name: facts(name, Report()) for name in sections()}
+    FACTS.write_text(json.dumps(told, indent=0, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -1,0 +1,107 @@
+"""All figures of a run: what draws each, and what gathers it from accepted datasets."""
+
+from accepted import dataset
+from pendula.studies.breathers import fate_figures
+from pendula.studies.breathers import figures as breathers
+from pendula.studies.certified import figures as certified
+from pendula.studies.chaos import figures as chaos
+from pendula.studies.chaos import lifetimes_figure
+from pendula.studies.paper import chain_figure
+from pendula.studies.paper import figures as paper
+from pendula.studies.pendula import (
+    over_the_top_figure,
+    phases_figure,
+    remainder_figure,
+    threshold_figure,
+)
+from pendula.studies.theory import bounds_figure
+from pendula.studies.theory import figures as theory
+from pendula.studies.unbounded import figures as unbounded
+from pendula.studies.unbounded import front_figure
+
+
+def norms_of(figure: str) -> tuple[list, list]:
+    """Return both runs of a figure of norms, and what it shows as their true norms."""
+    shown = dataset(f"figures/{figure}")
+    runs = [dataset(f"trajectories/{figure}_{size}") for size in paper.SIZES]
+    shown = [shown.sel(initial_size=size).dropna("tau", subset=["true_l2"]) for size in paper.SIZES]
+    true = [
+        run.assign(l2=one["true_l2"], linf=one["true_linf"])
+        for run, one in zip(runs, shown, strict=True)
+    ]
+    return runs, true
+
+
+def gather_norms(figure: str, ensembles=None):
+    return paper.gather_norms(*norms_of(figure), ensembles)
+
+
+def gather_sweeps(figure: str, windows: tuple[str, str], norms: list[str]):
+    sweeps = (dataset(f"sweeps/{figure}_{side}") for side in ("left", "right"))
+    return paper.gather_sweeps(*sweeps, *windows, norms, dataset("checks/ensembles"))
+
+
+def gather_map(*maps):
+    return unbounded.gather_window_map(dict(zip(MAPS, maps, strict=True)), list(MAPS.values()))
+
+
+MAPS = {"fig5_left": 50.0, "fig5_right": 50.0, "fig6_left": 70.0, "fig6_right": 70.0}
+"""The sweeps of the paper, and where the window ends that it draws."""
+FIGURES = {
+    "fig1": (chain_figure.draw, chain_figure.gather),
+    "fig2": (paper.draw_norms, lambda: gather_norms("fig2")),
+    "fig3": (paper.draw_norms, lambda bands: gather_norms("fig3", bands), "checks/ensembles"),
+    "fig4": (paper.draw_norms, lambda bands: gather_norms("fig4", bands), "checks/ensembles"),
+    **{f"fig{n}_spacetime": (
+        paper.draw_spacetime,
+        lambda shown, n=n: paper.gather_spacetime(norms_of(f"fig{n}")[0], shown),
+        f"figures/fig{n}",
+    ) for n in (2, 3, 4)},
+    "fig5": (paper.draw_sweeps,
+             lambda: gather_sweeps("fig5", ("[10, 50]", "[10, 50]"), ["l2", "linf"])),
+    "fig6": (paper.draw_sweeps, lambda: gather_sweeps("fig6", ("[10, 70]", "[10, 40]"), ["l2"])),
+    "energy_drift": (paper.draw_drift, paper.gather_drift, "checks/solvers"),
+    "solver_agreement": (paper.draw_agreement, paper.gather_agreement, "checks/solvers"),
+    "trust_horizons": (paper.draw_trust, paper.gather_trust, "checks/trust"),
+    "breathers": (breathers.draw_breathers, breathers.gather_breathers,
+                  "breathers/periodic", "breathers/growth"),
+    "fates": (fate_figures.draw_fates, fate_figures.gather_fates,
+              "breathers/fates", "quoted/breathers"),
+    "sensitivity": (breathers.draw_sensitivity, breathers.gather_sensitivity,
+                    "breathers/sensitivity"),
+    "certified_curves": (certified.draw_curves, lambda *curves: certified.gather_curves(curves),
+                         "certified/fig2_small", "certified/fig3_small"),
+    "lyapunov": (chaos.draw_lyapunov, chaos.gather_lyapunov, "checks/lyapunov"),
+    "symmetry": (chaos.draw_symmetry, chaos.gather_symmetry, "checks/symmetry", "checks/lyapunov"),
+    "ensembles": (chaos.draw_ensembles, chaos.gather_ensembles,
+                  "checks/ensembles", "checks/ensemble_runs"),
+    "lifetimes": (lifetimes_figure.draw_lifetimes, lifetimes_figure.gather_lifetimes,
+                  "checks/lifetimes"),
+    "pendula_over_the_top": (
+        over_the_top_figure.draw_over_the_top, over_the_top_figure.gather_over_the_top,
+        "pendula/sea", "pendula/over_the_top", "unbounded/thermal",
+    ),
+    "pendula_phases": (phases_figure.draw_phases, phases_figure.gather_phases, "pendula/phases"),
+    "pendula_remainder": (remainder_figure.draw_remainder, remainder_figure.gather_remainder,
+                          "pendula/remainder"),
+    "pendula_threshold": (threshold_figure.draw_threshold, threshold_figure.gather_threshold,
+                          "pendula/threshold"),
+    "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
+               "checks/cases", "checks/sweeps", "checks/samples", "checks/worst",
+               "checks/sharpness", "checks/chain_growth"),
+    "stability_chart": (
+        theory.draw_chart,
+        lambda *charts: theory.gather_chart(*charts, [(-4.0, 1.0), (0.0, 1.0), (8.0, 1.0)], True),
+        "checks/chart", "checks/short_chart", "checks/windows",
+    ),
+    "growth_rates": (theory.draw_rates, theory.gather_rates,
+                     "checks/chart", "checks/short_chart", "checks/threshold"),
+    "front": (front_figure.draw_front, front_figure.gather_front, "unbounded/front"),
+    "growth_law": (unbounded.draw_growth_law, lambda growth: growth, "unbounded/growth"),
+    "window_map": (
+        unbounded.draw_window_map,
+        gather_map,
+        *(f"unbounded/map_{sweep}" for sweep in MAPS),
+    ),
+}  # fmt: skip
+"""What draws a figure, what gathers what it shows, and from which datasets."""

@@ -1,0 +1,22 @@
+"""What a proof of breathers stores, of states that exist and at a wrong Omega."""
+
+import numpy as np
+from pendula.datasets.netcdf import as_xarray
+from pendula.studies.certified.proved_breathers import breathers_contents
+
+PROOFS = [
+    {"family": "A = B real", "omega": -8.0, "epsilon": 1.0},
+    {"family": "A = B real", "omega": -4.0, "epsilon": 1.0},
+    {"family": "A = B real", "omega": -10.0, "epsilon": 1.0},
+]
+WRONG = [{**PROOFS[1], "tested_at": 2.0}, {**PROOFS[1], "tested_at": -4.001}]
+
+
+def test_what_is_refused_is_said_in_the_dataset():
+    proved = as_xarray(*breathers_contents(1.0, {"block": 18, "chain": 8}, PROOFS, WRONG))
+    assert np.isinf(proved["wrong_radius"][0]) and proved["wrong_radius"][1] > 1e-5
+    assert "band" in str(proved["wrong_refusal"].values[0])
+    assert list(proved["proof_refusal"].values) == ["", "", ""]
+    assert list(proved["stable"].values) == [1, 0, 1]
+    assert proved["stable"].attrs["flag_meanings"] == "undecided unstable stable"
+    assert float(proved["radius"].max()) < 1e-12

@@ -1,0 +1,104 @@
+"""Claims, controls and sections of the report, from the accepted datasets.
+
+What is compared tells that something changed. That it is right is told by wrong changes, which must
+turn verdicts, and by the exact cases beside each study.
+"""
+
+import json
+import re
+
+import pytest
+from accepted import (
+    BASELINE,
+    FACTS,
+    Report,
+    changed,
+    check_words,
+    datasets,
+    differing,
+    facts,
+    page_of,
+    sections,
+    wrong_changes,
+)
+from held_digits import unlike
+from pendula.datasets.json_files import load_json
+from pendula.ledger.claim import all_claims, decide, evaluate, needed
+
+CLAIM = {claim.name: claim for claim in all_claims()}
+
+ROUNDED = {
+    "energy_small": 2e-5,
+    "energy_large": 2e-5,
+    "second_solver": 2e-8,
+    "ensemble_fig4_settles": 1e-7,
+    "ensemble_equilibrium": 1e-7,
+    "unbounded_in_time": 1e-6,
+    "unbounded_band": 0.02,
+    "unbounded_small": 1e-7,
+    "unbounded_slope": 1e-9,
+    "unbounded_warm": 3e-6,
+    "unbounded_determined": 1e-7,
+    "curves_certified": 1e-5,
+}
+"""What the seven digits of the accepted datasets leave open of small differences, by claim."""
+NUMBER = r"\d[\d.]*(?:e[+-]\d+)?"
+
+
+def without_numbers(row: dict) -> dict:
+    """Return a row of the ledger without the numbers of its sentences, which are measured ones."""
+    told = {"because": re.sub(NUMBER, "#", row["because"])} if "because" in row else {}
+    controls = {"controls": list(map(without_numbers, row.get("controls", ())))}
+    return {**{key: row[key] for key in row.keys() - {"rules"}}, **told, **controls}
+
+
+@pytest.mark.parametrize("part", sorted(path.stem for path in (BASELINE / "claims").glob("*.json")))
+def test_claims_and_controls_come_out_as_accepted(part):
+    """Each row of the ledger: verdict, reason, measured numbers, criterion, cut-offs, controls."""
+    kept = load_json(BASELINE / f"claims/{part}.json")
+    accepted = {row["name"]: without_numbers(row) for row in kept["rows"]}
+    modules = [name.replace(".", "/", 1) for name in kept["sections"]]
+    found = {row["name"]: without_numbers(row)
+             for row in evaluate(datasets(needed(*modules)), None, modules)}  # fmt: skip
+    assert found.keys() == accepted.keys()
+    apart = {name: differing(accepted[name], row, 1e-3, ROUNDED.get(name, 0.0))
+             for name, row in found.items()}  # fmt: skip
+    assert {name: places for name, places in apart.items() if places} == {}
+
+
+def test_every_claim_is_in_the_ledger():
+    accepted = {row["name"] for path in (BASELINE / "claims").glob("*.json")
+                for row in load_json(path)["rows"]}  # fmt: skip
+    assert accepted == CLAIM.keys() and len(CLAIM) == len(all_claims())
+
+
+WRONG = wrong_changes("claims")
+VERBS = {"scale", "shift", "set"}
+
+
+@pytest.mark.parametrize("row", WRONG, ids=[f"{row['claim']}-{i}" for i, row in enumerate(WRONG)])
+def test_a_wrong_change_turns_the_verdict(row):
+    """Where a part is kept and then changed, the verdict on the part is turned."""
+    claim, part = CLAIM[row["claim"]], {key: row[key] for key in ("in", "keep") if key in row}
+    right = datasets(claim.needs) | (changed(part) if VERBS & row.keys() else {})
+    before, after = decide(claim, right), decide(claim, right | changed(row))
+    assert after.verdict == row.get("is", claim.refuted), after
+    assert row.get("because", "") in after.because
+    assert (before.verdict, before.because) != (after.verdict, after.because)
+
+
+@pytest.mark.parametrize("name", sections())
+def test_a_section_says_what_is_accepted(name):
+    """Each text that its template is given; `python tests/accepted.py` accepts other ones."""
+    accepted, told = json.loads(FACTS.read_text())[name], facts(name, Report())
+    assert told.keys() == accepted.keys()
+    assert {at: pair for at in told if unlike(*(pair := (accepted[at], told[at])))} == {}
+
+
+@pytest.mark.parametrize(
+    "row", wrong_changes("sections"), ids=lambda row: f"{row['section']}-{row.get('in', '')}"
+)
+def test_a_section_tells_what_is_changed(row):
+    right = page_of(row["section"], Report())
+    wrong = page_of(row["section"], Report(changed(row), row.get("differs", {})))
+    check_words(row, right, wrong)
