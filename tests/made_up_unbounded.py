@@ -2,7 +2,6 @@
 
 import numpy as np
 import xarray as xr
-from made_up_breathers import sensitivity
 from pendula.studies.unbounded.extremes import mean_maximum
 
 TAU = np.linspace(0.0, 200.0, 401)
@@ -120,19 +119,3 @@ def thermal():
         },
     )
     return named(data.assign_attrs(epsilon=1.0, gamma=1.0))
-
-
-def unbounded_runs() -> dict[str, xr.Dataset]:
-    """Return the datasets that the claims read, as a growing sea would make them."""
-    made = {
-        "fig4_small": spread(0.5, members=6),
-        "fig3_large": spread(0.5, omegas=(-4.0,)),
-        "fig3_small": spread(0.0, omegas=(-4.0,)),
-        "fig2_large": spread(0.0, omegas=(8.0,)),
-        "omegas": spread(0.5, variants=3, omegas=(-1.0, 2.0, 5.0)),
-        "amplitudes": spread([0.0, 0.5, 0.0], variants=3, amplitudes=(4.0, 5.0, 6.0)),
-        "map_fig5_right": window_map(),
-        "thermal": thermal(),
-    }
-    runs = {f"unbounded/{name}": data for name, data in made.items()}
-    return runs | {"breathers/sensitivity": named(sensitivity())}

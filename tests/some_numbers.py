@@ -2,7 +2,7 @@
 
     python tests/some_numbers.py given made [theory]
 
-makes them from the made-up runs in the folder `given`, and from small arguments, in the functions
+makes them from runs without ends in the folder `given`, and from small arguments, in the functions
 that the rules call, and writes them to the folder `made`; by the third word all checks of the
 theory in place of a few small ones. What solvers give is asked by bits.py.
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import xarray
 from helpers import chosen
-from made_up_unbounded import named, unbounded_runs
+from made_up_unbounded import named
 from pendula.datasets.netcdf import read, save, write
 from pendula.numerics.search import maximise
 from pendula.problem import Constants
@@ -38,12 +38,6 @@ UNBOUNDED = ("growth", "front", "thermal")
 PROVED = [{"family": "asymmetric real", "omega": -10.0, "epsilon": 1.0}]
 """A steady breather whose proof takes a state, an inverse in balls, and a spectrum."""
 NAMES = (*CHECKS, "search", *UNBOUNDED, "proofs")
-
-
-def prepare(folder: Path) -> None:
-    """Write the made-up runs, once for all machines: NumPy's own functions make them."""
-    for name, data in unbounded_runs().items():
-        save(str(folder / f"{Path(name).name}.nc"), data)
 
 
 def searched() -> xarray.Dataset:

@@ -12,6 +12,7 @@ import netCDF4
 import numpy as np
 import pytest
 import some_numbers
+from accepted import BASELINE
 from helpers import need_machine, skip
 from unlike import unlike
 
@@ -51,8 +52,7 @@ def output_of(command, environment):
 @pytest.fixture(scope="module")
 def numbers_by(tmp_path_factory):
     """Return a function: the folder with the datasets of some_numbers.py by some Python."""
-    given = tmp_path_factory.mktemp("given")
-    some_numbers.prepare(given)
+    given = BASELINE / "unbounded"
 
     def make(python, environment, *every):
         made = tmp_path_factory.mktemp("made")

@@ -8,11 +8,6 @@ from pendula.studies.unbounded.claims import following, growth_of, stays
 from pendula.studies.unbounded.claims_state import unbounded_maximum
 
 
-@pytest.fixture(scope="module")
-def sources():
-    return made_up.unbounded_runs()
-
-
 @pytest.mark.parametrize("power", [0.1, 0.5, 0.8])
 def test_a_law_is_followed_with_the_scatter_of_the_members(power):
     run = following(lambda tau: 3.0 * tau**power)(made_up.spread(0.5, members=6))
@@ -27,8 +22,8 @@ def test_what_creeps_by_less_than_two_per_cent_stays_and_more_does_not():
         assert stays(creeping).verdict == verdict
 
 
-def test_the_maxima_of_the_thermal_state_confirm_that_the_norm_is_finite(sources):
-    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+def test_the_maxima_of_the_thermal_state_confirm_that_the_norm_is_finite():
+    run, thermal = made_up.spread(0.5, members=6), made_up.thermal()
     finding = unbounded_maximum(run, thermal)
     assert finding.verdict == Verdict.CAVEAT
     ahead = finding.measured["thermal_at_1e6"]
@@ -37,14 +32,14 @@ def test_the_maxima_of_the_thermal_state_confirm_that_the_norm_is_finite(sources
     assert finding.measured["norm_over_thermal"] == pytest.approx(1.0, abs=0.01)
 
 
-def test_a_norm_above_the_thermal_one_is_refused_whatever_the_bulk_does(sources):
-    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+def test_a_norm_above_the_thermal_one_is_refused_whatever_the_bulk_does():
+    run, thermal = made_up.spread(0.5, members=6), made_up.thermal()
     for factor, verdict in ((1.01, Verdict.CAVEAT), (1.05, Verdict.NOT_REPRODUCED)):
         assert unbounded_maximum(run.assign(linf=factor * run["linf"]), thermal).verdict == verdict
 
 
-def test_maxima_that_differ_much_between_the_members_decide_nothing(sources):
-    run, thermal = sources["unbounded/fig4_small"], sources["unbounded/thermal"]
+def test_maxima_that_differ_much_between_the_members_decide_nothing():
+    run, thermal = made_up.spread(0.5, members=6), made_up.thermal()
     apart = run["bulk_maximum"] * (1.0 + 0.05 * (-1.0) ** np.arange(6))[:, None, None]
     noisy = run.assign(bulk_maximum=(run["bulk_maximum"].dims, apart.values))
     assert unbounded_maximum(noisy, thermal).verdict == Verdict.UNDECIDED
