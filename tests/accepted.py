@@ -201,7 +201,10 @@ def page_of(name: str, results: Results) -> str:
 
 
 FACTS = BASELINE / "quoted/sections.json"
-"""What all sections say of the accepted results. `python tests/accepted.py` writes it anew."""
+"""What all sections say of the accepted results, written by
+
+    PYTHONPATH=scripts python tests/accepted.py
+"""
 
 if __name__ == "__main__":
     told = {name: facts(name, Report()) for name in sections()}
