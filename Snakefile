@@ -6,6 +6,7 @@ configfile: f"{workflow.basedir}/config/config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/base.smk"
 
 
 CHAOS_FIGURES = [

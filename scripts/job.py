@@ -1,4 +1,7 @@
-"""Run one public function as a Snakemake job: plain arguments in, everything said into the log."""
+"""Run functions of the library as a Snakemake job, and keep in its log all that they say.
+
+The rule names the functions in `params.call`, and gives their arguments by name.
+"""
 
 import atexit
 import gc
@@ -10,6 +13,8 @@ import time
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from importlib import import_module
+from typing import Any
 
 import psutil
 from pendula import spent
@@ -78,20 +83,34 @@ class _Tee:
             stream.flush()
 
 
-def run(function: Callable, snakemake) -> None:
-    """Call `function` with the rule's named input, output and params as keyword arguments.
+NO_ARGUMENTS = ("call", "code", "kernels")
+"""What is for Snakemake alone: names and hashes of code, and the kernels that a job waits for."""
 
-    `code`, the record of the modules that the job depends on, is for Snakemake alone. Where the
-    function fails, so does the job: the screen and the log say why, and only the log has the
+
+def arguments(snakemake) -> dict[str, Any]:
+    """Return the named inputs and parameters of a rule, but for inputs that are an empty list.
+
+    The parameter `given` holds more of them, which depend on the wildcards of the rule.
+    """
+    inputs = {name: value for name, value in snakemake.input.items() if value}
+    params = dict(snakemake.params.items())
+    given = {**inputs, **params, **params.pop("given", {})}
+    return {name: value for name, value in given.items() if name not in (*NO_ARGUMENTS, "given")}
+
+
+def called(snakemake) -> list[Callable]:
+    """Return the functions that `params.call` names by their modules; its last entry is a hash."""
+    names = [name.rpartition(".") for name in snakemake.params.call[:-1]]
+    return [getattr(import_module(module), name) for module, _, name in names]
+
+
+def run(body: Callable, snakemake) -> None:
+    """Call `body` with Snakemake's object.
+
+    Where it fails, so does the job: the screen and the log say why, and only the log has the
     traceback. The last line of a log is the time that the job took, its start included; it stands
     in no dataset, for two runs differ in it.
     """
-    arguments = {
-        **dict(snakemake.input.items()),
-        **dict(snakemake.output.items()),
-        **dict(snakemake.params.items()),
-    }
-    arguments.pop("code", None)
     start = time.process_time()
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -99,7 +118,10 @@ def run(function: Callable, snakemake) -> None:
     log = _Log(path)
     sys.stdout = sys.stderr = _Tee(sys.__stderr__, log)
     try:
-        function(**arguments)
+        if "call" in dict(snakemake.params.items()):
+            body(snakemake)
+        else:
+            body(**arguments(snakemake), **dict(snakemake.output.items()))
     except Exception as error:
         print(f"{say(error)}\n(the log has the traceback: {path})")
         log.write(traceback.format_exc())

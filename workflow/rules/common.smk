@@ -108,6 +108,9 @@ from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.problem import Constants, name_window
 from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
+from pendula.configuration.values import Steps
+from pendula.sources import SCRIPTS, digest_of_code
+from pendula.sources import files_of as files_of_module
 from progress import Run, expected, take_the_screen, what_it_takes
 from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
 
@@ -201,5 +204,40 @@ def figure(name):
 
 
 def files_of(stem):
-    """Return all files of a figure, for a job that draws more than one."""
+    """Return all files of a figure."""
     return [f"{stem}.{kind}" for kind in FIGURE_KINDS.values()]
+
+
+def digest(script):
+    """Return a hash of a script below scripts/ with all that it imports."""
+    return digest_of_code(SCRIPTS / script)
+
+
+def function(*names):
+    """Return dotted names of functions, and a hash of their code: what a job calls."""
+    files = [file for name in names for file in files_of_module(name.rpartition(".")[0])]
+    return [*names, digest_of_code(*files)]
+
+
+def values_of(part, *names):
+    """Return the settings of these names, or all but those of a longer study, as plain values."""
+    plain = part.model_dump()
+    chosen = names or [name for name in plain if name != "long"]
+    found = {name: getattr(part, name) for name in chosen}
+    return {k: one.values if isinstance(one, Steps) else plain[k] for k, one in found.items()}
+
+
+def sized(part, *names):
+    """Return these settings for a rule that makes a longer study where its wildcard `size` says so."""
+    return lambda wildcards: values_of(part.long if wildcards.size else part, *names)
+
+
+def run_of(case, tolerance, solver="taylor", **changes):
+    """Return a case as a study runs it, as plain values."""
+    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
+    return {**SETTINGS.problem(case), "solver": solver, "snapshot_every": 0, **changes}
+
+
+pathvars:
+    logs="<results>/logs",
+    size="{size,(long/)?}",  # of a longer study, which lies in a folder of its own

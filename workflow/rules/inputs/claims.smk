@@ -33,7 +33,7 @@ def claims_need():
             *below(["sweeps/fig5_left", "sweeps/fig6_left", "breathers/sensitivity"]),
             *checks("trust", *CHAOS_CHECKS),
         ],
-        "breathers": below(f"breathers/{name}" for name in BREATHERS),
+        "breathers": below(f"breathers/{name}" for name in BREATHERS_PARTS),
         "pendula": [
             *below([*(f"pendula/{name}" for name in PENDULA), "unbounded/thermal"]),
             *checks("lyapunov"),
