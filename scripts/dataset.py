@@ -1,6 +1,6 @@
 """A Snakemake job that computes datasets: its function is given what it takes, and returns them."""
 
-from inspect import signature
+from inspect import isgenerator, signature
 from pathlib import Path
 from typing import Any
 
@@ -10,18 +10,17 @@ from pendula.problem import Problem, by_name
 
 
 def make(snakemake) -> None:
-    """Write what the function that `params.call` names returns: a dataset for each output.
+    """Write what the function that `params.call` names returns, or all that it yields.
 
-    A dataset is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. A
+    This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. A
     function that takes `step` is told by it how to say how far it is.
     """
     (function,) = called(snakemake)
     given = {name: taken(name, value) for name, value in arguments(snakemake).items()}
     if "step" in signature(function).parameters:
-        given["step"] = step
+        given.setdefault("step", step)
     made = function(**given)
-    paths = list(snakemake.output)
-    for path, contents in zip(paths, [made] if len(paths) == 1 else made, strict=True):
+    for path, contents in zip(snakemake.output, made if isgenerator(made) else [made], strict=True):
         if isinstance(contents, tuple):
             write(path, *contents)
         else:
@@ -41,7 +40,7 @@ def taken(name: str, value: Any) -> Any:
     if name.endswith("problem"):
         return Problem.of(value)
     if name.endswith("problems"):
-        return by_name(value)
+        return by_name(value) if isinstance(value, dict) else [Problem.of(one) for one in value]
     return value
 
 

@@ -15,15 +15,16 @@ def draw(snakemake) -> None:
     """Draw by each function that `params.call` names, draw_x, what gather_x beside it returns.
 
     gather_x is given those of the inputs and parameters that it names, datasets in place of paths,
-    and what figures before it show.
+    and by their names what the figures before it show.
     """
     given = {name: _taken(value) for name, value in arguments(snakemake).items()}
     paths = list(snakemake.output)
     for number, function in enumerate(called(snakemake)):
-        topic = function.__name__.removeprefix("draw_")
-        gather = getattr(sys.modules[function.__module__], f"gather_{topic}")
+        topic = function.__name__.removeprefix("draw")
+        gather = getattr(sys.modules[function.__module__], f"gather{topic}")
         names = given.keys() & signature(gather).parameters.keys()
-        given[topic] = drawn = gather(**{name: given[name] for name in names})
+        drawn = gather(**{name: given[name] for name in names})
+        given.setdefault(topic.lstrip("_"), drawn)
         save(function(drawn), drawn, *paths[KINDS * number : KINDS * (number + 1)])
 
 

@@ -261,5 +261,5 @@ def gathered(make_trajectory, trajectories, make_sweep, swept_pairs):
         "lifetimes": lifetimes_figure.gather_lifetimes(made_up_chaos.lifetimes()),
         "growth_law": measure_growth(runs, thermal()),
         "front": front_figure.gather_front(measure_front(omegas, spread(0.5), large, thermal())),
-        "window_map": unbounded.gather_window_map(maps, [50.0, 50.0]),
+        "window_map": unbounded.gather_window_map([*maps.values()], [*maps], [50.0, 50.0]),
     }

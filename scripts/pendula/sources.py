@@ -138,7 +138,7 @@ def _imports_of(file: Path) -> frozenset[Path]:
             package = _names_of(file)[: -node.level] if node.level else ()
             base = ".".join([*package, *([node.module] if node.module else [])])
             names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
-    return frozenset(path for name in names for path in files_of(name))
+    return frozenset(path for name in names for path in files_of_module(name))
 
 
 def _tree_of(text: str) -> ast.AST:
@@ -173,7 +173,7 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
             waiting.extend(getattr(node, part, ()))
 
 
-def files_of(name: str) -> tuple[Path, ...]:
+def files_of_module(name: str) -> tuple[Path, ...]:
     """Return the files that importing `name` executes: the module and its packages."""
     ours, *inner = name.split(".")
     return _files_in(_folder_of(ours), (ours, *inner)) if ours in OURS else ()

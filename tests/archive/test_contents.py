@@ -9,7 +9,7 @@ import pytest
 from pendula.archive.contents import (
     MANIFEST,
     ArchiveError,
-    check_records,
+    check_code,
     code_files,
     dump_configuration,
     manifest,

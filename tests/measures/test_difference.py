@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from paper.tabulate_solvers import trust_part
+from pendula.studies.paper.tables import trust_part
 from pendula.measures.difference import (
     LEVELS,
     PARAMETERS,

@@ -15,22 +15,18 @@ use rule dataset as steady_breathers with:
         **values_of(BREATHERS, "epsilon", "gamma"),
         **values_of(BREATHERS.steady),
         call=function("pendula.studies.breathers.contents.steady_contents"),
-    message:
-        "Finding steady breathers"
 
 
 use rule dataset as periodic_breathers with:
+    "Periodic motions localised at one pair, and how fast their perturbations grow"
     input:
         kernels=kernels("taylor"),
-    "Periodic motions localised at one pair, and how fast their perturbations grow"
     pathvars:
         made="breathers/periodic",
     params:
         **values_of(BREATHERS, "epsilon", "gamma"),
         **values_of(BREATHERS.periodic),
         call=function("pendula.studies.breathers.periodic_contents.periodic_contents"),
-    message:
-        "Finding periodic breathers"
 
 
 use rule periodic_breathers as perturbed_breathers with:
@@ -40,28 +36,24 @@ use rule periodic_breathers as perturbed_breathers with:
     params:
         **values_of(BREATHERS.periodic.long),
         call=function("pendula.studies.breathers.periodic_contents.perturbed_contents"),
-    message:
-        "Following changed breathers for thousands of periods"
 
 
 use rule dataset as growth_by_drive with:
+    "How the drive feeds a localised motion, beside the law of weak drives"
     input:
         kernels=kernels("taylor"),
-    "How the drive feeds a localised motion, beside the law of weak drives"
     pathvars:
         made="breathers/growth",
     params:
         **values_of(BREATHERS.growth),
         call=function("pendula.studies.breathers.contents.growth_contents"),
         epsilon=BREATHERS.epsilon,
-    message:
-        "Measuring how a localised motion grows by the drive"
 
 
 use rule dataset as measure_sensitivity with:
+    "Which of almost equal data spread over the chain"
     input:
         kernels=kernels("taylor"),
-    "Which of almost equal data spread over the chain"
     pathvars:
         made="<size>breathers/sensitivity",
     params:
@@ -70,20 +62,18 @@ use rule dataset as measure_sensitivity with:
         name=BREATHERS.sensitivity.case,
         problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
         given=sized(BREATHERS.sensitivity, "members", "scan"),
-    message:
-        "Measuring which of almost equal data spread"
 
 
 use rule dataset as map_fates with:
+    "What becomes of data on one pair: they disperse, stay, move or spread"
     input:
         kernels=kernels("taylor"),
         periodic="<results>/breathers/periodic.nc",
-        fine=lambda wildcards: [] if wildcards.size else committed(FINE_MAPS),
-    "What becomes of data on one pair: they disperse, stay, move or spread"
     pathvars:
         made="<size>breathers/fates",
     params:
         call=function("pendula.studies.breathers.fate_contents.map_fates"),
+        committed=fine_maps,
         problems={
             omega: run_of(
                 "fig4_small",
@@ -95,53 +85,48 @@ use rule dataset as map_fates with:
         },
         case_problems={case: run_of(case, **RUN_OF_FATES) for case in cases_on_one_pair()},
         given=lambda wildcards: FATES.grid(FATES.long if wildcards.size else FATES),
-    message:
-        "Mapping what becomes of data on one pair"
 
 
 use rule figure as draw_breathers with:
+    "Periodic breathers against their frequency, and how the drive feeds a localised motion"
     input:
         periodic="<results>/breathers/periodic.nc",
         growth="<results>/breathers/growth.nc",
-    "Periodic breathers against their frequency, and how the drive feeds a localised motion"
     pathvars:
         made="figures/breathers",
     params:
         call=function("pendula.studies.breathers.figures.draw_breathers"),
-    message:
-        "Drawing breathers and their growth by the drive"
 
 
 use rule figure as draw_sensitivity with:
+    "Which of almost equal data spread over the chain, as a picture"
     input:
         sensitivity="<results>/{size}breathers/sensitivity.nc",
-    "Which of almost equal data spread over the chain, as a picture"
     pathvars:
         made="<size>figures/sensitivity",
     params:
         call=function("pendula.studies.breathers.figures.draw_sensitivity"),
-    message:
-        "Drawing which of almost equal data spread"
 
 
 use rule figure as draw_fates with:
+    "What becomes of data on one pair, as a map"
     input:
         fates="<results>/{size}breathers/fates.nc",
-        fine=lambda wildcards: [] if wildcards.size else committed(FINE_MAPS),
-    "What becomes of data on one pair, as a map"
     pathvars:
         made="<size>figures/fates",
     params:
         call=function("pendula.studies.breathers.fate_figures.draw_fates"),
-    message:
-        "Drawing what becomes of data on one pair"
+        committed=fine_maps,
 
 
 rule breathers:
     "States that stay at one pair, which data reach them, and which spread: datasets and figures"
     input:
-        expand("<results>/breathers/{name}.nc", name=BREATHERS_PARTS),
-        expand("<results>/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
+        datasets=expand(
+            "<results>/breathers/{name}.nc",
+            name=["steady", "periodic", "growth", "sensitivity", "fates"],
+        ),
+        figures=expand("<results>/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
     message:
         "The breathers and their figures are there"
 
@@ -160,3 +145,13 @@ rule fates:
         files_of("<results>/long/figures/fates"),
     message:
         "The map of fates is there"
+
+
+use rule decide_claims as decide_breathers with:
+    "The claims on breathers: results/tables/claims_breathers.md"
+    input:
+        datasets=rules.breathers.input.datasets,
+    pathvars:
+        part="breathers",
+    params:
+        **claims_in("breathers/claims"),

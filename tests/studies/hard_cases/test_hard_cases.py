@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hard_cases.tabulate_hard_cases import page
+from pendula.studies.hard_cases.table import page
 from helpers import chosen
 from pendula.datasets.netcdf import as_xarray
 from pendula.studies.hard_cases import errors

@@ -29,14 +29,15 @@ RICHARDSON = 4.0 / 3.0
 def measure(
     problems: Mapping[str, Problem],
     firsts: Mapping,
-    swept: Problem,
+    swept_problem: Problem,
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
 ) -> Contents:
     """Return how far the schemes are from the runs `firsts` of the first solver, by case.
 
-    `problems` are those of the cases by the second solver, at the configured step. `swept` is that
-    of a chaotic sweep, which is run at FINER steps too, on some of its half-widths.
+    `problems` are those of the cases by the second solver, at the configured step.
+    `swept_problem` is that of a chaotic sweep, which is run at FINER steps too, on some of its
+    half-widths.
     """
     found = [_measure_case(problem, firsts[case]) for case, problem in problems.items()]
     described, shared = describe_cases(problems)
@@ -58,7 +59,7 @@ def measure(
     }
     for name, (grid, long_name) in about.items():
         variables[name] = Variable(grid, np.array([one[name] for one in found]), long_name)
-    variables |= _finer(swept, half_widths, windows)
+    variables |= _finer(swept_problem, half_widths, windows)
     attributes = {key: value for key, value in shared.items() if not key.startswith("solver")}
     title = "The second solver by both readings and by the scheme that conserves the energy"
     return variables, {"title": title, **attributes, "configured_step": step}

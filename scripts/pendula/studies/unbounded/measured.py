@@ -1,0 +1,55 @@
+"""What is measured of the chains without ends, and the thermal states that it is compared with."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+import xarray as xr
+
+from pendula.datasets.trajectories import Contents
+from pendula.problem import Constants
+
+from .extremes import maximum_variables
+from .front import measure_front
+from .long_runs import measure_growth
+from .thermal import state_of_energy, thermal_variables
+
+
+def measure(
+    runs: Mapping[str, xr.Dataset],
+    omegas: xr.Dataset,
+    bulk: xr.Dataset,
+    large: xr.Dataset,
+    thermal: xr.Dataset,
+) -> Iterator[xr.Dataset]:
+    """Yield the growth of `runs`, which are by case, and the front.
+
+    `omegas` are runs over Omega; `bulk` and `large` are the two whose bulk is looked at, in an
+    unstable and in a stable chain at rest; `thermal` are the states that it is compared with.
+    """
+    yield measure_growth(runs, thermal)
+    yield measure_front(omegas, bulk, large, thermal)
+
+
+def solve_thermal(
+    epsilon: float, gamma: float, omegas: list[float], bulk_omega: float, warm_omega: float,
+    energies: list[float], nodes: int, density_nodes: int,
+) -> Contents:  # fmt: skip
+    """Return the states without energy at all `omegas`, and those of `energies` at `warm_omega`.
+
+    The law of the largest modulus is that of the state whose Omega is nearest to `bulk_omega`.
+    """
+
+    def solve(omega: float, energy: float = 0.0):
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        return state_of_energy(constants, energy, nodes)
+
+    states = [solve(omega) for omega in omegas]
+    warm = [solve(warm_omega, energy) for energy in energies]
+    attributes = {
+        "title": "Thermal states of the infinite chain, by its transfer operator",
+        "epsilon": epsilon, "gamma": gamma, "warm_omega": warm_omega, "nodes": 2 * nodes,
+        "density_nodes": 2 * density_nodes,
+    }  # fmt: skip
+    nearest = states[int(np.abs(np.array(omegas) - bulk_omega).argmin())]
+    variables = thermal_variables(states, warm, density_nodes)
+    return {**variables, **maximum_variables(nearest)}, attributes
