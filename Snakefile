@@ -1,97 +1,131 @@
 # The figures of Destyl, Nuiro, Pelinovsky and Poullet (2017), each from netCDF datasets.
-# `snakemake` makes everything, `snakemake fig5` one figure, `snakemake --list` says what there is.
+# `snakemake` makes everything, `snakemake fig5` one figure, and `snakemake --list-target-rules` says what
+# there is.
+from snakemake.utils import min_version
+
+min_version("9.19")
 
 
-configfile: f"{workflow.basedir}/config/config.yaml"
+configfile: f"{workflow.current_basedir}/config/config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/base.smk"
 
 
-CHAOS_FIGURES = [
-    # How fast small errors grow, how evenness is lost, and what runs from almost equal data share
-    *("lyapunov", "symmetry", "ensembles"),
-    # How long a large amplitude keeps the central pendulum to itself
-    "lifetimes",
-]
-FIGURES = [
-    # Fig 1: the chain of coupled pendula pairs
-    "fig1",
-    # Figs 2, 3 and 4: norms against time at Omega = 8, -4 and 0; beside each, where the chain moves
-    *("fig2", "fig2_spacetime"),
-    *("fig3", "fig3_spacetime"),
-    *("fig4", "fig4_spacetime"),
-    # Figs 5 and 6: maximal norms against the half-width of the chain
-    *("fig5", "fig6"),
+FIGURES = {
+    "fig1": "Fig 1: the chain of coupled pendula pairs",
+    "fig2": "Fig 2: norms against time, in the paper at Omega = 8, for small and for large data",
+    "fig2_spacetime": "Where the chain moves in the cases of fig2, made together with it",
+    "fig3": "Fig 3: norms against time, in the paper at Omega = -4, for small and for large data",
+    "fig3_spacetime": "Where the chain moves in the cases of fig3, made together with it",
+    "fig4": "Fig 4: norms against time, in the paper at Omega = 0, for small and for large data",
+    "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
+    "fig5": "Fig 5: norms against half-width for small data",
+    "fig6": "Fig 6: norms against half-width for large data",
     # The paper's second solver, and its claim that the energy is conserved
-    *("solver_agreement", "energy_drift"),
-    # How long the trajectories are the true ones, known in multiprecision
-    "trust_horizons",
-    # Lemma 1: where the chain at rest is unstable, and how fast it leaves
-    *("stability_chart", "growth_rates"),
-    # Theorems 1 to 3: observed norms against their bounds
-    "bounds",
-    *CHAOS_FIGURES,
+    "solver_agreement": "Until when the solvers draw the same curves",
+    "energy_drift": "How well each solver conserves the energy",
+    "trust_horizons": "How long each solver stays with the true trajectory, known in multiprecision",
+    # The theory
+    "stability_chart": "Lemma 1: where the chain at rest is unstable",
+    "growth_rates": "Lemma 1: how fast small motions grow where the chain at rest is unstable",
+    "bounds": "Theorems 1 to 3: observed norms against their bounds",
+    # Chaos
+    "lyapunov": "How fast small errors grow, and until when a run can be trusted",
+    "symmetry": "How a motion that is even in n loses its evenness",
+    "ensembles": "What runs from almost equal data share, beside the paper's own",
+    "lifetimes": "How long the central pendulum stays localised, against its initial amplitude",
     # What stays at one pair, which data reach it, and which spread
-    *("breathers", "sensitivity", "fates"),
-    # Newton's equations (1) beside the amplitude equations: Lemma 1 for the pendula, the expansion
-    *("pendula_threshold", "pendula_remainder"),
-    # The paper's phases in the real pendula; the sea, and who leaves it over the top
-    *("pendula_phases", "pendula_over_the_top"),
-    # How far computed curves can be from the true ones, as proved
-    "certified_curves",
-    # The paper's conjecture, on chains without ends: growth in time, the front, maxima over (M, T)
-    *("growth_law", "front", "window_map"),
+    "breathers": "Periodic breathers, and how the drive feeds a localised motion",
+    "sensitivity": "Which of almost equal data spread over the chain",
+    "fates": "What becomes of data on one pair",
+    # Newton's equations (1) beside the amplitude equations
+    "pendula_threshold": "The chart of Lemma 1 for the pendula, its correction, and rates of growth",
+    "pendula_remainder": "Errors of the expansion against time and against mu, and its horizons",
+    "pendula_phases": "The paper's phases in the real pendula: norms and space-time",
+    "pendula_over_the_top": "The sea of the pendula, and who leaves it over the top",
+    # Proofs
+    "certified_curves": "Proven bounds of the error of curves, and the error that is known",
+    # The paper's conjecture, on chains without ends
+    "growth_law": "The chain without ends: norms against time, and the exponents that they follow",
+    "front": "The chain without ends: the speed of the front, and the bulk behind it",
+    "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
+}
+
+
+include: "workflow/rules/trajectories.smk"
+include: "workflow/rules/paper.smk"
+include: "workflow/rules/theory.smk"
+include: "workflow/rules/chaos.smk"
+include: "workflow/rules/breathers.smk"
+include: "workflow/rules/pendula.smk"
+include: "workflow/rules/unbounded.smk"
+include: "workflow/rules/certified.smk"
+include: "workflow/rules/hard_cases.smk"
+include: "workflow/rules/reference.smk"
+include: "workflow/rules/own.smk"
+
+
+DATASETS = [
+    *TRAJECTORIES,
+    *expand("<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
+    *SWEEPS,
+    *expand("<results>/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
+    *checks(*CHECKS, *(f"wrong/{name}" for name in WRONG), *CHAOS_CHECKS, *SOLVER_CHECKS),
+    *checks("hard_cases"),
+    *rules.breathers.input.datasets,
+    *(*rules.pendula.input.datasets, rules.pendula.input.film),
+    *expand("<results>/unbounded/{name}.nc", name=[*SETTINGS.unbounded.names, *MAPS]),
+    *expand("<results>/unbounded/{name}.nc", name=["thermal", "growth", "front"]),
+    *(*PROVED_CURVES, "<results>/certified/wrong/curve.nc"),
+    *expand("<results>/certified/{name}.nc", name=["lines", "breathers", "constants"]),
 ]
 
 
 rule all:
     "Everything: datasets, figures, tables and the report (the target of `snakemake` alone)"
+    default_target: True
     input:
-        expand("results/trajectories/{case}.nc", case=SETTINGS.cases),
-        expand("results/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
-        expand("results/sweeps/{sweep}.nc", sweep=SETTINGS.sweeps),
-        expand("results/sweeps/{sweep}.{solver}.nc", sweep=PAPER_SWEEPS, solver="crank_nicolson"),
-        expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
-        expand("results/checks/{name}.nc", name=[*CHECKS, *SOLVER_CHECKS, *CHAOS_CHECKS]),
-        expand("results/certified/{case}.nc", case=SETTINGS.certified.curves.cases),
-        "results/certified/lines.nc",
-        expand("results/certified/{name}.nc", name=["breathers", "constants"]),
-        "results/claims.json",
-        "results/controls.json",
-        "results/tables/solvers.md",
-        "results/tables/claims.md",
-        "results/tables/trust.md",
-        "results/tables/hard_cases.md",
-        "results/report.html",
+        DATASETS,
+        expand("<results>/trajectories/{case}.nc", case=OWN_CASES),
+        expand("<results>/sweeps/{sweep}.nc", sweep=OWN_SWEEPS),
+        [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
+        "<results>/claims.json",
+        "<results>/controls.json",
+        "<results>/tables/solvers.md",
+        "<results>/tables/claims.md",
+        "<results>/tables/trust.md",
+        "<results>/tables/hard_cases.md",
+        "<results>/report.html",
     message:
-        "All datasets, figures, tables and the report are there"
+        "All datasets, figures and tables are there, and the report tells of them: results/report.html"
 
 
 rule paper:
     "Figs 1 to 6 of the paper, and a table of the claims on them: results/tables/claims_figures.md"
     input:
-        expand("results/figures/fig{n}.{kind}", n=range(1, 7), kind=FIGURE_KINDS.values()),
-        "results/tables/claims_figures.md",
+        [file for n in range(1, 7) for file in files_of(f"<results>/figures/fig{n}")],
+        "<results>/tables/claims_figures.md",
     message:
-        "The paper's figures and the table of the claims on them are there"
+        "The paper's figures and the table of the claims on them are there: results/figures/"
 
 
 rule figures:
     "All figures, each as PNG and PDF with the data that it shows"
     input:
-        expand("results/figures/{name}.{kind}", name=FIGURES, kind=FIGURE_KINDS.values()),
+        [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
     message:
-        "All figures are there"
+        "All figures are there: results/figures/"
 
 
 rule theory:
     "The checks of the paper's theory, the ledger of its claims, and their figures"
     input:
-        expand("results/checks/{name}.nc", name=CHECKS),
-        expand("results/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
-        "results/claims.json",
-        "results/controls.json",
+        checks(*CHECKS),
+        expand("<results>/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
+        "<results>/claims.json",
+        "<results>/controls.json",
     message:
         "The checks of the theory and its figures are there"
 
@@ -99,65 +133,58 @@ rule theory:
 rule chaos:
     "How fast small errors grow, how evenness is lost, and ensembles of the chaotic cases"
     input:
-        expand("results/checks/{name}.nc", name=CHAOS_CHECKS),
-        expand("results/figures/{name}.{kind}", name=CHAOS_FIGURES, kind=FIGURE_KINDS.values()),
+        checks(*CHAOS_CHECKS),
+        rules.chaos_figures.output,
+        rules.ensembles.output,
+        rules.lifetimes.output,
     message:
         "What is measured of chaos, and its figures, are there"
 
 
-include: "workflow/rules/inputs.smk"
-include: "workflow/rules/trajectories.smk"
-include: "workflow/rules/sweeps.smk"
-include: "workflow/rules/own.smk"
-include: "workflow/rules/paper.smk"
-include: "workflow/rules/reference.smk"
-include: "workflow/rules/unbounded.smk"
-include: "workflow/rules/theory.smk"
-include: "workflow/rules/hard_cases.smk"
-include: "workflow/rules/chaos.smk"
-include: "workflow/rules/breathers.smk"
-include: "workflow/rules/pendula.smk"
-include: "workflow/rules/certified.smk"
 include: "workflow/rules/ledger.smk"
-include: "benchmarks/benchmarks.smk"
-include: "workflow/rules/baseline.smk"
-include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/archive.smk"
-include: "workflow/rules/names.smk"
+include: "workflow/rules/baseline.smk"
+include: "workflow/rules/figure_diff.smk"
+include: "workflow/rules/speed.smk"
 
 
-if workflow.is_main_process:
-    misspelt = faults_of_targets(asked(), workflow.rules, [*OWN_CASES, *OWN_SWEEPS])
-    if misspelt:
-        stop("\n".join(misspelt))
+# What README.md names and no rule is called: figures, cases and sweeps
+NAMED = {name: (text, files_of(f"<results>/figures/{name}")) for name, text in FIGURES.items()}
+for case in PAPER_CASES:
+    stem = f"<results>/trajectories/{case}"
+    NAMED[case] = f"The case {case} by every solver", [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]
+for sweep in PAPER_SWEEPS:
+    files = expand(
+        "<results>/sweeps/{sweep}{solver}.nc", sweep=sweep, solver=["", ".crank_nicolson"]
+    )
+    NAMED[sweep] = f"The sweep {sweep} by both solvers of the paper", files
+for name, (text, files) in NAMED.items():
+    if not workflow.is_rule(name):
 
+        rule:
+            name:
+                name
+            input:
+                files,
+            message:
+                f"{text}: there"
 
-# In place of Snakemake's own list, which has no groups and shows what cannot be called too
-workflow.list_rules = lambda only_targets: print(list_targets(workflow.rules))
+        workflow.get_rule(name).docstring = text
 
 
 onstart:
-    run_of_jobs = Run(
-        expected(workflow.dag.needrun_jobs(), not workflow.overwrite_configfiles),
-        workflow.cores if workflow.local_exec else None,
-    )
-    logger.info(what_it_takes(run_of_jobs))
-    if SCREEN:
-        SCREEN.begin(run_of_jobs)
     if workflow.local_exec:
         put_in_order(workflow.dag)
         begin_at_once(workflow.scheduler)
-    warm.use(IMPORTED, workflow, RESULTS / "logs/imports.log")
+    warm.use(IMPORTED, workflow, RESULTS / "logs/imports.log", CALLED)
 
 
 # Said when Snakemake has ended, below its own last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:
         tell_faults()
-    else:
-        atexit.register(print, where_to_look(workflow.dag.targetjobs), file=sys.stderr)
 
 
 onerror:
-    atexit.register(print, what_failed(workflow.scheduler.failed), file=sys.stderr)
+    atexit.register(lambda: print(what_failed(log), file=sys.stderr))

@@ -64,7 +64,7 @@ def keep_reproduction(results: Path, folder: Path) -> None:
 
 def keep_long_study(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the chain without ends."""
-    long, thermal = results / "unbounded/long", read(results / "unbounded/thermal.nc")
+    long, thermal = results / "long/unbounded", read(results / "unbounded/thermal.nc")
     kept = {
         **_cases({name: read(long / f"{name}.nc") for name in GIVEN["cases"]}),
         **_omegas(read(long / "omegas.nc"), thermal),
@@ -90,7 +90,7 @@ PASSAGES = ("passage_median", "passage_rate", "passed")
 
 def keep_passages(results: Path, folder: Path) -> None:
     """Keep shares, rates and angles of the long study of pendula that go over the top."""
-    long = read(results / "pendula/long/over_the_top.nc")
+    long = read(results / "long/pendula/over_the_top.nc")
     last, tau = long.isel(tau=-1), long["tau"].values
     names = [name for name in last if str(name).startswith(PASSAGES)]
     kept = {
@@ -281,7 +281,7 @@ def _maxima(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
 def keep_long_breathers(results: Path, folder: Path) -> None:
     """Keep the shares of the long studies of fates and of sensitivity, and the maps of fates."""
     fates, spread = (
-        read(results / f"breathers/long/{name}.nc") for name in ("fates", "sensitivity")
+        read(results / f"long/breathers/{name}.nc") for name in ("fates", "sensitivity")
     )
     whole = ("omega", "plane", "fate_name", "area", "area_low", "area_high")
     shares = ("size", "share", "share_low", "share_high")
@@ -405,9 +405,9 @@ def main(results: Path, folder: Path = QUOTED) -> None:
     for needed, keep in {
         "claims.json": keep_full_run,
         "speed/reproduction.json": keep_reproduction,
-        "unbounded/long/tolerances.nc": keep_long_study,
-        "pendula/long/over_the_top.nc": keep_passages,
-        "breathers/long/fates.nc": keep_long_breathers,
+        "long/unbounded/tolerances.nc": keep_long_study,
+        "long/pendula/over_the_top.nc": keep_passages,
+        "long/breathers/fates.nc": keep_long_breathers,
     }.items():
         if (results / needed).exists():
             keep(results, folder)

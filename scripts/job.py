@@ -1,4 +1,7 @@
-"""Run one public function as a Snakemake job: plain arguments in, everything said into the log."""
+"""Run functions of the library as a Snakemake job, and keep in its log all that they say.
+
+The rule names the functions in `params.call`, and gives their arguments by name.
+"""
 
 import atexit
 import gc
@@ -10,9 +13,13 @@ import time
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from importlib import import_module
+from typing import Any
 
 import psutil
 from pendula import spent
+from pendula.sources import SCRIPTS
+from pendula.spent import SPENT, TOOK
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
 # would take a fifth of a second in every job. While a job runs, Python would look whenever some
@@ -20,14 +27,11 @@ from pendula import spent
 atexit.register(gc.freeze)
 gc.set_threshold(100_000)
 
-SPENT = "spent: "
-"""How the line of a log begins that says what processor time was spent on, in seconds, and the
-largest memory, in megabytes."""
-TOOK = "wall time: "
-"""How the last line of a log begins."""
-
 OFTEN = 5.0
 """Seconds between two steps that a long job shows on the screen; its log has all steps."""
+
+FAILED = "failed: "
+"""How the reason of a failure begins in a log, above its traceback."""
 
 INTERRUPTED = 130
 """The exit status of a job that Ctrl-C ended, as shells give it."""
@@ -40,9 +44,11 @@ class _Log:
         self.file = open(path, "w", encoding="utf-8")  # noqa: SIM115, closed by `close`
 
     def write(self, text: str) -> int:
-        with suppress(OSError):
+        try:
             self.file.write(text)
             self.file.flush()
+        except OSError:
+            return 0
         return len(text)
 
     def flush(self) -> None:
@@ -78,20 +84,43 @@ class _Tee:
             stream.flush()
 
 
-def run(function: Callable, snakemake) -> None:
-    """Call `function` with the rule's named input, output and params as keyword arguments.
+NO_ARGUMENTS = ("call", "code", "digests", "kernels", "given", "committed")
+"""What is for Snakemake alone, as hashes and the kernels that a job waits for, or holds others."""
 
-    `code`, the record of the modules that the job depends on, is for Snakemake alone. Where the
-    function fails, so does the job: the screen and the log say why, and only the log has the
-    traceback. The last line of a log is the time that the job took, its start included; it stands
-    in no dataset, for two runs differ in it.
+
+def arguments(snakemake) -> dict[str, Any]:
+    """Return the named inputs and parameters of a rule, but for inputs that are an empty list.
+
+    The parameter `given` holds more of them, which depend on the wildcards of the rule, and
+    `committed` files of the project, each with its digest.
     """
-    arguments = {
-        **dict(snakemake.input.items()),
-        **dict(snakemake.output.items()),
-        **dict(snakemake.params.items()),
-    }
-    arguments.pop("code", None)
+    inputs = {name: value for name, value in snakemake.input.items() if value}
+    params = dict(snakemake.params.items())
+    kept = {name: _paths(files) for name, files in params.get("committed", {}).items()}
+    found = {**inputs, **params, **params.get("given", {}), **kept}
+    return {name: value for name, value in found.items() if name not in NO_ARGUMENTS}
+
+
+def _paths(files: list) -> str | list[str]:
+    """Return the path of one file of the project, given with its digest, or of several."""
+    if files and isinstance(files[0], str):
+        return str(SCRIPTS.parent / files[0])
+    return [_paths(file) for file in files]
+
+
+def called(snakemake) -> list[Callable]:
+    """Return the functions that `params.call` names by their modules; its last entry is a hash."""
+    names = [name.rpartition(".") for name in snakemake.params.call[:-1]]
+    return [getattr(import_module(module), name) for module, _, name in names]
+
+
+def run(body: Callable, snakemake) -> None:
+    """Call `body` with Snakemake's object.
+
+    Where it fails, so does the job, and its log says why, with the traceback. The last line of a
+    log is the time that the job took, its start included; it stands in no dataset, for two runs
+    differ in it.
+    """
     start = time.process_time()
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -99,10 +128,11 @@ def run(function: Callable, snakemake) -> None:
     log = _Log(path)
     sys.stdout = sys.stderr = _Tee(sys.__stderr__, log)
     try:
-        function(**arguments)
+        body(snakemake)
     except Exception as error:
-        print(f"{say(error)}\n(the log has the traceback: {path})")
-        log.write(traceback.format_exc())
+        told = f"{FAILED}{say(error)}\n"
+        if not log.write(told + traceback.format_exc()):  # the end of the run tells what logs say
+            sys.__stderr__.write(told)
         sys.exit(1)
     except KeyboardInterrupt:
         print("interrupted: run the same command again to continue")

@@ -25,7 +25,7 @@ def test_the_conda_environment_has_the_same_pins():
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
 
 
-ALONE = "certified/check_certificate.py"
+ALONE = "check_certificate.py"
 """A program for strangers, who have neither the library nor Snakemake: no rule runs it."""
 SCRIPTS = sorted(
     name

@@ -4,7 +4,14 @@ With few cores, a run takes longest where a long chain of jobs begins late and e
 a job takes is known from an earlier run, in this folder or of the accepted results.
 """
 
-from targets import accepted_seconds, seconds_of
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from pendula.spent import TOOK
+
+ACCEPTED = Path(__file__).parents[1] / "tests/baseline/quoted/reproduction.json"
+"""Where the time of an accepted full run went; see benchmarks/reproduction.py."""
 
 UNKNOWN = 1.0
 """Seconds of a job that never ran."""
@@ -43,3 +50,24 @@ def put_in_order(dag) -> None:
     for job in list(dag.needrun_jobs()):
         if job.priority != job.HIGHEST_PRIORITY:
             dag._priority[job] = way(job)
+
+
+def accepted_seconds() -> dict[str, float]:
+    """Return the wall time of each job of the accepted full run, by its log, if it is there."""
+    if not ACCEPTED.exists():
+        return {}
+    runs = json.loads(ACCEPTED.read_text(encoding="utf-8"))["runs"]
+    return {k: told["wall"] for k, told in runs["warm"]["jobs"].items() if "wall" in told}
+
+
+def seconds_of(log: str, accepted: Mapping[str, float]) -> float | None:
+    """Return the wall time of a job as its log, or else the accepted run, tells it."""
+    last = _lines(log)[-1:]
+    if last and last[0].startswith(TOOK):
+        return float(last[0].removeprefix(TOOK).split()[0])
+    return accepted.get(log.removeprefix("results/logs/").removesuffix(".log"))
+
+
+def _lines(log: str) -> list[str]:
+    path = Path(log)
+    return path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []

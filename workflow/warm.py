@@ -55,7 +55,7 @@ def begin() -> subprocess.Popen | None:
     return process
 
 
-def use(process: subprocess.Popen | None, workflow, log: Path) -> None:
+def use(process: subprocess.Popen | None, workflow, log: Path, called: Mapping) -> None:
     """Have Snakemake ask the process for its jobs, or end it where they gain nothing from it.
 
     `log` says in its last line what processor time the imports took.
@@ -64,7 +64,9 @@ def use(process: subprocess.Popen | None, workflow, log: Path) -> None:
     here = workflow.local_exec and not workflow.deployment_settings.deployment_method
     if process and here and not workflow.touch and scripts:
         log.parent.mkdir(parents=True, exist_ok=True)
-        _tell(process, imports_of(scripts), len(scripts), log)
+        names = [name for functions in called for name in functions if "/" not in name]
+        modules = [name.rpartition(".")[0] for name in names if "." in name]
+        _tell(process, sorted({*imports_of(scripts), *modules}), len(scripts), log)
         shell.prefix(_prefix(process.args[-1]).replace("{", "{{").replace("}", "}}"))
     elif process:
         end(process)

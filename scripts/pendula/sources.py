@@ -84,6 +84,50 @@ def digest_of_modules(file: Path) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+PACKAGES = (
+    *("numpy", "numba", "llvmlite", "scipy", "python-flint", "xarray", "netCDF4"),
+    *("matplotlib", "pillow", "fonttools"),
+)
+"""Packages whose versions decide numbers and pictures."""
+
+_LONG = '"' * 3 + r'(?:[^"\\]|\\.|"(?!""))*' + '"' * 3
+_SHORT = r'"(?:[^"\\\n]|\\.)*"|' + r"'(?:[^'\\\n]|\\.)*'"
+_DOCSTRING, _COMMENT = rf"^[ ]*(?P<docstring>{_LONG})[ ]*\n", r"(?P<comment>[ ]*[#][^\n]*)"
+_NO_CODE = re.compile("|".join([_DOCSTRING, _LONG, _SHORT, _COMMENT]), re.MULTILINE)
+_EMPTY = re.compile(r"\n\s*\n")
+
+
+def digest_of_code(*files: Path) -> str:
+    """Return one hash of what runs where these files run, without comments and docstrings.
+
+    It is of the files, of all modules that they import, of the templates and styles beside these,
+    and of the versions of PACKAGES.
+    """
+    modules = modules_of(*files)
+    bare = [f"{_digest_of_bare(path)} {path.name}" for path in modules]
+    beside = [f"{digest_of(path)} {path.name}" for path in attached_to(modules)]
+    return hashlib.sha256("\n".join([*_versions(), *bare, *beside]).encode()).hexdigest()
+
+
+@cache
+def _versions() -> list[str]:
+    return [f"{name} {version(name)}" for name in PACKAGES]
+
+
+@cache
+def _digest_of_bare(module: Path) -> str:
+    return hashlib.sha256(bare(module.read_text(encoding="utf-8")).encode()).hexdigest()
+
+
+def bare(text: str) -> str:
+    """Return a module's text without comments, docstrings and empty lines.
+
+    Python's own parser would take half a second for all modules, in every call of Snakemake.
+    """
+    without = _NO_CODE.sub(lambda found: "" if found.lastgroup else found[0], text)
+    return _EMPTY.sub("\n", f"\n{without}\n")
+
+
 @cache
 def _imports_of(file: Path) -> frozenset[Path]:
     names = set()
@@ -94,7 +138,7 @@ def _imports_of(file: Path) -> frozenset[Path]:
             package = _names_of(file)[: -node.level] if node.level else ()
             base = ".".join([*package, *([node.module] if node.module else [])])
             names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
-    return frozenset(path for name in names for path in _files_of(name))
+    return frozenset(path for name in names for path in files_of_module(name))
 
 
 def _tree_of(text: str) -> ast.AST:
@@ -129,7 +173,7 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
             waiting.extend(getattr(node, part, ()))
 
 
-def _files_of(name: str) -> tuple[Path, ...]:
+def files_of_module(name: str) -> tuple[Path, ...]:
     """Return the files that importing `name` executes: the module and its packages."""
     ours, *inner = name.split(".")
     return _files_in(_folder_of(ours), (ours, *inner)) if ours in OURS else ()

@@ -12,6 +12,12 @@ from contextlib import ContextDecorator
 KINDS = ("compiling", "writing", "drawing")
 REST = "computing"
 
+SPENT = "spent: "
+"""How the line of a log begins that says what processor time was spent on, in seconds, and the
+largest memory, in megabytes."""
+TOOK = "wall time: "
+"""How the last line of a log begins, with the time of the whole job in seconds."""
+
 _lock = threading.Lock()
 _active = dict.fromkeys(KINDS, 0)
 _seconds = dict.fromkeys((*KINDS, REST), 0.0)

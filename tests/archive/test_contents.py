@@ -9,7 +9,6 @@ import pytest
 from pendula.archive.contents import (
     MANIFEST,
     ArchiveError,
-    check_records,
     code_files,
     dump_configuration,
     manifest,

@@ -19,7 +19,7 @@ def _stable(exponent, speed):
 @pytest.fixture
 def results(tmp_path):
     """Return a folder with the results that are reduced, made up."""
-    long = tmp_path / "results/unbounded/long"
+    long = tmp_path / "results/long/unbounded"
     long.mkdir(parents=True)
     made_up.thermal().to_netcdf(long.parent / "thermal.nc")
     still = _stable(0.0, 0.5)
@@ -74,7 +74,7 @@ def test_the_full_run_is_reduced_to_what_is_quoted(tmp_path):
 @pytest.fixture
 def breathers(tmp_path):
     """Return a folder with made-up long studies of fates and of sensitivity."""
-    long = tmp_path / "results/breathers/long"
+    long = tmp_path / "results/long/breathers"
     long.mkdir(parents=True)
     nan, over = np.nan, ("omega", "a0", "b0")
     fate = [[[1, 1, 3], [1, 1, 1], [3, 1, 1]], [[3, 3, 3], [3, 3, 3], [3, 3, 3]]]

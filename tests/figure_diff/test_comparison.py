@@ -3,7 +3,6 @@
 import made_up_results as made_up
 import numpy as np
 import pytest
-from figure_diff.compare_results import compare_results
 from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
 from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
@@ -120,7 +119,7 @@ def test_the_page_shows_findings_and_both_pictures_and_needs_no_network(run, mon
     monkeypatch.chdir(run.made.parent)
     made_up.put(run.made, "fig2", made_up.norms(False), label="norm")
     results = [f"results/{name}" for name in NAMES]
-    given = results, str(run.accepted), CONFIGURATION, False, made_up.RESTS_ON_CHAOS
+    given = results, "results", str(run.accepted), CONFIGURATION, False, made_up.RESTS_ON_CHAOS
     compare_results(*given, "diff/index.html", "diff/verdict.json")
     page, told = (run.made.parent / "diff/index.html").read_text(), load_json("diff/verdict.json")
     assert told["faults"] == 3 and told["counts"] == {"different": 3, "identical": len(NAMES) - 3}

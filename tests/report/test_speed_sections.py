@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from accepted import Report, dataset
 from pendula.report import sections
-from pendula.report.results import ReportError, Results
+from pendula.report.results import ReportError
 
 MEASURED = sections.Measured("speed/work_precision.nc", "table.md", [], False)
 
@@ -27,18 +27,17 @@ def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
     (tmp_path / "b.log").write_text("wall time: 12.0 s\n")
     (tmp_path / "old.log").write_text("nothing\n")
     (tmp_path / "empty.log").write_text("")
-    assert sections.run_times(tmp_path, "wall time: ") == [("b", 12.0), ("checks/a", 1.5)]
-    assert sections.run_times(tmp_path / "absent", "wall time: ") == []
+    assert sections.run_times(tmp_path) == [("b", 12.0), ("checks/a", 1.5)]
+    assert sections.run_times(tmp_path / "absent") == []
 
 
 def test_hashes_follow_the_content(tmp_path):
-    file, page = tmp_path / "code.txt", str(tmp_path / "page.html")
-    made = {"inputs": ["code.txt"], "settings": "{}", "logs": str(tmp_path), "took": "t"}
+    reference, made_by = tmp_path / "case.nc", {"run_case": 64 * "a"}
     found = []
-    for text in "ab":
-        file.write_text(text)
-        found.append(sections.gather_provenance(Results([str(file)], page), **made))
+    for content in ("a", "b"):
+        reference.write_text(content)
+        found.append(sections.gather_provenance(made_by, [str(reference)], "{}", tmp_path))
     one, other = found
-    assert one["hashes"] != other["hashes"] and one["settings"] == other["settings"]
-    assert one["hashes"][0][0].link == "code.txt" and len(one["hashes"][0][1]) == 16
+    assert one["hashes"][0] == other["hashes"][0] == ("run_case", 16 * "a")
+    assert one["hashes"][1][0] == "reference case" and one["hashes"][1] != other["hashes"][1]
     assert dict(one["versions"])["numpy"] == np.__version__ and one["times"] == []

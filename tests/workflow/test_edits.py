@@ -36,7 +36,10 @@ def test_studies_run_on_what_the_cases_have_become(finished):
     ended = run_ready([*command, str(edit)])
     assert ended.returncode == 0, ended.stdout + ended.stderr
     phases = read(finished / "results/pendula/phases.nc")["larger_modulus"]
-    assert phases.sel(case="fig2_large").dropna("site")["site"].values[[0, -1]].tolist() == [-20, 20]
+    assert phases.sel(case="fig2_large").dropna("site")["site"].values[[0, -1]].tolist() == [
+        -20,
+        20,
+    ]
     assert phases.sel(case="fig2_small").notnull().all() and phases["site"][-1] == 30
     lyapunov = read(finished / "results/checks/lyapunov.nc")
     assert lyapunov["gamma"].sel(case=["fig2_small", "fig4_small"]).values.tolist() == [1.0, 0.5]

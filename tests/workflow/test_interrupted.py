@@ -8,8 +8,9 @@ from hashlib import sha256
 import yaml
 from helpers import ROOT, command_of, snakemake_with, wait_for
 from pendula.configuration.messages import load
-from sweeps.sweep_case import sweep_case
-from trajectories.simulate_case import simulate_case
+from pendula.datasets.netcdf import write
+from pendula.problem import Problem
+from pendula.studies.paper.runs import run_case, run_sweep
 
 CASE = {"omega": 0, "initial": {0: [5, 1]}, "end_time": 20, "solver": "dop853"}
 TRAJECTORY, SWEEP = TARGETS = "results/trajectories/mine.nc", "results/sweeps/mine.nc"
@@ -26,8 +27,8 @@ SHORT, HOURS = settings(), settings(*range(30000, 30100))
 
 
 def hashes(folder):
-    """Return the hash of every result, hidden ones too, but for logs, records and copies."""
-    others = {folder / "results" / name for name in ("code", "kernels", "logs", "truth")}
+    """Return the hash of every result, hidden ones too, but for logs and kernels."""
+    others = {folder / "results" / name for name in ("kernels", "logs")}
     files = [path for path in folder.rglob("results/**/*") if path.is_file()]
     kept = [path for path in files if others.isdisjoint(path.parents)]
     return {str(path.relative_to(folder)): sha256(path.read_bytes()).hexdigest() for path in kept}
@@ -38,9 +39,10 @@ def write_whole(folder):
     for target in TARGETS:
         (folder / target).parent.mkdir(parents=True)
     configuration = load(SHORT)
-    simulate_case([str(folder / TRAJECTORY)], "mine", [configuration.shown_problem("mine")])
-    problem = configuration.swept_problem("mine")
-    sweep_case([str(folder / SWEEP)], "mine", [problem], [4, 8], WINDOWS)
+    problem = Problem.of(configuration.shown_problem("mine"))
+    write(folder / TRAJECTORY, *run_case("mine", problem))
+    problem = Problem.of(configuration.swept_problem("mine"))
+    write(folder / SWEEP, *run_sweep("mine", problem, [4, 8], WINDOWS, print))
 
 
 def end_when(happened, how, folder):

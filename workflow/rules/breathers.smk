@@ -1,246 +1,157 @@
 # Breathers: states that stay at one pair, what becomes of data there, and which of them spread.
+BREATHERS = SETTINGS.breathers
+FATES = BREATHERS.fates
+RUN_OF_FATES = {
+    **values_of(FATES, "tolerance", "half_width", "end_time"),
+    "output_step": FATES.end_time,
+}
 
 
-rule steady_breathers:
+use rule dataset as steady_breathers with:
     "Steady states localised at one pair: families, where they are born, where they are stable"
-    input:
-        code=code("breathers/find_steady.py"),
-    output:
-        data="results/breathers/steady.nc",
-    log:
-        "results/logs/breathers/steady.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="breathers/steady",
     params:
-        **steady_params(SETTINGS.breathers),
-    message:
-        "Finding steady breathers"
-    script:
-        "../../scripts/breathers/find_steady.py"
+        **values_of(BREATHERS, "epsilon", "gamma"),
+        **values_of(BREATHERS.steady),
+        call=function("pendula.studies.breathers.contents.steady_contents"),
 
 
-rule periodic_breathers:
+use rule dataset as periodic_breathers with:
     "Periodic motions localised at one pair, and how fast their perturbations grow"
     input:
-        code=code("breathers/find_periodic.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/breathers/periodic.nc",
-    log:
-        "results/logs/breathers/periodic.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="breathers/periodic",
     params:
-        **periodic_params(SETTINGS.breathers),
-    message:
-        "Finding periodic breathers"
-    script:
-        "../../scripts/breathers/find_periodic.py"
+        **values_of(BREATHERS, "epsilon", "gamma"),
+        **values_of(BREATHERS.periodic),
+        call=function("pendula.studies.breathers.periodic_contents.periodic_contents"),
 
 
-rule perturbed_breathers:
-    "How stable breathers move after a change, for thousands of periods: results/breathers/long/"
-    input:
-        code=code("breathers/perturb_breathers.py"),
-        kernels=kernels("taylor"),
-    output:
-        data="results/breathers/long/perturbed.nc",
-    log:
-        "results/logs/breathers/long_perturbed.log",
-    conda:
-        "../envs/pinned.yaml"
+use rule periodic_breathers as perturbed_breathers with:
+    "How stable breathers move after a change, for thousands of periods: results/long/breathers/"
+    pathvars:
+        made="long/breathers/perturbed",
     params:
-        **perturbed_params(SETTINGS.breathers),
-    message:
-        "Following changed breathers for thousands of periods"
-    script:
-        "../../scripts/breathers/perturb_breathers.py"
+        **values_of(BREATHERS.periodic.long),
+        call=function("pendula.studies.breathers.periodic_contents.perturbed_contents"),
 
 
-rule growth_by_drive:
+use rule dataset as growth_by_drive with:
     "How the drive feeds a localised motion, beside the law of weak drives"
     input:
-        code=code("breathers/measure_growth_by_drive.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/breathers/growth.nc",
-    log:
-        "results/logs/breathers/growth.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="breathers/growth",
     params:
-        **drive_params(SETTINGS.breathers),
-    message:
-        "Measuring how a localised motion grows by the drive"
-    script:
-        "../../scripts/breathers/measure_growth_by_drive.py"
+        **values_of(BREATHERS.growth),
+        call=function("pendula.studies.breathers.contents.growth_contents"),
+        epsilon=BREATHERS.epsilon,
 
 
-rule measure_sensitivity:
+use rule dataset as measure_sensitivity with:
     "Which of almost equal data spread over the chain"
     input:
-        code=code("breathers/measure_sensitivity.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/breathers/sensitivity.nc",
-    log:
-        "results/logs/breathers/sensitivity.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="<size>breathers/sensitivity",
     params:
-        **sensitivity_params(SETTINGS.breathers.sensitivity, "full"),
-    message:
-        "Measuring which of almost equal data spread"
-    script:
-        "../../scripts/breathers/measure_sensitivity.py"
+        **values_of(BREATHERS.sensitivity, "sizes", "seed"),
+        call=function("pendula.studies.breathers.contents.sensitivity_contents"),
+        name=BREATHERS.sensitivity.case,
+        problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
+        given=sized(BREATHERS.sensitivity, "members", "scan"),
 
 
-use rule measure_sensitivity as measure_long_sensitivity with:
-    "The same with more members and a longer scan"
-    output:
-        data="results/breathers/long/sensitivity.nc",
-    log:
-        "results/logs/breathers/long_sensitivity.log",
-    params:
-        **sensitivity_params(SETTINGS.breathers.sensitivity, "long"),
-
-
-rule map_fates:
+use rule dataset as map_fates with:
     "What becomes of data on one pair: they disperse, stay, move or spread"
     input:
-        code=code("breathers/map_fates.py"),
         kernels=kernels("taylor"),
-        periodic="results/breathers/periodic.nc",
-        fine=fine_maps_of_fates(),
-    output:
-        data="results/breathers/fates.nc",
-    log:
-        "results/logs/breathers/fates.log",
-    conda:
-        "../envs/pinned.yaml"
+        periodic="<results>/breathers/periodic.nc",
+    pathvars:
+        made="<size>breathers/fates",
     params:
-        **fate_params(SETTINGS.breathers, "full"),
-    message:
-        "Mapping what becomes of data on one pair"
-    script:
-        "../../scripts/breathers/map_fates.py"
+        call=function("pendula.studies.breathers.fate_contents.map_fates"),
+        committed=fine_maps,
+        problems={
+            omega: run_of(
+                "fig4_small",
+                omega=omega,
+                **values_of(BREATHERS, "epsilon", "gamma"),
+                **RUN_OF_FATES,
+            )
+            for omega in FATES.omegas
+        },
+        case_problems={case: run_of(case, **RUN_OF_FATES) for case in cases_on_one_pair()},
+        given=lambda wildcards: FATES.grid(FATES.long if wildcards.size else FATES),
 
 
-use rule map_fates as map_long_fates with:
-    "The same on a fine grid"
-    input:
-        code=code("breathers/map_fates.py"),
-        kernels=kernels("taylor"),
-        periodic="results/breathers/periodic.nc",
-    output:
-        data="results/breathers/long/fates.nc",
-    log:
-        "results/logs/breathers/long_fates.log",
-    params:
-        **fate_params(SETTINGS.breathers, "long"),
-
-
-rule draw_breathers:
+use rule figure as draw_breathers with:
     "Periodic breathers against their frequency, and how the drive feeds a localised motion"
     input:
-        code=code("breathers/draw_breathers.py"),
-        periodic="results/breathers/periodic.nc",
-        growth="results/breathers/growth.nc",
-    output:
-        **figure("breathers"),
-    log:
-        "results/logs/figures/breathers.log",
-    conda:
-        "../envs/pinned.yaml"
+        periodic="<results>/breathers/periodic.nc",
+        growth="<results>/breathers/growth.nc",
+    pathvars:
+        made="figures/breathers",
     params:
-        differs=differs_of,
-    message:
-        "Drawing breathers and their growth by the drive"
-    script:
-        "../../scripts/breathers/draw_breathers.py"
+        call=function("pendula.studies.breathers.figures.draw_breathers"),
 
 
-rule draw_sensitivity:
+use rule figure as draw_sensitivity with:
     "Which of almost equal data spread over the chain, as a picture"
     input:
-        code=code("breathers/draw_sensitivity.py"),
-        sensitivity="results/breathers/sensitivity.nc",
-    output:
-        **figure("sensitivity"),
-    log:
-        "results/logs/figures/sensitivity.log",
-    conda:
-        "../envs/pinned.yaml"
+        sensitivity="<results>/{size}breathers/sensitivity.nc",
+    pathvars:
+        made="<size>figures/sensitivity",
     params:
-        differs=differs_of,
-    message:
-        "Drawing which of almost equal data spread"
-    script:
-        "../../scripts/breathers/draw_sensitivity.py"
+        call=function("pendula.studies.breathers.figures.draw_sensitivity"),
 
 
-use rule draw_sensitivity as draw_long_sensitivity with:
-    "The same with more members and a longer scan, drawn"
-    input:
-        code=code("breathers/draw_sensitivity.py"),
-        sensitivity="results/breathers/long/sensitivity.nc",
-    output:
-        **long_breathers_figure("sensitivity"),
-    log:
-        "results/logs/figures/long_sensitivity.log",
-
-
-rule draw_fates:
+use rule figure as draw_fates with:
     "What becomes of data on one pair, as a map"
     input:
-        code=code("breathers/draw_fates.py"),
-        fates="results/breathers/fates.nc",
-        fine=fine_maps_of_fates(),
-    output:
-        **figure("fates"),
-    log:
-        "results/logs/figures/fates.log",
-    conda:
-        "../envs/pinned.yaml"
+        fates="<results>/{size}breathers/fates.nc",
+    pathvars:
+        made="<size>figures/fates",
     params:
-        differs=differs_of,
-    message:
-        "Drawing what becomes of data on one pair"
-    script:
-        "../../scripts/breathers/draw_fates.py"
-
-
-use rule draw_fates as draw_long_fates with:
-    "The same map on a fine grid"
-    input:
-        code=code("breathers/draw_fates.py"),
-        fates="results/breathers/long/fates.nc",
-    output:
-        **long_breathers_figure("fates"),
-    log:
-        "results/logs/figures/long_fates.log",
+        call=function("pendula.studies.breathers.fate_figures.draw_fates"),
+        committed=fine_maps,
 
 
 rule breathers:
     "States that stay at one pair, which data reach them, and which spread: datasets and figures"
     input:
-        expand("results/breathers/{name}.nc", name=BREATHERS),
-        expand("results/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
+        datasets=expand(
+            "<results>/breathers/{name}.nc",
+            name=["steady", "periodic", "growth", "sensitivity", "fates"],
+        ),
+        figures=expand("<results>/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
     message:
         "The breathers and their figures are there"
 
 
 rule sensitivity:
-    "Which of almost equal data spread, with many members and a long scan: results/breathers/long/"
+    "Which of almost equal data spread, with many members and a long scan: results/long/figures/"
     input:
-        rules.draw_long_sensitivity.output,
+        files_of("<results>/long/figures/sensitivity"),
     message:
         "The long study of sensitivity is there"
 
 
 rule fates:
-    "The map of fates on a fine grid, which takes minutes: results/breathers/long/"
+    "The map of fates on a fine grid, which takes minutes: results/long/figures/"
     input:
-        rules.draw_long_fates.output,
+        files_of("<results>/long/figures/fates"),
     message:
         "The map of fates is there"
+
+
+use rule decide_claims as decide_breathers with:
+    "The claims on breathers: results/tables/claims_breathers.md"
+    input:
+        datasets=rules.breathers.input.datasets,
+    pathvars:
+        part="breathers",
+    params:
+        **claims_in("breathers/claims"),

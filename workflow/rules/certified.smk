@@ -1,166 +1,128 @@
 # Numbers with a proof: curves with a bound of their distance to the true ones.
+CERTIFIED = SETTINGS.certified
 
 
-rule certify_curve:
+use rule dataset as certify_curve with:
     "A case whose linear flow keeps a norm, with a proven bound of the error: {case}.nc"
-    input:
-        code=code("certified/certify_curve.py"),
-        reference=lambda wildcards: known_reference(wildcards.case),
-    output:
-        data="results/certified/{case}.nc",
-    log:
-        "results/logs/certified/{case}.log",
-    wildcard_constraints:
-        case=one_of([*SETTINGS.certified.curves.cases, *OWN_CASES]),
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made=f"certified/{{case,{one_of([*CERTIFIED.curves.cases, *OWN_CASES])}}}",
     params:
+        call=function("pendula.studies.certified.contents.curve_contents"),
+        committed=lambda wildcards: committed(**reference_of(wildcards.case)),
         name="{case}",
         problem=lambda wildcards: certified_problem(wildcards.case),
         made_for={},
-    message:
-        "Proving how far the curves of {wildcards.case} are from the true ones"
-    script:
-        "../../scripts/certified/certify_curve.py"
 
 
 rule certified:
     "The proofs of large and chaotic cases, which a full run takes as they are committed (long)"
     input:
-        framed_curves(),
+        expand("<results>/certified/{case}.nc", case=CERTIFIED.frames),
     message:
         "The proofs by frames are there"
 
 
-rule certify_by_frames:
+use rule dataset as certify_by_frames with:
     "A case whose errors grow, with a proven bound of the error: {case}.nc"
-    input:
-        code=code("certified/certify_by_frames.py"),
-        reference=lambda wildcards: references(wildcards.case),
-    output:
-        data="results/certified/{case}.nc",
-    log:
-        "results/logs/certified/{case}.log",
-    wildcard_constraints:
-        case=one_of(SETTINGS.certified.frames),
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made=f"certified/{{case,{one_of(CERTIFIED.frames)}}}",
     params:
+        call=function("pendula.studies.certified.contents.frame_contents"),
+        committed=lambda wildcards: committed(**reference_of(wildcards.case)),
         name="{case}",
         problem=lambda wildcards: framed_problem(wildcards.case),
-        proof=lambda wildcards: proof_by_frames(wildcards.case),
-    message:
-        "Proving by frames how far the curves of {wildcards.case} are from the true ones"
-    script:
-        "../../scripts/certified/certify_by_frames.py"
+        proof=lambda wildcards: values_of(
+            CERTIFIED.frames[wildcards.case], "bits", "order", "outputs_per_frame"
+        ),
 
 
-rule measure_lines:
+use rule dataset as measure_lines with:
     "Until when the printed lines of Figs 2 to 4 contain the true curves, as a theorem"
     input:
-        code=code("certified/measure_lines.py"),
-        trajectories=trajectories(),
-        references=references(*PAPER_CASES),
-        proved=[*proved_curves(), *committed_proofs()],
-    output:
-        data="results/certified/lines.nc",
-    log:
-        "results/logs/certified/lines.log",
-    conda:
-        "../envs/pinned.yaml"
+        runs=TRAJECTORIES,
+        proved=PROVED_CURVES,
+    pathvars:
+        made="certified/lines",
     params:
-        cases=PAPER_CASES,
-        certified=[*SETTINGS.certified.curves.cases, *SETTINGS.certified.frames],
-    message:
-        "Finding until when the printed lines contain the true curves"
-    script:
-        "../../scripts/certified/measure_lines.py"
+        call=function("pendula.studies.certified.lines.contain_curves"),
+        committed=committed(references=references(*PAPER_CASES), proofs=committed_proofs()),
 
 
 use rule certify_curve as certify_wrong_curve with:
     "A curve of an equation with a wrong constant, for the negative control of the proofs"
-    input:
-        code=code("certified/certify_curve.py"),
-        reference=[],
-    output:
-        data="results/certified/wrong/curve.nc",
-    log:
-        "results/logs/certified/wrong_curve.log",
+    pathvars:
+        made="certified/wrong/curve",
     params:
-        **wrong_curve_params(SETTINGS.certified.curves.wrong),
-    message:
-        "Asking the proof about a curve of another equation"
+        name=CERTIFIED.curves.wrong.case,
+        problem={
+            **certified_problem(CERTIFIED.curves.wrong.case),
+            **values_of(CERTIFIED.curves.wrong, "end_time"),
+        },
+        committed={},
+        made_for=CERTIFIED.curves.wrong.model_dump(
+            include={"epsilon", "gamma", "omega"}, exclude_none=True
+        ),
 
 
-rule certified_curves:
+use rule figure as certified_curves with:
     "Proven bounds of the error of curves, what they are due to, and the error that is known"
     input:
-        code=code("certified/draw_curves.py"),
-        curves=proved_curves(),
-    output:
-        **figure("certified_curves"),
-    log:
-        "results/logs/figures/certified_curves.log",
-    conda:
-        "../envs/pinned.yaml"
+        curves=PROVED_CURVES,
+    pathvars:
+        made="figures/certified_curves",
     params:
-        differs=differs_of,
-    message:
-        "Drawing the proven bounds of curves"
-    script:
-        "../../scripts/certified/draw_curves.py"
+        call=function("pendula.studies.certified.figures.draw_curves"),
 
 
-rule prove_breathers:
+use rule dataset as prove_breathers with:
     "Steady breathers that are proved to exist on the infinite chain, and spectra on a finite one"
-    input:
-        code=code("certified/prove_breathers.py"),
-    output:
-        data="results/certified/breathers.nc",
-    log:
-        "results/logs/certified/breathers.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="certified/breathers",
     params:
-        **SETTINGS.certified.breathers.model_dump(),
-    message:
-        "Proving that steady breathers exist, and which are stable"
-    script:
-        "../../scripts/certified/prove_breathers.py"
+        **values_of(CERTIFIED.breathers),
+        call=function("pendula.studies.certified.proved_breathers.breathers_contents"),
 
 
-rule enclose_constants:
+use rule dataset as enclose_constants with:
     "The constants of the theorems that the theory stores, between bounds"
     input:
-        code=code("certified/enclose_constants.py"),
         datasets=checks(*ENCLOSED),
-    output:
-        data="results/certified/constants.nc",
-    log:
-        "results/logs/certified/constants.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="certified/constants",
     params:
-        **constants_params(),
-    message:
-        "Enclosing the constants of the theorems"
-    script:
-        "../../scripts/certified/enclose_constants.py"
+        call=function("pendula.studies.certified.constants.enclose_checks"),
+        problems={case: SETTINGS.problem(case, snapshot_step=None) for case in PAPER_CASES},
+        theory={
+            name: arguments
+            for group in GROUPS
+            for name, arguments in SETTINGS.theory.arguments(group).items()
+            if name in ENCLOSED
+        },
 
 
-rule certificate:
+use rule job as certificate with:
     "The proof of a short case as a file that others can check: results/certified/short_case.json"
-    input:
-        code=code("certified/make_certificate.py"),
     output:
-        certificate="results/certified/short_case.json",
-    log:
-        "results/logs/certified/certificate.log",
-    conda:
-        "../envs/pinned.yaml"
+        certificate="<results>/certified/short_case.json",
+    pathvars:
+        made="certified/certificate",
     params:
-        problem=short_problem(SETTINGS.certified.certificate),
-    message:
-        "Making a certificate of a short case"
-    script:
-        "../../scripts/certified/make_certificate.py"
+        call=function("pendula.studies.certified.certificate.write_certificate"),
+        problem={
+            **certified_problem(CERTIFIED.certificate.case),
+            **values_of(CERTIFIED.certificate, "half_width", "end_time"),
+        },
+
+
+use rule decide_claims as decide_certified with:
+    "The claims on proofs: results/tables/claims_certified.md"
+    input:
+        datasets=[
+            *(*PROVED_CURVES, "<results>/certified/wrong/curve.nc"),
+            *expand("<results>/trajectories/{case}.nc", case=["fig2_small", "fig3_small"]),
+            "<results>/certified/breathers.nc",
+        ],
+    pathvars:
+        part="certified",
+    params:
+        **claims_in("certified/claims"),

@@ -1,183 +1,157 @@
 # Chaos in the chain: how fast small errors grow, and what that leaves to be trusted.
+LYAPUNOV, ENSEMBLES, MEMBERS = (
+    getattr(SETTINGS.chaos, name) for name in ("lyapunov", "ensembles", "members")
+)
+SYMMETRY, LIFETIMES = SETTINGS.chaos.symmetry, SETTINGS.chaos.lifetimes
+SPECTRUM = LYAPUNOV.spectrum
 
 
-rule measure_lyapunov:
+use rule dataset as measure_lyapunov with:
     "Lyapunov exponents of every case, and when runs leave the solution"
     input:
-        code=code("chaos/measure_lyapunov.py"),
         kernels=kernels("dop853", "taylor"),
-    output:
-        data="results/checks/lyapunov.nc",
-    log:
-        "results/logs/checks/lyapunov.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="checks/lyapunov",
     params:
-        **lyapunov_params(SETTINGS.chaos.lyapunov),
-    message:
-        "Measuring Lyapunov exponents"
-    script:
-        "../../scripts/chaos/measure_lyapunov.py"
+        call=function("pendula.studies.chaos.lyapunov.measure_lyapunov"),
+        problems=followed(PAPER_CASES, LYAPUNOV.tolerance, "dop853"),
+        end_time=LYAPUNOV.lengths * longest(PAPER_CASES),
+        tolerances=LYAPUNOV.diverging_tolerances,
+        short_problems=followed(SPECTRUM.cases, SPECTRUM.tolerance, "dop853"),
+        short_end_times={
+            half_width: times * longest(SPECTRUM.cases)
+            for half_width, times in SPECTRUM.lengths.items()
+        },
+        undriven_end=SPECTRUM.undriven_lengths * longest(SPECTRUM.cases),
+        seed=LYAPUNOV.seed,
 
 
-rule measure_symmetry:
+use rule dataset as measure_symmetry with:
     "How even data lose their evenness: by rounding, and by odd perturbations"
     input:
-        code=code("chaos/measure_symmetry.py"),
         kernels=kernels("dop853"),
-    output:
-        data="results/checks/symmetry.nc",
-    log:
-        "results/logs/checks/symmetry.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="checks/symmetry",
     params:
-        **symmetry_params(SETTINGS.chaos.symmetry),
-    message:
-        "Measuring how evenness is lost"
-    script:
-        "../../scripts/chaos/measure_symmetry.py"
+        **values_of(SYMMETRY, "size", "members", "seed"),
+        call=function("pendula.studies.chaos.symmetry.odd_parts"),
+        problems=followed(PAPER_CASES, SYMMETRY.tolerance, "dop853", end_time=longest(PAPER_CASES)),
+        step=SYMMETRY.output_step,
 
 
-rule measure_ensembles:
+use rule dataset as measure_ensembles with:
     "Chaotic cases and sweeps from data that differ in their last digits"
     input:
-        code=code("chaos/measure_ensembles.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/checks/ensembles{kind}.nc",
-    log:
-        "results/logs/checks/ensembles{kind}.log",
-    wildcard_constraints:
-        kind="|_uneven",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="checks/ensembles{kind,|_uneven}",
     params:
-        **ensemble_params(SETTINGS.chaos.ensembles),
+        **values_of(ENSEMBLES, "members", "size", "seed"),
+        call=function("pendula.studies.chaos.ensembles.measure_ensembles"),
+        problems=lambda wildcards: followed(
+            [] if wildcards.kind else ENSEMBLES.cases,
+            ENSEMBLES.tolerance,
+            end_time=longest(ENSEMBLES.cases),
+            output_step=min(SETTINGS.cases[case].output_step for case in ENSEMBLES.cases),
+        ),
+        swept=lambda wildcards: swept(
+            ENSEMBLES.uneven if wildcards.kind else ENSEMBLES.sweeps, ENSEMBLES.tolerance
+        ),
+        windows=in_any(ENSEMBLES.sweeps, "windows"),
         kind=lambda wildcards: wildcards.kind.removeprefix("_") or "even",
-    message:
-        "Running ensembles of the chaotic cases and sweeps"
-    script:
-        "../../scripts/chaos/measure_ensembles.py"
 
 
-rule measure_members:
+use rule dataset as measure_members with:
     "Ensembles of every case, reduced to the numbers that sentences of the paper are about"
     input:
-        code=code("chaos/measure_members.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/checks/members.nc",
-    log:
-        "results/logs/checks/members.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="checks/members",
     params:
-        **member_params(SETTINGS.chaos.members),
-    message:
-        "Running ensembles of every case, even in n and not"
-    script:
-        "../../scripts/chaos/measure_members.py"
+        **values_of(MEMBERS, "windows", "members", "size", "seed"),
+        call=function("pendula.studies.chaos.members.member_numbers"),
+        problems=followed(
+            PAPER_CASES,
+            MEMBERS.tolerance,
+            end_time=max(end for _, end in MEMBERS.windows),
+            snapshot_every=MEMBERS.every,
+        ),
 
 
-rule measure_lifetimes:
+use rule dataset as measure_lifetimes with:
     "Ensembles that tell when the central pendulum stops being localised, by its initial amplitude"
     input:
-        code=code("chaos/measure_lifetimes.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/checks/lifetimes.nc",
-    log:
-        "results/logs/checks/lifetimes.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="checks/lifetimes",
     params:
-        **lifetime_params(SETTINGS.chaos.lifetimes),
-    message:
-        "Measuring how long the central pendulum stays localised"
-    script:
-        "../../scripts/chaos/measure_lifetimes.py"
+        **values_of(LIFETIMES, "amplitudes", "ratio", "compared", "size", "members"),
+        **values_of(LIFETIMES, "settled", "seed"),
+        call=function("pendula.studies.chaos.lifetimes.measure_lifetimes"),
+        problem=run_of(**values_of(LIFETIMES, "case", "tolerance", "end_time", "output_step")),
 
 
-rule lifetimes:
+use rule figure as lifetimes with:
     "How long the central pendulum stays localised, against its initial amplitude"
     input:
-        code=code("chaos/draw_lifetimes.py"),
-        lifetimes="results/checks/lifetimes.nc",
-    output:
-        **figure("lifetimes"),
-    log:
-        "results/logs/figures/lifetimes.log",
-    conda:
-        "../envs/pinned.yaml"
+        lifetimes="<results>/checks/lifetimes.nc",
+    pathvars:
+        made="figures/lifetimes",
     params:
-        differs=differs_of,
-    message:
-        "Drawing how long the central pendulum stays localised"
-    script:
-        "../../scripts/chaos/draw_lifetimes.py"
+        call=function("pendula.studies.chaos.lifetimes_figure.draw_lifetimes"),
 
 
-rule chaos_figures:
+use rule figure as chaos_figures with:
     "The two figures lyapunov and symmetry"
     input:
-        code=code("chaos/draw_chaos.py"),
-        lyapunov="results/checks/lyapunov.nc",
-        symmetry="results/checks/symmetry.nc",
+        lyapunov="<results>/checks/lyapunov.nc",
+        symmetry="<results>/checks/symmetry.nc",
     output:
-        exponents=files_of("results/figures/lyapunov"),
-        odd_parts=files_of("results/figures/symmetry"),
-    log:
-        "results/logs/figures/chaos.log",
-    conda:
-        "../envs/pinned.yaml"
+        files_of("<results>/figures/lyapunov"),
+        files_of("<results>/figures/symmetry"),
+    pathvars:
+        made="figures/chaos",
     params:
-        differs=differs_of,
-    message:
-        "Drawing Lyapunov exponents, and how evenness is lost"
-    script:
-        "../../scripts/chaos/draw_chaos.py"
+        call=function(
+            "pendula.studies.chaos.figures.draw_lyapunov",
+            "pendula.studies.chaos.figures.draw_symmetry",
+        ),
 
 
-rule compare_ensembles:
+use rule dataset as compare_ensembles with:
     "The paper's own runs, and the references, beside the ensembles"
     input:
-        code=code("chaos/compare_ensembles.py"),
-        ensembles="results/checks/ensembles.nc",
-        lyapunov="results/checks/lyapunov.nc",
-        runs=expand("results/trajectories/{case}.nc", case=ENSEMBLE_CASES),
-        references=references(*ENSEMBLE_CASES),
-        sweeps=expand("results/sweeps/{sweep}.nc", sweep=ENSEMBLE_SWEEPS),
-    output:
-        data="results/checks/ensemble_runs.nc",
-    log:
-        "results/logs/checks/ensemble_runs.log",
-    conda:
-        "../envs/pinned.yaml"
+        ensembles="<results>/checks/ensembles.nc",
+        lyapunov="<results>/checks/lyapunov.nc",
+        runs=expand("<results>/trajectories/{case}.nc", case=ENSEMBLES.cases),
+        sweeps=expand("<results>/sweeps/{sweep}.nc", sweep=ENSEMBLES.sweeps),
+    pathvars:
+        made="checks/ensemble_runs",
     params:
-        cases=ENSEMBLE_CASES,
-        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in ENSEMBLE_SWEEPS},
-    message:
-        "Comparing the paper's runs with ensembles"
-    script:
-        "../../scripts/chaos/compare_ensembles.py"
+        call=function("pendula.studies.chaos.ensembles.compare_runs"),
+        committed=committed(references=references(*ENSEMBLES.cases)),
+        windows={sweep: drawn_windows(sweep)["text_window"] for sweep in ENSEMBLES.sweeps},
 
 
-rule ensembles:
+use rule figure as ensembles with:
     "What runs from almost equal data share, beside the paper's own"
     input:
-        code=code("chaos/draw_ensembles.py"),
-        ensembles="results/checks/ensembles.nc",
-        comparison="results/checks/ensemble_runs.nc",
-    output:
-        **figure("ensembles"),
-    log:
-        "results/logs/figures/ensembles.log",
-    conda:
-        "../envs/pinned.yaml"
+        ensembles="<results>/checks/ensembles.nc",
+        comparison="<results>/checks/ensemble_runs.nc",
+    pathvars:
+        made="figures/ensembles",
     params:
-        differs=differs_of,
-    message:
-        "Drawing ensembles of the chaotic cases and sweeps beside the paper's runs"
-    script:
-        "../../scripts/chaos/draw_ensembles.py"
+        call=function("pendula.studies.chaos.figures.draw_ensembles"),
+
+
+use rule decide_claims as decide_chaos with:
+    "The claims on chaos: results/tables/claims_chaos.md"
+    input:
+        datasets=[
+            *("<results>/sweeps/fig5_left.nc", "<results>/sweeps/fig6_left.nc"),
+            *("<results>/breathers/sensitivity.nc", *checks("trust", *CHAOS_CHECKS)),
+        ],
+    pathvars:
+        part="chaos",
+    params:
+        **claims_in("chaos/claims"),

@@ -1,117 +1,58 @@
-# What the rules share: the validated configuration, the code records, the environment of jobs.
+# What the rules share: the validated configuration, names of files and of code, and plain values of the
+# configuration, as functions of the library take them.
 import atexit
 import json
 import os
+import re
 import sys
 from pathlib import Path
 
 from snakemake.logging import logger
-from snakemake.persistence import PersistenceBase
 
-if sys.version_info < (3, 11):
-    logger.error(f"this project needs Python 3.11 or newer, and this is {sys.version.split()[0]}")
-    raise SystemExit(1)
-sys.path[:0] = [f"{workflow.basedir}/{part}" for part in ("workflow", "scripts", "")]
+PROJECT = Path(str(workflow.current_basedir)).parents[1]
+sys.path[:0] = [str(PROJECT / part) for part in ("workflow", "scripts", "")]
 
-import code_records
-import file_times
 import warm
-from stop import stop
+from order import begin_at_once, put_in_order
 
-# Snakemake would import pandas, for a fifth of a second, to ask of each parameter whether it is a
-# table of pandas. None is.
-PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_builtin
 
+def stop(reason):
+    """Say why nothing runs, and end. Of an error, Snakemake would tell where in the rules it arose."""
+    logger.error(str(reason))
+    raise SystemExit(1)
+
+
+RESULTS = Path("results").absolute()
 if not os.access(".", os.W_OK):
     stop(
         f"{os.getcwd()} is read-only, and Snakemake keeps notes there even of a dry run: name a "
         "folder that you may write to, by --directory"
     )
-# Calls that only look write nothing to results/. Snakemake says of dry runs that they are such calls,
-# and of no other, so that the options of the others are listed.
-LOOKS = {
-    "-l",
-    "--list",
-    "--list-rules",
-    "--lt",
-    "--list-target-rules",
-    "--lint",
-    "--dag",
-    "--rulegraph",
-    "--filegraph",
-}
-LOOKS |= {"-S", "--summary", "-D", "--detailed-summary", "--unlock"}
-code_records.only_looks = workflow.output_settings.dryrun or bool(LOOKS & set(sys.argv))
-RESULTS = Path("results").absolute()
-FOLDERS = [
-    "archive",
-    "breathers",
-    "certified",
-    "checks",
-    "claims",
-    "code",
-    "figure_diff",
-    "figures",
-    "kernels",
-]
-FOLDERS += [
-    "kept",
-    "logs",
-    "own",
-    "pendula",
-    "speed",
-    "sweeps",
-    "tables",
-    "trajectories",
-    "truth",
-    "unbounded",
-]
-for path in [RESULTS, *(RESULTS / name for name in FOLDERS)]:
-    if path.is_file():
-        stop(f"{path} is a file, and results need a folder of this name: move the file away")
-    if path.is_symlink() and not path.exists():
-        stop(f"{path} is a link to {os.readlink(path)}, which is not there: make it, or mount it")
-    if path.exists() and not os.access(path, os.W_OK) and not code_records.only_looks:
-        stop(f"{path} is read-only: make it writable, or name another folder by --directory")
-file_times.restore(RESULTS)
-RUNS = not code_records.only_looks and workflow.exec_mode.name == "DEFAULT"
-if RUNS:
-    atexit.register(file_times.keep, RESULTS)
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(
-    PYTHONPATH=os.pathsep.join([f"{workflow.basedir}/scripts", workflow.basedir]),
+    PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]),
     OMP_NUM_THREADS="1",
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",
 )
 # It imports what jobs need, while what stands below is read.
+RUNS = workflow.exec_mode.name == "DEFAULT" and not workflow.output_settings.dryrun
 IMPORTED = warm.begin() if RUNS else None
 
 from benchmarks.problems import REGIMES
-from code_records import (
-    code,
-    committed,
-    copies,
-    is_committed,
-    kept,
-    records,
-    was_made,
-    whole_project,
-)
-from order import begin_at_once, put_in_order
 from pendula import __version__
+from pendula.archive.contents import code_files
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import ENCLOSED, concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
+from pendula.configuration.values import Steps
 from pendula.problem import Constants, name_window
+from pendula.sources import SCRIPTS, digest_of, digest_of_code, files_of_module, modules_of
+from pendula.studies import files_of_part
 from pendula.studies.certified.norm import NotDefiniteError, find_form
 from pendula.studies.theory.settings import GROUPS, OBSERVED, WRONG
-from progress import Run, expected, take_the_screen, what_it_takes
-from targets import asked, faults_of_targets, list_targets, what_failed, where_to_look
-
-SCREEN = take_the_screen(workflow.output_settings) if workflow.is_main_process else None
 
 PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
@@ -119,7 +60,7 @@ ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrate
 
 # The project's files, what the command line gives by --configfile, and --config over all. They are
 # read anew, since Snakemake takes the last of two equal keys in silence, and merges initial data.
-CONFIG_FILES = [f"{workflow.basedir}/config/{name}.yaml" for name in ("config", *STUDIES)]
+CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)]
 try:
     # Options of a single call, by --config alone: the baseline to compare with, whether any bits
     # will do, and what of a run to accept. In a file they would send a run's results elsewhere.
@@ -138,10 +79,10 @@ if workflow.is_main_process:
         logger.info(sentence)
 
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
-ENSEMBLE_CASES = SETTINGS.chaos.ensembles.cases
-ENSEMBLE_SWEEPS = list(SETTINGS.chaos.ensembles.sweeps)
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
+PARTS_OF_LEDGER = ["figures", "solvers", "theory", "chaos", "breathers", "pendula"]
+PARTS_OF_LEDGER += ["unbounded", "certified"]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 SOLVER_CHECKS = ["solvers", "second_solver", "trust"]
 CHAOS_CHECKS = [
@@ -149,19 +90,72 @@ CHAOS_CHECKS = [
     *("members", "lifetimes"),
 ]
 CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
+SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
+SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
+
+TRAJECTORIES = expand("<results>/trajectories/{case}.nc", case=PAPER_CASES)
+SWEEPS = expand("<results>/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS)
+PROVED_CURVES = expand("<results>/certified/{case}.nc", case=SETTINGS.certified.curves.cases)
 
 
 def one_of(names):
     return "|".join(names) or "(?!)"  # an empty pattern would match any name, this one matches none
 
 
+pathvars:
+    logs="<results>/logs",
+    paper_case=f"{{case,{one_of(PAPER_CASES)}}}",
+    own_case=f"{{case,{one_of(OWN_CASES)}}}",
+    paper_sweep=f"{{sweep,{one_of(PAPER_SWEEPS)}}}",
+    own_sweep=f"{{sweep,{one_of(OWN_SWEEPS)}}}",
+    any_solver=f"{{solver,{one_of([*ALL_SOLVERS, 'auto', 'kahan_li'])}}}",
+    size="{size,(long/)?}",  # a longer study lies in a folder of its own
+
+
+def what_failed(log):
+    """Return why jobs failed, as their own logs say; Snakemake's log names these."""
+    text = Path(log).read_text(encoding="utf-8", errors="replace")
+    told = []
+    for path in dict.fromkeys(re.findall(r"(?m)^    log: (\S+) \(check", text)):
+        said = (
+            Path(path).read_text(encoding="utf-8", errors="replace") if os.path.exists(path) else ""
+        )
+        reasons = re.findall(r"(?ms)^failed: (.*?)\nTraceback", said) or ["it ended without a word"]
+        told += [f"{reason}\n  (more in {path})" for reason in reasons]
+    return "\n".join(told)
+
+
+# --- Names of files -------------------------------------------------------------------------------
+
+FIGURE_KINDS = ["png", "pdf", "nc", "json"]
+
+
+def files_of(stem):
+    """Return all files of a figure: two pictures, what they show as a dataset, and in words."""
+    return [f"{stem}.{kind}" for kind in FIGURE_KINDS]
+
+
+def by_solvers(stem, solvers):
+    return [f"{stem}.{solver}.nc" for solver in solvers]
+
+
+def checks(*names):
+    return [f"<results>/checks/{name}.nc" for name in names]
+
+
+def ensembles_of(*names):
+    """Return the dataset of the ensembles if one of these cases or sweeps has one, else nothing."""
+    made = {*SETTINGS.chaos.ensembles.cases, *SETTINGS.chaos.ensembles.sweeps}
+    return checks("ensembles")[0] if made & set(names) else []
+
+
 def kernels(*solvers):
     compiled = ["taylor" if solver == "auto" else solver for solver in solvers]
-    return [f"results/kernels/{name}.txt" for name in compiled]
+    return [f"<results>/kernels/{name}.txt" for name in compiled]
 
 
 def own_kernels(case, solver=None):
-    """Return the kernels that a case of one's own waits for.
+    """Return the kernels that a case waits for.
 
     Those of the pendula are compiled by the first job that needs them, and others wait for it.
     """
@@ -169,12 +163,202 @@ def own_kernels(case, solver=None):
     return [] if given.model == "pendula" else kernels(solver or given.solver.name)
 
 
-def references(*cases):
-    return [committed(f"tests/baseline/reference/{case}.nc") for case in cases]
+def committed(**files):
+    """Return files of the project that a job is given under these names, by content.
+
+    They are parameters and no inputs: so a copy of the project depends on the same, wherever it is.
+    A name has one path below the project's folder, or a list of them.
+    """
+
+    def with_digest(path):
+        return [path, digest_of(PROJECT / path)]
+
+    return {
+        name: with_digest(one) if isinstance(one, str) else list(map(with_digest, one))
+        for name, one in files.items()
+    }
 
 
-def by_solvers(stem, solvers):
-    return [f"{stem}.{solver}.nc" for solver in solvers]
+def references(*names):
+    return [f"tests/baseline/reference/{name}.nc" for name in names]
+
+
+REFERENCES = references(*PAPER_CASES, "fig4_small.double")
+
+
+def reference_of(case):
+    return {"reference": references(case)[0]} if case in PAPER_CASES else {}
+
+
+def fine_maps(wildcards):
+    """Return the maps of `snakemake fates` as they are committed, for all but these themselves."""
+    return {} if wildcards.size else committed(fine="tests/baseline/quoted/breathers.nc")
+
+
+def committed_proofs():
+    """Return the proofs that are kept; that of a case new in the configuration is made first."""
+    proofs = [f"tests/baseline/proofs/{case}.nc" for case in SETTINGS.certified.frames]
+    return [proof for proof in proofs if (PROJECT / proof).exists()]
+
+
+def speed_measured():
+    """Return where the solvers' times are: those of this machine, or else those of the project.
+
+    They are no inputs: else an edit would start the timing anew, which is no part of a full run.
+    """
+    here = [f"results/speed/work_precision.{kind}" for kind in ("nc", "md")]
+    here += [f"results/figures/{name}.png" for name in SPEED_FIGURES]
+    if all(map(os.path.exists, here)):
+        digests = [digest_of(Path(path)) for path in here]
+        kept = committed(references=REFERENCES)
+        return {"speed_is_fresh": True, "speed": here, "digests": digests, "committed": kept}
+    names = ("work_precision.nc", "work_precision.md", "speed_regular.png")
+    kept = committed(
+        speed=[f"tests/baseline/speed/{name}" for name in names], references=REFERENCES
+    )
+    return {"speed_is_fresh": False, "committed": kept}
+
+
+def some_own_files(wildcards):
+    """Return every figure and dataset of one's own cases and sweeps."""
+    if not (OWN_CASES or OWN_SWEEPS):
+        stop(
+            "the configuration has no case and no sweep of your own: give some by "
+            "--configfile, as docs/own_cases.md shows"
+        )
+    of_sweep = [*FIGURE_KINDS, "checks.nc"]
+    of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
+    return [
+        *expand("<results>/trajectories/{case}.nc", case=OWN_CASES),
+        *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
+        *expand("<results>/sweeps/{sweep}.nc", sweep=OWN_SWEEPS),
+        *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=of_sweep),
+    ]
+
+
+# --- Code -----------------------------------------------------------------------------------------
+# Snakemake does not see a change in a module that a script imports. So what a job calls stands among
+# its parameters with a hash of all code that it rests on.
+
+CODE_OF_STUDIES, CALLED = {}, {}
+
+
+def digest(script):
+    """Return a hash of a script below scripts/ with all that it imports."""
+    return digest_of_code(SCRIPTS / script)
+
+
+def function(*names, parts=()):
+    """Return the names of functions, and a hash of their code: what a job calls.
+
+    `parts` names modules that they find by the list of studies, such as "section", or "paper/claims".
+    """
+    files = [file for name in names for file in files_of_module(name.rpartition(".")[0])]
+    files += [file for part in parts for file in files_of_part(part)]
+    CALLED[(*names, *parts)] = files
+    code = digest_of_code(*files)
+    told = [name for name in (*names, *parts) if "studies." in name or "/claims" in name]
+    CODE_OF_STUDIES.update(dict.fromkeys(told, code))
+    return [*names, code]
+
+
+def claims_in(*modules):
+    """Return what decides the claims in modules of a study."""
+    call = function("pendula.ledger.decide.decide_claims", parts=modules)
+    return {"call": call, "modules": list(modules)}
+
+
+def name_of(path):
+    """Return the name that the claims have for a dataset."""
+    return "/".join(Path(path).with_suffix("").parts[1:])
+
+
+def differs_of(wildcards, input):
+    """Return in words where the configuration of what a figure shows is not the paper's.
+
+    Of the datasets of many cases it shows those of its trajectories and sweeps, if it has such.
+    """
+    names = [name_of(path) for path in input if path.endswith(".nc")]
+    names = [name for name in names if not name.startswith(("long/", "own/"))]
+    own = [name.split("/", 1) for name in names]
+    on = [rest for folder, rest in own if folder in ("trajectories", "sweeps")]
+    return list(concerning(DIFFERS, names, on).values())
+
+
+def maker_of(path):
+    """Return the name of the rule that makes a dataset."""
+    return next(rule.name for rule in workflow.rules if rule.is_producer(path))
+
+
+def code_of_jobs():
+    """Return the names of all files of code that jobs rest on."""
+    files = {module for entries in CALLED.values() for module in modules_of(*entries)}
+    return sorted(file.relative_to(PROJECT).as_posix() for file in files)
+
+
+def whole_project():
+    """Return hashes of all files of the project.
+
+    Raises ArchiveError, which says the way out, where it is not known which files these are.
+    """
+    return {name: digest_of(PROJECT / name) for name in code_files(PROJECT)}
+
+
+# --- The configuration as plain values ------------------------------------------------------------
+
+
+def values_of(part, *names):
+    """Return the settings of these names, or all but those of a longer study, as plain values."""
+    plain = part.model_dump()
+    chosen = names or [name for name in plain if name != "long"]
+    found = {name: getattr(part, name) for name in chosen}
+    return {k: one.values if isinstance(one, Steps) else plain[k] for k, one in found.items()}
+
+
+def of_size(part, wildcards):
+    """Return a part of the configuration, or its part for a longer study."""
+    return part.long if wildcards.size else part
+
+
+def sized(part, *names):
+    """Return a function of the wildcards that gives the settings of these names."""
+    return lambda wildcards: values_of(of_size(part, wildcards), *names)
+
+
+def extent(wildcards):
+    """Return how far chains without ends are run."""
+    return SETTINGS.unbounded.long if wildcards.size else SETTINGS.unbounded.short
+
+
+def run_of(case, tolerance, solver="taylor", **changes):
+    """Return a case as a study runs it."""
+    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
+    return {**SETTINGS.problem(case), "solver": solver, "snapshot_every": 0, **changes}
+
+
+def followed(cases, tolerance, solver="taylor", **changes):
+    return {case: run_of(case, tolerance, solver, **changes) for case in cases}
+
+
+def longest(cases):
+    return max(SETTINGS.cases[case].end_time for case in cases)
+
+
+def in_any(sweeps, key):
+    """Return what the sweeps have under `key`, each once: all are run over all of it."""
+    return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
+
+
+def swept(drawn, tolerance):
+    """Return by sweep what its ensembles run, each to the end of the last window of any."""
+    end_time = max(end for _, end in in_any(drawn, "windows"))
+    return {
+        name: {
+            "problem": run_of(SETTINGS.sweeps[name].case, tolerance, end_time=end_time),
+            **dict(one),
+        }
+        for name, one in drawn.items()
+    }
 
 
 def own_sweep_solver(wildcards):
@@ -186,6 +370,64 @@ def drawn_windows(sweep):
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
 
 
+def other_cases(solver):
+    """Return the cases by a solver that the configuration has changed: no longer the paper's."""
+    return [case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.{solver}"])]
+
+
+def points_are_the_papers():
+    """Return whether no case of a figure has other constants than in the paper."""
+    constants = ("epsilon", "gamma", "omega")
+    return not any(f"cases.{case}.{key}" in DIFFERS for case in PAPER_CASES for key in constants)
+
+
+def points_of_cases():
+    """Return (Omega, gamma) of the figures' cases in units of epsilon, once each."""
+    problems = [SETTINGS.problem(case) for case in PAPER_CASES]
+    problems = [problem for problem in problems if problem["epsilon"]]
+    return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
+
+
+def cases_on_one_pair():
+    """Return the paper's cases that have real data on one pair."""
+
+    def on_one_pair(initial):
+        (site, pair), *others = initial.items()
+        return not (others or site or any(complex(one).imag for one in pair))
+
+    return [case for case in PAPER_CASES if on_one_pair(SETTINGS.problem(case)["initial"])]
+
+
+def certified_problem(case):
+    """Return a case as a problem whose solver is not asked; stop where no bound can be proved.
+
+    A case of the paper that the configuration has changed has an infinite bound then, so that the
+    rest of a full run goes on.
+    """
+    plain = SETTINGS.problem(case, snapshot_step=None)
+    if case in OWN_CASES:
+        if plain.get("model", "amplitudes") != "amplitudes":
+            stop(f"cases.{case}.model: proofs are of curves of the amplitudes, equations (4)")
+        try:
+            find_form(Constants.of(plain))
+        except NotDefiniteError as error:
+            stop(f"cases.{case}.omega: {error}")
+    return {**plain, "solver": {"name": "polynomials"}}
+
+
+def framed_problem(case):
+    from pendula.problem import Problem  # this and the next for a long target alone
+    from pendula.studies.certified.fixed_point import NotEvenError, half_chain
+
+    given = SETTINGS.certified.frames[case]
+    problem = {**certified_problem(case), "end_time": given.end_time}
+    try:
+        half_chain(Problem.of(problem), given.bits)
+    except NotEvenError as error:
+        stop(f"cases.{case}: {error}")
+    return problem
+
+
 def reference_problem(case):
     sweeps = [SETTINGS.sweeps[name] for name in PAPER_SWEEPS]
     drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
@@ -193,13 +435,14 @@ def reference_problem(case):
     return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
 
 
-FIGURE_KINDS = {"png": "png", "pdf": "pdf", "data": "nc", "description": "json"}
-
-
-def figure(name):
-    return {key: f"results/figures/{name}.{kind}" for key, kind in FIGURE_KINDS.items()}
-
-
-def files_of(stem):
-    """Return all files of a figure, for a job that draws more than one."""
-    return [f"{stem}.{kind}" for kind in FIGURE_KINDS.values()]
+def settings_in_words():
+    """Return the configuration of the paper's cases and sweeps as text."""
+    cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
+    sweeps = {sweep: SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS}
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in sweeps.items()
+    }
+    studies = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
+    told = {"cases": cases, "sweeps": swept, **studies}
+    return json.dumps(told, sort_keys=True, default=str)

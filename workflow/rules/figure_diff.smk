@@ -6,13 +6,14 @@
 rule figure_diff:
     "Datasets, figures and words against the accepted ones; fails with one line for each that differs"
     input:
-        code=code("figure_diff/compare_results.py"),
         results=everything(),
     log:
-        "results/logs/figure_diff/comparison.log",
+        "<logs>/figure_diff/comparison.log",
     conda:
         "../envs/pinned.yaml"
     params:
+        call=function("pendula.figure_diff.comparison_page.compare_results"),
+        made="results",
         baseline=baseline_told_at_the_end,
         configuration=plain(SETTINGS),
         any_bits=OPTIONS["bits"] == "any",
@@ -22,23 +23,24 @@ rule figure_diff:
     message:
         "Comparing datasets, figures and words with the baseline"
     script:
-        "../../scripts/figure_diff/compare_results.py"
+        "../../scripts/call.py"
 
 
 rule accept_figures:
     'Takes this run as the baseline, or the files in --config accept="fig3 checks/worst"'
     input:
-        code=code("figure_diff/accept_results.py"),
         results=accepted_files,
     log:
-        "results/logs/figure_diff/acceptance.log",
+        "<logs>/figure_diff/acceptance.log",
     conda:
         "../envs/pinned.yaml"
     params:
+        call=function("pendula.figure_diff.acceptance.accept_results"),
+        made="results",
         words=ACCEPTED,
         baseline=BASELINE,
         configuration=plain(SETTINGS),
     message:
         "Taking datasets, figures and words as the baseline"
     script:
-        "../../scripts/figure_diff/accept_results.py"
+        "../../scripts/call.py"

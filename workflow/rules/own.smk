@@ -1,96 +1,67 @@
-# Cases and sweeps of one's own: figures, checks, and a report, as for those of the paper.
+# Cases and sweeps of one's own: figures, checks, and a report, as for those of the paper. Their names
+# are free, so all lies in results/own.
 
 
 rule own:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:
-        "results/own_report.html",
+        "<results>/own_report.html",
     message:
-        "The report of your own cases and sweeps is there"
+        "The report of your own cases and sweeps is there: results/own_report.html"
 
 
-rule own_checks:
+use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
-        code=code("own/check_case.py"),
         kernels=kernels("taylor", "dop853"),
-        run="results/trajectories/{case}.nc",
-    output:
-        checks="results/own/cases/{case}.checks.nc",
-    log:
-        "results/logs/own/cases/{case}.checks.log",
-    wildcard_constraints:
-        case=one_of(OWN_CASES),
-    conda:
-        "../envs/pinned.yaml"
+        run="<results>/trajectories/{case}.nc",
+    pathvars:
+        made="own/cases/<own_case>.checks",
     params:
+        call=function("pendula.own_cases.checks.check_run"),
         problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
-    message:
-        "Checking {wildcards.case}, and running it by another method"
-    script:
-        "../../scripts/own/check_case.py"
 
 
-rule own_figures:
+use rule figure as own_figures with:
     "The figures of a case of your own: results/own/cases/{case}.png"
     input:
-        code=code("own/draw_case.py"),
-        run="results/trajectories/{case}.nc",
-        checks="results/own/cases/{case}.checks.nc",
+        run="<results>/trajectories/{case}.nc",
+        checks="<results>/own/cases/{case}.checks.nc",
     output:
-        norms=files_of("results/own/cases/{case}"),
-        spacetime=files_of("results/own/cases/{case}.spacetime"),
-    log:
-        "results/logs/own/cases/{case}.log",
-    wildcard_constraints:
-        case=one_of(OWN_CASES),
-    conda:
-        "../envs/pinned.yaml"
-    message:
-        "Drawing {wildcards.case}"
-    script:
-        "../../scripts/own/draw_case.py"
+        files_of("<results>/own/cases/<own_case>"),
+        files_of("<results>/own/cases/<own_case>.spacetime"),
+    pathvars:
+        made="own/cases/<own_case>",
+    params:
+        call=function(
+            "pendula.own_cases.figures.draw_norms", "pendula.own_cases.figures.draw_spacetime"
+        ),
 
 
-rule own_sweep_figure:
+use rule job as own_sweep_figure with:
     "The figure and checks of a sweep of your own: results/own/sweeps/{sweep}.png"
     input:
-        code=code("own/draw_sweep.py"),
-        sweep="results/sweeps/{sweep}.nc",
+        sweep="<results>/sweeps/{sweep}.nc",
     output:
-        figure=files_of("results/own/sweeps/{sweep}"),
-        checks="results/own/sweeps/{sweep}.checks.nc",
-    log:
-        "results/logs/own/sweeps/{sweep}.log",
-    wildcard_constraints:
-        sweep=one_of(OWN_SWEEPS),
-    conda:
-        "../envs/pinned.yaml"
+        figure=files_of("<results>/own/sweeps/<own_sweep>"),
+        checks="<results>/own/sweeps/<own_sweep>.checks.nc",
+    pathvars:
+        made="own/sweeps/<own_sweep>",
     params:
+        call=function("pendula.own_cases.figures.draw_with_checks"),
         name="{sweep}",
-        text_window=lambda wildcards: drawn_windows(wildcards.sweep)["text_window"],
-        caption_window=lambda wildcards: drawn_windows(wildcards.sweep)["caption_window"],
-    message:
-        "Drawing {wildcards.sweep}"
-    script:
-        "../../scripts/own/draw_sweep.py"
+        given=lambda wildcards: drawn_windows(wildcards.sweep),
 
 
-rule own_report:
+use rule job as own_report with:
     "The job behind own"
     input:
-        code=code("own/write_report.py"),
         files=some_own_files,
     output:
-        html="results/own_report.html",
-    log:
-        "results/logs/own/report.log",
-    conda:
-        "../envs/pinned.yaml"
+        html="<results>/own_report.html",
+    pathvars:
+        made="own/report",
     params:
+        call=function("pendula.own_cases.section.write_report"),
         cases=OWN_CASES,
         sweeps={sweep: SETTINGS.sweeps[sweep].case for sweep in OWN_SWEEPS},
-    message:
-        "Writing the report of your own cases and sweeps"
-    script:
-        "../../scripts/own/write_report.py"

@@ -1,274 +1,179 @@
 # The pendula themselves, Newton's equations (1), beside the amplitude equations (4).
+THRESHOLD, REMAINDER, PHASES, SEA, OVER_THE_TOP, FILM = (
+    getattr(SETTINGS.pendula, name)
+    for name in ("threshold", "remainder", "phases", "sea", "over_the_top", "film")
+)
 
-PENDULA_FIGURES = [
-    *("pendula_threshold", "pendula_remainder", "pendula_phases", "pendula_over_the_top"),
-]
 
-
-rule find_threshold:
+use rule dataset as find_threshold with:
     "Lemma 1 for the pendula: the drive at which they lose stability, and rates of growth"
-    input:
-        code=code("newton/find_threshold.py"),
-    output:
-        data="results/pendula/threshold.nc",
-    log:
-        "results/logs/pendula/threshold.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="pendula/threshold",
     params:
-        **threshold_params(SETTINGS.pendula.threshold),
-    message:
-        "Finding the drive at which the pendula lose stability"
-    script:
-        "../../scripts/newton/find_threshold.py"
+        **values_of(THRESHOLD, "epsilon", "omegas", "mus", "half_width"),
+        call=function("pendula.studies.pendula.threshold.threshold_contents"),
+        growth_omegas=THRESHOLD.growth.omegas,
+        gammas=THRESHOLD.growth.gammas.values,
+        curve_omegas=THRESHOLD.curve.values,
 
 
-rule pendula_threshold:
+use rule figure as pendula_threshold with:
     "The chart of Lemma 1 for the pendula, its correction, and rates of growth"
     input:
-        code=code("newton/draw_threshold.py"),
-        threshold="results/pendula/threshold.nc",
-    output:
-        **figure("pendula_threshold"),
-    log:
-        "results/logs/figures/pendula_threshold.log",
-    conda:
-        "../envs/pinned.yaml"
+        threshold="<results>/pendula/threshold.nc",
+    pathvars:
+        made="figures/pendula_threshold",
     params:
-        differs=differs_of,
-    message:
-        "Drawing the chart of Lemma 1 for the pendula"
-    script:
-        "../../scripts/newton/draw_threshold.py"
+        call=function("pendula.studies.pendula.threshold_figure.draw_threshold"),
 
 
-rule measure_remainder:
+use rule dataset as measure_remainder with:
     "How far the expansion (3) and its next order are from the pendula, and for how long they hold"
-    input:
-        code=code("newton/measure_remainder.py"),
-    output:
-        data="results/pendula/remainder.nc",
-    log:
-        "results/logs/pendula/remainder.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="<size>pendula/remainder",
     params:
-        **remainder_params(SETTINGS.pendula.remainder, SETTINGS.pendula.remainder.run_ends),
-    message:
-        "Measuring how far the expansion is from the pendula"
-    script:
-        "../../scripts/newton/measure_remainder.py"
+        **values_of(REMAINDER, "end_step", "spacing"),
+        call=function("pendula.studies.pendula.remainder.remainder_contents"),
+        problems=followed(
+            REMAINDER.ends,
+            REMAINDER.tolerance,
+            end_time=REMAINDER.end_step,
+            output_step=REMAINDER.end_step,
+        ),
+        run_ends=lambda wildcards: (REMAINDER.long_ends if wildcards.size else REMAINDER.run_ends),
 
 
-use rule measure_remainder as measure_long_remainder with:
-    "The same with all runs as long as those of the paper"
-    output:
-        data="results/pendula/long/remainder.nc",
-    log:
-        "results/logs/pendula/long_remainder.log",
-    params:
-        **remainder_params(SETTINGS.pendula.remainder, SETTINGS.pendula.remainder.long_ends),
-
-
-rule pendula_remainder:
+use rule figure as pendula_remainder with:
     "Errors of the expansion against time and against mu, and its horizons"
     input:
-        code=code("newton/draw_remainder.py"),
-        remainder="results/pendula/remainder.nc",
-    output:
-        **figure("pendula_remainder"),
-    log:
-        "results/logs/figures/pendula_remainder.log",
-    conda:
-        "../envs/pinned.yaml"
+        remainder="<results>/{size}pendula/remainder.nc",
+    pathvars:
+        made="<size>figures/pendula_remainder",
     params:
-        differs=differs_of,
-    message:
-        "Drawing how far the expansion is from the pendula"
-    script:
-        "../../scripts/newton/draw_remainder.py"
+        call=function("pendula.studies.pendula.remainder_figure.draw_remainder"),
 
 
-use rule pendula_remainder as draw_long_remainder with:
-    "The same of runs as long as those of the paper"
-    input:
-        code=code("newton/draw_remainder.py"),
-        remainder="results/pendula/long/remainder.nc",
-    output:
-        **long_remainder_figure(),
-    log:
-        "results/logs/figures/long_remainder.log",
-
-
-rule measure_phases:
+use rule dataset as measure_phases with:
     "The cases of the paper as pendula at several mu: norms and space-time"
     input:
-        code=code("newton/measure_phases.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/pendula/phases.nc",
-    log:
-        "results/logs/pendula/phases.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="pendula/phases",
     params:
-        **phases_params(SETTINGS.pendula.phases),
-    message:
-        "Following the cases of the paper as pendula"
-    script:
-        "../../scripts/newton/measure_phases.py"
+        **values_of(PHASES, "mus", "look_every"),
+        **values_of(PHASES.ensemble),
+        call=function("pendula.studies.pendula.phases.measure_phases"),
+        problems=followed(
+            PAPER_CASES,
+            PHASES.tolerance,
+            output_step=PHASES.output_step,
+            end_time=longest(PAPER_CASES),
+        ),
 
 
-rule measure_sea:
+use rule dataset as measure_sea with:
     "The state that fills the chain, of pendula beside that of the amplitudes"
     input:
-        code=code("newton/measure_sea.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/pendula/sea.nc",
-    log:
-        "results/logs/pendula/sea.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="<size>pendula/sea",
     params:
-        **sea_params(SETTINGS.pendula.sea, SETTINGS.pendula.sea),
-    message:
-        "Measuring the sea of the pendula"
-    script:
-        "../../scripts/newton/measure_sea.py"
+        **values_of(SEA, "window", "size", "seed"),
+        call=function("pendula.studies.pendula.sea.measure_sea"),
+        problem=run_of(**values_of(SEA, "case", "tolerance", "output_step"), end_time=SEA.window[1]),
+        given=sized(SEA, "mus", "members"),
 
 
-use rule measure_sea as measure_long_sea with:
-    "The same with more members, and at a smaller mu"
-    output:
-        data="results/pendula/long/sea.nc",
-    log:
-        "results/logs/pendula/long_sea.log",
-    params:
-        **sea_params(SETTINGS.pendula.sea, SETTINGS.pendula.sea.long),
-
-
-rule measure_over_the_top:
+use rule dataset as measure_over_the_top with:
     "When pendula go over the top, with what chance, and how far they turn then"
     input:
-        code=code("newton/measure_over_the_top.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/pendula/over_the_top.nc",
-    log:
-        "results/logs/pendula/over_the_top.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="<size>pendula/over_the_top",
     params:
-        **passage_params(SETTINGS.pendula.over_the_top, SETTINGS.pendula.over_the_top),
-    message:
-        "Waiting for pendula to go over the top"
-    script:
-        "../../scripts/newton/measure_over_the_top.py"
+        **values_of(OVER_THE_TOP, "mus", "per_period", "size", "seed", "settled"),
+        call=function("pendula.studies.pendula.over_the_top.measure_over_the_top"),
+        problem=lambda wildcards: run_of(
+            **values_of(OVER_THE_TOP, "case", "tolerance"),
+            **values_of(of_size(OVER_THE_TOP, wildcards), "end_time"),
+        ),
+        given=sized(OVER_THE_TOP, "members"),
 
 
-use rule measure_over_the_top as measure_long_over_the_top with:
-    "The same with more members, for longer"
-    output:
-        data="results/pendula/long/over_the_top.nc",
-    log:
-        "results/logs/pendula/long_over_the_top.log",
-    params:
-        **passage_params(SETTINGS.pendula.over_the_top, SETTINGS.pendula.over_the_top.long),
-
-
-rule film_pendula:
+use rule dataset as film_pendula with:
     "The angles of the pendula for the moving pictures of the report"
     input:
-        code=code("newton/film_pendula.py"),
         kernels=kernels("taylor"),
-    output:
-        data="results/pendula/film.nc",
-    log:
-        "results/logs/pendula/film.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="pendula/film",
     params:
-        **film_params(SETTINGS.pendula.film),
-    message:
-        "Filming the pendula"
-    script:
-        "../../scripts/newton/film_pendula.py"
+        **values_of(FILM, "reach", "periods", "per_period"),
+        call=function("pendula.studies.pendula.film.film_pendula"),
+        problems=followed(FILM.cases, FILM.tolerance, model="pendula", mu=FILM.mu),
 
 
-rule pendula_phases:
+use rule figure as pendula_phases with:
     "The paper's phases in the real pendula: norms and space-time"
     input:
-        code=code("newton/draw_phases.py"),
-        phases="results/pendula/phases.nc",
-    output:
-        **figure("pendula_phases"),
-    log:
-        "results/logs/figures/pendula_phases.log",
-    conda:
-        "../envs/pinned.yaml"
+        phases="<results>/pendula/phases.nc",
+    pathvars:
+        made="figures/pendula_phases",
     params:
-        differs=differs_of,
-    message:
-        "Drawing the phases of the pendula"
-    script:
-        "../../scripts/newton/draw_phases.py"
+        call=function("pendula.studies.pendula.phases_figure.draw_phases"),
 
 
-rule pendula_over_the_top:
+use rule figure as pendula_over_the_top with:
     "The sea of the pendula, and who leaves it over the top"
     input:
-        code=code("newton/draw_over_the_top.py"),
-        sea="results/pendula/sea.nc",
-        over_the_top="results/pendula/over_the_top.nc",
-        thermal="results/unbounded/thermal.nc",
-    output:
-        **figure("pendula_over_the_top"),
-    log:
-        "results/logs/figures/pendula_over_the_top.log",
-    conda:
-        "../envs/pinned.yaml"
+        sea="<results>/{size}pendula/sea.nc",
+        over_the_top="<results>/{size}pendula/over_the_top.nc",
+        thermal="<results>/unbounded/thermal.nc",
+    pathvars:
+        made="<size>figures/pendula_over_the_top",
     params:
-        differs=differs_of,
-    message:
-        "Drawing the sea of the pendula"
-    script:
-        "../../scripts/newton/draw_over_the_top.py"
-
-
-use rule pendula_over_the_top as draw_long_over_the_top with:
-    "The same of many members, followed for long"
-    input:
-        code=code("newton/draw_over_the_top.py"),
-        sea="results/pendula/long/sea.nc",
-        over_the_top="results/pendula/long/over_the_top.nc",
-        thermal="results/unbounded/thermal.nc",
-    output:
-        **long_passages_figure(),
-    log:
-        "results/logs/figures/long_over_the_top.log",
+        call=function("pendula.studies.pendula.over_the_top_figure.draw_over_the_top"),
 
 
 rule pendula:
     "Newton's equations beside the amplitude equations: datasets and figures"
     input:
-        expand("results/pendula/{name}.nc", name=[*PENDULA, "film"]),
-        expand("results/figures/{name}.png", name=PENDULA_FIGURES),
+        datasets=expand(
+            "<results>/pendula/{name}.nc",
+            name=["threshold", "remainder", "phases", "sea", "over_the_top"],
+        ),
+        film="<results>/pendula/film.nc",
+        figures=expand(
+            "<results>/figures/pendula_{name}.png",
+            name=["threshold", "remainder", "phases", "over_the_top"],
+        ),
     message:
         "The study of the pendula is there"
 
 
 rule remainder:
-    "The error of the expansion to the end of the paper's runs, which takes a minute: results/pendula/long/"
+    "The error of the expansion to the end of the paper's runs, which takes a minute: results/long/"
     input:
-        rules.draw_long_remainder.output,
+        files_of("<results>/long/figures/pendula_remainder"),
     message:
-        "The long study of the expansion's error is there"
+        "The long study of the expansion's error is there: results/long/figures/"
 
 
 rule over_the_top:
-    "The sea, and when pendula go over the top, with many members for long: results/pendula/long/"
+    "The sea, and when pendula go over the top, with many members for long: results/long/"
     input:
-        rules.draw_long_over_the_top.output,
+        files_of("<results>/long/figures/pendula_over_the_top"),
     message:
-        "The long study of pendula that go over the top is there"
+        "The long study of pendula that go over the top is there: results/long/figures/"
+
+
+use rule decide_claims as decide_pendula with:
+    "The claims on the pendula themselves: results/tables/claims_pendula.md"
+    input:
+        datasets=[
+            *rules.pendula.input.datasets,
+            *("<results>/unbounded/thermal.nc", *checks("lyapunov")),
+        ],
+    pathvars:
+        part="pendula",
+    params:
+        **claims_in("pendula/claims"),

@@ -4,44 +4,27 @@
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
 # Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
 LONGEST = "fig3_large"  # as long as all others: it starts first, beside them
-REFERENCES = [*PAPER_CASES, "fig4_small.double"]
 
 
 rule reference:
     "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
     input:
-        expand("results/reference/{name}.nc", name=REFERENCES),
+        expand("<results>/reference/{name}.nc", name=[*PAPER_CASES, "fig4_small.double"]),
     message:
         "The references are there"
 
 
-rule reference_case:
+use rule dataset as reference_case with:
     "One case, integrated twice: {case}{numbers}.nc"
-    input:
-        code=code("reference/integrate_reference.py"),
-    output:
-        dataset="results/reference/{case}{numbers}.nc",
-    log:
-        "results/logs/reference/{case}{numbers}.log",
-    wildcard_constraints:
-        case=one_of([case for case in PAPER_CASES if case != LONGEST]),
-        numbers=r"(\.double)?",
+    pathvars:
+        made=r"reference/<paper_case>{numbers,(\.double)?}",
+    priority: 1
     conda:
         "../envs/reference.yaml"
     params:
+        call=function("pendula.studies.reference.verified_run.reference_contents"),
         name="{case}",
         problem=lambda wildcards: reference_problem(wildcards.case),
         snapshots=SETTINGS.reference.snapshots,
         bits=lambda wildcards: SETTINGS.reference.bits[wildcards.case],
         decimal=lambda wildcards: not wildcards.numbers,
-    message:
-        "Integrating {wildcards.case}{wildcards.numbers} twice in multiprecision"
-    script:
-        "../../scripts/reference/integrate_reference.py"
-
-
-use rule reference_case as longest_reference_case with:
-    "The case that takes longest, integrated twice: {case}{numbers}.nc"
-    wildcard_constraints:
-        case=LONGEST,
-        numbers=r"(\.double)?",

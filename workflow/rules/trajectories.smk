@@ -1,97 +1,94 @@
-# Cases into trajectories (the data of Figs 2-4).
+# Cases into trajectories (the data of Figs 2-4), and cases repeated over half-widths (Figs 5 and 6).
 
 
-rule compile_solver:
+use rule job as compile_solver with:
     "Compile a solver before the jobs that share it"
-    input:
-        code=code("trajectories/compile_solver.py"),
     output:
-        kernels="results/kernels/{solver}.txt",
-    log:
-        "results/logs/kernels/{solver}.log",
+        kernels="<results>/kernels/{solver}.txt",
+    pathvars:
+        made="kernels/{solver}",
     wildcard_constraints:
         solver=one_of(ALL_SOLVERS),
-    conda:
-        "../envs/pinned.yaml"
     params:
+        call=function("pendula.studies.paper.compile_solver.compile_solver"),
         solver="{solver}",
-    message:
-        "Compiling {wildcards.solver}"
-    script:
-        "../../scripts/trajectories/compile_solver.py"
 
 
-rule trajectory:
+use rule dataset as trajectory with:
     "A case of the paper by its own solver: results/trajectories/{case}.nc"
     input:
-        code=code("trajectories/simulate_case.py"),
         kernels=lambda wildcards: own_kernels(wildcards.case),
-    output:
-        datasets=["results/trajectories/{case}.nc"],
-    log:
-        "results/logs/trajectories/{case}.log",
-    wildcard_constraints:
-        case=one_of(PAPER_CASES),
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="trajectories/<paper_case>",
     params:
+        call=function("pendula.studies.paper.runs.run_case"),
         name="{case}",
-        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case)],
-    message:
-        "Integrating {wildcards.case} by its own solver"
-    script:
-        "../../scripts/trajectories/simulate_case.py"
+        problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
 
 
 # Apart from the rule above, since the paper's figures show none of these.
-use rule trajectory as trajectory_by_solvers with:
+use rule dataset as trajectory_by_solvers with:
     "A case of the paper by every solver: results/trajectories/{case}.{solver}.nc of each"
     input:
-        code=code("trajectories/simulate_case.py"),
         kernels=kernels(*ALL_SOLVERS),
     output:
-        datasets=by_solvers("results/trajectories/{case}", ALL_SOLVERS),
-    log:
-        "results/logs/trajectories/{case}.solvers.log",
+        by_solvers("<results>/trajectories/<paper_case>", ALL_SOLVERS),
+    pathvars:
+        made="trajectories/<paper_case>.solvers",
     params:
+        call=function("pendula.studies.paper.runs.run_by_solvers"),
         name="{case}",
-        problems=lambda wildcards: [
-            SETTINGS.problem(wildcards.case, solver) for solver in ALL_SOLVERS
-        ],
-    message:
-        "Integrating {wildcards.case} by every solver"
+        problems=lambda wildcards: {
+            solver: SETTINGS.problem(wildcards.case, solver) for solver in ALL_SOLVERS
+        },
 
 
 use rule trajectory as own_trajectory with:
     "A case of your own, by its own solver: results/trajectories/{case}.nc"
-    input:
-        code=code("trajectories/simulate_case.py"),
-        kernels=lambda wildcards: own_kernels(wildcards.case),
-    output:
-        datasets=["results/trajectories/{case}.nc"],
-    wildcard_constraints:
-        case=one_of(OWN_CASES),
+    pathvars:
+        made="trajectories/<own_case>",
     params:
-        name="{case}",
-        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case)],
-    message:
-        "Integrating {wildcards.case} by its own solver"
+        problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
 
 
-use rule own_trajectory as own_trajectory_by_solver with:
+use rule trajectory as own_trajectory_by_solver with:
     "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
-        code=code("trajectories/simulate_case.py"),
         kernels=lambda wildcards: own_kernels(wildcards.case, wildcards.solver),
-    output:
-        datasets=["results/trajectories/{case}.{solver}.nc"],
-    log:
-        "results/logs/trajectories/{case}.{solver}.log",
-    wildcard_constraints:
-        case=one_of(OWN_CASES),
-        solver=one_of([*ALL_SOLVERS, "auto", "kahan_li"]),
+    pathvars:
+        made="trajectories/<own_case>.<any_solver>",
     params:
-        name="{case}",
-        problems=lambda wildcards: [SETTINGS.shown_problem(wildcards.case, wildcards.solver)],
-    message:
-        "Integrating {wildcards.case} by {wildcards.solver}"
+        problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case, wildcards.solver),
+
+
+use rule dataset as sweep with:
+    "A sweep of the paper by its own solver: results/sweeps/{sweep}.nc"
+    input:
+        kernels=lambda wildcards: own_kernels(
+            SETTINGS.sweeps[wildcards.sweep].case, own_sweep_solver(wildcards)
+        ),
+    pathvars:
+        made="sweeps/<paper_sweep>",
+    params:
+        call=function("pendula.studies.paper.runs.run_sweep"),
+        name="{sweep}",
+        problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep),
+        half_widths=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].half_widths,
+        windows=lambda wildcards: SETTINGS.sweeps[wildcards.sweep].windows,
+
+
+# Apart from the rule above, since the paper's figures show none of these, which take longer.
+use rule sweep as sweep_by_second_solver with:
+    "A sweep of the paper by its second solver: results/sweeps/{sweep}.crank_nicolson.nc"
+    input:
+        kernels=kernels("crank_nicolson"),
+    pathvars:
+        made="sweeps/<paper_sweep>.crank_nicolson",
+    params:
+        problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
+
+
+use rule sweep as own_sweep with:
+    "A sweep of your own, by its own solver: results/sweeps/{sweep}.nc"
+    pathvars:
+        made="sweeps/<own_sweep>",

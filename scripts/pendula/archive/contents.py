@@ -66,15 +66,10 @@ def _unpacked(project: Path) -> list[str]:
     return [name for name in names if name not in METADATA and not name.startswith("results/")]
 
 
-def check_records(records: Iterable[Path], code: Iterable[str]) -> None:
-    """Raise ArchiveError if results were made by code that the archive would not hold.
-
-    `records` are files of results/code, which list the code of a job; `code` is what git tracks.
-    """
-    for record in records:
-        made_by = names_in(record.read_text("utf-8"))
-        if left := sorted(set(made_by) - set(code)):
-            raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
+def check_code(made_by: Iterable[str], code: Iterable[str]) -> None:
+    """Raise ArchiveError if files that made results are not among `code`, which git tracks."""
+    if left := sorted(set(made_by) - set(code)):
+        raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
 
 
 def manifest(members: Mapping[str, Content]) -> bytes:
@@ -90,7 +85,7 @@ def checksum_line(name: str, content: Content) -> str:
 
 
 def names_in(text: str) -> list[str]:
-    """Return the names in a manifest or in a record of code."""
+    """Return the names in a manifest."""
     return [row.split("  ", 1)[1] for row in text.splitlines()]
 
 

@@ -112,3 +112,11 @@ def _take(name: str, content: bytes | xr.Dataset, path: Path, kept: Path) -> str
         return hashes.of(content)
     hashes.keep(kept, path)
     return hashes.of(content) | {"kept": hashes.of_bytes(kept.read_bytes())}
+
+
+def accept_results(
+    results: list[str], words: list[str], baseline: str, configuration: dict, made: str
+) -> None:
+    """Put files of a run in the folder `made`, or those that `words` name, into `baseline`."""
+    names = [Path(path).relative_to(made).as_posix() for path in results]
+    print(accept(names, Path(made), Path(baseline), configuration, words))

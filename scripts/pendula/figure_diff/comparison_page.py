@@ -2,9 +2,12 @@
 
 from pathlib import Path
 
+from pendula.datasets import complete_or_absent
+from pendula.datasets.json_files import write_json
 from pendula.report import page
 
 from . import Status, Verdict
+from .baseline import compare
 
 
 def render(verdict: Verdict, made: Path, folder: Path) -> str:
@@ -23,3 +26,22 @@ def _address(path: Path) -> str:
     """Return the address of a picture, or nothing where there is none to be shown."""
     content = path.read_bytes() if path.exists() else b""
     return page.address_of(content) if content.startswith(page.SIGNATURE) else ""
+
+
+def compare_results(
+    results: list[str],
+    made: str,
+    baseline: str,
+    configuration: dict,
+    any_bits: bool,
+    rests_on_chaos: list[list[str]],
+    html: str,
+    verdict: str,
+) -> None:
+    """Compare files of a run in the folder `made` with a baseline; the run's end tells faults."""
+    names = [Path(path).relative_to(made).as_posix() for path in results]
+    folders = Path(made), Path(baseline)
+    found = compare(names, *folders, configuration, any_bits, rests_on_chaos)
+    with complete_or_absent(html) as partial:
+        partial.write_text(render(found, *folders), "utf-8")
+    write_json(verdict, {"faults": found.faults, "counts": found.counts, "lines": found.lines})

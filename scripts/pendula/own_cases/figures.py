@@ -7,10 +7,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from pendula.datasets.netcdf import read, save
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
 from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
+from pendula.problem import PENDULA
+from pendula.studies.theory.bounds import check_sweeps
+
+from .pendula import check_sweep
 
 FEW = 8
 """Ticks for so many half-widths fit below a panel."""
@@ -114,3 +119,19 @@ def _mark_widths(axes: Axes, widths: np.ndarray) -> None:
         axes.set_xscale("linear")
     if len(widths) <= FEW or widths.min() == 0:
         axes.set_xticks(widths[:: -(-len(widths) // FEW)])
+
+
+def draw_with_checks(
+    sweep: str, name: str, text_window: str, caption_window: str, figure: list[str], checks: str
+) -> None:
+    """Draw the maximum over one window and the mean over another; check the norms by `name`.
+
+    `figure` names the files of the figure: PNG, PDF, data, description.
+    """
+    swept = read(sweep)
+    drawn = gather_sweep(swept, text_window, caption_window)
+    style.save(draw_sweep(drawn), drawn, *figure)
+    if swept.attrs.get("model") == PENDULA:
+        save(checks, check_sweep(name, swept))
+    else:
+        save(checks, xr.Dataset.from_dict(check_sweeps({name: swept})))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from pendula import __version__
+from pendula.datasets import complete_or_absent
 from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ends import ends_of
@@ -38,6 +39,15 @@ FEW = 8
 """The data of more sites do not fit into the table."""
 EQUATIONS = "Newton's equations (1) of the pendula"
 _SIGNS = {"mu": "μ", "omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
+
+
+def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
+    """Write the page `html` on `cases`, and on `sweeps` with the case of each.
+
+    Their `files` lie below its folder.
+    """
+    with complete_or_absent(html) as partial:
+        Path(partial).write_text(write(cases, sweeps, Path(html).parent), encoding="utf-8")
 
 
 def write(cases: list[str], sweeps: dict[str, str], folder: Path) -> str:

@@ -1,5 +1,6 @@
 """The files of a run by name, with links to them, and what a section of the report is."""
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,7 +22,7 @@ class Results:
     """The files of a run; names are paths seen from the page, without the ending .nc or .png.
 
     `settings` is the configuration of the run's cases and sweeps, `differs` says where it is not
-    the paper's.
+    the paper's. `references` are the project's own, which sections call truth/<name>.
     """
 
     def __init__(
@@ -30,10 +31,11 @@ class Results:
         page: str,
         settings: Mapping | None = None,
         differs: Differences | None = None,
+        references: Iterable[str] = (),
     ):
         self.settings, self.differs = settings or {}, differs or {}
-        home = Path(page).parent
-        self._paths = {Path(path).relative_to(home).as_posix(): Path(path) for path in files}
+        self._paths = {link_to(path, page): Path(path) for path in files}
+        self._paths |= {f"truth/{Path(path).name}": Path(path) for path in references}
         self._read = {}
 
     def __getitem__(self, name: str):
@@ -81,6 +83,11 @@ class Results:
         link = f"{name}.nc" if name in self else name
         self.path(link)
         return Quote(text, link)
+
+
+def link_to(path: str, page: str) -> str:
+    """Return how a page links to a file."""
+    return Path(os.path.relpath(path, Path(page).parent)).as_posix()
 
 
 class Section(NamedTuple):

@@ -6,6 +6,7 @@ versions, processor, hashes of what went in, and times of the rules.
 
 import hashlib
 import platform
+from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,6 +17,7 @@ from llvmlite import binding
 
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.sources import describe_machine
+from pendula.spent import TOOK
 
 from .page import picture
 from .results import ReportError, Results
@@ -96,15 +98,16 @@ SHOWN = 16
 
 
 def gather_provenance(
-    results: Results, inputs: list[str], settings: str, logs: str, took: str
+    made_by: Mapping[str, str], references: list[str], settings: str, logs: Path
 ) -> dict[str, Any]:
     """Return what a reader needs to repeat the run.
 
-    `inputs` are links to the files that went in, `settings` is the configuration as text. Each log
-    below the folder `logs` ends with a line that begins with `took`. Only `times` differ between
-    two runs.
+    `made_by` has the hash of each function that jobs called, with all that it rests on. The
+    `references` are files, `settings` is the configuration as text. Logs lie below the folder
+    `logs`. Only `times` differ between two runs.
     """
-    times = run_times(Path(logs), took)
+    times = run_times(logs)
+    files = {f"reference {Path(path).stem}": Path(path).read_bytes() for path in references}
     features = binding.get_host_cpu_features()  # the instructions that compiled kernels can use
     found = (name for name, there in features.items() if there and name.startswith(VECTORS))
     return {
@@ -112,7 +115,8 @@ def gather_provenance(
         "features": ", ".join(sorted(found)),
         "system": platform.system(),
         "hashes": [
-            (results.say(link, link), _digest(results.path(link).read_bytes())) for link in inputs
+            *((name, digest[:SHOWN]) for name, digest in sorted(made_by.items())),
+            *((name, _digest(content)) for name, content in files.items()),
         ],
         "settings": _digest(settings.encode()),
         "times": [(name, f"{seconds:.1f}") for name, seconds in times],
@@ -125,14 +129,14 @@ def versions() -> dict[str, str]:
     return describe_machine() | {name: version(name) for name in PACKAGES}
 
 
-def run_times(logs: Path, took: str) -> list[tuple[str, float]]:
+def run_times(logs: Path) -> list[tuple[str, float]]:
     """Return the wall time of each job whose log tells it, the longest first."""
     found = []
     for log in sorted(logs.rglob("*.log")):
         last = log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
-        if last.startswith(took):
+        if last.startswith(TOOK):
             name = log.relative_to(logs).with_suffix("").as_posix()
-            found.append((name, float(last.removeprefix(took).split()[0])))
+            found.append((name, float(last.removeprefix(TOOK).split()[0])))
     return sorted(found, key=lambda job: (-job[1], job[0]))
 
 

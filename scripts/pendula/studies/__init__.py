@@ -25,7 +25,12 @@ def all_modules(part: str) -> Iterator[ModuleType]:
 
     Those of one study alone have its name before, as in "paper/claims".
     """
+    for path in files_of_part(part):
+        yield import_module(f"{__name__}.{path.parent.name}.{path.stem}")
+
+
+def files_of_part(part: str) -> list[Path]:
+    """Return the files of the modules that `all_modules` yields."""
     here, (alone, _, start) = Path(__file__).parent, part.rpartition("/")
-    for study in [alone] if alone else STUDIES:
-        for path in sorted((here / study).glob(f"{start}*.py")):
-            yield import_module(f"{__name__}.{study}.{path.stem}")
+    studies = [alone] if alone else STUDIES
+    return [path for study in studies for path in sorted((here / study).glob(f"{start}*.py"))]

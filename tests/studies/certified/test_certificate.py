@@ -15,7 +15,7 @@ from pendula.configuration.messages import STUDIES, load
 from pendula.problem import Problem
 from pendula.studies.certified.certificate import make_certificate
 
-CHECKER = ROOT / "scripts/certified/check_certificate.py"
+CHECKER = ROOT / "scripts/check_certificate.py"
 COMMITTED = ROOT / "tests/baseline/proofs/short_case.json"
 
 

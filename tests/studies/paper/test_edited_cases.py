@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_unbounded import window_map
-from paper.tabulate_solvers import energy_part, trust_part
 from pendula.measures.difference import PARAMETERS
 from pendula.studies.chaos.ensembles import _norms_of
 from pendula.studies.paper import figures, solvers
+from pendula.studies.paper.tables import energy_part, trust_part
 from pendula.studies.unbounded import figures as unbounded
 
 EDITED = {
@@ -97,7 +97,7 @@ def test_a_true_run_is_not_drawn_on_after_its_end(make_trajectory):
 def test_the_papers_window_is_not_drawn_on_a_map_that_ends_before():
     maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
     end = float(maps["fig5_left"]["end"][-1])
-    data = unbounded.gather_window_map(maps, [end, end + 1.0])
+    data = unbounded.gather_window_map([*maps.values()], [*maps], [end, end + 1.0])
     assert np.isnan(data["paper_end"].values).tolist() == [False, True]
     assert labels(unbounded.draw_window_map(data)).count("the paper's $T$") == 4
     data = unbounded.gather_window_map(maps, [end + 1.0, end + 1.0])

@@ -23,7 +23,6 @@ from pendula.studies.reference.verified_run import (
     start,
 )
 from problems import problem_of
-from reference.integrate_reference import integrate_reference
 
 ROOT = Path(__file__).resolve().parents[3]
 HALF = Reduction(even=True, synchronised=False)
@@ -68,10 +67,10 @@ def test_a_run_that_is_not_a_number_is_refused():
         require_agreement("fig9", run, check, compare(run, check))
 
 
-def test_without_heyoka_the_message_says_what_to_install(monkeypatch, tmp_path):
+def test_without_heyoka_the_message_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "heyoka", None)
     with pytest.raises(HeyokaMissingError, match=HEYOKA):
-        integrate_reference(str(tmp_path / "x.nc"), "x", problem_of().plain(), [1], (64, 80), True)
+        reference_contents("x", problem_of(), [1], (64, 80), True)
 
 
 def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
@@ -122,12 +121,11 @@ def test_the_start_is_the_lattice_of_the_other_solvers():
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig4_small"])
-def test_a_short_run_made_again_gives_the_same_doubles(case, tmp_path):
+def test_a_short_run_made_again_gives_the_same_doubles(case):
     package("heyoka", HEYOKA)
-    path = tmp_path / "again.nc"
-    plain = problem_of(case).plain()
-    integrate_reference(str(path), case, plain, [0.31, 1, 2], chosen("reference").bits[case], True)
-    again, kept = read(path), read(ROOT / f"tests/baseline/reference/{case}.nc")
+    given = [0.31, 1, 2], chosen("reference").bits[case], True
+    again = as_xarray(*reference_contents(case, problem_of(case), *given))
+    kept = read(ROOT / f"tests/baseline/reference/{case}.nc")
     np.testing.assert_array_equal(again["snapshot_tau"], [1])
     np.testing.assert_array_equal(again["amplitude"], kept["amplitude"][..., :1])
     for name in ("linf", "l2", "energy"):

@@ -38,13 +38,15 @@ def kept(dimensions: tuple[str, ...], values, words: str, digits: int = DIGITS) 
 
 
 def steady_contents(
-    epsilon: float, gamma: float, omegas: Sequence[float], half_width: int,
-    searched: Mapping[str, Sequence[float]], digits: float,
+    epsilon: float, gamma: float, omegas: Sequence[float], half_width: int, stability: Mapping
 ) -> Contents:  # fmt: skip
     """Return all families at each Omega, where they are born, and where they are stable.
 
-    `searched` gives for a family the interval of Omega where its stability changes.
+    Rates of growth are also found on half of `half_width`. `stability` has for a family the
+    interval of Omega `between` which its stability changes, and the distance `to` which this is
+    found.
     """
+    half_width //= 2
     shape = (len(FAMILIES), len(omegas))
     amplitude = np.full((2, 2, *shape), np.nan)
     power, energies, rates, doubled = (np.full(shape, np.nan) for _ in range(4))
@@ -78,7 +80,7 @@ def steady_contents(
             GROWTH_DIGITS,
         ),
         **_births(epsilon, gamma, half_width),
-        **_thresholds(epsilon, gamma, half_width, searched, digits),
+        **_thresholds(epsilon, gamma, half_width, stability),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "half_width": 2 * half_width}
     about["residual"] = steady.TOLERANCE
@@ -110,15 +112,18 @@ def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable
     }
 
 
-def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Variable]:
+def _thresholds(epsilon, gamma, half_width, stability) -> dict[str, Variable]:
     """Return the Omega below which families are stable, on the chain and on twice as long a one."""
     named = {family.name: family for family in FAMILIES}
     chains = [steady.Chain(epsilon, gamma, 0.0, half) for half in (half_width, 2 * half_width)]
     found = [
-        branches.thresholds(chains, named[name], *ends, digits) for name, ends in searched.items()
+        branches.thresholds(chains, named[name], *ends, stability["to"])
+        for name, ends in stability["between"].items()
     ]
     return {
-        "stable_family": Variable(("stable_family",), list(searched), "family that can be stable"),
+        "stable_family": Variable(
+            ("stable_family",), list(stability["between"]), "family that can be stable"
+        ),
         "chain_half_width": Variable(
             ("chain_half_width",), [half_width, 2 * half_width], "half-width"
         ),
@@ -136,9 +141,10 @@ def _thresholds(epsilon, gamma, half_width, searched, digits) -> dict[str, Varia
 
 def sensitivity_contents(
     name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    amplitudes: np.ndarray,
+    scan: Sequence[float],
 ) -> Contents:  # fmt: skip
-    """Return the share that spreads by the size of a change, and what each A_0 leads to."""
+    """Return the share that spreads by the size of a change, and what each A_0 of `scan` leads to."""
+    amplitudes = np.array(scan)
     share = sensitivity.shares(problem, sizes, members, seed)
     largest, spread = sensitivity.scan(problem, amplitudes)
     said = "share of runs that spread"

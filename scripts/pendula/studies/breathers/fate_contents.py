@@ -31,6 +31,15 @@ class Grid(NamedTuple):
     checked: int  # every so many amplitudes of the first map are run on other terms too
 
 
+def map_fates(
+    periodic: xr.Dataset, problems: Mapping[float, Problem], case_problems: Mapping[str, Problem],
+    fine: xr.Dataset | None = None, **grid,
+) -> Contents:  # fmt: skip
+    """Return `fates_contents` of a grid of plain values, those of a `Grid`."""
+    arrays = {name: np.array(grid.pop(name)) for name in ("amplitudes", "turned", "phases")}
+    return fates_contents(problems, Grid(**arrays, **grid), case_problems, periodic, fine)
+
+
 def fates_contents(
     problems: Mapping[float, Problem], grid: Grid, cases: Mapping[str, Problem],
     periodic: xr.Dataset, fine: xr.Dataset | None = None,

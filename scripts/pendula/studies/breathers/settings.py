@@ -1,6 +1,6 @@
 """What the configuration says of breathers: constants, grids, members, seeds."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -89,13 +89,26 @@ class Fates(Model):
     long: model(points=Annotated[Whole, Field(ge=3)], phases=model(**PHASES), checked=Count)
     tolerance: Tolerance
 
-    def amplitudes(self, points: int) -> list[float]:
-        """Return so many amplitudes, the middles of equal parts of what is below the largest."""
-        return [float(f"{one:.12g}") for one in self.largest * (np.arange(points) + 0.5) / points]
+    def grid(self, size: Model) -> dict[str, Any]:
+        """Return the data of both maps, of this size or of that of the long study.
 
-    def turns(self, points: int) -> list[float]:
-        """Return so many phases up to pi; 0 is one of them if their number is even."""
-        return [float(one) for one in 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi]
+        Amplitudes are the middles of equal parts of what is below the largest. Phases go up to pi;
+        0 is one of them if their number is even.
+        """
+
+        def amplitudes(points: int) -> list[float]:
+            middles = (np.arange(points) + 0.5) / points
+            return [float(f"{one:.12g}") for one in self.largest * middles]
+
+        points = size.phases.points
+        turns = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
+        return {
+            "amplitudes": amplitudes(size.points),
+            "turned": amplitudes(size.phases.amplitudes),
+            "phases": [float(one) for one in turns],
+            "ratio": self.phases.ratio,
+            "checked": size.checked,
+        }
 
 
 class Settings(Model):

@@ -5,11 +5,14 @@ All numbers are integers: coefficients in units of 2^-BITS, rates of 2^-RATE_BIT
 and whoever changes a last digit breaks it.
 """
 
+import json
+from collections.abc import Mapping
 from math import ceil
 from typing import Any
 
 import numpy as np
 
+from pendula.datasets import complete_or_absent
 from pendula.problem import Problem
 
 from .norm import decimal, find_form, find_rates
@@ -65,3 +68,12 @@ def _whole(terms: np.ndarray) -> list[list[int]]:
 def _rates(rates: np.ndarray) -> list[int]:
     """Return rates in their units, a little larger, as states at the ends of steps are rounded."""
     return [ceil(rate * 2.0**RATE_BITS) + 1 for rate in rates]
+
+
+def write_certificate(certificate: str, problem: Mapping[str, Any]) -> None:
+    """Write the certificate of a problem, plain values, as JSON with one step a line."""
+    made = make_certificate(Problem.of(problem))
+    steps = ",\n".join(json.dumps(step) for step in made.pop("steps"))
+    about = json.dumps(made, indent=1).removesuffix("\n}")
+    with complete_or_absent(certificate) as partial:
+        partial.write_text(f'{about},\n "steps": [\n{steps}\n]}}\n', encoding="utf-8")

@@ -317,3 +317,11 @@ def constants_contents(
         ),
     }
     return variables, {"title": "Constants of the theorems in balls", "bits": balls.BITS}
+
+
+def enclose_checks(
+    problems: Mapping[str, Problem], theory: Mapping[str, Mapping], datasets: Mapping
+) -> Contents:
+    """Return `constants_contents` of the study's checks, which are given by their own names."""
+    below = {f"checks/{name}": data for name, data in datasets.items()}
+    return constants_contents(problems, theory, below)

@@ -27,6 +27,16 @@ WORDS = {
 }
 
 
+def contain_curves(
+    runs: Mapping[str, xr.Dataset],
+    proved: Mapping[str, xr.Dataset],
+    proofs: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
+) -> xr.Dataset:
+    """Return `contain` of curves that were proved in this run, and of `proofs` that are kept."""
+    return contain(runs, {**proved, **proofs}, references)
+
+
 def contain(
     runs: Mapping[str, xr.Dataset],
     certified: Mapping[str, xr.Dataset],

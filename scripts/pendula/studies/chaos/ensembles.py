@@ -10,12 +10,13 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
-from pendula.problem import Problem, name_window
+from pendula.problem import Problem, by_name, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
@@ -143,6 +144,43 @@ COMPARED = {
     "swept_initial": "initial {site: [A, B]}",
 }
 """What is compared: of the cases the norms over time, of the sweeps the maxima over M."""
+
+
+def measure_ensembles(
+    problems: dict[str, Problem], members: int, swept: Mapping[str, Mapping], windows,
+    size: float, seed: int, kind: str,
+) -> Contents:  # fmt: skip
+    """Return the bands of cases and the moments of sweeps; there may be no cases.
+
+    `swept` gives by sweep its problem as plain values, half-widths and members at each of them.
+    """
+    drawn = {"size": size, "seed": seed, "kind": kind}
+    own = by_name({name: one["problem"] for name, one in swept.items()})
+    runs = {
+        name: Swept(own[name], one["half_widths"], one["members"]) for name, one in swept.items()
+    }
+    cases, shared = {}, {"title": TITLE, **describe_cases(own)[1]}
+    if problems:
+        cases, shared = case_bands(problems, members=members, **drawn)
+        shared["members"] = members
+    shared["ensemble"] = f"{kind} in n"
+    about = {**shared, "perturbation": size, "seed": seed}
+    return cases | sweep_moments(runs, windows, **drawn), about
+
+
+def compare_runs(
+    ensembles: xr.Dataset,
+    lyapunov: xr.Dataset,
+    runs: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
+    sweeps: Mapping[str, xr.Dataset],
+    windows: Mapping[str, str],
+) -> xr.Dataset:
+    """Return `compare`, and how many chaotic cases have no ensemble."""
+    found = compare(ensembles, runs, references, sweeps, windows)
+    found["mismatched"] = mismatched(ensembles["case"].values, lyapunov)
+    print(describe("ensembles of the chaotic cases", found.to_dict()))
+    return found
 
 
 def compare(

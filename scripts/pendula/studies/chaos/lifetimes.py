@@ -6,6 +6,7 @@ over when the central pair holds no more than an even share of P, which is P ove
 pairs: a definition without any number to choose. Lives that outlast the run are censored.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -203,3 +204,15 @@ def _limits(name: str, dimensions, limits: list[Limits], words: str) -> dict[str
         )
         for end, said in ENDS.items()
     }
+
+
+def measure_lifetimes(
+    problem: Problem, amplitudes: list[float], ratio: float, compared: Mapping, size: float,
+    members: int, settled: float, seed: int,
+) -> Contents:  # fmt: skip
+    """Return the lives from each amplitude, and those from one of them by other `choices`."""
+    drawn = (size, members, settled, seed)
+    lives, attributes = measure_lives(problem, amplitudes, ratio, *drawn)
+    one = localised(problem, compared["amplitude"], ratio)
+    numerics = compare_numerics(one, compared["choices"], *drawn, lives)
+    return lives | numerics, {**attributes, "ratio": ratio}

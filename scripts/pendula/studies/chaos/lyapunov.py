@@ -252,3 +252,23 @@ def in_pairs(upper: Limits) -> Limits:
     """
     lower = Limits(*(-values[::-1] for values in (upper.value, upper.high, upper.low)))
     return Limits(*map(np.concatenate, zip(upper, lower, strict=True)))
+
+
+def measure_lyapunov(
+    problems: dict[str, Problem],
+    end_time: float,
+    tolerances: list[float],
+    short_problems: dict[str, Problem],
+    short_end_times: dict[int, float],
+    undriven_end: float,
+    seed: int,
+) -> Contents:
+    """Return exponents of `problems` to `end_time`, and all exponents on short chains.
+
+    `short_end_times` gives the end time for each half-width. The shortest chain is also followed
+    without a drive, to `undriven_end`. `seed` draws the tangent vectors.
+    """
+    growth, attributes = largest_exponents(problems, end_time, seed)
+    times = divergence_times(problems, tolerances, growth)
+    short = spectra(short_problems, short_end_times, undriven_end, seed)
+    return growth | times | short, attributes

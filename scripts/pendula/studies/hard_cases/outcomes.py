@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents
 from pendula.simulation.simulate import IntegrationError
 
 from . import errors
@@ -68,3 +69,17 @@ def variables(results: list[Outcome]) -> dict[str, Variable]:
         "reference": column("reference", "what the error is measured against"),
         "sound": Variable(("row",), sound, "whether the outcome is the expected one"),
     }
+
+
+def hard_cases_contents(cases: list[dict]) -> Contents:
+    """Return what each solver made of `cases`, which are plain values.
+
+    A row that does not end as expected is said here and marked in it.
+    """
+    results = outcomes(cases)
+    for result in results:
+        if not result.sound:
+            print(f"NOT AS EXPECTED: {result.case}, {result.solver}: {result.error:.3g} ")
+    title = "Hard cases for the solvers: errors against what is known, or refusals in words"
+    seeds = "the number of sites, for random data; cases say their constants"
+    return variables(results), {"title": title, "seed": seeds}

@@ -32,18 +32,19 @@ RICHARDSON = 4.0 / 3.0
 def measure(
     problems: Mapping[str, Problem],
     firsts: Mapping,
-    swept: Problem,
+    swept_problem: Problem,
     half_widths: Sequence[int],
     windows: Sequence[tuple[float, float]],
     ensemble: Mapping[str, float],
 ) -> Contents:
-    """Return how far the schemes are from the runs `firsts` of the first solver, by case.
+    """Return how far the schemes are from the runs `firsts` of the first solver, in one order.
 
-    `problems` are those of the cases by the second solver, at the configured step. `swept` is that
+    `problems` are those of the cases by the second solver, at the configured step. `swept_problem` is that
     of a chaotic sweep, of which an ensemble is run at each of the FINER steps, on some of its
     half-widths; `ensemble` says the size of the changes and the seed.
     """
-    found = [_measure_case(problem, firsts[case]) for case, problem in problems.items()]
+    pairs = zip(problems.values(), firsts.values(), strict=True)
+    found = [_measure_case(problem, first) for problem, first in pairs]
     described, shared = describe_cases(problems)
     step = next(iter(problems.values())).solver["step"]
     about = {
@@ -63,7 +64,7 @@ def measure(
     }
     for name, (grid, long_name) in about.items():
         variables[name] = Variable(grid, np.array([one[name] for one in found]), long_name)
-    variables |= _finer(swept, half_widths, windows, **ensemble)
+    variables |= _finer(swept_problem, half_widths, windows, **ensemble)
     attributes = {key: value for key, value in shared.items() if not key.startswith("solver")}
     title = "The second solver by both readings and by the scheme that conserves the energy"
     return variables, {"title": title, **attributes, "configured_step": step}

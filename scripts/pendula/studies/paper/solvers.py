@@ -69,6 +69,34 @@ TRUSTED = {
 """What the two datasets hold, beside names of the registry and of `measures.difference`."""
 
 
+def compare_solvers(
+    trajectories: Mapping[str, xr.Dataset],
+    first: Mapping[str, xr.Dataset],
+    second: Mapping[str, xr.Dataset],
+    others: Collection[str],
+) -> xr.Dataset:
+    """Return `compare` of datasets by name; `first` and `second` are sweeps in one order."""
+    pairs = zip(first.values(), second.values(), strict=True)
+    return compare(by_solvers(trajectories), dict(zip(first, pairs, strict=True)), others)
+
+
+def trust_solvers(
+    trajectories: Mapping[str, xr.Dataset],
+    references: Mapping[str, xr.Dataset],
+    decimal: Mapping[str, xr.Dataset],
+    proved: Mapping[str, xr.Dataset],
+    proofs: Mapping[str, xr.Dataset],
+) -> xr.Dataset:
+    """Return `trust` of datasets by name; `proofs` are proved curves that are kept."""
+    runs, decimals = by_solvers(trajectories), tuple(decimal.values())
+    return trust(runs, references, decimals, {**proved, **proofs})
+
+
+def by_solvers(trajectories: Mapping[str, xr.Dataset]) -> Runs:
+    """Return trajectories whose names are those of a case and of a solver."""
+    return {tuple(name.split(".")): run for name, run in trajectories.items()}
+
+
 def compare(
     runs: Runs,
     sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]],

@@ -259,7 +259,7 @@ def remainder_contents(
     run_ends: Mapping[str, Mapping[float, float]],
     end_step: float,
     spacing: float,
-    progress: Callable[[str], None] = lambda message: None,
+    step: Callable[[str], None] = lambda message: None,
 ) -> Contents:
     """Return the errors of all cases; `run_ends` gives by case and mu how far the pendula are run.
 
@@ -271,7 +271,7 @@ def remainder_contents(
     found = []
     for name, problem in problems.items():
         found.append(measure(problem, run_ends[name], ends, spacing))
-        progress(f"{name} done ({len(found)} of {len(problems)})")
+        step(f"{name} done ({len(found)} of {len(problems)})")
     errors = np.array([one.errors for one in found]).transpose(2, 0, 1, 3)
     order, off = orders(np.moveaxis(errors, 2, 0))
     powers = np.array([mus * mus * mus, mus * mus * mus * mus * mus])

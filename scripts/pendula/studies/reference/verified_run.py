@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.trajectories import COMPONENTS, describe_run, shared_by
+from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run, shared_by
 from pendula.problem import Problem, by_site
 from pendula.simulation.lattice import Reduction, unfold
 from pendula.simulation.simulate import IntegrationError
@@ -168,3 +168,20 @@ def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepanc
 
 def _controls(run: Run) -> dict:
     return {name: getattr(run, name) for name in ("bits", "order", "tolerance", "steps")}
+
+
+def reference_contents(
+    name: str, problem: Problem, snapshots: list[float], bits: tuple[int, int], decimal: bool
+) -> Contents:
+    """Return the reference of a case; `bits` are those of the stored run and of the second one.
+
+    States are kept at those of the times `snapshots` that are output times. Where `decimal` is
+    false, the parameters and data are the doubles nearest to the decimals.
+    """
+    run, check = (integrate(problem, snapshots, some, decimal) for some in bits)
+    apart = compare(run, check)
+    for one in (run, check):
+        print(f"{name}: {one.bits} bits, order {one.order}, {one.steps} steps")
+    print(f"{name}: the norms differ by {apart.norms.max():.1e}, H drifts {apart.energy_drift:.1e}")
+    require_agreement(name, run, check, apart)
+    return as_variables(run, apart), as_case(name, problem, run, check, apart, decimal)

@@ -1,11 +1,11 @@
 """Trajectories and sweeps beside the bounds of Theorems 1 to 3, and which theorem covers each."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.checks import columns, table, tabulate, variable
+from pendula.datasets.checks import columns, describe, table, tabulate, variable
 from pendula.ends import DIRICHLET, kind_of
 from pendula.measures.norms import growth_margin, power_of, total_power
 from pendula.models.bounds import (
@@ -114,3 +114,12 @@ def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
             np.nanmax(observed / best), (), "largest P of all over its bound", tolerance=1.0
         ),
     )
+
+
+def check_observed(
+    trajectories: Mapping[str, xr.Dataset], sweeps: Mapping[str, xr.Dataset]
+) -> Iterator[xr.Dataset]:
+    """Yield the checks of the paper's cases and of its sweeps, each by name."""
+    for name, check in (("cases", check_cases(trajectories)), ("sweeps", check_sweeps(sweeps))):
+        print(describe(name, check))
+        yield xr.Dataset.from_dict(check)

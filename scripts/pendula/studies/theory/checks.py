@@ -1,10 +1,12 @@
 """The checks by name: config/theory.yaml has the arguments of each."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
+from pendula.datasets.checks import describe
 from pendula.numerics import elementary
 from pendula.problem import Constants
 
@@ -22,6 +24,7 @@ from . import (
     well_posed,
     worst_data,
 )
+from .settings import WRONG_FOLDER
 
 MODULES = (
     *(equations, other_forms, newton, errata),
@@ -36,6 +39,20 @@ CHECKS = {
     if name.startswith("check_")
 }
 CHECKS["short_chart"] = CHECKS["chart"]
+
+
+def run_checks(checks: Mapping[str, Mapping[str, Any]]) -> Iterator[xr.Dataset]:
+    """Yield the numbers of each of `checks`, which have their arguments by name.
+
+    A check that does not hold does not stop the run: it is said here and in the table of claims,
+    and it turns the verdicts that rest on it.
+    """
+    for name, arguments in checks.items():
+        check = run_check(name, arguments)
+        said = describe(name, check)
+        wrong = name.startswith(WRONG_FOLDER)
+        print(f"a wrong statement, for a control: {name}" if wrong else said)
+        yield xr.Dataset.from_dict(check)
 
 
 def run_check(name: str, arguments: Mapping[str, Any]) -> dict:

@@ -23,6 +23,11 @@ LOOKS = {
 NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
 
 
+def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
+    """Return what `long_runs.measure_growth` has made."""
+    return growth
+
+
 @style.styled
 def draw_growth_law(data: xr.Dataset) -> Figure:
     """Draw l2^2 / tau beside its law, what is left over, exponents over octaves, l-infinity."""
@@ -115,14 +120,16 @@ def _draw_linf(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylabel(NORMS["linf"])
 
 
-def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> xr.Dataset:
-    """Return the maps of all sweeps: lowest, mean and highest value over each ensemble.
+def gather_window_map(
+    maps: list[xr.Dataset], sweeps: list[str], paper_ends: list[float]
+) -> xr.Dataset:
+    """Return the maps of `sweeps`: lowest, mean and highest value over each ensemble.
 
     `paper_ends` are the ends T of the paper's windows [10, T], one a sweep; NaN stands for one that
     lies beyond the map.
     """
     found = []
-    for data in maps.values():
+    for data in maps:
         both = data[["l2", "linf"]]
         parts = [both.min("member"), both.mean("member"), both.max("member")]
         words = {"long_name": "value over the members of the ensemble"}
@@ -131,7 +138,7 @@ def gather_window_map(maps: dict[str, xr.Dataset], paper_ends: list[float]) -> x
             panel[name].attrs = both[name].attrs
         panel = panel.assign(predicted_speed=data["predicted_speed"], pulled=data["pulled"])
         found.append(panel.assign_attrs(data.attrs))
-    joined = style.join(found, list(maps), "sweep")
+    joined = style.join(found, sweeps, "sweep")
     ends = np.where(np.array(paper_ends) <= float(joined["end"][-1]), paper_ends, np.nan)
     return joined.assign(paper_end=("sweep", ends, {"long_name": "end of the paper's window"}))
 

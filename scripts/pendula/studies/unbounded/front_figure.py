@@ -28,9 +28,9 @@ TERM_LOOKS = {
 }
 
 
-def gather_front(measured: xr.Dataset) -> xr.Dataset:
+def gather_front(front: xr.Dataset) -> xr.Dataset:
     """Return what is drawn of the front and of the bulk: all that `front.measure_front` found."""
-    return measured
+    return front
 
 
 @style.styled

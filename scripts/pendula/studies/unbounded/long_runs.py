@@ -4,8 +4,9 @@ Where the chain at rest is unstable, a front moves at the speed v of linear spre
 thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v P tau)^(1/2).
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import pairwise
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -13,14 +14,14 @@ import xarray as xr
 
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import describe_run, shared_by
+from pendula.datasets.trajectories import Contents, describe_run, shared_by
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import local_exponents
 from pendula.numerics.draws import normal
 from pendula.numerics.elementary import geometric, interpolated, log, modulus
 from pendula.problem import Problem
 
-from .active_sites import LEVELS, LongRun, run_chains
+from .active_sites import LEVELS, LongRun, run_chains, run_long
 from .bulk import FIRST_OF_LINE, NEIGHBOURS, POWER, TERMS, thermal_powers
 from .extremes import mean_maximum
 from .front import (
@@ -319,3 +320,44 @@ def map_variables(
         "predicted_speed": Variable((), speed, PREDICTED_SPEED),
         "pulled": Variable((), pulled, PULLED),
     }
+
+
+# --- Jobs -----------------------------------------------------------------------------------------
+
+
+def spread_case(
+    name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
+    checkpoints: str, step: Callable[[str], None],
+) -> Contents:  # fmt: skip
+    """Return the series of each problem and member; `checkpoints` is where to keep unfinished ones.
+
+    An interrupted job continues from there, and gives the same numbers to the last bit.
+    """
+    runs, kept, ensemble = [], [], Ensemble(members, perturbation, seed)
+    for variant, problem in enumerate(problems):
+        runs.append([])
+        for number in range(members):
+            kept.append(Path(checkpoints, f"{name}-{variant}-{number}.npz"))
+            started = problem.changed(initial=member(problem.initial, ensemble, number))
+            runs[-1].append(run_long(started, rest, kept[-1] if checkpoints else None))
+            step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
+    return run_variables(problems, runs), attributes(
+        f"Norms, front and final states of {name} on chains without ends",
+        *(name, problems, rest, ensemble),
+    )
+
+
+def map_windows(
+    name: str, problem: Problem, rest: float, half_widths: list[int], members: int,
+    perturbation: float, seed: int, step: Callable[[str], None],
+) -> Contents:  # fmt: skip
+    """Return the maxima of an ensemble for every T between 10 and the end of the runs."""
+    ends = np.arange(START + 2.0, problem.end_time + 1.0, 2.0)
+    maps, ensemble = [], Ensemble(members, perturbation, seed)
+    for number in range(members):
+        started = problem.changed(initial=member(problem.initial, ensemble, number))
+        maps.append(window_map(started, rest, half_widths, ends))
+        step(f"{name}: member {number + 1} of {members} done")
+    title = f"Maxima of the norms over half-widths and time windows, case of {name}"
+    about = attributes(title, name, [problem], rest, ensemble)
+    return map_variables(maps, half_widths, ends, problem), about

@@ -1,0 +1,71 @@
+"""What the jobs of `snakemake speed` call: each measures, tabulates or draws."""
+
+from collections.abc import Mapping
+
+import xarray as xr
+from pendula.datasets.netcdf import read, write
+from pendula.datasets.trajectories import Contents
+from pendula.drawing.style import save
+from pendula.problem import Problem, by_name
+from pendula.report.words import number, write_markdown
+
+from benchmarks import figures, machine, pendula
+from benchmarks.contestants import find_peers
+from benchmarks.cost import measure
+from benchmarks.problems import REGIME_OF, REGIMES, read_reference, until
+from benchmarks.tables import tabulate_cost, tabulate_pendula, tabulate_work_precision
+from benchmarks.work_precision import measure as measure_errors
+
+
+def measure_work_precision(
+    references: Mapping[str, xr.Dataset], problems: Mapping[str, Problem]
+) -> Contents:
+    """Time every solver and every installed peer on `problems`, beside the errors they make."""
+    cases, exact = {}, {}
+    for name, problem in problems.items():
+        horizon = REGIMES[REGIME_OF[name]].horizon
+        cases[name] = until(problem, horizon)
+        exact[name] = read_reference(references[name], horizon)
+    peers, absent = find_peers()
+    for reason in absent.values():
+        print(f"not measured: {reason}")
+    variables = measure_errors(cases, exact, peers, lambda text: print(text, flush=True))
+    title = {"title": "Speed against error", "absent": "; ".join(absent.values())}
+    return variables, {**title, **machine.describe()}
+
+
+def measure_pendula(problems: Mapping[str, Mapping], data: str, table: str) -> None:
+    """Measure the pendula of the cases `problems`, and write a dataset and a page of Markdown."""
+    absent = pendula.absent().values()
+    for reason in absent:
+        print(f"not measured: {reason}")
+    variables = pendula.measure(by_name(problems), lambda text: print(text, flush=True))
+    title = {"title": "Speed against error on the pendula", "absent": "; ".join(absent)}
+    title["compared_at"] = number(pendula.TARGET)
+    write(data, variables, {**title, **machine.describe()})
+    write_markdown(table, *tabulate_pendula(read(data)))
+
+
+def measure_cost(problem: Problem) -> Contents:
+    """Measure how the cost grows with the chain, with time and with the active sites."""
+    return measure(problem), {"title": "How the cost of a run grows", **machine.describe()}
+
+
+def tabulate_speed(
+    work_precision: str, cost: str, work_precision_table: str, cost_table: str
+) -> None:
+    """Write both pages of Markdown."""
+    write_markdown(work_precision_table, *tabulate_work_precision(read(work_precision)))
+    write_markdown(cost_table, *tabulate_cost(read(cost)))
+
+
+def draw_speed(work_precision: str, cost: str, regimes: list[str], files: list[str]) -> None:
+    """Draw one figure a regime and then the cost, each to PNG, PDF, data and description."""
+    measured, drawn = read(work_precision), []
+    for regime in regimes:
+        data = figures.gather_work_precision(measured, regime)
+        drawn.append((figures.draw_work_precision(data), data))
+    data = figures.gather_cost(read(cost))
+    drawn.append((figures.draw_cost(data), data))
+    for first, (figure, data) in zip(range(0, len(files), 4), drawn, strict=True):
+        save(figure, data, *files[first : first + 4])

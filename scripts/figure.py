@@ -1,0 +1,41 @@
+"""A Snakemake job that draws figures, each as PNG and PDF with its data and its description."""
+
+import sys
+from inspect import signature
+
+from job import arguments, called, run
+from pendula.datasets.netcdf import read
+from pendula.drawing.style import save
+
+KINDS = 4
+"""A figure is so many files: PNG, PDF, data, description."""
+
+
+def draw(snakemake) -> None:
+    """Draw by each function that `params.call` names, draw_x, what gather_x beside it returns.
+
+    gather_x is given those of the inputs and parameters that it names, datasets in place of paths,
+    and by their names what the figures before it show.
+    """
+    given = {name: _taken(value) for name, value in arguments(snakemake).items()}
+    differs = given.pop("differs")
+    given.setdefault("of_paper", not differs)
+    paths = list(snakemake.output)
+    for number, function in enumerate(called(snakemake)):
+        topic = function.__name__.removeprefix("draw")
+        gather = getattr(sys.modules[function.__module__], f"gather{topic}")
+        names = given.keys() & signature(gather).parameters.keys()
+        drawn = gather(**{name: given[name] for name in names})
+        given.setdefault(topic.lstrip("_"), drawn)
+        save(function(drawn), drawn, *paths[KINDS * number : KINDS * (number + 1)], differs)
+
+
+def _taken(value):
+    if isinstance(value, str) and value.endswith(".nc"):
+        return read(value)
+    is_files = isinstance(value, list) and all(str(one).endswith(".nc") for one in value)
+    return [read(path) for path in value] if is_files else value
+
+
+if __name__ == "__main__":
+    run(draw, snakemake)  # noqa: F821

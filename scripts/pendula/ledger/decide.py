@@ -1,0 +1,78 @@
+"""Decide the claims of a part of the ledger by datasets, and join the parts."""
+
+from itertools import chain
+
+from pendula.datasets.checks import broken, describe
+from pendula.datasets.json_files import load_json, write_json
+from pendula.datasets.netcdf import read
+from pendula.report.words import write_markdown
+
+from .claim import all_claims, controls_of, evaluate, in_order, needed, sections
+from .criterion import Verdict
+from .distortions import distorted, in_words
+from .tables import by_sentence, check_lines, in_short, tables
+
+CHECKS, OF_WRONG_STATEMENTS = "checks/", "checks/wrong/"
+
+
+def decide_claims(
+    datasets: list[str],
+    makers: dict[str, str],
+    modules: list[str],
+    differs: dict[str, str],
+    part: str,
+    table: str,
+) -> None:
+    """Write the rows of the ledger on the claims in `modules`, and a table to read.
+
+    Beside the rows stands what the functions of the claims said of distorted datasets.
+
+    `makers` has the rule that makes each of `datasets`, in their order, by its name in the claims.
+    `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
+    """
+    absent = set(needed(*modules)) - set(makers)
+    if absent:
+        raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
+    sources = {name: read(path) for name, path in zip(makers, datasets, strict=True)}
+    rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources, differs, modules)]
+    shown = [name for name in sources if name.startswith(CHECKS)]
+    shown = [name for name in shown if not name.startswith(OF_WRONG_STATEMENTS)]
+    checks = {name: sources[name].to_dict() for name in shown}
+    lines = check_lines(checks)
+    left_out = {row["name"] for row in rows if row["verdict"] == Verdict.NOT_APPLICABLE}
+    asked = [claim for claim in all_claims(*modules) if claim.name not in left_out]
+    told = {
+        "sections": sections(*modules),
+        "read": list(makers),
+        "rows": rows,
+        "checks": lines,
+        "distortions": in_words(distorted(asked, sources)),
+    }
+    write_json(part, told)
+    write_markdown(table, *tables(by_sentence(rows), chain(*lines.values())))
+    print(in_short(by_sentence(rows)))
+    for name, check in checks.items():
+        if broken(check):
+            print(describe(name.removeprefix(CHECKS), check))
+
+
+def rules_of(row: dict, makers: dict[str, str]) -> list[str]:
+    """Return the rules whose datasets decide a row."""
+    return list(dict.fromkeys(makers[name] for name in row["decided_by"]))
+
+
+def join_claims(parts: list[str], names: list[str], ledger: str, controls: str, table: str) -> None:
+    """Write the ledger and its controls as JSON, and both as Markdown, in the order of the paper.
+
+    `parts` are files that decide_claims wrote. `names` gives the order of the checks in the table.
+    """
+    read = [load_json(path) for path in parts]
+    sections = {module: at for part in read for module, at in part["sections"].items()}
+    rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
+    checks = {name: lines for part in read for name, lines in part["checks"].items()}
+    write_json(ledger, {"rows": rows})
+    distortions = [row for part in read for row in part["distortions"]]
+    write_json(controls, {"rows": [*controls_of(rows), *distortions]})
+    lines = [line for name in names for line in checks.get(name, [])]
+    write_markdown(table, *tables(rows, lines))
+    print(in_short(rows))

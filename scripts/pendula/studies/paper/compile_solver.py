@@ -1,0 +1,31 @@
+"""Compile a solver's kernels once, so that parallel jobs find them in the cache."""
+
+from pathlib import Path
+
+from pendula.datasets import complete_or_absent
+from pendula.problem import Constants, Problem, on_sites
+from pendula.simulation import solvers
+from pendula.simulation.simulate import simulate
+from pendula.sources import digest_of_code
+
+CONTROLS = {"rtol": 1e-6, "atol": 1e-6, "step": 0.05, "tolerance": 1e-12, "iterations": 30}
+"""A value for every control. Compiled code depends on none, so that a tolerance that the user
+changes asks for no compilation, and reruns nothing that does not use it."""
+
+
+def compile_solver(kernels: str, solver: str) -> None:
+    """Run the solver over a short time, then record what it was compiled from."""
+    controls = {name: CONTROLS[name] for name in solvers.SOLVERS[solver].controls}
+    problem = Problem(
+        constants=Constants(epsilon=1.0, gamma=1.0, omega=0.0),
+        half_width=1,
+        boundary="dirichlet",
+        initial=on_sites({0: (1.0, 0.1)}),
+        end_time=0.1,
+        output_step=0.05,
+        solver={"name": solver, **controls},
+    )
+    simulate(problem)
+    digest = digest_of_code(Path(solvers.__file__).resolve())
+    with complete_or_absent(kernels) as partial:
+        partial.write_text(f"{digest}\n", encoding="utf-8")

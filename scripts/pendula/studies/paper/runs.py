@@ -1,0 +1,33 @@
+"""The runs that figures and claims rest on: a case by a solver, and a case on many chains."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from pendula.datasets.trajectories import Contents, sweep_contents, trajectory_contents
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
+from pendula.simulation.sweep import sweep
+
+
+def run_case(name: str, problem: Problem) -> Contents:
+    """Return the observables of a case."""
+    result = simulate(problem)
+    if "iterations" in problem.solver and result.outcome.rejected:
+        cut = result.outcome.rejected
+        print(f"{name}: the iteration did not contract; {cut} steps were cut")
+    return trajectory_contents(name, problem, result)
+
+
+def run_by_solvers(name: str, problems: Mapping[str, Problem]) -> Iterator[Contents]:
+    """Yield the observables of a case by each of its solvers."""
+    for problem in problems.values():
+        yield run_case(name, problem)
+
+
+def run_sweep(
+    name: str, problem: Problem, half_widths: Sequence[int],
+    windows: Sequence[tuple[float, float]], step: Callable[[str], None],
+) -> Contents:  # fmt: skip
+    """Return the maxima and means of norms over `windows`, on chains of all `half_widths`."""
+    label = f"{name} ({problem.solver['name']})"
+    result = sweep(problem, half_widths, windows, lambda done: step(f"{label}: {done}"))
+    return sweep_contents(name, problem, half_widths, windows, result)

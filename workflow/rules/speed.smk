@@ -1,0 +1,93 @@
+# Speed against error, and the cost of a run. Not part of the full run: timing jobs run alone.
+
+
+rule speed:
+    "Speed against error of every solver and installed peer, and what runs cost (takes minutes)"
+    input:
+        expand("<results>/speed/{name}.md", name=["work_precision", "cost", "pendula"]),
+        expand("<results>/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS),
+    message:
+        "The measurements of speed are there"
+
+
+use rule dataset as work_precision with:
+    "Part of speed: every solver and installed peer on the cases of the paper, timed"
+    input:
+        kernels=kernels(*ALL_SOLVERS),
+    pathvars:
+        made="speed/work_precision",
+    threads: workflow.cores
+    params:
+        call=function("benchmarks.jobs.measure_work_precision"),
+        committed=committed(references=references(*PAPER_CASES)),
+        problems={case: SETTINGS.problem(case) for case in PAPER_CASES},
+
+
+use rule job as speed_pendula with:
+    "Part of speed: every solver and installed peer on Newton's equations, timed"
+    output:
+        data="<results>/speed/pendula.nc",
+        table="<results>/speed/pendula.md",
+    pathvars:
+        made="speed/pendula",
+    threads: workflow.cores
+    params:
+        call=function("benchmarks.jobs.measure_pendula"),
+        problems={case: SETTINGS.problem(case) for case in REGIMES["regular"].cases},
+
+
+use rule dataset as cost with:
+    "Part of speed: longer chains, longer runs and more active sites, timed"
+    input:
+        kernels=kernels("dop853", "taylor"),
+    pathvars:
+        made="speed/cost",
+    threads: workflow.cores
+    params:
+        call=function("benchmarks.jobs.measure_cost"),
+        problem=SETTINGS.problem("fig3_small"),
+
+
+use rule job as speed_tables with:
+    "Part of speed: what was timed, as tables to read"
+    input:
+        work_precision="<results>/speed/work_precision.nc",
+        cost="<results>/speed/cost.nc",
+    output:
+        work_precision_table="<results>/speed/work_precision.md",
+        cost_table="<results>/speed/cost.md",
+    pathvars:
+        made="speed/tables",
+    params:
+        call=function("benchmarks.jobs.tabulate_speed"),
+
+
+use rule speed_tables as speed_figures with:
+    "Part of speed: what was timed, as figures"
+    output:
+        files=[file for name in SPEED_FIGURES for file in files_of(f"<results>/figures/{name}")],
+    pathvars:
+        made="figures/speed",
+    params:
+        call=function("benchmarks.jobs.draw_speed"),
+        regimes=list(REGIMES),
+
+
+rule reproduction:
+    "Where the time of the whole reproduction goes, from nothing and with compiled kernels"
+    output:
+        data="<results>/speed/reproduction.json",
+        table="<results>/speed/reproduction.md",
+    log:
+        "<logs>/speed/reproduction.log",
+    conda:
+        "../envs/pinned.yaml"
+    threads: workflow.cores
+    params:
+        code=function("benchmarks.reproduction.main", "pendula.studies.paper.runs.run_case"),
+        python=sys.executable,
+    message:
+        "Running the whole reproduction twice, in a copy of the project"
+    shell:
+        "{params.python:q} -m benchmarks.reproduction {output.data:q} > {output.table:q} 2> {log:q} &&"
+        " cat {output.table:q}"
