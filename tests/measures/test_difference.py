@@ -5,7 +5,6 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.studies.paper.tables import trust_part
 from pendula.measures.difference import (
     LEVELS,
     PARAMETERS,
@@ -16,6 +15,7 @@ from pendula.measures.difference import (
     state_error,
 )
 from pendula.studies.paper.solvers import trust
+from pendula.studies.paper.tables import trust_part
 
 
 def run(count=11, omega=8.0, changes=()):

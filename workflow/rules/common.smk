@@ -5,6 +5,7 @@ import json
 import os
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 from snakemake.logging import logger
@@ -273,6 +274,7 @@ def name_of(path):
     return "/".join(Path(path).with_suffix("").parts[1:])
 
 
+@cache
 def maker_of(path):
     """Return the name of the rule that makes a dataset."""
     return next(rule.name for rule in workflow.rules if rule.is_producer(path))

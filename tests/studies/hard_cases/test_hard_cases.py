@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from pendula.studies.hard_cases.table import page
 from helpers import chosen
 from pendula.datasets.netcdf import as_xarray
 from pendula.studies.hard_cases import errors
 from pendula.studies.hard_cases.outcomes import evaluate, outcomes, variables
 from pendula.studies.hard_cases.settings import MEASURES
+from pendula.studies.hard_cases.table import page
 
 CASES = chosen("hard_cases").plain()
 SHORTER = {"drift_of_energy": {"tau": 200.0}, "miss_of_short_chain": {"half_width": 500}}

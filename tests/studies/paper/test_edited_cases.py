@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up_unbounded import window_map
-from pendula.studies.paper.tables import energy_part, trust_part
 from pendula.measures.difference import PARAMETERS
 from pendula.studies.chaos.ensembles import _norms_of
 from pendula.studies.paper import figures, solvers
+from pendula.studies.paper.tables import energy_part, trust_part
 from pendula.studies.unbounded import figures as unbounded
 
 EDITED = {

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from pendula.studies.paper.tables import agreement_part, energy_part, sweep_part, trust_part
 from pendula.studies.paper.solvers import compare, trust
+from pendula.studies.paper.tables import agreement_part, energy_part, sweep_part, trust_part
 
 
 @pytest.fixture
