@@ -163,8 +163,7 @@ def test_all_steps_of_a_long_job_stand_in_its_log_and_few_on_the_screen(monkeypa
 class Named(dict):
     """Names with values, as Snakemake hands them to a script."""
 
-    def __iter__(self):
-        return iter(self.values())
+    __getattr__ = dict.__getitem__
 
 
 def test_a_job_gets_inputs_settings_and_files_of_the_project_by_name(monkeypatch):

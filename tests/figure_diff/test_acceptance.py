@@ -1,6 +1,5 @@
 """Accepting: what is refused, what is taken, by name or all; and the baseline guards itself."""
 
-import made_up_results as made_up
 import netCDF4
 import numpy as np
 import pytest

@@ -12,7 +12,7 @@ from pendula.datasets.netcdf import save
 from pendula.figure_diff import Status
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP = made_up.NAMES[:7]
-LEDGER, PART, TABLE, REPORT = made_up.NAMES[8:12]
+LEDGER, PART, TABLE, REPORT = made_up.NAMES[7:11]
 DIFFERENT, DAMAGED, MISSING = Status.DIFFERENT, Status.DAMAGED, Status.MISSING
 BEYOND, WITHIN = Status.BEYOND, Status.WITHIN
 

@@ -141,7 +141,8 @@ def settings() -> dict:
 def said(kind: type[Results], run) -> dict[str, str]:
     """Return all that the sections of the studies print."""
     files = [str(path) for path in (run / "results").rglob("*") if path.is_file()]
-    results = kind(files, str(run / "results/report.html"), settings())
+    references = sorted(map(str, (ROOT / "tests/baseline/reference").glob("*.nc")))
+    results = kind(files, str(run / "results/report.html"), settings(), None, references)
     ledger = Ledger(results)
     return {
         f"{section.name}{place}": text

@@ -1,5 +1,8 @@
 """Bad input and accidents: a clear message, a non-zero exit, and no half-written result."""
 
+import subprocess
+import sys
+
 import pytest
 from helpers import NOISE, ROOT, planned, snakemake, snakemake_with
 
@@ -74,3 +77,27 @@ def test_a_damaged_dataset_is_named_with_the_way_out(finished):
     jobs = planned(ROOT, finished)
     assert (jobs["trajectory"], jobs["norms_in_time"]) == (1, 1)
     assert not jobs.keys() & {"trajectory_by_solvers", "sweep"}
+
+
+MODULE = """
+module pendula:
+    snakefile:
+        "{root}/Snakefile"
+{prefix}
+
+use rule * from pendula as pendula_*
+"""
+
+
+@pytest.mark.parametrize("folder", ["", "elsewhere/"])
+def test_another_workflow_uses_this_one_as_a_module(tmp_path, folder):
+    prefix = f'    prefix:\n        "{folder}"\n' if folder else ""
+    (tmp_path / "Snakefile").write_text(MODULE.format(root=ROOT, prefix=prefix))
+    picture = f"{folder}results/figures/fig1.png"
+    done = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--cores", "1", picture],
+        cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / f"{folder}results/logs/figures/fig1.log").exists()
