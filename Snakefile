@@ -149,8 +149,17 @@ include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/speed.smk"
 
 
-# What README.md names and no rule is called: figures, cases and sweeps
-NAMED = {name: (text, files_of(f"<results>/figures/{name}")) for name, text in FIGURES.items()}
+# What README.md names and no rule is called: figures that a job draws with others, or for a longer study
+# too, cases and sweeps
+NAMED = {
+    name: (FIGURES[name], files_of(f"<results>/figures/{name}"))
+    for name in (
+        *(f"fig{n}{which}" for n in (2, 3, 4) for which in ("", "_spacetime")),
+        *("fig5", "fig6", "solver_agreement", "energy_drift", "stability_chart", "growth_rates"),
+        *("lyapunov", "symmetry", "pendula_remainder", "pendula_over_the_top"),
+        *("growth_law", "front", "window_map"),
+    )
+}
 for case in PAPER_CASES:
     stem = f"<results>/trajectories/{case}"
     NAMED[case] = f"The case {case} by every solver", [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]
@@ -160,17 +169,17 @@ for sweep in PAPER_SWEEPS:
     )
     NAMED[sweep] = f"The sweep {sweep} by both solvers of the paper", files
 for name, (text, files) in NAMED.items():
-    if not workflow.is_rule(name):
 
-        rule:
-            name:
-                name
-            input:
-                files,
-            message:
-                f"{text}: there"
+    rule:
+        name:
+            name
+        input:
+            files,
+        message:
+            f"{text}: there"
 
-        workflow.get_rule(name).docstring = text
+    *_, made = workflow.rules
+    made.docstring = text
 
 
 onstart:

@@ -190,5 +190,5 @@ def edit(path: Path, old: str, new: str) -> None:
 
 
 def change(path: Path) -> None:
-    """Add a comment to a module, which must be there: `open("a")` would create it."""
-    path.write_text(path.read_text() + "# changed\n")
+    """Add a line of code to a module, which must be there: `open("a")` would create it."""
+    path.write_text(path.read_text() + "CHANGED = True\n")

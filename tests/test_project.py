@@ -1,16 +1,18 @@
-"""The project agrees with itself: pins, records of code, and words that must not stand in it."""
+"""The project agrees with itself: pins, code that jobs rest on, words that must not stand in it."""
 
 import ast
+import io
 import re
+import tokenize
 from pathlib import Path
 
-import code_records
 import pytest
 import yaml
 from pendula import sources
-from pendula.studies import STUDIES
+from pendula.studies import STUDIES, files_of_part
 
 ROOT = Path(__file__).resolve().parents[1]
+STUDIES_FOLDER = sources.SCRIPTS / "pendula/studies"
 
 
 def test_tests_stand_in_an_empty_folder():
@@ -25,64 +27,60 @@ def test_the_conda_environment_has_the_same_pins():
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
 
 
-ALONE = "check_certificate.py"
-"""A program for strangers, who have neither the library nor Snakemake: no rule runs it."""
-SCRIPTS = sorted(
-    name
-    for path in sources.SCRIPTS.glob("*/*.py")
-    if path.parent.name != "pendula"
-    and (name := path.relative_to(sources.SCRIPTS).as_posix()) != ALONE
-)
-"""Every script of a rule, as `folder/name.py`: base names alone repeat."""
+RULES = "".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
+CALLED = sorted(set(re.findall(r'"((?:pendula|benchmarks)\.[\w.]+)"', RULES)))
+"""Every function that a rule calls."""
+DRAWING = [name for name in CALLED if ".studies." in name and ".draw" in name]
+COMPUTING = [
+    *("paper.runs.run_case", "paper.runs.run_sweep", "paper.compile_solver.compile_solver"),
+    *("reference.verified_run.reference_contents", "chaos.lyapunov.measure_lyapunov"),
+    *("chaos.ensembles.measure_ensembles", "unbounded.long_runs.spread_case"),
+    *("unbounded.long_runs.map_windows", "hard_cases.outcomes.hard_cases_contents"),
+]
 
 
-DRAWING = [name for name in SCRIPTS if re.match("(?!own/).*/draw_", name)]
-"""A sweep of one's own is checked by the job that draws it, and so depends on more."""
+def files_behind(function: str) -> set[str]:
+    """Return the files that a job rests on which calls this function, below scripts/pendula."""
+    modules = sources.modules_of(*sources.files_of_module(function.rpartition(".")[0]))
+    files = [*modules, *sources.attached_to(modules)]
+    return {path.relative_to(ROOT).as_posix().removeprefix("scripts/pendula/") for path in files}
 
 
-@pytest.fixture
-def recorded(tmp_path, monkeypatch):
-    """Return a function: the files that the record of a script lists, below scripts/pendula."""
-    monkeypatch.chdir(tmp_path)
-
-    def files(*script: str, of: str = "") -> set[str]:
-        text = Path(code_records.code(*script, of=of)).read_text()
-        return {line.split()[1].removeprefix("scripts/pendula/") for line in text.splitlines()}
-
-    return files
+def test_every_function_that_a_rule_calls_is_there_with_a_docstring():
+    assert len(CALLED) > 70
+    for name in CALLED:
+        module, _, function = name.rpartition(".")
+        tree = ast.parse(sources.files_of_module(module)[-1].read_text())
+        found = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
+        assert ast.get_docstring(found[function]), name
 
 
-def test_a_record_lists_the_modules_that_a_script_reaches(recorded):
+def test_a_job_rests_on_the_modules_that_its_function_reaches():
     assert {
-        *("environment.txt", "scripts/job.py", "scripts/trajectories/simulate_case.py"),
-        *("__init__.py", "models/__init__.py", "models/amplitudes.py"),
-        *("simulation/simulate.py", "integrators/dop853_coefficients.py"),
-    } <= recorded("trajectories/simulate_case.py")
+        *("__init__.py", "models/__init__.py", "models/amplitudes.py", "compiled.py"),
+        *("models/amplitudes_series.py", "simulation/simulate.py", "datasets/netcdf.py"),
+        *("integrators/dop853_coefficients.py",),
+    } <= files_behind("pendula.studies.paper.runs.run_case")
 
 
 PAGES = ("drawing/", "report/", "figure_diff/", "archive/", "ledger/")
 
 
-@pytest.mark.parametrize(
-    "script",
-    [
-        *("trajectories/simulate_case.py", "trajectories/compile_solver.py"),
-        *("sweeps/sweep_case.py", "reference/integrate_reference.py"),
-        *("chaos/measure_lyapunov.py", "chaos/measure_ensembles.py"),
-        *("unbounded/spread_case.py", "unbounded/map_windows.py", "hard_cases/run_hard_cases.py"),
-    ],
-)
-def test_what_computes_does_not_depend_on_what_is_drawn_or_written(recorded, script):
+@pytest.mark.parametrize("function", COMPUTING)
+def test_what_computes_does_not_depend_on_what_is_drawn_or_written(function):
     """Nor on the configuration's room, whose every edit would rerun the simulations."""
-    files = recorded(script)
+    assert f"pendula.studies.{function}" in CALLED
+    files = files_behind(f"pendula.studies.{function}")
     assert not [file for file in files if file.startswith((*PAGES, "configuration/"))]
     assert not [file for file in files if file.endswith((".j2", ".css", ".js"))]
 
 
-def test_what_draws_does_not_depend_on_how_it_was_integrated(recorded):
+def test_what_draws_does_not_depend_on_how_it_was_integrated():
+    assert len(DRAWING) > 20
     foreign = ("integrators/", "models/", "report/", "figure_diff/", "archive/")
-    files = {(script, file) for script in DRAWING for file in recorded(script)}
+    files = {(name, file) for name in DRAWING for file in files_behind(name)}
     assert [pair for pair in files if pair[1].startswith(foreign)] == []
+    assert [name for name in DRAWING if (name, "drawing/style.py") not in files] == []
 
 
 def test_importing_a_package_drags_in_no_other_room():
@@ -95,55 +93,20 @@ def test_importing_a_package_drags_in_no_other_room():
         assert others <= above, init
 
 
-SIMULATING = ["trajectories/simulate_case.py", "sweeps/sweep_case.py"]
-
-
-@pytest.mark.parametrize("script", SIMULATING)
-def test_what_simulates_depends_on_the_equations_and_on_how_they_are_compiled(recorded, script):
-    equations = {"models/amplitudes.py", "models/amplitudes_series.py"}
-    assert equations | {"compiled.py"} <= recorded(script)
-
-
-def test_what_draws_depends_on_the_style(recorded):
-    assert DRAWING
-    assert [name for name in DRAWING if "drawing/style.py" not in recorded(name)] == []
-
-
-@pytest.mark.parametrize("script", ["theory/run_checks.py", "theory/check_observed.py"])
-def test_a_check_of_the_theory_depends_on_its_equations(recorded, script):
-    assert "studies/theory/equations.py" in recorded(script)
-
-
-def test_a_record_lists_the_templates_beside_the_modules(recorded):
-    files = recorded("report/write_report.py")
+def test_a_page_rests_on_the_templates_beside_its_modules():
+    files = files_behind("pendula.report.document.write_report")
     names = ("style.css", "script.js", "templates/base.html.j2")
     assert {f"report/page/{name}" for name in names} <= files
     assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
 
 
-def test_a_record_lists_the_modules_that_are_found_by_the_list_of_studies(recorded):
-    files = recorded("report/write_report.py", "section")
-    of_studies = {file for file in files if re.match("studies/.*/section", file)}
-    told = [
-        one for one in STUDIES if (sources.SCRIPTS / f"pendula/studies/{one}/section.py").exists()
-    ]
-    names = ("section.py", "section.html.j2")
-    parts = {f"studies/paper/section_{part}.py" for part in ("breathers", "solvers")}
-    assert of_studies == {f"studies/{study}/{name}" for study in told for name in names} | parts
-
-
-def test_a_record_may_be_of_one_study_alone(recorded):
-    files = recorded("ledger/decide_claims.py", "chaos/claims", of="chaos")
-    claims = {file for file in files if "/claims" in file}
-    own = ("claims", "claims_own", "claims_swept")
-    assert claims == {f"studies/chaos/{name}.py" for name in own}
-
-
-def test_a_script_has_one_record_whoever_asks_for_it(recorded):
-    recorded("ledger/decide_claims.py", "chaos/claims", of="chaos")
-    recorded("ledger/decide_claims.py", "paper/claims", of="paper")
-    with pytest.raises(ValueError, match="is recorded with"):
-        recorded("ledger/decide_claims.py", "paper/claims", of="chaos")
+def test_parts_are_found_by_the_list_of_studies():
+    found = {path.relative_to(STUDIES_FOLDER).as_posix() for path in files_of_part("section")}
+    told = {one for one in STUDIES if (STUDIES_FOLDER / one / "section.py").exists()}
+    parts = {f"paper/section_{part}.py" for part in ("breathers", "solvers")}
+    assert found == {f"{study}/section.py" for study in told} | parts
+    names = [path.name for path in files_of_part("chaos/claims")]
+    assert names == ["claims.py", "claims_own.py", "claims_swept.py"]
 
 
 def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):
@@ -218,58 +181,76 @@ def test_an_import_of_any_shape_is_found(text):
     assert imports_in(sources._tree_of(text)) == imports_in(ast.parse(text)) != []
 
 
-def test_a_record_is_left_alone_while_nothing_changes(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    record = Path(code_records.code("paper/draw_chain.py"))
-    before = record.stat().st_mtime_ns
-    assert code_records.code("paper/draw_chain.py") == record.as_posix()
-    assert record.stat().st_mtime_ns == before
-
-
-def test_a_call_that_only_looks_writes_its_records_elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(code_records, "only_looks", True)
-    elsewhere = Path(code_records.code("paper/draw_chain.py"))
-    assert elsewhere.is_file() and not list(tmp_path.iterdir())
-    monkeypatch.setattr(code_records, "only_looks", False)
-    record = Path(code_records.code("paper/draw_chain.py"))
-    assert record.read_text() == elsewhere.read_text()
-    monkeypatch.setattr(code_records, "only_looks", True)
-    assert code_records.code("paper/draw_chain.py") == record.as_posix()
-
-
-def test_a_record_that_cannot_be_written_says_so_in_a_sentence(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "results").write_text("mine")
-    said = []
-    monkeypatch.setattr(code_records, "stop", said.append)
-    code_records.code("paper/draw_chain.py")
-    assert "results is a file and no folder; move it" in str(said[0])
-
-
-def test_no_part_of_a_reproduction_depends_on_the_benchmarks(recorded):
-    files = {(script, file) for script in SCRIPTS for file in recorded(script)}
+def test_no_part_of_a_reproduction_depends_on_the_benchmarks():
+    of_library = [name for name in CALLED if name.startswith("pendula.")]
+    files = {(name, file) for name in of_library for file in files_behind(name)}
     assert [pair for pair in files if pair[1].startswith("benchmarks/")] == []
-
-
-def test_a_record_of_a_benchmark_lists_what_it_measures_with(recorded):
-    files = recorded("benchmarks/jobs/measure_work_precision.py")
+    files = files_behind("benchmarks.jobs.measure_work_precision")
     names = ("__init__.py", "timing.py", "peers_in_python.py", "taylor.cpp")
     assert {f"benchmarks/{name}" for name in names} <= files
-    assert "simulation/simulate.py" in files
 
 
-JOBS = [f"../{path.relative_to(ROOT)}" for path in sorted((ROOT / "benchmarks/jobs").glob("*.py"))]
+LAYOUT = {tokenize.NL, tokenize.COMMENT, tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE}
+
+
+def tokens_of(text: str) -> list[str]:
+    """Return what Python makes of a module, without comments, layout and statements of strings."""
+    found = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    found = [one for one in found if one.type not in LAYOUT - {tokenize.NEWLINE}]
+    ends = [True, *(one.type == tokenize.NEWLINE for one in found), True]
+    alone = [ends[i] and ends[i + 2] for i in range(len(found))]
+    pairs = zip(found, alone, strict=True)
+    kept = [one for one, only in pairs if not (only and one.type == tokenize.STRING)]
+    return [one.string for one in kept if one.type != tokenize.NEWLINE]
+
+
+def test_what_is_left_out_of_the_hash_of_code_is_no_code():
+    for module in [*sources.SCRIPTS.rglob("*.py"), *(ROOT / "benchmarks").rglob("*.py")]:
+        text = module.read_text(encoding="utf-8")
+        assert tokens_of(sources.bare(text)) == tokens_of(text), module
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ('def f():\n    """Say."""\n    return 1\n', True),
+        ("def f():\n    # why\n\n    return 1  # one\n", True),
+        ("def f():\n    return 2\n", False),
+        ("def f():\n    return '# 1'\n", False),
+        ('def f():\n    return """1"""\n', False),
+        ("def f():\n  return 1\n", False),
+    ],
+)
+def test_comments_and_docstrings_do_not_count(text, same):
+    assert (sources.bare(text) == sources.bare("def f():\n    return 1\n")) is same
+
+
+def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monkeypatch):
+    monkeypatch.setattr(sources, "SCRIPTS", tmp_path)
+    page = tmp_path / "pendula/page"
+    page.mkdir(parents=True)
+    (tmp_path / "pendula/other.py").write_text("X = 1\n")
+    (page / "page.j2").write_text("words")
+    (page / "__init__.py").write_text("from pendula import other\n")
+
+    def digest():
+        for one in (sources.digest_of_code, sources._digest_of_bare, sources.digest_of,
+                    sources._versions, sources._imports_of, sources._beside):  # fmt: skip
+            one.cache_clear()
+        return sources.digest_of_code(page / "__init__.py")
+
+    found = [digest()]
+    (tmp_path / "pendula/other.py").write_text("X = 2\n")
+    found.append(digest())
+    (page / "page.j2").write_text("other words")
+    found.append(digest())
+    monkeypatch.setattr(sources, "version", lambda name: "0")
+    found.append(digest())
+    assert len(set(found)) == 4
 
 
 def uses_of_snakemake(tree: ast.AST) -> int:
     return sum(isinstance(n, ast.Name) and n.id == "snakemake" for n in ast.walk(tree))
-
-
-def test_scripts_touch_snakemake_only_under_the_main_guard():
-    for script in [*SCRIPTS, *JOBS]:
-        tree = ast.parse((sources.SCRIPTS / script).read_text())
-        assert 0 < uses_of_snakemake(tree) == uses_of_snakemake(tree.body[-1]), script
 
 
 def test_the_library_does_not_know_snakemake():

@@ -97,6 +97,7 @@ _NO_CODE = re.compile("|".join([_DOCSTRING, _LONG, _SHORT, _COMMENT]), re.MULTIL
 _EMPTY = re.compile(r"\n\s*\n")
 
 
+@cache
 def digest_of_code(*files: Path) -> str:
     """Return one hash of what runs where these files run, without comments and docstrings.
 

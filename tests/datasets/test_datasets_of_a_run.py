@@ -7,8 +7,6 @@ import pytest
 from pendula.datasets.registry import NAMES, UNITS
 
 STATED = ("title", "Conventions", "version", "history")
-MEASURED = "truth/work_precision.nc"
-"""A copy of measurements that are no part of a reproduction: its names are those of benchmarks."""
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +36,7 @@ def test_every_variable_has_units_that_are_known(datasets):
 def test_one_name_has_one_meaning(datasets):
     meanings = defaultdict(lambda: defaultdict(list))
     for path, (_, variables) in datasets.items():
-        for name, meaning in variables.items() if path != MEASURED else ():
+        for name, meaning in variables.items():
             meanings[name][meaning].append(path)
     twice = {name: dict(found) for name, found in meanings.items() if len(found) > 1}
     assert {name: found for name, found in twice.items() if name not in NAMES} == {}

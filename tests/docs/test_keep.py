@@ -21,7 +21,9 @@ def results(tmp_path):
     """Return a folder with the results that are reduced, made up."""
     long = tmp_path / "results/long/unbounded"
     long.mkdir(parents=True)
-    made_up.thermal().to_netcdf(long.parent / "thermal.nc")
+    short = tmp_path / "results/unbounded"
+    short.mkdir()
+    made_up.thermal().to_netcdf(short / "thermal.nc")
     still = _stable(0.0, 0.5)
     runs = {
         "fig4_small": made_up.spread(0.5),

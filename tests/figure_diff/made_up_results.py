@@ -13,11 +13,11 @@ TAU, HORIZON, M = np.linspace(0, 50, 401), 9.0, np.arange(5.0, 45.0, 5.0)
 REGULAR, CHAOTIC = "trajectories/fig2_small.nc", "trajectories/fig4_small.nc"
 SWEEP = "sweeps/fig5_right.nc"
 TRUST, EXPONENTS, ROUNDING = "checks/trust.nc", "checks/lyapunov.nc", "checks/balance.nc"
-MAP, REFERENCE = "breathers/fates.nc", "truth/fig2_small.nc"
+MAP = "breathers/fates.nc"
 PICTURE = "figures/fig2.png"
 LEDGER, PART, TABLE, REPORT = "claims.json", "claims/theory.json", "tables/claims.md", "report.html"
 NAMES = [
-    *(REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP, REFERENCE),
+    *(REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP),
     *(LEDGER, PART, TABLE, REPORT),
     *(
         f"figures/{stem}.{kind}"
@@ -71,7 +71,6 @@ def numbers(seed: int = 0) -> dict[str, xr.Dataset]:
         EXPONENTS: dataset({"case": cases}, {"exponent": ("case", [1e-4, 1.73 + 0.01 * draw()])}),
         ROUNDING: dataset({"tau": TAU[:9]}, {"defect": ("tau", 1e-15 * draw(size=9))}),
         MAP: dataset({"half_width": M}, {"held": ("half_width", abs(draw(size=M.size)))}),
-        REFERENCE: regular,
     }
 
 

@@ -8,6 +8,7 @@ from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
 from pendula.figure_diff import Status, baseline
 from pendula.figure_diff.chaos import Chaos, horizons
+from pendula.figure_diff.comparison_page import compare_results
 
 
 def nudge(found):

@@ -116,7 +116,8 @@ class Blurred(Results):
 def said(kind: type[Results], run) -> dict[str, str]:
     """Return all that the sections of the studies print."""
     files = [str(path) for path in (run / "results").rglob("*") if path.is_file()]
-    results = kind(files, str(run / "results/report.html"), settings("quick"))
+    references = sorted(map(str, (ROOT / "tests/baseline/reference").glob("*.nc")))
+    results = kind(files, str(run / "results/report.html"), settings("quick"), None, references)
     ledger = Ledger(results)
     return {
         f"{section.name}{place}": text

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from helpers import ROOT, copy_of_sources, jobs_in, snakemake
+from helpers import ROOT, copy_of_sources, snakemake
 
 
 @pytest.fixture
@@ -28,23 +28,12 @@ def accepted(accepted_once, tmp_path) -> tuple[Path, Path]:
 
 @pytest.fixture(scope="session")
 def looked(made_once) -> Path:
-    """Return what a dry run and a list of targets say in an empty folder: dry_run.txt, list.txt.
-
-    The folder itself is beside them: folder.
-    """
+    """Return what a dry run says in an empty folder: dry_run.txt; the folder is beside it."""
 
     def make(beside):
         (beside / "folder").mkdir()
-        for name, option in (("dry_run", "--dry-run"), ("list", "--list")):
-            result = snakemake(ROOT, beside / "folder", option)
-            assert result.returncode == 0, result.stderr
-            said = result.stdout if name == "list" else result.stdout + result.stderr
-            (beside / f"{name}.txt").write_text(said)
+        result = snakemake(ROOT, beside / "folder", "--dry-run")
+        assert result.returncode == 0, result.stderr
+        (beside / "dry_run.txt").write_text(result.stdout + result.stderr)
 
     return made_once("looked", make)
-
-
-@pytest.fixture(scope="session")
-def first_plan(looked) -> dict[str, int]:
-    """Return the number of jobs of each rule that a first run has."""
-    return jobs_in((looked / "dry_run.txt").read_text())

@@ -16,24 +16,11 @@ from pendula import __version__
 NAME = f"pendula-{__version__}"
 ARCHIVE = f"results/archive/{NAME}.tar.gz"
 DRAWING = {
-    "bounds",
-    "draw_breathers",
-    "certified_curves",
-    "draw_fates",
-    "pendula_over_the_top",
-    "pendula_phases",
-    "pendula_remainder",
-    "draw_sensitivity",
-    "pendula_threshold",
-    "chaos_figures",
-    "ensembles",
-    "lifetimes",
-    "front",
-    "growth_law",
-    "window_map",
-} | {
-    *("figures", "solver_figures", "stability_figures", "trust_horizons"),
-    *(f"fig{n}" for n in range(1, 7)),
+    *("figures", "fig1", "norms_in_time", "norms_by_half_width", "solver_figures", "bounds"),
+    *("stability_figures", "trust_horizons", "certified_curves", "chaos_figures", "ensembles"),
+    *("lifetimes", "draw_breathers", "draw_fates", "draw_sensitivity", "draw_over_the_top"),
+    *("pendula_phases", "draw_remainder", "pendula_threshold"),
+    *("draw_front", "draw_growth_law", "draw_window_map"),
 }
 
 
@@ -74,7 +61,7 @@ def test_figures_are_drawn_from_the_deposited_datasets_alone(packed, unpacked):
 def test_without_any_figure_jobs_that_draw_are_all_that_is_planned(unpacked):
     shutil.rmtree(unpacked / "results/figures")
     plan = planned(unpacked, unpacked, "figures")
-    assert {"fig1", "fig6", "bounds"} <= plan.keys() <= DRAWING
+    assert {"fig1", "norms_by_half_width", "bounds"} <= plan.keys() <= DRAWING
 
 
 def test_the_unpacked_project_packs_to_the_same_bytes_and_anew_when_it_changes(packed, unpacked):

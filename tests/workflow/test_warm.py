@@ -123,8 +123,8 @@ def test_a_process_with_two_threads_forks_nothing(tmp_path):
 
 
 def test_what_jobs_import_leaves_one_thread(tmp_path):
-    modules = warm.imports_of([ROOT / "scripts/paper/draw_norms.py"])
-    assert "pendula.studies.paper.figures" in modules and "job" in modules
+    modules = warm.imports_of([ROOT / "scripts/figure.py"])
+    assert "pendula.drawing.style" in modules and "job" in modules
     gate, last = tmp_path / "gate", modules[-1]
     os.mkfifo(gate)
     gate.with_suffix(".py").write_text(f"open({str(gate)!r}).read()")

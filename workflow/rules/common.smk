@@ -5,6 +5,7 @@ import json
 import os
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 from snakemake.logging import logger
@@ -285,6 +286,7 @@ def differs_of(wildcards, input):
     return list(concerning(DIFFERS, names, on).values())
 
 
+@cache
 def maker_of(path):
     """Return the name of the rule that makes a dataset."""
     return next(rule.name for rule in workflow.rules if rule.is_producer(path))

@@ -43,7 +43,7 @@ use rule dataset as measure_remainder with:
         run_ends=lambda wildcards: (REMAINDER.long_ends if wildcards.size else REMAINDER.run_ends),
 
 
-use rule figure as pendula_remainder with:
+use rule figure as draw_remainder with:
     "Errors of the expansion against time and against mu, and its horizons"
     input:
         remainder="<results>/{size}pendula/remainder.nc",
@@ -122,7 +122,7 @@ use rule figure as pendula_phases with:
         call=function("pendula.studies.pendula.phases_figure.draw_phases"),
 
 
-use rule figure as pendula_over_the_top with:
+use rule figure as draw_over_the_top with:
     "The sea of the pendula, and who leaves it over the top"
     input:
         sea="<results>/{size}pendula/sea.nc",

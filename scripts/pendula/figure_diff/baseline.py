@@ -46,8 +46,8 @@ def recorded(folder: Path) -> dict[str, Any]:
 
 
 def is_kept(name: str) -> bool:
-    """Return whether the baseline keeps a file: no reference, and no PDF and no report."""
-    return not name.startswith("truth/") and not name.endswith((".pdf", ".html"))
+    """Return whether the baseline keeps a file: no PDF and no report."""
+    return not name.endswith((".pdf", ".html"))
 
 
 def compare(

@@ -100,5 +100,5 @@ def test_the_papers_window_is_not_drawn_on_a_map_that_ends_before():
     data = unbounded.gather_window_map([*maps.values()], [*maps], [end, end + 1.0])
     assert np.isnan(data["paper_end"].values).tolist() == [False, True]
     assert labels(unbounded.draw_window_map(data)).count("the paper's $T$") == 4
-    data = unbounded.gather_window_map(maps, [end + 1.0, end + 1.0])
+    data = unbounded.gather_window_map([*maps.values()], [*maps], [end + 1.0, end + 1.0])
     assert "paper" not in labels(unbounded.draw_window_map(data))

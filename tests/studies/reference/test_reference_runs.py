@@ -9,7 +9,7 @@ import pytest
 import yaml
 from helpers import chosen, package
 from oracle import hamiltonian, random_chain, slope
-from pendula.datasets.netcdf import read
+from pendula.datasets.netcdf import as_xarray, read
 from pendula.simulation.lattice import Reduction, pack
 from pendula.studies.reference import multiprecision
 from pendula.studies.reference.multiprecision import HEYOKA, HeyokaMissingError, Numbers
@@ -19,6 +19,7 @@ from pendula.studies.reference.verified_run import (
     UnverifiedError,
     compare,
     integrate,
+    reference_contents,
     require_agreement,
     start,
 )
