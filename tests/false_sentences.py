@@ -201,13 +201,24 @@ def _full_scale(run: Run, said: re.Match) -> bool:
     return bool((regular >= largest.values[chaotic.values].min(initial=np.inf)).any())
 
 
-def _motion(run: Run, said: re.Match) -> bool:
-    off = []
+def _divergences(run: Run) -> dict[str, float]:
+    """Return by case when its run leaves its reference, as drawn; NaN without a reference."""
+    found = {}
     for figure in ("fig2", "fig3", "fig4"):
         drawn = run.data(f"figures/{figure}")
         times = zip(drawn["initial_size"].values, drawn["divergence_time"].values, strict=True)
-        off += [f"{figure}_{size}" for size, time in times if np.isfinite(time)]
+        found |= {f"{figure}_{size}": time for size, time in times}
+    return found
+
+
+def _motion(run: Run, said: re.Match) -> bool:
+    off = [case for case, time in _divergences(run).items() if np.isfinite(time)]
     return bool(run.regular(off) - set(re.findall(CASE, said[1])))
+
+
+def _known(run: Run, said: re.Match) -> bool:
+    known = {run.named(case) for case, time in _divergences(run).items() if not np.isnan(time)}
+    return bool(known & set(re.findall(CASE, said[0])))
 
 
 def _some_disperse(run: Run, said: re.Match) -> bool:
@@ -253,6 +264,7 @@ SENTENCES = [
      r"(run|chaotic run) is another solution of the same kind", _leaves),
     (r"what lies behind it is one solution of many of the same kind([^.]*(?:\([^.]*\))?[^.]*)\.",
      _motion),
+    (rf"No reference is known for the run of {CASE}(?:; {CASE})*", _known),
     (r"where it reaches full scale, chaos has separated the runs", _full_scale),
     (rf"[Tt]he paper's (small|large) data at Ω = {NUMBER}", _paper_data),
     (rf"The (small|large) data at Ω = {NUMBER} stand on a knife edge", _paper_data),

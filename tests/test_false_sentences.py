@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from false_sentences import SENTENCES, false_sentences
 
-SMALL_8, LARGE_8 = "Ω = 8, (A₀, B₀) = (1, 0.1)", "Ω = 8, (A₀, B₀) = (5, 1)"
+REGULAR = "Ω = −4, (A₀, B₀) = (1, 0.1)"
 
 
 def rewritten(path, text: str) -> None:
@@ -83,10 +83,12 @@ def failed(row):
 
 
 PLANTED = [
-    ((said(f"One run of a chaotic case is one sample ({SMALL_8})."),), "One run of a chaotic"),
-    ((said(f"The runs visibly leave the references, at τ = 3 ({LARGE_8}): a dashed line marks it. "
+    ((said(f"One run of a chaotic case is one sample ({REGULAR})."),), "One run of a chaotic"),
+    ((said(f"The runs visibly leave the references, at τ = 3 ({REGULAR}): a dashed line marks it. "
            "After that a run is another solution of the same kind"),), "visibly leave"),
     ((dataset("figures/fig2", diverged),), "one solution of many of the same kind"),
+    ((said(f"No reference is known for the run of {REGULAR}: nothing here tells"),),
+     "No reference is known"),
     ((dataset("checks/solvers", far_apart),
       said("where it reaches full scale, chaos has separated the runs")), "chaos has separated"),
     ((run_with("fig3_large", gamma=0.5), said("The paper's large data at Ω = −4 may spread.")),
@@ -108,7 +110,7 @@ PLANTED = [
     ((dataset("trajectories/fig2_small.ode45", lambda run: run.assign_attrs(solver_rtol=0.1)),),
      "The paper's solver, ode45,"),
     ((run_with("fig2_small", omega=7.0),), "norms against time, Ω = 8"),
-    ((said("1 of these controls came out wrong; the claims that they belong to are not decided"),),
+    ((said("the claims that they belong to are not decided"),),
      "the claims that they belong to"),
     ((said("At Ω = 3, (A₀, B₀) = (1, 0.1) nothing moves."),), "names Ω = 3"),
     ((run_with("fig2_small", boundary="periodic"),), "does not begin with fig2_small.boundary"),
@@ -124,8 +126,8 @@ PLANTED = [
      "the report has another verdict on hamiltonian"),
     ((row_of("hamiltonian", lambda row: row.update(verdict="not reproduced")),),
      "claims.md has another verdict on hamiltonian"),
-    ((row_of("hamiltonian", failed),), "hamiltonian is confirmed, and its control"),
-    ((row_of("hamiltonian", failed),), "does not say that 1 controls came out wrong"),
+    ((row_of("inherited", failed),), "inherited is confirmed, and its control"),
+    ((row_of("inherited", failed),), "does not say that 1 controls came out wrong"),
     ((row_of("hamiltonian", lambda row: row.update(passes=False), "controls.json"),),
      "controls.json says another thing of hamiltonian"),
     ((run_with("fig3_large", gamma=0.5), row_of("ends_near_stable", lambda row: [

@@ -30,12 +30,12 @@ def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
         "regular": [
             case_of(trust.sel(case=case))
             for case in map(str, trust["case"].values)
-            if trusted(results, case)[0] == "off" and not is_chaotic(results, case)
+            if trusted(results, case).state == "off" and not is_chaotic(results, case)
         ],
         "unknown": [
             case_of(trust.sel(case=case))
-            for case in trust["case"].values
-            if trust["known_until"].sel(case=case).isnull().all()
+            for case in map(str, trust["case"].values)
+            if trusted(results, case).state == "unknown"
         ],
     }
 

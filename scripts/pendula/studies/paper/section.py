@@ -99,12 +99,12 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
     l2 = np.sqrt((data["l2"].values ** 2).sum(axis=0))
     late = l2[len(l2) // 2 :]
     case = case_in_words(data.attrs["omega"], data.attrs["initial"])
-    off, time, until = trusted(results, name)
+    off, time, until, source = trusted(results, name)
     row = [
         case,
         results.say(run, span(l2)),
         results.say(run, measured(late.mean())),
-        results.say(TRUST, time),
+        results.say(source, time),
         *_bound(results, name),
         results.quote(run, data.attrs["steps"], 6),
     ]
@@ -116,8 +116,8 @@ def _panel(results: Results, name: str) -> dict[str, Any]:
         "case": case,
         "known": off,
         "chaotic": is_chaotic(results, name),
-        "time": results.say(TRUST, time),
-        "until": results.quote(TRUST, until),
+        "time": results.say(source, time),
+        "until": results.quote(source, until),
         "end": results.quote(run, float(data["tau"][-1])),
         "band": name in results[ENSEMBLES]["case"].values,
         "even": is_even(data.attrs["initial"]),
