@@ -260,7 +260,7 @@ NUMBER = r"(−?[\d.]+)"
 SENTENCES = [
     (rf"One run of a chaotic case is one sample \(({CASE})\)",
      lambda run, said: said[1] in run.regular(CASES)),
-    (r"visibly leave the references[^:]*?, at (.*?): a dashed line marks it\. After that a "
+    (r"visibly leave the references[^:]*?, at ([^:]*): a dashed line marks it\. After that a "
      r"(run|chaotic run) is another solution of the same kind", _leaves),
     (r"what lies behind it is one solution of many of the same kind([^.]*(?:\([^.]*\))?[^.]*)\.",
      _motion),
