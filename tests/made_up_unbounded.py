@@ -118,4 +118,4 @@ def thermal():
             "term": ["cubic", "detuning", "drive", "bonds"],
         },
     )
-    return named(data.assign_attrs(epsilon=1.0, gamma=1.0))
+    return named(data)

@@ -240,7 +240,7 @@ def same_sea(sea, thermal) -> Finding:
         raise UndecidableError("an ensemble takes two members, and pendula")
     known = thermal_beside(sea, thermal, "power")["power"]
     if np.isnan(known):
-        raise UndecidableError("no thermal state was solved for the constants of the sea")
+        raise UndecidableError("no thermal state was solved at the Omega of the sea")
     away = [difference_limits(one, limit) for one in others]
     cumulated = sea["modulus_share"].mean("member").cumsum("modulus")
     apart = at_finite(abs(cumulated - cumulated.sel(mu=0.0)))
