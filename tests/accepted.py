@@ -127,7 +127,8 @@ def check_words(row: dict, right: str, wrong: str) -> None:
 class Report(Results):
     """The accepted results as the report reads them; some datasets may be changed.
 
-    References stand in the place of the trajectories that a run makes of them.
+    References stand in the place of the trajectories that a run makes of them, and a dot in that of
+    each picture.
     """
 
     def __init__(self, changes: Mapping[str, xr.Dataset] = {}, differs: Mapping[str, str] = {}):
@@ -143,6 +144,9 @@ class Report(Results):
 
     def path(self, link: str) -> Path:
         return super().path(_accepted(link))
+
+    def picture(self, name: str, alt: str) -> Picture:
+        return Picture("data:,", 1, 1, alt, f"figures/{name}.png")
 
 
 def _accepted(name: str) -> str:
