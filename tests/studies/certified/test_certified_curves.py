@@ -288,7 +288,7 @@ def test_what_is_rounded_away_is_below_its_bound_and_each_rounding_counts():
                 + 3 * (k + 1) * sizes.norm[k + 1]) / (k + 1)
         for k in range(3)
     )  # fmt: skip
-    assert rest == pytest.approx(expected, rel=1e-8)
+    assert rest == pytest.approx(expected, rel=1e-8, abs=0.0)
 
 
 def test_a_jump_counts_with_the_rounding_of_its_sum():
@@ -300,7 +300,9 @@ def test_a_jump_counts_with_the_rounding_of_its_sum():
     whole = curve.terms.copy()
     whole[0, 1] = whole.sum(axis=0)[0]  # no jump: what is left is the error of the errors
     left = regular._jumps(Curve(curve.step, whole), sizes)[1]
-    assert left == pytest.approx(4.0 * (4 * 2.0**-53) ** 2 * sizes.norm[:, 0].sum(), rel=1e-6)
+    assert left == pytest.approx(
+        4.0 * (4 * 2.0**-53) ** 2 * sizes.norm[:, 0].sum(), rel=1e-6, abs=0.0
+    )
 
 
 @pytest.mark.parametrize("x", [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0])
