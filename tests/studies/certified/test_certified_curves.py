@@ -346,3 +346,37 @@ def test_the_rate_between_two_times_counts_bend_rounding_and_jumps():
     rounded = 2.0**-44 * sizes.norm[0, 1]
     exact = 1.5 * form.condition * 2.0 * largest[1] * rounded
     assert extra[-1] == pytest.approx(exact, rel=0.1, abs=0.0)
+
+
+def test_what_is_quadratic_in_the_error_is_that_of_the_cubic_term():
+    """(3 a y + y^2) y / 2 where the error y and the amplitude a are of one size."""
+    curve, given = short_curve(steps=1)
+    form, still = find_form(given.constants), 1e-3 * curve.terms
+    still[1:] = 0.0
+    sizes = regular._sizes(Curve(curve.step, still))
+    inputs = dict.fromkeys(regular.GROWING[:-1], np.zeros(1)) | {"start": np.full(1, 1e-3)}
+    errors = regular._accumulate(inputs, np.zeros(regular.SAMPLES), sizes, form, curve.step)
+    low, high = np.sqrt(float(form.m1)), np.sqrt(float(form.m2))
+    start, quadratic = errors[0, 1, 0], errors[0, 1, -1]
+    assert start == pytest.approx(1e-3 * high, rel=1e-6)
+    y, a, time = start / low, sizes.largest[0, 0], curve.step / regular.SAMPLES
+    exact = high * 0.5 * (3.0 * a * y + y * y) * y * time
+    assert quadratic == pytest.approx(exact, rel=1e-4, abs=0.0)
+
+
+def test_norms_are_off_by_twelve_roundings_beside_that_of_the_sum():
+    curve, given = short_curve(steps=1)
+    curve.terms[1:] = 0.0
+    found = norms_at(regular.leave_unproved(given, curve), np.zeros(1))
+    size = np.linalg.norm(curve.terms[0])
+    assert found.parts[-1, 0] == pytest.approx(13 * 2.0**-53 * size, rel=1e-6, abs=0.0)
+
+
+def test_an_error_at_the_start_is_carried_into_the_norm_and_out_of_it():
+    """|e| <= sqrt(m2 / m1) |e(0)|, before anything grows."""
+    given = problem(end_time=0.25)
+    moved = 1e-6 * np.linalg.norm(given.initial)
+    proof = prove(given, find_curve(given.changed(initial=1.000001 * given.initial)))
+    form = find_form(given.constants)
+    expected = moved * np.sqrt(float(form.m2) / float(form.m1))
+    assert proof.errors[0, 0, PARTS.index("start")] == pytest.approx(expected, rel=1e-6, abs=0.0)
