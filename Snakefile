@@ -98,6 +98,7 @@ rule all:
         "<results>/tables/trust.md",
         "<results>/tables/hard_cases.md",
         "<results>/report.html",
+        "<results>/live.html",
     message:
         "All datasets, figures and tables are there, and the report tells of them: results/report.html"
 

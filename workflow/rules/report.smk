@@ -17,3 +17,19 @@ use rule job as report with:
         made_by=lambda wildcards: CODE_OF_STUDIES,
         settings=settings_in_words(),
         differs=DIFFERS,
+
+
+use rule job as live with:
+    "results/live.html: a page that integrates the cases of Figs 2 to 4, and compares their bits"
+    input:
+        runs=expand(
+            "<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=["ode45", "taylor"]
+        ),
+        trust="<results>/checks/trust.nc",
+        lines="<results>/certified/lines.nc",
+    output:
+        html="<results>/live.html",
+    pathvars:
+        made="live",
+    params:
+        call=function("pendula.report.live.write_live"),

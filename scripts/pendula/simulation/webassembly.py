@@ -1,0 +1,125 @@
+"""The compiled solvers as WebAssembly: the code that a browser runs is that of the project.
+
+numba writes a kernel as LLVM's intermediate code, and LLVM makes WebAssembly of it, which has the
+operations of IEEE and no fused ones: so its bits are those of this machine.
+
+Pointers. numba wrote the code for a machine whose pointers have 8 bytes, and in WebAssembly they
+have 4. What lies on the stack therefore keeps the size that it has here: code that counts bytes
+from its start, or clears it, then stays inside. The optimiser runs before that, while the code
+still says that pointers have 8 bytes.
+
+No linker. LLVM makes an object file, whose calls and addresses are right as they are, since the
+module is the only one. It lacks a list of what can be called from outside, which is added here, and
+its tables for a linker are left out. Who runs it gives the memory, in which the first bytes are
+the module's constants, and the start of a stack that grows downwards.
+"""
+
+import re
+
+import numba
+import numpy as np
+from llvmlite import binding
+
+from pendula.models.amplitudes import Chain
+from pendula.models.chain import DIRICHLET, MIRROR
+
+from .observables import blank_record
+from .solvers import SOLVERS
+
+TRIPLE, FEATURES = "wasm32-unknown-unknown", "+simd128,+bulk-memory,+sign-ext"
+OPTIMISED = 3
+WORD = 8
+"""Bytes of a pointer here, and of every other number in what numba puts on the stack."""
+CUSTOM, IMPORT, EXPORT = 0, 2, 7
+"""Kinds of sections, by their numbers."""
+NOT_CALLED = b"__linear_memory", b"__stack_pointer", b"__indirect_function_table"
+
+
+class WebAssemblyError(RuntimeError):
+    """A kernel that cannot be made WebAssembly; the message says what stands in the way."""
+
+
+def webassembly(solver: str) -> bytes:
+    """Return the module of a solver of the amplitudes, whose one function is called `run`.
+
+    It takes what the kernel `run_<solver>` takes, as numba passes it: the address of the outcome,
+    that of a place for errors, then all numbers of the arguments. An array is passed as two zeros,
+    its number of elements, the bytes of one, its address, its shape and its strides in bytes.
+    Raises WebAssemblyError where numba's code rests on the size of pointers.
+    """
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    machine = binding.Target.from_triple(TRIPLE).create_target_machine(
+        opt=OPTIMISED, features=FEATURES
+    )
+    module = binding.parse_assembly(_code_of(solver))
+    functions = [one for one in module.functions if not one.is_declaration]
+    for one in (*functions, *(one for one in module.global_variables if not one.is_declaration)):
+        one.linkage = "internal"
+    (run,) = (one for one in functions if f"run_{solver}" in one.name)
+    run.linkage = "external"
+    passes = binding.create_pass_builder(machine, binding.PipelineTuningOptions(OPTIMISED))
+    passes.getModulePassManager().run(module, passes)
+    small = binding.parse_assembly(_for_small_pointers(str(module), str(machine.target_data)))
+    place = [one.name for one in small.functions if not one.is_declaration].index(run.name)
+    return _exported(machine.emit_object(small), place)
+
+
+def _code_of(solver: str) -> str:
+    """Return the intermediate code of a solver and of all that it calls."""
+    method = SOLVERS[solver]
+    y = np.zeros((4, 4))
+    record = blank_record(2, 2, 2, 1)
+    given = (
+        Chain(1.0, 1.0, 0.0, MIRROR, DIRICHLET),
+        *(y, np.zeros(2), (0.0,) * len(method.controls)),
+        *(method.room_for(None, y), record, np.zeros(1, np.bool_)),
+    )
+    types = tuple(map(numba.typeof, given))
+    method.run.part.compile(types)
+    return method.run.part.inspect_llvm(types)
+
+
+def _for_small_pointers(code: str, layout: str) -> str:
+    """Return the code for 4 bytes a pointer, with all sizes on the stack as they are for 8."""
+    code = re.sub(r"target datalayout = .*", f'target datalayout = "{layout}"', code)
+    code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
+    code = re.sub(r"alloca (\{.*\}|ptr)(?=[,\n])", _bytes_instead, code)
+    if left := re.search(r".*(load|store|getelementptr|extractvalue).*\{[^}]*\bptr\b.*", code):
+        raise WebAssemblyError(f"this rests on the size of a pointer: {left[0].strip()}")
+    return code
+
+
+def _bytes_instead(found: re.Match) -> str:
+    """Return an alloca of as many bytes as a structure of whole words, or a pointer, has here."""
+    words = sum(
+        int(repeated or 1)
+        for repeated, _ in re.findall(r"(?:\[(\d+) x )?(ptr|i64|double)\b", found[1])
+    )
+    return f"alloca [{WORD * words} x i8]"
+
+
+def _exported(module: bytes, place: int) -> bytes:
+    """Return an object file as a module that lets `run`, its function at `place`, be called."""
+    sections, i = [], 8
+    while i < len(module):
+        size, start = _number(module, i + 1)
+        sections.append((module[i], module[i : start + size]))
+        i = start + size
+    (imports,) = (content for kind, content in sections if kind == IMPORT)
+    called = imports.count(b"\x03env") - sum(name in imports for name in NOT_CALLED)
+    entry = bytes([1, 3]) + b"run" + bytes([0, called + place])
+    exports = bytes([EXPORT, len(entry)]) + entry
+    # sections stand in an order, and exports before the code and all that belongs to it
+    before = [content for kind, content in sections if CUSTOM < kind < EXPORT]
+    after = [content for kind, content in sections if kind > EXPORT]
+    return b"".join([module[:8], *before, exports, *after])
+
+
+def _number(code: bytes, i: int) -> tuple[int, int]:
+    """Return the number that begins at a byte, in groups of 7 bits (LEB128), and where it ends."""
+    value = shift = 0
+    while True:
+        value, shift, i = value | (code[i] & 127) << shift, shift + 7, i + 1
+        if code[i - 1] < 128:
+            return value, i
