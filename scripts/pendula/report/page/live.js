@@ -102,23 +102,19 @@ const marksOf = ({ tau, linf, l2, energy, modulus, sites, snapshots, every }) =>
 const compareCase = (one) => Object.entries(one.marks).map(([solver, text]) => {
   const run = solvers[solver](one.settings, one.output_step, one.every);
   const [marks, accepted] = [marksOf(run), new Uint32Array(decoded(text).buffer)];
-  const first = marks.findIndex((mark, i) => mark !== accepted[i]);
-  const told = first < 0 ? `the same at all ${marks.length} times` : `first differs at τ = ${run.tau[first]}`;
-  return { same: first < 0 && marks.length === accepted.length, told: `${solver} ${told}` };
+  const first = accepted.findIndex((mark, i) => mark !== marks[i]);
+  const told = first < 0 ? `the same at all ${accepted.length} times` : `first differs at τ = ${run.tau[first]}`;
+  return { same: first < 0, told: `${solver} ${told}` };
 });
-const compareAll = async () => {
-  byId("bits").replaceChildren();
-  byId("same-bits").textContent = "comparing …";
-  let agree = 0;
-  for (const one of data.cases) {
-    await new Promise((resume) => setTimeout(resume)); // so that each line shows when it is there
-    const found = compareCase(one);
-    const same = found.every((solver) => solver.same);
-    const line = Object.assign(document.createElement("li"), { className: same ? "same" : "other" });
-    line.textContent = `${same ? "✓" : "✗"} ${one.title}: ${found.map(({ told }) => told).join(", ")}`;
-    byId("bits").append(line);
-    agree += same;
-  }
+const compareAll = () => {
+  const found = data.cases.map(compareCase);
+  const lines = found.map((solved, i) => {
+    const same = solved.every((one) => one.same);
+    const textContent = `${same ? "✓" : "✗"} ${data.cases[i].title}: ${solved.map(({ told }) => told).join(", ")}`;
+    return Object.assign(document.createElement("li"), { className: same ? "same" : "other", textContent });
+  });
+  byId("bits").replaceChildren(...lines);
+  const agree = lines.filter(({ className }) => className === "same").length;
   byId("same-bits").textContent = `${agree} of ${data.cases.length}`;
 };
 
@@ -126,7 +122,6 @@ const compareAll = async () => {
 
 const OUTPUT_STEP = 0.025;
 const EVERY = 4;
-const WHOLE = ["half_width", "end_time"];
 const SLIDERS = [
   ["omega", "Ω, detuning", -12, 12, 0.1],
   ["gamma", "γ, strength of the drive", 0, 3, 0.05],
@@ -141,56 +136,40 @@ const SLIDERS = [
 const CHOICES = ["boundary", "solver"];
 let settings = null;
 let solvers = null;
-
 const chosen = () => data.cases[byId("case").selectedIndex];
 const isOfPaper = () => {
   const own = Object.entries(chosen().settings).filter(([key]) => key !== "solver");
   return own.every(([key, value]) => settings[key] === value);
 };
-const inputsOf = (key) => byId(key).parentElement.querySelectorAll("input");
 
-// Let all controls say what the settings are; the number that is being typed is left alone.
+// Take settings, and let all controls say what they are.
 const apply = (given) => {
   settings = given;
-  for (const [key] of SLIDERS) {
-    for (const input of inputsOf(key)) if (document.activeElement !== input) input.value = settings[key];
-  }
-  for (const key of CHOICES) byId(key).value = settings[key];
+  for (const key of [...SLIDERS.map(([name]) => name), ...CHOICES]) byId(key).value = settings[key];
+  for (const [key] of SLIDERS) byId(`${key}_said`).textContent = settings[key];
   byId("link").href = `#${new URLSearchParams(settings)}`;
   const [slider, atEnd] = [byId("tau"), byId("tau").value === byId("tau").max];
   slider.max = settings.end_time;
   if (atEnd) slider.value = slider.max;
-  invalidate(0);
+  update();
 };
-const allowed = (key, text) => {
-  const [, , least, most] = SLIDERS.find(([name]) => name === key);
-  const value = text ? Number(text) : NaN;
-  return value >= least && value <= most && (!WHOLE.includes(key) || Number.isInteger(value));
-};
-const change = (key, text) => {
-  if (allowed(key, text)) apply({ ...settings, [key]: Number(text) });
-};
+// The controls refuse what a link says and they cannot.
 const fromLink = () => {
   const read = { ...chosen().settings };
   for (const [key, text] of new URLSearchParams(location.hash.slice(1))) {
-    if (CHOICES.includes(key)) {
-      byId(key).value = text; // which is empty where there is no such choice
-      read[key] = byId(key).value || read[key];
-    } else if (key in read && allowed(key, text)) read[key] = Number(text);
+    if (key in read) {
+      byId(key).value = text;
+      if (byId(key).value) read[key] = CHOICES.includes(key) ? byId(key).value : Number(byId(key).value);
+    }
   }
   apply(read);
 };
-const makeSlider = ([key, text, min, max, step]) => {
-  const row = document.createElement("div");
-  const label = Object.assign(document.createElement("label"), { htmlFor: key, textContent: text });
-  row.append(label);
-  for (const [type, id, fine] of [["range", key, step], ["number", `${key}_exact`, WHOLE.includes(key) ? 1 : "any"]]) {
-    const input = Object.assign(document.createElement("input"), { type, id, min, max, step: fine });
-    input.setAttribute("aria-label", type === "number" ? `${text}, as a number` : text);
-    input.addEventListener("input", () => change(key, input.value));
-    row.append(input);
-  }
-  byId("sliders").append(row);
+const makeSlider = ([id, text, min, max, step]) => {
+  const label = Object.assign(document.createElement("label"), { htmlFor: id, textContent: `${text} = ` });
+  const range = Object.assign(document.createElement("input"), { type: "range", id, min, max, step });
+  label.append(Object.assign(document.createElement("output"), { id: `${id}_said`, htmlFor: id }));
+  range.addEventListener("input", () => apply({ ...settings, [id]: Number(range.value) }));
+  byId("sliders").append(label, range);
 };
 
 // --- Pictures -----------------------------------------------------------------------------------
@@ -367,86 +346,69 @@ const perturb = () => {
   for (const key of ["a_re", "a_im", "b_re", "b_im"]) changed[key] *= 1 + size;
   other = solvers[settings.solver](changed, OUTPUT_STEP, 0);
   parted = partingOf(run, other);
-  byId("parted").textContent = `With data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms part by `
-    + `${100 * data.visible} % of full scale ${parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time"}. ${tellHorizon()}`;
+  const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
+  return `With data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms part by `
+    + `${100 * data.visible} % of full scale ${when}.`;
 };
 
-// --- What a change of the settings asks for: a piece in each frame ------------------------------
+// --- What a change of the settings, or of the time, asks for ------------------------------------
 
-const stages = [
-  () => {
+const updateTime = () => {
+  tell();
+  drawAll();
+  const [tau, end] = [Math.max(now(), 1e-6), settings.end_time]; // a run has a length
+  state = tau < end ? solvers[settings.solver]({ ...settings, end_time: tau }, tau, 0).state : run.state;
+  drawPendula();
+};
+let asked = false;
+const update = () => {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => {
     const start = performance.now();
-    [run, other, parted] = [solvers[settings.solver](settings, OUTPUT_STEP, EVERY), null, null];
-    const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
-    images = { largest, pictures: run.modulus.map((half, k) => imageOf(half, "ab"[k], largest)) };
-    life = lifeOf(run);
-    drawAll();
-    tell();
-    byId("parted").textContent = tellHorizon();
+    try {
+      [run, other, parted] = [solvers[settings.solver](settings, OUTPUT_STEP, EVERY), null, null];
+      const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
+      images = { largest, pictures: run.modulus.map((half, k) => imageOf(half, "ab"[k], largest)) };
+      life = lifeOf(run);
+      byId("parted").textContent = `${isPerturbed() ? perturb() : ""} ${tellHorizon()}`;
+      updateTime();
+      byId("fault").textContent = "";
+    } catch (fault) {
+      byId("fault").textContent = fault.message;
+    }
+    asked = false;
     document.body.dataset.frame = performance.now() - start;
-  },
-  () => {
-    if (!isPerturbed()) return;
-    perturb();
-    drawAll();
-  },
-  () => {
-    const tau = Math.max(now(), 1e-6); // a run has a length
-    ({ state } = solvers[settings.solver]({ ...settings, end_time: tau }, tau, 0));
-    drawPendula();
-  },
-];
-let stage = stages.length;
-const step = () => {
-  try {
-    stages[stage]();
-    byId("fault").textContent = "";
-    stage += 1;
-  } catch (fault) {
-    byId("fault").textContent = fault.message;
-    stage = stages.length;
-  }
-  if (stage < stages.length) requestAnimationFrame(step);
-};
-const invalidate = (from) => {
-  if (stage >= stages.length) requestAnimationFrame(step);
-  stage = Math.min(stage, from);
+  });
 };
 
 // --- Play, export, and the start ----------------------------------------------------------------
 
 const still = window.matchMedia("(prefers-reduced-motion: reduce)");
-let last = null;
+let last = null; // the time of the picture before, while it plays
+let played = 0; // the slider has steps
 const moveTo = (tau) => {
   byId("tau").value = tau;
-  tell();
-  drawAll();
-  invalidate(2);
+  updateTime();
 };
 const setPlaying = (since) => {
   last = since;
   byId("play").textContent = since === null ? "Play" : "Pause";
   byId("numbers").ariaLive = since === null ? "polite" : "off";
 };
-// who wants less motion gets a picture a second, without the swing
 const play = (time) => {
   if (last === null) return;
-  if (!still.matches || time - last >= 1000) {
-    const passed = still.matches ? 1 : Math.max(0, Math.min((time - last) / 1000, 0.2));
-    if (!still.matches) phase += 2 * Math.PI * passed;
-    const tau = played + passed;
-    played = Math.min(tau, settings.end_time);
-    moveTo(played);
-    setPlaying(tau < settings.end_time ? time : null);
-  }
+  const passed = Math.max(0, Math.min((time - last) / 1000, 0.2));
+  if (!still.matches) phase += 2 * Math.PI * passed;
+  played = Math.min(played + passed, settings.end_time);
+  moveTo(played);
+  setPlaying(played < settings.end_time ? time : null);
   requestAnimationFrame(play);
 };
-let played = 0; // the slider has steps
 const startOrStop = () => {
-  if (last !== null) return setPlaying(null);
   played = now() < settings.end_time ? now() : 0;
-  setPlaying(performance.now());
-  return requestAnimationFrame(play);
+  setPlaying(last === null ? performance.now() : null);
+  requestAnimationFrame(play);
 };
 
 const save = (name, text) => {
@@ -484,7 +446,7 @@ const begin = async () => {
   const loaded = Object.entries(data.solvers).map(([name, given]) => load(name, given));
   solvers = Object.fromEntries(await Promise.all(loaded));
   SLIDERS.forEach(makeSlider);
-  for (const one of data.cases) byId("case").add(new Option(one.title));
+  data.cases.forEach(({ title }) => byId("case").add(new Option(title)));
   const reset = () => {
     setPlaying(null);
     byId("tau").value = byId("tau").max;
@@ -498,17 +460,17 @@ const begin = async () => {
   listen("mu", "input", drawPendula);
   listen("perturb", "click", () => {
     byId("perturb").setAttribute("aria-pressed", String(!isPerturbed()));
-    invalidate(0);
+    update();
   });
   listen("size", "input", () => {
     byId("size_said").textContent = (10 ** Number(byId("size").value)).toExponential(0);
-    invalidate(1);
+    update();
   });
   listen("compare", "click", compareAll);
   listen("csv", "click", () => save("mine.csv", csv()));
   listen("yaml", "click", () => save("mine.yaml", yaml()));
-  window.addEventListener("resize", () => invalidate(0));
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => invalidate(0));
+  window.addEventListener("resize", update);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
   const byLink = () => (location.hash === "#same-bits" ? compareAll() : fromLink());
   window.addEventListener("hashchange", byLink);
   reset();
