@@ -140,6 +140,23 @@ def test_perturbed_runs_part_when_the_library_says(live, case):
     assert f"1 % of full scale {told}" in text(live, "parted")
 
 
+@pytest.mark.parametrize(
+    "boundary, half_width, pair",
+    [("free", 1, (2, 2)), ("periodic", 7, (1 - 2j, 0.5)), ("dirichlet", 64, (5j, 1 + 1j))],
+)
+def test_all_ends_symmetries_and_data_have_the_bits_of_the_library(
+    live, boundary, half_width, pair
+):
+    chain = {"half_width": half_width, "boundary": boundary, "end_time": 5.0}
+    parts = [part for number in pair for part in (complex(number).real, complex(number).imag)]
+    given = chain | dict(zip(("a_re", "a_im", "b_re", "b_im"), parts, strict=True))
+    for name, solver in SOLVERS.items():
+        run_of_page = f"solvers.{name}({{...settings, ...arguments[0]}}, 0.025, 4)"
+        energy = live.execute_script(f"return Array.from({run_of_page}.energy)", given)
+        problem = problem_of("fig2_small", **chain, initial={0: pair}, solver=solver)
+        assert np.array_equal(energy, simulate(problem).energy)
+
+
 def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
     choose(live, LARGE)
     for name, value in {"omega": -1.7, "a_im": 0.3, "half_width": 12, "end_time": 11}.items():

@@ -8,7 +8,8 @@ const largestOf = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 const STACK = 1 << 20; // the constants of a module and its stack lie below, arrays above
 const [FREE, MIRROR] = [1, 3];
-const ENDS = { dirichlet: 0, free: FREE, periodic: 2 };
+const ENDS = { dirichlet: 0, free: FREE, periodic: FREE }; // an even solution on a ring sees itself
+const PARTS = ["a_re", "a_im", "b_re", "b_im"];
 const decoded = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
 // Return a solver as a function of settings, the step of its outputs, and how many of them go to a
@@ -47,22 +48,21 @@ const load = async (name, { code, controls, work }) => {
   };
   const solve = (given, outputStep, every) => {
     // half of the chain, since the data are even, and A alone where A = B
-    const data0 = [given.a_re, given.a_im, given.b_re, given.b_im];
-    const components = data0[0] === data0[2] && data0[1] === data0[3] ? 1 : 2;
+    const start = PARTS.map((part) => given[part]);
+    const components = start[0] === start[2] && start[1] === start[3] ? 1 : 2;
     const outputs = Math.round(given.end_time / outputStep);
     const [sites, rows] = [given.half_width + 1, 2 * components];
     const [width, snapshots] = [sites + 2, every ? Math.floor(outputs / every) + 1 : 0];
     free = STACK;
     const [outcome, fault, y, times] = [array(5), array(1), array(rows, width), array(outputs + 1)];
-    data0.slice(0, rows).forEach((value, row) => { y.values[row * width + 1] = value; });
+    start.slice(0, rows).forEach((value, row) => { y.values[row * width + 1] = value; });
     times.values.forEach((_, i) => { times.values[i] = (given.end_time * i) / outputs; });
     const [linf, l2] = [array(components, outputs + 1), array(components, outputs + 1)];
     const energy = array(every ? outputs + 1 : 0);
     const modulus = array(components, sites, snapshots);
-    const right = given.boundary === "periodic" ? FREE : ENDS[given.boundary];
     const error = instance.exports.run(
       outcome.place, fault.place,
-      ...[given.epsilon, given.gamma, given.omega, BigInt(MIRROR), BigInt(right)],
+      ...[given.epsilon, given.gamma, given.omega, BigInt(MIRROR), BigInt(ENDS[given.boundary])],
       ...[...y.passed, ...times.passed, ...controls, ...array(work, rows, width).passed],
       ...[...linf.passed, ...l2.passed, ...energy.passed, ...modulus.passed, BigInt(every)],
       ...[...array(2, width).passed, ...array(1).passed],
@@ -237,7 +237,7 @@ const drawNorm = (norm, title) => {
     const points = Array.from(values, (value, k) => [plot.x(run.tau[k]), plot.y(value)]);
     line(plot.pen, i % 2 ? "b" : "a", points, i < 2 ? [] : [5, 4]);
   });
-  if (horizon() < settings.end_time) upright(plot, horizon() ?? 0, "ink", [4, 4]);
+  if ((horizon() ?? Infinity) < settings.end_time) upright(plot, horizon(), "ink", [4, 4]);
   if (parted) upright(plot, parted, "over", [2, 3]);
   upright(plot, now(), "link", []);
 };
@@ -249,7 +249,8 @@ const imageOf = (half, name, largest) => {
   for (let row = 0; row < image.height; row += 1) {
     const start = Math.abs(run.sites - 1 - row) * run.snapshots;
     for (let s = 0; s < run.snapshots; s += 1) {
-      pixels[row * run.snapshots + s] = (Math.round((255 * half[start + s]) / largest) << 24) | `0x${blue}${green}${red}`;
+      const opacity = Math.round((255 * half[start + s]) / largest);
+      pixels[row * run.snapshots + s] = (opacity << 24) | `0x${blue}${green}${red}`;
     }
   }
   const { width, height } = image;
@@ -319,8 +320,9 @@ const lifeOf = ({ modulus, sites, snapshots, tau, every }) => {
 const tell = () => {
   const i = Math.round(now() / OUTPUT_STEP);
   const norms = ["l2", "linf"].map((norm) => `${say(run[norm][0][i])} of A and ${say(run[norm][1][i])} of B`);
+  const until = life === null ? "to the end: the motion stays localised" : `until τ = ${say(life)}`;
   byId("numbers").textContent = `At τ = ${say(now())}: ℓ² norms ${norms[0]}, largest amplitudes ${norms[1]}. `
-    + `The central pair holds more than an even share of the power ${life === null ? "to the end" : `until τ = ${say(life)}`}. `
+    + `The central pair holds more than an even share of the power Σ|Aₙ|² + |Bₙ|² ${until}. `
     + `The energy has changed by ${say(run.energy[i] - run.energy[0])} since τ = 0.`;
   byId("tau_said").textContent = `τ = ${say(now())}`;
   byId("l2").setAttribute("aria-label", `ℓ² norms against time: ${norms[0]}`);
@@ -343,7 +345,7 @@ const partingOf = (one, two) => {
 const isPerturbed = () => byId("perturb").getAttribute("aria-pressed") === "true";
 const perturb = () => {
   const [changed, size] = [{ ...settings }, 10 ** Number(byId("size").value)];
-  for (const key of ["a_re", "a_im", "b_re", "b_im"]) changed[key] *= 1 + size;
+  for (const part of PARTS) changed[part] *= 1 + size;
   other = solvers[settings.solver](changed, OUTPUT_STEP, 0);
   parted = partingOf(run, other);
   const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
@@ -386,7 +388,6 @@ const update = () => {
 
 const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 let last = null; // the time of the picture before, while it plays
-let played = 0; // the slider has steps
 const moveTo = (tau) => {
   byId("tau").value = tau;
   updateTime();
@@ -395,20 +396,18 @@ const setPlaying = (since) => {
   last = since;
   byId("play").textContent = since === null ? "Play" : "Pause";
   byId("numbers").ariaLive = since === null ? "polite" : "off";
+  if (since !== null) requestAnimationFrame(play);
 };
 const play = (time) => {
   if (last === null) return;
   const passed = Math.max(0, Math.min((time - last) / 1000, 0.2));
   if (!still.matches) phase += 2 * Math.PI * passed;
-  played = Math.min(played + passed, settings.end_time);
-  moveTo(played);
-  setPlaying(played < settings.end_time ? time : null);
-  requestAnimationFrame(play);
+  moveTo(now() + passed);
+  setPlaying(now() < settings.end_time ? time : null);
 };
 const startOrStop = () => {
-  played = now() < settings.end_time ? now() : 0;
+  if (last === null && now() === settings.end_time) moveTo(0);
   setPlaying(last === null ? performance.now() : null);
-  requestAnimationFrame(play);
 };
 
 const save = (name, text) => {
@@ -418,7 +417,7 @@ const save = (name, text) => {
 };
 const csv = () => {
   const columns = [run.tau, ...run.l2, ...run.linf, run.energy];
-  const rows = Array.from(run.tau, (_, i) => columns.map((values) => values[i]).join(","));
+  const rows = Array.from(run.tau, (_, i) => columns.map((values) => values[i]));
   return ["tau,l2_A,l2_B,linf_A,linf_B,energy", ...rows, ""].join("\n");
 };
 // YAML takes 1e-7 for a word: a number with an exponent needs a point
@@ -426,19 +425,18 @@ const plain = (number) => String(number).replace(/^(-?\d+)e/, "$1.0e");
 const complex = (re, im) => (im ? `"${plain(re)}${im < 0 ? "" : "+"}${plain(im)}j"` : plain(re));
 const yaml = () => {
   const { a_re, a_im, b_re, b_im, solver, boundary, end_time } = settings;
+  const constants = ["omega", "gamma", "epsilon"].map((key) => `${key}: ${plain(settings[key])}`);
   const [rtol, atol] = solvers[solver].controls.map(plain);
-  const constants = ["omega", "gamma", "epsilon", "half_width"].map((key) => `    ${key}: ${plain(settings[key])}`);
-  return `# .venv/bin/snakemake own --configfile mine.yaml
-cases:
-  mine:
-${constants.join("\n")}
-    boundary: ${boundary}
-    initial: {0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}
-    end_time: ${end_time}
-    output_step: ${OUTPUT_STEP}
-    snapshot_step: ${OUTPUT_STEP * EVERY}
-    solver: {name: ${solver}, rtol: ${rtol}, atol: ${atol}}
-`;
+  return ["# .venv/bin/snakemake own --configfile mine.yaml", "cases:", "  mine:"].concat([
+    ...constants,
+    `half_width: ${settings.half_width}`,
+    `boundary: ${boundary}`,
+    `initial: {0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}`,
+    `end_time: ${end_time}`,
+    `output_step: ${OUTPUT_STEP}`,
+    `snapshot_step: ${OUTPUT_STEP * EVERY}`,
+    `solver: {name: ${solver}, rtol: ${rtol}, atol: ${atol}}`,
+  ].map((line) => `    ${line}`), "").join("\n");
 };
 
 const listen = (id, event, act) => byId(id).addEventListener(event, act);
