@@ -70,10 +70,10 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     axes.legend(loc="upper left", handlelength=1.4)
 
 
-def _end_above(axes: Axes, top: float) -> None:
+def _end_above(axes: Axes, top: float, bottom: float | None = None) -> None:
     """Let an axis end at `top`, unless nothing is drawn since the data have no front."""
     if np.isfinite(top):
-        axes.set_ylim(top=top)
+        axes.set_ylim(bottom, top)
 
 
 def _unstable(axes: Axes, data: xr.Dataset) -> tuple[float, float]:
@@ -109,7 +109,8 @@ def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
         axes.errorbar(data["omega"] + aside, off, limits, label=label, **look)
         ends += [float((off - limits).min()), float((off + limits).max())]
     low, high = min(ends), max(ends)
-    axes.set_ylim(low - 0.05 * (high - low), high + 0.25 * (high - low))  # the legend is above
+    # the legend is above
+    _end_above(axes, high + 0.25 * (high - low), low - 0.05 * (high - low))
     axes.set_ylabel(r"$10^3$ (speed $- v^*)$")
     axes.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1.0)
 
@@ -189,7 +190,7 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
         both = 0.5 * (values + np.roll(values[::-1], 1))  # k and -k are alike
         half = slice(0, len(values) // 2 + 1)
         axes.plot(data["wave_number"][half] / np.pi, both[half], **look)
-    axes.set_ylim(0, 1.45 * float(data["spectrum"].max()))
+    _end_above(axes, 1.45 * float(data["spectrum"].max()), 0.0)
     axes.set_xlabel(r"wave number $k / \pi$")
     axes.set_ylabel(rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$")
     axes.legend(loc="upper left")
@@ -203,7 +204,7 @@ def _draw_distribution(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(data["thermal_modulus"], thermal, **THERMAL_LOOK)
     axes.set_yscale("log")
     axes.set_xlim(0, 1.02 * float(data["modulus"].max()))
-    axes.set_ylim(0.5 * float(measured.min()), 20.0 * float(measured.max()))
+    _end_above(axes, 20.0 * float(measured.max()), 0.5 * float(measured.min()))
     axes.set_xlabel("modulus $|A_n|$, $|B_n|$")
     axes.set_ylabel(rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$")
     axes.legend(loc="upper right")
