@@ -1,0 +1,40 @@
+"""A Snakemake executor for short Python scripts: jobs are forks of a process with all imports."""
+
+from dataclasses import dataclass, field
+
+from snakemake_interface_executor_plugins.settings import CommonSettings, ExecutorSettingsBase
+
+from snakemake_executor_plugin_forked.forks import Forks
+from snakemake_executor_plugin_forked.inside import LocalExecutor
+
+common_settings = CommonSettings(
+    non_local_exec=False,
+    implies_no_shared_fs=False,
+    job_deploy_sources=False,
+    auto_deploy_default_storage_provider=False,
+)
+HELP = (
+    "Modules that are imported before jobs are forked, in this order, with spaces between them. "
+    "'package.*' stands for all modules of a package."
+)
+
+
+@dataclass
+class ExecutorSettings(ExecutorSettingsBase):
+    """What the user may set, as `--forked-modules` or in a profile."""
+
+    modules: str = field(default="", metadata={"help": HELP})
+
+    def __post_init__(self):
+        """Let the imports begin while Snakemake reads the workflow."""
+        self.forks = Forks(self.modules.split())
+
+
+class Executor(LocalExecutor):
+    """Runs jobs on this machine: Python scripts as forks, and all else as Snakemake does."""
+
+    def __post_init__(self):
+        """Have the process ready for jobs."""
+        super().__post_init__()
+        self.forks = self.executor_settings.forks
+        self.forks.get_ready()

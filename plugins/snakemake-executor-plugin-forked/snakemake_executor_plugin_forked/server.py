@@ -1,0 +1,194 @@
+"""The process that imports modules and forks a child for each job: `server.py SOCKET MODULE...`.
+
+It imports while nobody asks; a job that comes earlier imports for itself what is not there yet.
+"""
+
+import atexit
+import ctypes
+import gc
+import importlib
+import json
+import os
+import pkgutil
+import select
+import signal
+import socket
+import stat
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from types import ModuleType
+
+LETTER = 65536
+"""Bytes that are more than any message has."""
+KEPT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+"""Signals to a whole group of processes, such as Ctrl-C: this process ends with Snakemake only."""
+GRACE = 3
+"""Seconds in which jobs must end once Snakemake is gone, or is told to end."""
+DIE_WITH_PARENT = 1
+"""PR_SET_PDEATHSIG of Linux."""
+
+
+class Server:
+    """Imports, forks, and tells Snakemake how jobs ended, until Snakemake ends."""
+
+    def __init__(self, control: socket.socket, modules: list[str]):
+        """Listen at `control`, and import `modules` meanwhile."""
+        self.control, self.modules, self.told = control, modules, False
+        self.jobs: dict[int, socket.socket] = {}
+        self.pid, self.libc = os.getpid(), ctypes.CDLL(None)
+        self.handlers = {number: signal.getsignal(number) for number in (*KEPT, signal.SIGCHLD)}
+        signal.signal(signal.SIGCHLD, self.bury)
+
+    def serve(self) -> dict | None:
+        """Return None when Snakemake has ended, and in each child the job that it shall do."""
+        while True:
+            if not select.select([self.control], [], [], 0)[0] and self.prepare():
+                continue
+            message, streams, _, _ = socket.recv_fds(self.control, LETTER, 1)
+            if not message:
+                break
+            given = json.loads(message)
+            if not streams:
+                self.look_in(**given)
+            elif self.fork(socket.socket(fileno=streams[0])):
+                return given
+        for pid in list(self.jobs):
+            os.kill(pid, signal.SIGINT)
+        signal.alarm(GRACE)  # it ends this process, and each job dies with its parent
+        while self.jobs:
+            time.sleep(0.01)
+        return None
+
+    def prepare(self) -> bool:
+        """Import the next module, and return whether this may be done again at once."""
+        if not self.modules:
+            return False
+        name = self.modules.pop(0)
+        try:
+            module = importlib.import_module(name.removesuffix(".*"))
+            if name.endswith(".*"):
+                inside = pkgutil.iter_modules(module.__path__, f"{module.__name__}.")
+                self.modules[:0] = [found.name + ".*" * found.ispkg for found in inside]
+        except Exception as error:
+            if isinstance(error, ModuleNotFoundError) and not self.told:
+                self.modules.insert(0, name)  # the workflow may yet say where it is
+                return False
+            print(f"forked: cannot import {name}: {error!r}", file=sys.stderr, flush=True)
+        return True
+
+    def look_in(self, folder: str, mask: int, path: str) -> None:
+        """Work in this folder, and import from the folders of a PYTHONPATH that was not there."""
+        os.chdir(folder)
+        os.umask(mask)
+        if path and "PYTHONPATH" not in os.environ:
+            os.environ["PYTHONPATH"] = path
+            sys.path[:0] = map(os.path.abspath, path.split(os.pathsep))
+            importlib.invalidate_caches()
+        self.told = True
+
+    def fork(self, asked: socket.socket) -> bool:
+        """Fork a job unless this is not safe, and return whether this is the child."""
+        if (threads := len(os.listdir("/proc/self/task"))) > 1:
+            with asked:
+                asked.sendall(f"what it imported runs {threads} threads".encode())
+            return False
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGCHLD])
+        if pid := os.fork():
+            self.jobs[pid] = asked
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGCHLD])
+            return False
+        self.libc.prctl(DIE_WITH_PARENT, signal.SIGKILL)
+        if os.getppid() != self.pid:
+            os._exit(1)
+        for end in (self.control, *self.jobs.values()):
+            end.close()
+        open_files_anew()
+        for number, handler in self.handlers.items():
+            heard = number == signal.SIGINT and handler is signal.default_int_handler
+            signal.signal(number, interrupt_once if heard else handler)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [*KEPT, signal.SIGCHLD])
+        gc.freeze()
+        gc.enable()
+        with asked:
+            asked.sendall(str(os.getpid()).encode())
+            asked.recv(LETTER)  # Snakemake measures it from now on
+        return True
+
+    def bury(self, number, frame) -> None:
+        """Tell Snakemake how jobs ended."""
+        for pid in list(self.jobs):
+            with suppress(OSError):  # this was called while it was at work, or Snakemake is gone
+                ended, status = os.waitpid(pid, os.WNOHANG)
+                if ended:
+                    with self.jobs.pop(pid) as asked:
+                        asked.sendall(str(os.waitstatus_to_exitcode(status)).encode())
+
+
+def open_files_anew() -> None:
+    """Open what the parent reads anew, each at the same place.
+
+    All processes that have an open file from one parent share one place in it: of two jobs that
+    draw letters from a font, each would read what the other was looking for.
+    """
+    for number in map(int, os.listdir("/proc/self/fd")):
+        with suppress(OSError):  # the folder that was listed is closed
+            if number > 2 and stat.S_ISREG(os.fstat(number).st_mode):
+                own = os.open(f"/proc/self/fd/{number}", os.O_RDONLY)
+                os.lseek(own, os.lseek(number, 0, os.SEEK_CUR), os.SEEK_SET)
+                os.dup2(own, number, inheritable=False)
+                os.close(own)
+
+
+def interrupt_once(number, frame) -> None:
+    """Stop the job at Ctrl-C, and let it clean up in peace if there is another."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    raise KeyboardInterrupt
+
+
+def do(script: str, environment: dict[str, str]) -> int:
+    """Run a script in this process as `python SCRIPT` would, and return its exit status."""
+    os.environ.update(environment, PWD=os.getcwd())
+    tempfile.tempdir = None
+    if "numpy" in sys.modules:
+        sys.modules["numpy"].random.seed()
+    sys.argv = [script]
+    if not sys.flags.safe_path:
+        sys.path.insert(0, os.path.dirname(script))
+    main = sys.modules["__main__"] = ModuleType("__main__")
+    main.__file__ = script
+    try:
+        with open(script, "rb") as file:
+            code = compile(file.read(), script, "exec")
+        exec(code, main.__dict__)
+    except SystemExit as end:
+        if isinstance(end.code, int) or end.code is None:
+            return (end.code or 0) & 255
+        print(end.code, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
+    except BaseException as error:
+        shown = error.with_traceback(error.__traceback__.tb_next)
+        sys.excepthook(type(shown), shown, shown.__traceback__)
+        return 1
+    return 0
+
+
+def leave() -> None:
+    """End this process without taking apart all that its parent imported."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):  # nobody reads it, or the job has closed it
+            stream.flush()
+    os._exit(status)
+
+
+status = 0
+
+if __name__ == "__main__":
+    atexit.register(leave)  # the first that is registered is the last that is done
+    gc.disable()
+    del sys.path[: not sys.flags.safe_path]  # the folder of this file
+    if job := Server(socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]).serve():
+        status = do(**job)
