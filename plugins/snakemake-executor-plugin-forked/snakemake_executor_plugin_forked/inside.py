@@ -16,11 +16,27 @@ from snakemake.sourcecache import SourceCache
 
 from snakemake_executor_plugin_forked.forks import EndedError, RefusedError, in_words
 
+UNASKED = 100, 1
+"""Snakemake's own limit, where the user gives none: so many jobs may begin in so many seconds."""
+
 
 class LocalExecutor(Executor):
     """Snakemake's own executor, except that it forks Python scripts from `self.forks`."""
 
     told = False
+
+    def run_jobs(self, jobs):
+        """Start jobs without Snakemake's limit of so many in a second, unless the user set one.
+
+        The limit is meant for queues. For it, Snakemake looks for jobs anew a second after each
+        time that it looked: n times a second after n jobs, and once more when all are done.
+        """
+        scheduler = self.workflow.scheduler
+        limiter = scheduler.job_rate_limiter
+        if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:
+            scheduler.job_rate_limiter = None
+            scheduler.resources["_job_count"] = scheduler.global_resources["_job_count"]
+        super().run_jobs(jobs)
 
     def run_single_job(self, job):
         """Start a job, and return the future of its end."""
