@@ -183,13 +183,6 @@ for name, (text, files) in NAMED.items():
     made.docstring = text
 
 
-onstart:
-    if workflow.local_exec:
-        put_in_order(workflow.dag)
-        begin_at_once(workflow.scheduler)
-    warm.use(IMPORTED, workflow, RESULTS / "logs/imports.log", CALLED)
-
-
 # Said when Snakemake has ended, below its own last lines
 onsuccess:
     if "figure_diff" in {job.rule.name for job in workflow.dag.jobs}:

@@ -2,108 +2,32 @@
 
 Nearly half of a dry run is the import of Snakemake and of the packages that it uses. A run here is
 still a process of its own, with its own folder, screen and exit code, and it imports the project
-anew. What is there already is what other people wrote, `workflow/warm_process.py`, and the rules
-that an earlier run has parsed.
-
-A run with jobs starts `workflow/warm_process.py`, a new Python that imports what jobs need, which
-takes as long again. So each run has a fork in reserve: it waits until the run starts this command,
-and then does what the command says, as a child of the run. `helpers.py` starts this process and
-asks it. It asks for `python -m doctest` too, for which the same packages are imported.
+anew. What is there already is what other people wrote, and the rules that an earlier run has
+parsed. `helpers.py` starts this process and asks it. It asks for `python -m doctest` too, for which
+the same packages are imported.
 """
 
+import atexit
 import gc
 import importlib
-import io
 import json
 import os
 import pickle
 import runpy
 import shutil
-import signal
-import socket
-import subprocess
 import sys
 from hashlib import sha256
 from pathlib import Path
 from tempfile import mkdtemp
-from types import ModuleType
 
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
     *("pydantic", "smart_open", "yte", "nbformat", "platformdirs"),
-    *("numba", "netCDF4", "xarray", "scipy.special", "scipy.optimize"),
-    *(f"matplotlib.{name}" for name in ("figure", "backends.backend_agg", "backends.backend_pdf")),
+    *("numba", "xarray", "scipy.special", "scipy.optimize", "matplotlib.figure"),
 )
-"""What every run or its jobs import, whatever a run is asked for."""
-WARM = "warm_process.py"
-"""The command that the fork in reserve does."""
-LOOKS = {"-n", "--dry-run", "--list", "doctest"}
-"""Calls without jobs."""
-MOST = 1 << 20
-"""Bytes that are more than a command and its environment have."""
-
-
-class Popen(subprocess.Popen):
-    """What starts processes, but for the command that a fork does."""
-
-    def __new__(cls, args, *others, **options):
-        """Return a new process, or the fork in reserve."""
-        warm = not isinstance(args, str) and [Path(part).name for part in args[1:2]] == [WARM]
-        return object.__new__(WarmProcess if warm else cls)
-
-
-class WarmProcess(Popen):
-    """The fork in reserve, which does the command of the first who asks."""
-
-    reserve: tuple[int, socket.socket]
-    """Its number, and where it waits."""
-
-    def __init__(self, args, *, env, pass_fds, **streams):
-        """Tell it what to do; whatever it says, nobody hears."""
-        self.args, (self.pid, waits), (listener,) = args, self.reserve, pass_fds
-        reads, writes = os.pipe()
-        what = json.dumps([os.getcwd(), dict(env), [str(arg) for arg in args[1:]], listener])
-        socket.send_fds(waits, [what.encode()], [reads, listener])
-        os.close(reads)
-        self.returncode = None
-        self.stdin = open(writes, "wb")  # noqa: SIM115, as long as the run lives
-
-    def terminate(self):
-        """End it, unless it has ended."""
-        if self.returncode is None:
-            os.kill(self.pid, signal.SIGTERM)
-
-    def wait(self, timeout=None):
-        """Return when it has ended."""
-        if self.returncode is None:
-            _, status = os.waitpid(self.pid, 0)
-            self.returncode = os.waitstatus_to_exitcode(status)
-
-
-def keep_a_fork_in_reserve() -> None:
-    """Fork, and have the fork do the command `WARM` if anybody starts it."""
-    tells, told = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-    if not (fork := os.fork()):
-        tells.close()
-        wait_in_reserve(told)
-    told.close()
-    WarmProcess.reserve, subprocess.Popen = (fork, tells), Popen
-
-
-def wait_in_reserve(told: socket.socket) -> None:
-    """Do the command that a run asks for, or end with the run."""
-    for number in range(3):
-        _take(os.open(os.devnull, os.O_RDWR), number)
-    what, opened, _, _ = socket.recv_fds(told, MOST, 2)
-    if what:
-        folder, variables, command, listener = json.loads(what)
-        _be_in(folder, variables)
-        for own, number in zip(opened, (0, listener), strict=True):
-            _take(own, number)
-        sys.argv[:] = command
-        sys.path[:1] = [os.path.dirname(command[0]), *variables["PYTHONPATH"].split(os.pathsep)]
-        runpy.run_path(command[0], run_name="__main__")
-    os._exit(0)
+"""What every run or a doctest imports, whatever it is asked for."""
+status = 0
+"""The exit code of a fork."""
 
 
 def serve() -> list[str] | None:
@@ -111,9 +35,9 @@ def serve() -> list[str] | None:
     for line in iter(sys.stdin.readline, ""):
         folder, variables, screens, arguments = json.loads(line)
         if not (child := os.fork()):
-            if not LOOKS & set(arguments):
-                keep_a_fork_in_reserve()
-            _be_in(folder, variables)
+            os.chdir(folder)
+            os.environ.clear()
+            os.environ.update(variables)
             _take(os.open(os.devnull, os.O_RDONLY), 0)
             for number, path in enumerate(screens, 1):
                 _take(os.open(path, os.O_WRONLY), number)
@@ -121,12 +45,6 @@ def serve() -> list[str] | None:
         _, status = os.waitpid(child, 0)
         print(os.waitstatus_to_exitcode(status), flush=True)
     return None
-
-
-def _be_in(folder: str, variables: dict[str, str]) -> None:
-    os.chdir(folder)
-    os.environ.clear()
-    os.environ.update(variables)
 
 
 def _take(opened: int, number: int) -> None:
@@ -161,39 +79,41 @@ def keep_what_is_parsed(folder: Path) -> None:
     workflow.parse = parsed
 
 
-def get_ready() -> ModuleType:
-    """Import what other people wrote, do what it does at its first use; return `WARM`'s module."""
-    sys.path[0] = str(Path(__file__).resolve().parents[1] / "workflow")
-    warm = importlib.import_module(Path(WARM).stem)
-    for _ in warm.prepared(PACKAGES):
-        pass
-    sys.modules["snakemake.cli"].get_argument_parser()  # it looks for plugins in all folders
-    figure = sys.modules["matplotlib.figure"].Figure()
-    figure.text(0.0, 0.0, r"$\tau$")
-    for kind in ("png", "pdf"):
-        figure.savefig(io.BytesIO(), format=kind)
+def get_ready() -> None:
+    """Import what other people wrote, and find the plugins of Snakemake, which is slow too."""
+    for name in PACKAGES:
+        importlib.import_module(name)
+    sys.modules["snakemake.cli"].get_argument_parser()
     gc.collect()
     gc.freeze()
     gc.disable()  # no run of a test makes garbage that is worth the time
-    return warm
+
+
+def leave() -> None:
+    """End without taking apart all that was imported."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def main() -> None:
     """Get ready once, and in each fork be Snakemake or doctest."""
-    warm = get_ready()
+    global status
+    atexit.register(leave)  # the first that is registered is the last that is done
+    get_ready()
     sys.path[0] = ""  # as `python -m` does, so that no test's helper is found by a workflow
     keep_what_is_parsed(folder := Path(mkdtemp()))
     request = serve()
     if request is None:
         return shutil.rmtree(folder)
     sys.argv[:] = request
-    if sys.argv[0] == "doctest":
-        sys.path[1:1] = os.environ["PYTHONPATH"].split(os.pathsep)
-        runpy.run_module("doctest", run_name="__main__")
     try:
+        if sys.argv[0] == "doctest":
+            sys.path[1:1] = os.environ["PYTHONPATH"].split(os.pathsep)
+            runpy.run_module("doctest", run_name="__main__")
         importlib.import_module("snakemake.cli").main()
-    except SystemExit as status:
-        warm.end(status.code or 0)
+    except SystemExit as end:
+        status = int(end.code or 0)
 
 
 if __name__ == "__main__":

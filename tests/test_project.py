@@ -21,7 +21,8 @@ def test_tests_stand_in_an_empty_folder():
 
 
 def test_the_conda_environment_has_the_same_pins():
-    pins = (ROOT / "environment.txt").read_text().split()
+    plugin, *pins = (ROOT / "environment.txt").read_text().split()
+    assert (ROOT / plugin / "pyproject.toml").exists()
     conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
     assert conda["dependencies"][-1]["pip"] == pins
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)

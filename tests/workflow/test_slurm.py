@@ -14,7 +14,7 @@ from helpers import HANGS, ROOT, command_of, package, planned, skip
 
 CLUSTER = ROOT / "tests/slurm/small_cluster.py"
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/profile.yaml").read_text())
-THIS_MACHINE = {"cores", "scheduler"}
+THIS_MACHINE = {"cores", "scheduler", "executor", "forked-modules"}
 """What profiles/default says of the jobs of one machine: a cluster has a queue of its own."""
 TOPICS = ("trajectories", "sweeps", "checks", "unbounded")
 

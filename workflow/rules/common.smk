@@ -13,8 +13,6 @@ from snakemake.logging import logger
 PROJECT = Path(str(workflow.current_basedir)).parents[1]
 sys.path[:0] = [str(PROJECT / part) for part in ("workflow", "scripts", "")]
 
-import warm
-from order import begin_at_once, put_in_order
 
 
 def stop(reason):
@@ -37,9 +35,6 @@ os.environ.update(
     OPENBLAS_NUM_THREADS="1",
     MKL_NUM_THREADS="1",
 )
-# It imports what jobs need, while what stands below is read.
-RUNS = workflow.exec_mode.name == "DEFAULT" and not workflow.output_settings.dryrun
-IMPORTED = warm.begin() if RUNS else None
 
 from benchmarks.problems import REGIMES
 from pendula import __version__

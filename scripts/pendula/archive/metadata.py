@@ -65,7 +65,7 @@ def read_about(project: Path) -> About:
         authors=tuple(citation["authors"]),
         paper=citation["preferred-citation"],
         python=python["requires-python"],
-        pins=tuple(tuple(pin.split("==")) for pin in pins),
+        pins=tuple(tuple(pin.split("==")) for pin in pins if "==" in pin),
     )
 
 
