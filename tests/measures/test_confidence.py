@@ -39,6 +39,13 @@ def test_limits_of_a_difference_are_welch_s(stats):
     np.testing.assert_allclose(found[1:], [known.low, known.high], rtol=1e-4)
 
 
+def test_the_chance_of_two_means_is_that_of_welch_s_test(stats):
+    one, other = [1.0, 2.0, 4.0, 3.5], [2.5, 5.0, 4.5, 6.0, 5.5, 3.0]
+    given = [(np.mean(x), np.std(x, ddof=1), len(x)) for x in (one, other)]
+    expected = stats.ttest_ind(one, other, equal_var=False).pvalue
+    assert confidence.chance_of_means(*given) == pytest.approx(expected, abs=1e-6)
+
+
 def test_equal_members_have_a_sure_difference():
     assert confidence.difference_limits([2.0, 2.0], [1.0, 1.0]) == (1.0, 1.0, 1.0)
 
