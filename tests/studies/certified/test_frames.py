@@ -280,3 +280,19 @@ def test_the_first_outputs_are_those_that_are_committed(path):
     found = frames.certify(given, **{key: int(one.attrs[f"solver_{key}"]) for key in keys})
     assert (found.bound == one["bound"].values[:3]).all()
     assert (found.l2 == one["l2"].values[:, :3]).all()
+
+
+def test_what_frames_miss_is_the_linear_and_the_cubic_part_of_the_last_order():
+    """A half chain: the bond at its centre counts twice, so that epsilon has the factor 5."""
+    chain = fixed_point.Chain(Fraction(-1, 2), Fraction(1, 4), Fraction(3), 3, Fraction(1), 64)
+    strength, h, sizes = 5 * 0.5 + 3.0 + 2 * 0.25, 0.125, np.array([0.3])
+    found = frames.missed(np.array([2.0]), sizes, h, chain)
+    assert found == pytest.approx(h * 2.0 * (strength + 1.5 * 0.3**2), rel=1e-6)
+
+
+def test_the_quadratic_term_adds_what_errors_and_amplitudes_of_one_size_make():
+    moved, largest, time = 1e-3, 2e-3, 0.5
+    y = moved * (1.0 + frames.SLACK)
+    exact = time * 0.5 * (3.0 * largest * y + y * y) * y
+    assert frames._quadratic(0.0, moved, largest, time) == pytest.approx(exact, rel=1e-6, abs=0.0)
+    assert np.isinf(frames._quadratic(0.0, moved, 1e3, time))
