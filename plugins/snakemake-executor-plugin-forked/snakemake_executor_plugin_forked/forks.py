@@ -89,7 +89,11 @@ class Forks:
 
     def hear(self, asked: socket.socket) -> str:
         """Return the next thing that the process says."""
-        if not (said := asked.recv(LETTER)):
+        try:
+            said = asked.recv(LETTER)
+        except ConnectionResetError:  # the job was killed before it could begin
+            said = asked.recv(LETTER)
+        if not said:
             raise self.ended()
         return said.decode()
 

@@ -4,7 +4,7 @@ The tests run all of this, so that they tell what a new Snakemake has changed.
 """
 
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from types import FunctionType, SimpleNamespace
 
 from snakemake.benchmark import benchmarked
@@ -98,7 +98,8 @@ class ForkedScript(PythonScript):
             pid, asked = forks.fork(fname, self.resources.get("tmpdir"))
             measured = self.bench_record is not None
             with asked, benchmarked(pid, self.bench_record) if measured else nullcontext():
-                asked.sendall(b"go")
+                with suppress(BrokenPipeError):  # it was killed before it could begin
+                    asked.sendall(b"go")
                 status = int(forks.hear(asked))
             says = f"it {in_words(status)}" if status < 0 else ""
         except EndedError as error:

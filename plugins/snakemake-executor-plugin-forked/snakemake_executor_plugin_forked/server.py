@@ -108,7 +108,6 @@ class Server:
         for number, handler in self.handlers.items():
             heard = number == signal.SIGINT and handler is signal.default_int_handler
             signal.signal(number, interrupt_once if heard else handler)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, [*KEPT, signal.SIGCHLD])
         gc.freeze()
         gc.enable()
         with asked:
@@ -159,6 +158,7 @@ def do(script: str, environment: dict[str, str]) -> int:
     main = sys.modules["__main__"] = ModuleType("__main__")
     main.__file__ = script
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [*KEPT, signal.SIGCHLD])
         with open(script, "rb") as file:
             code = compile(file.read(), script, "exec")
         exec(code, main.__dict__)
@@ -173,6 +173,8 @@ def do(script: str, environment: dict[str, str]) -> int:
         shown = error.with_traceback(error.__traceback__.tb_next)
         sys.excepthook(type(shown), shown, shown.__traceback__)
         return 1
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the job is done
     return 0
 
 

@@ -46,6 +46,15 @@ def start(folder, *targets, modules="json", executor="forked", python=sys.execut
     )
 
 
+def hear(process, words, times=1):
+    """Read what a run says until it has said these words so many times."""
+    said = ""
+    while said.count(words) < times:
+        line = process.stdout.readline()
+        assert line, said
+        said += line
+
+
 def end(process) -> str:
     """Return what a run says until all its processes have ended: each of them has this pipe."""
     return process.communicate()[0]
@@ -119,8 +128,7 @@ def test_a_job_that_fails_says_why_once_and_the_next_run_goes_on(folder, how, sa
 @pytest.mark.parametrize(("kill", "times"), [(os.killpg, 1), (os.killpg, 3), (os.kill, 1)])
 def test_ctrl_c_ends_all_without_a_traceback(folder, kill, times):
     process = start(folder, "1.wait", "2.wait")
-    for _ in range(2):
-        assert any(line.startswith("pid ") for line in process.stdout)
+    hear(process, "pid", 2)
     for _ in range(times):
         kill(process.pid, signal.SIGINT)
     said = end(process)
@@ -128,11 +136,20 @@ def test_ctrl_c_ends_all_without_a_traceback(folder, kill, times):
     assert "Traceback" not in said and "Error in rule" not in said
 
 
+@pytest.mark.parametrize("jobs", [1, 3, 7, 12])
+def test_ctrl_c_among_short_jobs_is_no_traceback(folder, jobs):
+    process = start(folder, *(f"{n}.json" for n in range(30)))
+    hear(process, "Finished jobid", jobs)
+    os.killpg(process.pid, signal.SIGINT)
+    said = end(process)
+    assert process.returncode == 1 and "Traceback" not in said and "Error in rule" not in said
+
+
 def test_ctrl_c_while_snakemake_reads_the_workflow_is_no_traceback(folder):
     with open(folder / "Snakefile", "a") as file:
         file.write("\nprint('reading', flush=True)\nimport time; time.sleep(99)\n")
     process = start(folder, "1.wait")
-    assert any(line == "reading\n" for line in process.stdout)
+    hear(process, "reading")
     os.killpg(process.pid, signal.SIGINT)
     said = end(process)
     assert process.returncode == 130 and "interrupted: " in said and "Traceback" not in said
@@ -140,6 +157,6 @@ def test_ctrl_c_while_snakemake_reads_the_workflow_is_no_traceback(folder):
 
 def test_no_job_outlives_snakemake(folder):
     process = start(folder, "1.wait")
-    assert any(line.startswith("pid ") for line in process.stdout)
+    hear(process, "pid")
     process.kill()
     end(process)
