@@ -31,9 +31,11 @@ RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
 OF_THE_MACHINE = re.compile(
-    rb'<section id="(?:speed|provenance)".*?</section>|<li><a href="#speed">.*?</li>', re.DOTALL
+    rb'<section id="(?:speed|provenance)".*?</section>|<li><a href="#speed">.*?</li>|"code": "[^"]*"',
+    re.DOTALL,
 )
-"""What the report holds of the machine: how fast it is, its processor, and times of the jobs."""
+"""What pages hold of the machine: how fast it is, its processor, times of the jobs, and the live
+page's code, which numba writes for the processor. Its bits are compared where it runs."""
 
 FOLLOWS = ("data", ENTRY, "ticks", "points", "measured", "because", "cutoffs", "rests_on", "checks")
 """Entries of a description, and of a ledger, whose words follow the numbers of chaotic datasets."""
@@ -42,7 +44,7 @@ CHECKSUMS = re.compile(r'"(?:data|sha256)": "[0-9a-f]{64}"')
 
 
 def comparable(name: str, content: bytes) -> bytes:
-    """Return what of a file is compared: of the report, what does not depend on the machine."""
+    """Return what of a file is compared: of a page, what does not depend on the machine."""
     return OF_THE_MACHINE.sub(b"", content) if name.endswith(".html") else content
 
 

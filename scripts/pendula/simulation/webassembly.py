@@ -8,10 +8,10 @@ have 4. What lies on the stack therefore keeps the size that it has here: code t
 from its start, or clears it, then stays inside. The optimiser runs before that, while the code
 still says that pointers have 8 bytes.
 
-No linker. LLVM makes an object file, whose calls and addresses are right as they are, since the
-module is the only one. It lacks a list of what can be called from outside, which is added here, and
-its tables for a linker are left out. Who runs it gives the memory, in which the first bytes are
-the module's constants, and the start of a stack that grows downwards.
+No linker. LLVM makes an object file, whose calls and addresses are right as they are, since it is
+the only one. It lacks a list of what can be called from outside, which is added here; its tables
+for a linker are left out. Who runs it gives the memory, in which the first bytes are constants, and
+the start of a stack that grows downwards.
 """
 
 import re
