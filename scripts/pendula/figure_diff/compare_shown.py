@@ -31,7 +31,8 @@ RULE = re.compile("-{3,}")
 """The line below the head of a table, as wide as its columns."""
 
 OF_THE_MACHINE = re.compile(
-    rb'<section id="(?:speed|provenance)".*?</section>|<li><a href="#speed">.*?</li>|"code": "[^"]*"',
+    rb'<section id="(?:speed|provenance)".*?</section>|<li><a href="#speed">.*?</li>|'
+    rb'"code": "[^"]*"',
     re.DOTALL,
 )
 """What pages hold of the machine: how fast it is, its processor, times of the jobs, and the live
