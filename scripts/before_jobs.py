@@ -22,9 +22,8 @@ def draw_something() -> None:
     axes.set_yticks([float(f"1e{power}") for power in POWERS])
     for omega, pair in CASES:
         figure.text(0.0, 0.0, rf"$\Omega = {omega}$,  $(A_{{0}}, B_{{0}}) = ({pair})$")
-    with style.thrifty():
-        for kind in ("png", "pdf"):
-            figure.savefig(io.BytesIO(), format=kind)
+    for kind in ("png", "pdf"):
+        figure.savefig(io.BytesIO(), format=kind)
 
 
 numba.njit("float64(float64)")(lambda x: x)  # numba gathers the functions that it knows

@@ -109,10 +109,9 @@ def test_every_variable_is_named_and_has_units(plot):
 @style.styled
 def margins(figure):
     """Return how far the figure stays from the left, lower, right and upper edge of its page."""
-    with style.thrifty():
-        if layout := figure.get_layout_engine():
-            layout.execute(figure)
-        page, needed = figure.bbox_inches, figure.get_tightbbox()
+    if layout := figure.get_layout_engine():
+        layout.execute(figure)
+    page, needed = figure.bbox_inches, figure.get_tightbbox()
     return needed.x0 - page.x0, needed.y0 - page.y0, page.x1 - needed.x1, page.y1 - needed.y1
 
 

@@ -108,9 +108,9 @@ pathvars:
     size="{size,(long/)?}",  # a longer study lies in a folder of its own
 
 
-def what_failed(log):
-    """Return why jobs failed, as their own logs say; Snakemake's log names these."""
-    text = Path(log).read_text(encoding="utf-8", errors="replace")
+def what_failed(logs):
+    """Return why jobs failed, as their own logs say; Snakemake's logs name these."""
+    text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     told = []
     for path in dict.fromkeys(re.findall(r"(?m)^    log: (\S+) \(check", text)):
         said = (

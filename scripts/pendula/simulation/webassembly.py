@@ -20,8 +20,9 @@ import numba
 import numpy as np
 from llvmlite import binding
 
+from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain
-from pendula.models.chain import DIRICHLET, MIRROR
+from pendula.models.chain import MIRROR
 
 from .observables import blank_record
 from .solvers import SOLVERS
