@@ -28,22 +28,12 @@ Why magnitudes are compared as integers. Read as an integer, the bits of a doubl
 sign are in the order of the numbers, and NaN comes after infinity. A maximum taken that way never
 loses a NaN, as one of floating-point numbers may, and it may be reordered and so vectorised.
 
-What it rests upon. `numba.extending` and `numba.types` are public. Private, and free to change in
-any release of numba, are
-- `numba.core.typing.templates`, which tells numba the types of operators and of indexing. The
-  public `numba.extending.overload` could, but compiles one more function for every operator in
-  every kernel;
-- `numba.core.cgutils` and the methods `make_array`, `make_tuple` and `get_dummy_value` of the
-  context that numba hands to code generators. The array of `make_array` must have the members
-  `data` and `shape`;
-- the rule that arrays are contiguous with the last index fastest, and that nothing checks bounds.
-`llvmlite.ir` is public, but it follows LLVM: `bitcast` to a typed pointer before a load or a store
-is a habit of LLVM before opaque pointers.
-
-When numba is upgraded, run tests/test_simd.py first: every operation has a test of its own, which
-names what broke. Then run tests/test_same_bits.py, which finds a changed order of operations, and
-compare the speed. If Vector operators break, look at `numba/core/typing/templates.py`; if load,
-store or views break, at `numba/np/arrayobj.py` and `numba/core/cgutils.py`.
+What it rests upon: `numba.extending`, `numba.types`, and of `numba.core.cgutils` what the guide to
+extending numba uses. Besides, arrays must be contiguous with the last index fastest, and nothing
+checks bounds. `llvmlite.ir` is public, but it follows LLVM: `bitcast` to a typed pointer before a
+load or a store is a habit of LLVM before opaque pointers. After an upgrade of numba the tests in
+tests/test_simd.py name the operation that broke, and tests/test_same_bits.py finds a changed order
+of operations.
 """
 
 import operator
@@ -52,18 +42,13 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typing.templates import (
-    AbstractTemplate,
-    ConcreteTemplate,
-    infer_global,
-    signature,
-)
 from numba.extending import (
     intrinsic,
     lower_builtin,
     models,
     overload_attribute,
     register_model,
+    type_callable,
 )
 
 from .compiled import kernel
@@ -104,7 +89,7 @@ def constant(kind, values):
 
 def address_in_array(context, builder, array_type, array, index):
     """Return the address of the vector that starts at the flat `index` of an array."""
-    data = context.make_array(array_type)(context, builder, array).data
+    data = cgutils.create_struct_proxy(array_type)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
 
 
@@ -155,12 +140,12 @@ def store(typing_context, array, index, value):
 def define_operator(symbol, instruction):
     """Define `vector symbol vector` and `number symbol vector` by an instruction of LLVM."""
 
-    @infer_global(symbol)
-    class Template(ConcreteTemplate):
-        cases = [
-            signature(vector, vector, vector),
-            signature(vector, types.float64, vector),
-        ]
+    @type_callable(symbol)
+    def type_of_result(context):
+        def typed(one, other):
+            return vector if other == vector and one in (vector, types.float64) else None
+
+        return typed
 
     @lower_builtin(symbol, vector, vector)
     def of_vectors(context, builder, signature, arguments):
@@ -176,9 +161,9 @@ define_operator(operator.sub, "fsub")
 define_operator(operator.mul, "fmul")
 
 
-@infer_global(operator.neg)
-class Negative(ConcreteTemplate):
-    cases = [signature(vector, vector)]
+@type_callable(operator.neg)
+def type_of_negative(context):
+    return lambda value: vector if value == vector else None
 
 
 @lower_builtin(operator.neg, vector)
@@ -307,7 +292,7 @@ class VectorViewModel(models.StructModel):
 
 
 def view_of(context, builder, array_type, state):
-    array = context.make_array(array_type)(context, builder, state)
+    array = cgutils.create_struct_proxy(array_type)(context, builder, state)
     view = cgutils.create_struct_proxy(view_type)(context, builder)
     view.data, view.shape = array.data, array.shape
     return view._getvalue()
@@ -321,7 +306,7 @@ def vector_views(typing_context, states):
         values = cgutils.unpack_tuple(builder, arguments[0])
         pairs = zip(signature.args[0], values, strict=True)
         views = [view_of(context, builder, array_type, state) for array_type, state in pairs]
-        return context.make_tuple(builder, signature.return_type, views)
+        return cgutils.pack_array(builder, views)
 
     return types.UniTuple(view_type, len(states))(states), generate
 
@@ -340,20 +325,14 @@ def shape(view):
     return lambda view: shape_of(view)
 
 
-@infer_global(operator.getitem)
-class ReadVector(AbstractTemplate):
-    def generic(self, arguments, keywords):
-        if isinstance(arguments[0], VectorView):
-            return signature(vector, arguments[0], INDEX)
-        return None
+@type_callable(operator.getitem)
+def type_of_read(context):
+    return lambda view, index: vector if view == view_type else None
 
 
-@infer_global(operator.setitem)
-class WriteVector(AbstractTemplate):
-    def generic(self, arguments, keywords):
-        if isinstance(arguments[0], VectorView):
-            return signature(types.void, arguments[0], INDEX, vector)
-        return None
+@type_callable(operator.setitem)
+def type_of_write(context):
+    return lambda view, index, value: types.void if view == view_type else None
 
 
 def address_in_view(context, builder, view, index):
