@@ -25,7 +25,6 @@ import numpy as np
 import scipy
 from llvmlite import binding
 from numba.core.registry import cpu_target
-from numpy._core import _multiarray_umath as numpy_core
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,8 @@ def settings(machine: Machine) -> dict[str, str]:
 
 def _off(kept: frozenset[str]) -> list[str]:
     """Return the groups that NumPy must not use, of all that it chooses code by."""
-    known = numpy_core.__cpu_dispatch__
+    used, others = _groups_of_numpy()
+    known = used + others
     if unknown := sorted(kept - set(known)):
         raise ValueError(
             f"NumPy {np.__version__} knows no features {', '.join(unknown)}, but {', '.join(known)}"
@@ -122,16 +122,21 @@ def why_not(name: str) -> str:
 
 def found() -> dict:
     """Return what the libraries of this process chose, and a hash of the C library's bits."""
-    features = numpy_core.__cpu_features__
     name = cpu_target.target_context.codegen().magic_tuple()[1]
     points = [k / 97 for k in range(1, 4001)]
     bits = [f(x) for f in (math.exp, math.sin, math.log) for x in points]
     return {
-        "numpy": [group for group in numpy_core.__cpu_dispatch__ if features[group]],
+        "numpy": _groups_of_numpy()[0],
         "openblas": sorted({_core_of_openblas(package) for package in (np, scipy)}),
         "numba": name,
         "libm": hashlib.sha256(np.array(bits).tobytes()).hexdigest()[:16],
     }
+
+
+def _groups_of_numpy() -> tuple[list[str], list[str]]:
+    """Return the groups of features that NumPy chooses code by, and those that it could."""
+    groups = np.show_config(mode="dicts")["SIMD Extensions"]
+    return groups.get("found", []), groups.get("not found", [])
 
 
 def _core_of_openblas(package) -> str:

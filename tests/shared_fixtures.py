@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from helpers import MY_BASELINE, ROOT, copy_of_sources, snakemake
 from hypothesis import settings
-from hypothesis.internal.conjecture import providers
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
 
@@ -19,9 +18,6 @@ settings.register_profile(
     "project", deadline=None, derandomize=True, database=None, max_examples=50
 )
 settings.load_profile("project")
-# It would parse the whole library, in every worker, to draw the numbers that stand there as well:
-# this takes seconds, and whoever edits one of them would have all tests draw other data.
-providers._get_local_constants = lambda: providers._local_constants
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -5,8 +5,7 @@ method returns the final state and the numbers of accepted and, if any, of rejec
 """
 
 import numpy as np
-from scipy.integrate._ivp import dop853_coefficients as dop
-from scipy.integrate._ivp.rk import RK45
+from scipy.integrate import DOP853, RK45
 
 
 def stages(a, f, z, h, first):
@@ -69,13 +68,13 @@ def dop853(f, z, times, rtol, atol):
     t, end, slope, steps, rejected, most = times[0], times[-1], f(z), 0, 0, 6.0
     h = dop853_start(f, z, slope, rtol, atol, end - t)
     a = np.zeros((13, 13))
-    a[:12, :12], a[12, :12] = dop.A[:12, :12], dop.B
+    a[:12, :12], a[12, :12] = DOP853.A, DOP853.B
     while t < end:
         h = min(h, end - t)
         k = stages(a, f, z, h, slope)
         new = z + h * np.tensordot(a[12], k, 1)
         scale = atol + rtol * larger(z, new)
-        e5, e3 = (np.max(np.abs(np.tensordot(e, k, 1)) / scale) for e in (dop.E5, dop.E3))
+        e5, e3 = (np.max(np.abs(np.tensordot(e, k, 1)) / scale) for e in (DOP853.E5, DOP853.E3))
         error = h * e5**2 / np.sqrt(e5**2 + 0.01 * e3**2)
         factor = max(1 / 3, 0.9 * error ** (-1 / 8))
         if not error <= 1:
