@@ -2,6 +2,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
+const made = (tag, properties) => Object.assign(document.createElement(tag), properties);
 const largestOf = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 // --- The solvers: the project's compiled kernels, as WebAssembly --------------------------------
@@ -110,8 +111,8 @@ const compareAll = () => {
   const found = data.cases.map(compareCase);
   const lines = found.map((solved, i) => {
     const same = solved.every((one) => one.same);
-    const textContent = `${same ? "✓" : "✗"} ${data.cases[i].title}: ${solved.map(({ told }) => told).join(", ")}`;
-    return Object.assign(document.createElement("li"), { className: same ? "same" : "other", textContent });
+    const [sign, told] = [same ? "✓" : "✗", solved.map((one) => one.told).join(", ")];
+    return made("li", { className: same ? "same" : "other", textContent: `${sign} ${data.cases[i].title}: ${told}` });
   });
   byId("bits").replaceChildren(...lines);
   const agree = lines.filter(({ className }) => className === "same").length;
@@ -165,9 +166,9 @@ const fromLink = () => {
   apply(read);
 };
 const makeSlider = ([id, text, min, max, step]) => {
-  const label = Object.assign(document.createElement("label"), { htmlFor: id, textContent: `${text} = ` });
-  const range = Object.assign(document.createElement("input"), { type: "range", id, min, max, step });
-  label.append(Object.assign(document.createElement("output"), { id: `${id}_said`, htmlFor: id }));
+  const label = made("label", { htmlFor: id, textContent: `${text} = ` });
+  const range = made("input", { type: "range", id, min, max, step });
+  label.append(made("output", { id: `${id}_said`, htmlFor: id }));
   range.addEventListener("input", () => apply({ ...settings, [id]: Number(range.value) }));
   byId("sliders").append(label, range);
 };
@@ -187,8 +188,8 @@ const ticks = (least, most, count) => {
   const unit = 10 ** Math.floor(Math.log10((most - least) / count));
   const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most - least);
   const first = Math.ceil(least / step);
-  const found = Array.from({ length: Math.floor(most / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
-  return found.map((value) => Number(value.toPrecision(6)));
+  const length = Math.floor(most / step + 1e-9) - first + 1;
+  return Array.from({ length }, (_, i) => Number(((first + i) * step).toPrecision(6)));
 };
 // Draw axes; `x` and `y` return where a time and a value between `least` and `most` come to lie.
 const axes = (canvas, least, most, title) => {
@@ -253,8 +254,7 @@ const imageOf = (half, name, largest) => {
       pixels[row * run.snapshots + s] = (opacity << 24) | `0x${blue}${green}${red}`;
     }
   }
-  const { width, height } = image;
-  const canvas = Object.assign(document.createElement("canvas"), { width, height });
+  const canvas = made("canvas", { width: image.width, height: image.height });
   canvas.getContext("2d").putImageData(image, 0, 0);
   return canvas;
 };
@@ -332,7 +332,8 @@ const tell = () => {
 const tellHorizon = () => {
   const { title, contained, horizon: times, settings: own } = chosen();
   if (!isOfPaper()) return "These settings are your own, and nothing is certified of them.";
-  const until = (time) => (time === null ? "at no known time" : time < own.end_time ? `until τ = ${say(time)}` : "to the end");
+  const before = (time) => (time < own.end_time ? `until τ = ${say(time)}` : "to the end");
+  const until = (time) => (time === null ? "at no known time" : before(time));
   return `Certified horizon of ${title}: the printed line, by ode45, is proved to contain the true curve ${until(contained)}. `
     + `The run by ${settings.solver} is within ${100 * data.visible} % of the true norms ${until(times[settings.solver])}, as the reference in `
     + `multiprecision tells (a dashed line where this is not the end).`;
@@ -416,7 +417,7 @@ const startOrStop = () => {
 
 const save = (name, text) => {
   const address = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
-  Object.assign(document.createElement("a"), { href: address, download: name }).click();
+  made("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 };
 const csv = () => {
