@@ -190,4 +190,4 @@ onsuccess:
 
 
 onerror:
-    atexit.register(lambda: print(what_failed(log), file=sys.stderr))
+    atexit.register(print, what_failed(log), file=sys.stderr)

@@ -6,9 +6,7 @@ ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
 use rule job as archive with:
     "Code, environment, datasets, figures and metadata in one file to deposit"
     input:
-        results=lambda wildcards: sorted(
-            {*rules.all.input, *map(to_path, DATASETS), *kernels(*ALL_SOLVERS)}
-        ),
+        results=lambda wildcards: sorted({*rules.all.input, *kernels(*ALL_SOLVERS)}),
     output:
         archive=ARCHIVE,
         checksum=f"{ARCHIVE}.sha256",
@@ -17,5 +15,5 @@ use rule job as archive with:
     params:
         call=function("pendula.archive.pack.pack_results"),
         made_by=lambda wildcards: code_of_jobs(),
-        project=lambda wildcards: whole_project(),
+        digests=lambda wildcards: whole_project(),
         configuration=lambda wildcards: config,

@@ -109,7 +109,7 @@ pathvars:
 
 
 def what_failed(logs):
-    """Return why jobs failed, as their own logs say; Snakemake's logs name these."""
+    """Return why jobs failed, as their own logs say; Snakemake's own `logs` name these."""
     text = "".join(Path(log).read_text(encoding="utf-8", errors="replace") for log in logs)
     told = []
     for path in dict.fromkeys(re.findall(r"(?m)^    log: (\S+) \(check", text)):
@@ -250,7 +250,8 @@ def function(*names, parts=()):
     `parts` names modules that they find by the list of studies, such as "section", or "paper/claims".
     """
     files = [file for name in names for file in files_of_module(name.rpartition(".")[0])]
-    files += [file for part in parts for file in files_of_part(part)]
+    found = [file for part in parts for file in files_of_part(part)]
+    files += [path for file in found for path in (file.with_name("__init__.py"), file)]
     CALLED[(*names, *parts)] = files
     code = digest_of_code(*files)
     told = [name for name in (*names, *parts) if "studies." in name or "/claims" in name]

@@ -1,6 +1,5 @@
 """The files of a run by name, with links to them, and what a section of the report is."""
 
-import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -9,6 +8,7 @@ import numpy as np
 
 from pendula.configuration.paper import Differences, reason
 from pendula.datasets.netcdf import read
+from pendula.sources import SCRIPTS
 
 from .page import Picture, picture
 from .words import Quote, number, with_error
@@ -86,8 +86,10 @@ class Results:
 
 
 def link_to(path: str, page: str) -> str:
-    """Return how a page links to a file."""
-    return Path(os.path.relpath(path, Path(page).parent)).as_posix()
+    """Return how a page links to a file of the run, or of the project, where results lie in it."""
+    if Path(path).is_relative_to(SCRIPTS.parent / "tests"):
+        return (Path("..") / Path(path).relative_to(SCRIPTS.parent)).as_posix()
+    return Path(path).relative_to(Path(page).parent).as_posix()
 
 
 class Section(NamedTuple):
