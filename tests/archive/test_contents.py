@@ -7,6 +7,7 @@ import tarfile
 
 import pytest
 from pendula.archive.contents import (
+    check_code,
     MANIFEST,
     ArchiveError,
     code_files,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from accepted import settings, texts
 from held_digits import blurred, unlike
+from helpers import ROOT
 from pendula import studies
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results

@@ -14,7 +14,6 @@ PROJECT = Path(str(workflow.current_basedir)).parents[1]
 sys.path[:0] = [str(PROJECT / part) for part in ("workflow", "scripts", "")]
 
 
-
 def stop(reason):
     """Say why nothing runs, and end. Of an error, Snakemake would tell where in the rules it arose."""
     logger.error(str(reason))

@@ -143,7 +143,7 @@ def sensitivity_contents(
     name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
     scan: Sequence[float],
 ) -> Contents:  # fmt: skip
-    """Return the share that spreads by the size of a change, and what each A_0 of `scan` leads to."""
+    """Return the share that spreads by the size of a change, and what each amplitude leads to."""
     amplitudes = np.array(scan)
     share = sensitivity.shares(problem, sizes, members, seed)
     largest, spread = sensitivity.scan(problem, amplitudes)

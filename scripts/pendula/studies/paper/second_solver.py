@@ -39,9 +39,9 @@ def measure(
 ) -> Contents:
     """Return how far the schemes are from the runs `firsts` of the first solver, in one order.
 
-    `problems` are those of the cases by the second solver, at the configured step. `swept_problem` is that
-    of a chaotic sweep, of which an ensemble is run at each of the FINER steps, on some of its
-    half-widths; `ensemble` says the size of the changes and the seed.
+    `problems` are those of the cases by the second solver, at the configured step. `swept_problem`
+    is that of a chaotic sweep, of which an ensemble is run at each of the FINER steps, on some of
+    its half-widths; `ensemble` says the size of the changes and the seed.
     """
     pairs = zip(problems.values(), firsts.values(), strict=True)
     found = [_measure_case(problem, first) for problem, first in pairs]
