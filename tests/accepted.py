@@ -132,8 +132,9 @@ class Report(Results):
     """
 
     def __init__(self, changes: Mapping[str, xr.Dataset] = {}, differs: Mapping[str, str] = {}):
-        files = [str(path) for path in BASELINE.rglob("*") if path.is_file()]
-        super().__init__(files, str(BASELINE / "report.html"), settings(), dict(differs))
+        super().__init__([], "", settings(), dict(differs))
+        files = [path for path in BASELINE.rglob("*") if path.is_file()]
+        self._paths = {path.relative_to(BASELINE).as_posix(): path for path in files}
         self.changes = changes
 
     def __getitem__(self, name: str) -> xr.Dataset:
