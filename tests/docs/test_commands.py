@@ -177,7 +177,8 @@ def test_what_is_not_run_exists_and_has_a_reason():
 def test_a_run_and_the_tests_begin_with_the_same_command():
     """CI gives the command of the tests as it is printed, so that the other needs no play."""
     run, tests = (block for block in PRINTED["README.md"] if block.mark.endswith(" command"))
-    assert run.text.replace("-m snakemake", "-m pytest") == tests.text != run.text
+    more = run.text.replace("environment.txt", "environment.txt -r tests/requirements.txt")
+    assert more.replace("-m snakemake", "-m pytest") == tests.text != run.text
 
 
 def test_a_dry_run_is_of_every_call_and_of_nothing_else():

@@ -8,9 +8,12 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event
 
 SERVER = Path(__file__).with_name("server.py")
 LETTER = 65536
+INTERRUPTED = 128 + signal.SIGINT
+"""The exit status of what Ctrl-C ended."""
 KEPT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
 THREADS = {f"{library}_THREADS": "1" for library in LIBRARIES}
@@ -30,11 +33,12 @@ class EndedError(Exception):
 class Forks:
     """The process that forks jobs."""
 
-    process, interrupted = None, False
+    process = None
 
     def __init__(self, modules: list[str]):
         """Start the process where forks are safe; it imports `modules`."""
         self.modules, self.environment = modules, {**os.environ, **THREADS}
+        self.interrupted = Event()
         if sys.platform != "linux":
             return
         self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -51,9 +55,9 @@ class Forks:
     def interrupt(self, number, frame) -> None:
         """End Snakemake at Ctrl-C without a traceback; another Ctrl-C changes nothing."""
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        self.interrupted = True
+        self.interrupted.set()
         print("\ninterrupted: the same command goes on from here", file=sys.stderr, flush=True)
-        raise SystemExit(128 + signal.SIGINT)
+        raise SystemExit(INTERRUPTED)
 
     def changed(self) -> list[str]:
         """Return the variables that are no longer what they were when the imports began."""

@@ -3,7 +3,6 @@
 The tests run all of this, so that they tell what a new Snakemake has changed.
 """
 
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import nullcontext, suppress
 from types import FunctionType, SimpleNamespace
 
@@ -14,7 +13,12 @@ from snakemake.script import PythonScript, get_source, script
 from snakemake.shell import shell
 from snakemake.sourcecache import SourceCache
 
-from snakemake_executor_plugin_forked.forks import EndedError, RefusedError, in_words
+from snakemake_executor_plugin_forked.forks import (
+    INTERRUPTED,
+    EndedError,
+    RefusedError,
+    in_words,
+)
 
 UNASKED = 100, 1
 """Snakemake's own limit, where the user gives none: so many jobs may begin in so many seconds."""
@@ -31,6 +35,8 @@ class LocalExecutor(Executor):
         The limit is meant for queues. For it, Snakemake looks for jobs anew a second after each
         time that it looked: n times a second after n jobs, and once more when all are done.
         """
+        if self.forks.interrupted.is_set():
+            raise SystemExit(INTERRUPTED)  # it is lost if Snakemake hears Ctrl-C while it logs
         scheduler = self.workflow.scheduler
         limiter = scheduler.job_rate_limiter
         if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:
@@ -50,8 +56,6 @@ class LocalExecutor(Executor):
                 run_wrapper(forked, *given)
             except SystemExit as end:  # what is wrong has been said, and Snakemake shall not
                 raise SpawnedJobError from end
-            except KeyboardInterrupt:
-                raise BrokenProcessPool from None  # of this job Snakemake says nothing at all
 
         return self.pool.submit(self.cached_or_run, job, run, *self.job_args_and_prepare(job))
 
@@ -73,9 +77,14 @@ class LocalExecutor(Executor):
         names = {**run.__globals__, "script": evaluate}
         return FunctionType(run.__code__, names, run.__name__, run.__defaults__, run.__closure__)
 
+    def print_job_error(self, job_info, msg=None, **others):
+        """Tell that a job failed, unless the user has ended all."""
+        if not self.forks.interrupted.is_set():
+            super().print_job_error(job_info, msg, **others)
+
     def cancel(self):
         """End all jobs: Snakemake alone would wait for them."""
-        self.forks.interrupted = True
+        self.forks.interrupted.set()
         self.forks.end(kindly=True)
         super().cancel()
 
@@ -110,9 +119,9 @@ class ForkedScript(PythonScript):
                 why = f"rule {self.rulename} starts a Python of its own, since {error}"
                 logger.info(f"forked: {why}. Others may too, which is told once.")
             return super().execute_script(fname, edit)
-        if forks.interrupted and status:
-            raise KeyboardInterrupt
-        if says:
+        if status == INTERRUPTED:
+            forks.interrupted.wait(1.0)  # Snakemake is about to hear what the job has heard
+        if says and not forks.interrupted.is_set():
             logger.error(f"forked: rule {self.rulename} failed: {says}")
         if status:
             raise SystemExit(status)
