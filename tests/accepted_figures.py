@@ -42,7 +42,7 @@ def gather_sweeps(figure: str, windows: tuple[str, str], norms: list[str]):
 
 
 def gather_map(*maps):
-    return unbounded.gather_window_map(dict(zip(MAPS, maps, strict=True)), list(MAPS.values()))
+    return unbounded.gather_window_map(list(maps), [*MAPS], [*MAPS.values()])
 
 
 MAPS = {"fig5_left": 50.0, "fig5_right": 50.0, "fig6_left": 70.0, "fig6_right": 70.0}

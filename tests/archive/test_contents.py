@@ -7,9 +7,9 @@ import tarfile
 
 import pytest
 from pendula.archive.contents import (
-    check_code,
     MANIFEST,
     ArchiveError,
+    check_code,
     code_files,
     dump_configuration,
     manifest,

@@ -40,9 +40,8 @@ OWN = {
 @style.styled
 def described(figure) -> dict:
     """Return what a figure shows; to draw it finds its ticks and its margins."""
-    with style.thrifty():
-        figure.canvas.draw()
-        return describe(figure, xr.Dataset())
+    figure.canvas.draw()
+    return describe(figure, xr.Dataset())
 
 
 class Plot(NamedTuple):
