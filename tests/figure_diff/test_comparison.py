@@ -3,11 +3,13 @@
 import made_up_results as made_up
 import numpy as np
 import pytest
+from helpers import ROOT
 from made_up_results import CHAOTIC, CONFIGURATION, HORIZON, LEDGER, NAMES, PICTURE, REGULAR, REPORT
 from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
 from pendula.figure_diff import Status, baseline
 from pendula.figure_diff.chaos import Chaos, horizons
+from pendula.figure_diff.compare_shown import damage
 from pendula.figure_diff.comparison_page import compare_results
 
 
@@ -130,3 +132,13 @@ def test_the_page_shows_findings_and_both_pictures_and_needs_no_network(run, mon
     assert "Figure diff: 3 faults" in page and "figures/fig2.json" in page
     assert page.count('src="data:image/png;base64,') == 2
     assert "http" not in page and str(run.made) not in page
+
+
+def test_a_flipped_bit_anywhere_in_a_png_is_damage():
+    path = ROOT / "tests/baseline/figures/fig1.png"
+    content = path.read_bytes()
+    assert not damage(path, content)
+    for place in range(0, len(content) - 12, 997):
+        flipped = bytearray(content)
+        flipped[place] ^= 1
+        assert damage(path, bytes(flipped)), place

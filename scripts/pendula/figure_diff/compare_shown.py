@@ -149,6 +149,7 @@ def damage(path: Path, content: bytes) -> str:
         whole = content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
         return "" if whole else "is no whole PDF"
     try:
+        Image.open(BytesIO(content)).verify()  # checksums, at which `load` does not look
         Image.open(BytesIO(content)).load()
     except (OSError, SyntaxError, ValueError):
         return "is no whole PNG"
