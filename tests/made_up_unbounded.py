@@ -117,5 +117,6 @@ def thermal():
             "site_energy": [0.0, 2.0, 4.0],
             "term": ["cubic", "detuning", "drive", "bonds"],
         },
+        {"epsilon": 1.0, "gamma": 1.0},
     )
     return named(data)

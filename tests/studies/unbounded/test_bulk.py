@@ -119,6 +119,12 @@ def test_the_law_has_no_fitted_constant_and_the_offset_is_found():
     np.testing.assert_allclose(one["offset_rate"] * one["span_tau"], -50.0, rtol=0.02)
 
 
+@pytest.mark.parametrize("name", ["epsilon", "gamma"])
+def test_a_run_of_other_constants_than_the_thermal_states_has_no_law(name):
+    growth = measure_growth({"fig4_small": exact()}, thermal().assign_attrs({name: 2.0}))
+    assert all(growth[law].isnull().all() for law in ("law", "law_rate", "thermal_linf"))
+
+
 def test_verdicts_on_the_bulk_follow_from_its_errors():
     band = exact(variants=3, omegas=(-1.0, 2.0, 5.0), members=4)
     assert unbounded_equilibrium(band, thermal()).verdict == Verdict.CONFIRMED

@@ -191,7 +191,7 @@ def _series(run: xr.Dataset, name: str, times: np.ndarray) -> list[np.ndarray]:
 
 def _thermal_linf(run: xr.Dataset, times: np.ndarray, thermal: xr.Dataset) -> np.ndarray:
     """Return the l-infinity norm of a thermal bulk as far as a pulled front is at `times`."""
-    if abs(float(run["omega"] - thermal["bound_omega"])) > 1e-9:
+    if not _is_of(thermal, run) or abs(float(run["omega"] - thermal["bound_omega"])) > 1e-9:
         return np.full(len(times), np.nan)
     passed = float(run["predicted_speed"]) * (times - _delay(run) * log(times))
     return mean_maximum(thermal, np.maximum(1.0, passed))
@@ -262,8 +262,14 @@ def _rate(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, np.ndarray]:
 
 def _law(run: xr.Dataset, thermal: xr.Dataset) -> float:
     """Return 2 v P, NaN where the chain at rest is stable or no state was solved."""
-    power = float(thermal_powers(thermal, run["omega"].values))
-    return 2.0 * float(run["predicted_speed"]) * power if run["predicted_delay"] > 0 else np.nan
+    if not _is_of(thermal, run) or run["predicted_delay"] <= 0.0:
+        return np.nan
+    return 2.0 * float(run["predicted_speed"]) * float(thermal_powers(thermal, run["omega"].values))
+
+
+def _is_of(thermal: xr.Dataset, run: xr.Dataset) -> bool:
+    """Return whether thermal states over Omega were solved for the other constants of a run."""
+    return all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
 
 
 def _delay(run: xr.Dataset) -> float:
