@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from accepted import dataset
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.studies.chaos import lyapunov
+from pendula.studies.chaos.figures import draw_lyapunov, gather_lyapunov
 from pendula.studies.chaos.lyapunov import follow_parity
 from problems import problem_of
 
@@ -53,6 +55,7 @@ def test_published_exponents_are_those_of_an_even_and_an_odd_vector(measured):
     cases, found, about = measured
     assert about["end_time"] == 16.0 and about["seed"] == SEED
     assert found["parity"].values == ["even", "odd"]
+    assert found["parity"].long_name == "parity of the tangent vector in n"
     assert found["chaotic"].values.tolist() == [0, 1]
     chaotic = np.zeros((2, 2), bool)
     for i, problem in enumerate(cases.values()):
@@ -67,6 +70,15 @@ def test_published_exponents_are_those_of_an_even_and_an_odd_vector(measured):
             if parity == "even":
                 np.testing.assert_array_equal(found["l2"].values[i], one.size)
     assert chaotic[1].sum() == 1 and not chaotic[0].any()  # one of both is enough
+
+
+@pytest.mark.parametrize("pair, said", [("0", ""), ("1", " at first")])
+def test_uneven_data_have_a_parity_at_first_alone(pair, said):
+    drawn = gather_lyapunov(dataset("checks/lyapunov"))
+    data = [f'{{"{pair}": [1.0, 0.1]}}'] * drawn.sizes["case"]
+    (legend,) = draw_lyapunov(drawn.assign(initial=drawn["initial"].copy(data=data))).legends
+    told = [text.get_text() for text in legend.get_texts()]
+    assert told[-2:] == [f"even in $n${said}", f"odd in $n${said}"]
 
 
 def test_published_divergence_times_are_those_of_errors_seen_early_and_of_rounding(measured):

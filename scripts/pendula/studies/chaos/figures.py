@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 from pendula.drawing import panels, style
 from pendula.numerics.elementary import exp, geometric, log
+from pendula.problem import is_even
 
 COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 """By detuning, of different lightness."""
@@ -151,8 +152,10 @@ def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
         Line2D([], [], label=style.name_case(data.sel(case=case)), **_marked(data, case))
         for case in data["case"].values
     ]
+    kept = all(map(is_even, map(str, data["initial"].values)))
+    first = "" if kept else " at first"  # uneven data mix both parities
     parities = [
-        Line2D([], [], color="0.3", lw=1, dashes=dashes, label=f"{parity} in $n$")
+        Line2D([], [], color="0.3", lw=1, dashes=dashes, label=f"{parity} in $n${first}")
         for parity, dashes in DASHES.items()
     ]
     return cases + parities

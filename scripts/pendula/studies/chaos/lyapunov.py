@@ -129,11 +129,13 @@ def largest_exponents(problems: dict[str, Problem], end_time: float, seed: int) 
     errors = each(lambda growth, size: mean_rate_error(tau, growth, middle))
     chaotic = each(lambda growth, size: is_chaotic(tau, growth, size)).any(axis=1).astype(int)
     l2 = each(lambda growth, size: size)[:, PARITIES.index("even")]
-    by_parity = ("case", "parity")
+    by_parity, parity = ("case", "parity"), "parity of the tangent vector in n"
+    if not all(find_reduction(p.amplitudes).even for p in problems.values()):
+        parity += ", which uneven data do not keep"
     described, shared = describe_cases(problems)
     variables = {
         **described,
-        "parity": Variable(("parity",), list(PARITIES), "parity of the tangent vector in n"),
+        "parity": Variable(("parity",), list(PARITIES), parity),
         "tau": Variable(("tau",), tau),
         "log_growth": Variable(
             (*by_parity, "tau"), log_growth, "logarithm of the growth of a tangent vector"
