@@ -34,5 +34,5 @@ class Baseline:
         return json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else None
 
     def mutation(self) -> dict:
-        """Return the score of the last trial of mutants that was kept."""
+        """Return the score of the last trial of mutants."""
         return json.loads((self.folder / "quoted/mutation.json").read_text(encoding="utf-8"))

@@ -173,9 +173,10 @@ def hard_cases(baseline: Baseline) -> dict:
 
 
 def mutation(baseline: Baseline) -> dict:
-    """Return which part of the mutants of decisive modules the tests notice."""
+    """Return which part of the mutants of decisive modules the tests noticed, and when."""
     kept = baseline.mutation()
     return {
+        "date": kept["date"],
         "modules": str(kept["modules"]),
         "mutants": f"{kept['mutants']:,}",
         "sample": str(kept["sample"]),
@@ -183,5 +184,4 @@ def mutation(baseline: Baseline) -> dict:
         "low": percent(kept["low"], 3),
         "high": percent(kept["high"], 3),
         "confidence": percent(kept["confidence"]),
-        "limits": " that plain Python can run" if kept["plain"] else "",
     }
