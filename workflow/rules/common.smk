@@ -53,8 +53,9 @@ PAPER_SOLVERS = ["ode45", "crank_nicolson"]
 COMPARED = [*PAPER_SOLVERS, "delfour_fortin_payre", "dop853"]  # beside the paper's claims on them
 ALL_SOLVERS = [*COMPARED, "taylor"]  # that every case of the paper is integrated by
 
-# The project's files, what the command line gives by --configfile, and --config over all. They are
-# read anew, since Snakemake takes the last of two equal keys in silence, and merges initial data.
+# The project's files, what the command line gives by --configfile, and --config over all. They are read
+# here and by no `configfile:`, since Snakemake names no line of a file that is not YAML, takes the last
+# of two equal keys in silence, and merges initial data.
 CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)]
 try:
     # Options of a single call, by --config alone: the baseline to compare with, whether any bits
