@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+import yaml
 from markupsafe import Markup
 
 from pendula.datasets import complete_or_absent
@@ -32,40 +33,47 @@ change of one word changes it."""
 
 
 def write_live(runs: list[str], trust: str, lines: str, html: str) -> None:
-    """Write the page `html`; the names of `runs` are <case>.<solver>.nc."""
-    by_case = {}
-    for path in map(Path, runs):
-        case, solver, _ = path.name.split(".")
-        by_case.setdefault(case, {})[solver] = read(path)
+    """Write the page `html`; the names of `runs` are <case>.<solver>.nc, of one solver."""
+    by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     with complete_or_absent(html) as partial:
         Path(partial).write_text(live_page(by_case, read(trust), read(lines)), encoding="utf-8")
 
 
-def live_page(runs: Mapping[str, Mapping[str, xr.Dataset]], trust, lines) -> str:
-    """Return the page; `runs` has the trajectories of each case by each solver that the page has.
+def live_page(runs: Mapping[str, xr.Dataset], trust: xr.Dataset, lines: xr.Dataset) -> str:
+    """Return the page; `runs` has the trajectory of each case by the solver of the page.
 
     `trust` is the dataset checks/trust, `lines` is certified/lines. A case with data beside the
     central pair is left out, since the page cannot set them.
     """
-    solvers = {solver: run for by_solver in runs.values() for solver, run in by_solver.items()}
+    about = next(iter(runs.values())).attrs
+    name = str(about["solver"])
+    trust, controls = trust.sel(solver=name, level="visible"), SOLVERS[name].controls
+    solver = {"name": name, **{one: float(about[f"solver_{one}"]) for one in controls}}
     data = {
-        "solvers": {solver: _solver(solver, run.attrs) for solver, run in solvers.items()},
+        "solver": {
+            "code": _text(webassembly(name)),
+            "controls": [solver[one] for one in controls],
+            "named": yaml.safe_dump(solver, default_flow_style=True).strip(),
+            "work": SOLVERS[name].work,
+        },
         "cases": [
-            _case(name, by_solver, trust.sel(case=name, level="visible"), lines.sel(case=name))
-            for name, by_solver in runs.items()
-            if set(_initial(next(iter(by_solver.values())))) == {0}
+            _case(name, run, trust.sel(case=name), lines.sel(case=name))
+            for name, run in runs.items()
+            if set(read_initial(run.attrs["initial"])) == {0}
         ],
         "faults": FAULTS,
         "visible": VISIBLE,
         "hash": {"offset": int(OFFSET), "prime": int(PRIME)},
     }
-    style, script = ((HERE / f"live.{kind}").read_text(encoding="utf-8") for kind in ("css", "js"))
+    style, more, script = (
+        (HERE / name).read_text(encoding="utf-8") for name in ("style.css", "live.css", "live.js")
+    )
     return render(
         "live.html.j2",
         data=Markup(json.dumps(data, ensure_ascii=False)),
-        live_style=Markup(style),
+        live_style=Markup(style + more),
         live_script=Markup(script),
-        style_hash=_digest(style),
+        style_hash=_digest(style + more),
         script_hash=_digest(script),
     )
 
@@ -76,36 +84,23 @@ def marks(run: xr.Dataset) -> np.ndarray:
     for values in (*run["linf"].values, *run["l2"].values, run["energy"].values):
         for words in np.ascontiguousarray(values).view("<u4").reshape(-1, 2).T:
             found = (found ^ words) * PRIME
-    every = int(run.attrs["snapshot_every"])
-    for words in run["modulus"].values.astype("<f4").view("<u4").reshape(-1, run.sizes["snapshot"]):
-        found[::every] = (found[::every] ^ words) * PRIME
     return found
 
 
-def _initial(run: xr.Dataset) -> dict:
-    return read_initial(run.attrs["initial"])
-
-
-def _solver(name: str, about: Mapping[str, Any]) -> dict[str, Any]:
-    controls = [float(about[f"solver_{control}"]) for control in SOLVERS[name].controls]
-    return {"code": _text(webassembly(name)), "controls": controls, "work": SOLVERS[name].work}
-
-
-def _case(name: str, by_solver: Mapping[str, xr.Dataset], trust, lines) -> dict[str, Any]:
+def _case(name: str, run: xr.Dataset, trust: xr.Dataset, lines: xr.Dataset) -> dict[str, Any]:
     """Return what the page holds of a case; a time of `None` is not known."""
-    solver, run = next(iter(by_solver.items()))
-    (a, b), about = _initial(run)[0], run.attrs
+    about = run.attrs
+    a, b = read_initial(about["initial"])[0]
     settings = {key: float(about[key]) for key in ("omega", "gamma", "epsilon", "end_time")}
     settings |= {"half_width": int(about["half_width"]), "boundary": str(about["boundary"])}
-    settings |= {"a_re": a.real, "a_im": a.imag, "b_re": b.real, "b_im": b.imag, "solver": solver}
-    horizon = np.minimum(trust["horizon"], trust["known_until"]).fillna(0.0)
+    settings |= {"a_re": a.real, "a_im": a.imag, "b_re": b.real, "b_im": b.imag}
+    known = float(np.minimum(trust["horizon"], trust["known_until"]).fillna(0.0))
     return {
         "title": f"Fig {name.removeprefix('fig')[0]}: {case_of(trust)}",
         "settings": settings,
         "output_step": float(about["output_step"]),
-        "every": int(about["snapshot_every"]),
-        "marks": {one: _text(marks(data).tobytes()) for one, data in by_solver.items()},
-        "horizon": {one: float(horizon.sel(solver=one)) or None for one in by_solver},
+        "marks": _text(marks(run).tobytes()),
+        "horizon": known or None,
         "contained": float(lines["contained_until"].min(skipna=False).fillna(0.0)) or None,
     }
 
