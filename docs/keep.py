@@ -3,8 +3,8 @@
 Run as `python docs/keep.py results` after a full run, after `snakemake reproduction` on a quiet
 machine, and after `snakemake unbounded`, `over_the_top`, or `fates sensitivity`, if a long study
 was made anew. It reduces them to what is quoted and writes this to tests/baseline/quoted: the
-ledger, the hard cases, where the time of a reproduction goes (by which `snakemake` says how long a
-run will take), and the long studies of the chain without ends, of breathers and of the pendula.
+ledger, the hard cases, how long a reproduction takes, and the long studies of the chain without
+ends, of breathers and of the pendula.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -58,7 +58,7 @@ def keep_full_run(results: Path, folder: Path) -> None:
 
 
 def keep_reproduction(results: Path, folder: Path) -> None:
-    """Keep where the time of a whole reproduction went."""
+    """Keep the times of a whole reproduction."""
     shutil.copyfile(results / "speed/reproduction.json", folder / "reproduction.json")
 
 

@@ -5,7 +5,6 @@ The rule names the functions in `params.call`, and gives their arguments by name
 
 import atexit
 import gc
-import json
 import os
 import signal
 import sys
@@ -17,9 +16,7 @@ from importlib import import_module
 from typing import Any
 
 import psutil
-from pendula import spent
-from pendula.sources import SCRIPTS
-from pendula.spent import SPENT, TOOK
+from pendula.sources import SCRIPTS, TOOK
 
 # When Python ends, it looks for cycles among a million objects that are about to go anyway. This
 # would take a fifth of a second in every job. While a job runs, Python would look whenever some
@@ -121,7 +118,6 @@ def run(body: Callable, snakemake) -> None:
     log is the time that the job took, its start included; it stands in no dataset, for two runs
     differ in it.
     """
-    start = time.process_time()
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     path = snakemake.log[0]
@@ -137,11 +133,11 @@ def run(body: Callable, snakemake) -> None:
     except KeyboardInterrupt:
         print("interrupted: run the same command again to continue")
         log.write(traceback.format_exc())
-        _took(log, start)
+        _took(log)
         os._exit(INTERRUPTED)  # at once: a thread may be compiling, and is not waited for
     finally:
         sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
-        _took(log, start)
+        _took(log)
         log.close()
 
 
@@ -159,21 +155,7 @@ def say(error: Exception) -> str:
     return str(error) if ours else f"{type(error).__name__}: {error}"
 
 
-def _spent(start: float) -> dict[str, float]:
-    """Return the processor time by kind, and the memory; `start` is the time before the job."""
-    import resource
-
-    used = spent.seconds()
-    used[spent.REST] -= start
-    unit = 1 if sys.platform == "darwin" else 1024
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6
-    rounded = {kind: round(taken, 3) for kind, taken in {"start-up": start, **used}.items()}
-    return {**rounded, "memory": round(memory)}
-
-
-def _took(log: _Log, start: float) -> None:
-    with suppress(ImportError):  # Windows has no such module
-        log.write(f"{SPENT}{json.dumps(_spent(start))}\n")
+def _took(log: _Log) -> None:
     log.write(f"{TOOK}{_age():.1f} s\n")
 
 

@@ -1,7 +1,6 @@
 """A job says in a sentence why it failed or ended, and its log has the rest."""
 
 import io
-import json
 import math
 import os
 import re
@@ -56,9 +55,7 @@ def test_a_fault_is_a_sentence_in_the_log_above_its_traceback(tmp_path, body, sa
     assert job.returncode == 1 and screen == ""
     log = (tmp_path / "a.log").read_text()
     assert log.startswith(f"failed: {says}\nTraceback")
-    spent = re.search(r"\nspent: (.*)\nwall time: [\d.]+ s\n$", log)
-    kinds = {"start-up", "compiling", "writing", "drawing", "computing", "memory"}
-    assert json.loads(spent[1]).keys() == kinds
+    assert re.search(r"\nwall time: [\d.]+ s\n$", log)
     assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
 
 

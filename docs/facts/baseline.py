@@ -29,7 +29,7 @@ class Baseline:
         return load_json(self.folder / "quoted/claims.json")["rows"]
 
     def reproduction(self) -> dict | None:
-        """Return where the time of the whole reproduction went that was measured last, if any."""
+        """Return the times of the whole reproduction that were measured last, if any."""
         kept = self.folder / "quoted/reproduction.json"
         return json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else None
 

@@ -86,22 +86,10 @@ def pendula_speed(baseline: Baseline) -> dict:
     }
 
 
-MANY = 12
-"""So many jobs of a full run are shown, the costliest."""
-
-
 def full_run(baseline: Baseline) -> dict:
-    """Return what the time of a full run went to, with and without kernels compiled before."""
+    """Return what a full run takes, with and without kernels compiled before."""
     if not (measured := baseline.reproduction()):
         return {"runs": []}
-    full = {name: one for name, one in measured["runs"].items() if one["jobs"]}
-    shares = {
-        kind: [sum(told.get(kind, 0.0) for told in one["jobs"].values()) for one in full.values()]
-        for kind in reproduction.KINDS
-    }
-    shares[reproduction.SNAKEMAKE] = [reproduction.rest(one) for one in full.values()]
-    jobs = full["warm"]["jobs"]
-    costliest = sorted(jobs, key=lambda name: -reproduction.spent(jobs[name]))[:MANY]
     return {
         "processor": measured["machine"]["processor"],
         "cores": str(measured["machine"]["cores"]),
@@ -112,27 +100,6 @@ def full_run(baseline: Baseline) -> dict:
             }
             for name, one in measured["runs"].items()
         ],
-        "columns": [{"run": reproduction.RUNS[name]} for name in full],
-        "kinds": [
-            {"kind": kind, "in_runs": [{"seconds": f"{value:.1f}"} for value in values]}
-            for kind, values in shares.items()
-        ],
-        "jobs": [
-            {
-                "job": name,
-                **{
-                    kind.replace("-", "_"): f"{jobs[name].get(kind, 0.0):.1f}"
-                    for kind in reproduction.KINDS
-                    if kind != "imports"
-                },
-                "sum": f"{reproduction.spent(jobs[name]):.1f}",
-            }
-            for name in costliest
-        ],
-        "number": str(len(jobs) - ("imports" in jobs)),
-        "memory": number(
-            max(told["memory"] for one in full.values() for told in one["jobs"].values())
-        ),
     }
 
 

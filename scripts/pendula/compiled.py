@@ -24,10 +24,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numba
-from numba.core import event
 from numba.core.bytecode import FunctionIdentity
 
-from . import spent
 from .kernel_cache import kept_in
 from .kernel_parts import make_kernel
 
@@ -39,19 +37,6 @@ def _count_from_a_random_number() -> None:
 _count_from_a_random_number()
 if hasattr(os, "register_at_fork"):  # Windows has no forks
     os.register_at_fork(after_in_child=_count_from_a_random_number)
-
-
-class _Listener(event.Listener):
-    """Tells how long numba compiles."""
-
-    def on_start(self, event: event.Event) -> None:
-        spent.begin("compiling")
-
-    def on_end(self, event: event.Event) -> None:
-        spent.end("compiling")
-
-
-event.register("numba:compile", _Listener())
 
 
 def kernel(function: Callable) -> Callable:

@@ -40,7 +40,6 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 from .sources import digest_of_modules
-from .spent import spending
 
 VARIABLE = "PENDULA_CACHE"
 OFF = "off"
@@ -109,7 +108,6 @@ class KernelCache(_Cache):
         """The folder of the machine code of this module."""
         return str(self._folder)
 
-    @spending("compiling")
     def load_overload(self, signature, target_context) -> CompileResult | None:
         """Return the machine code for these types of arguments, or None where there is none."""
         target_context.refresh()

@@ -20,6 +20,9 @@ SCRIPTS = Path(__file__).resolve().parent.parent
 OURS = ("pendula", "job", "benchmarks")
 """Only imports of these packages are followed: others may lie beside an installed library."""
 
+TOOK = "wall time: "
+"""How the last line of a job's log begins, with its time in seconds."""
+
 _LIST = r"(?:\([\w\s,]*\)|[\w.]+(?:[ ]as[ ]\w+)?(?:,[ ][\w.]+(?:[ ]as[ ]\w+)?)*)"
 _IMPORT = re.compile(rf"\n[ ]*((?:from[ ][\w.]+[ ])?import[ ]{_LIST})[ ]*(?:[#][^\n]*)?$", re.M)
 _WORD = re.compile(r"import\b")

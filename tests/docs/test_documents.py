@@ -232,7 +232,7 @@ NO_NUMBERS = re.compile(
     r"breathers\.(first|last|step|members|weak|strong|scanned|rows\.\d+\.size)$|"
     r"pendula\.(largest_mu|early_mu|late_mu|rows\.\d+\.mu|norms_mu|passages\.\d+\.mu|passing_members)$|"
     r"certified\.((rows|framed)\.\d+\.part|contained|count|until|certificate\..*)$|"
-    r"full_run\.(processor|cores|number|.*\.(run|kind|job))$"
+    r"full_run\.(processor|cores|.*\.run)$"
 )
 """Facts that are words, sizes or settings, which no change of a value moves."""
 

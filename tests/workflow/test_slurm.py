@@ -1,4 +1,4 @@
-"""The profile for Slurm: its plugin takes it, every kind of job has a group, and versions are pinned."""
+"""The profile for Slurm: its plugin takes it, kinds of jobs have groups, versions are pinned."""
 
 import re
 

@@ -74,7 +74,7 @@ use rule speed_tables as speed_figures with:
 
 
 rule reproduction:
-    "Where the time of the whole reproduction goes, from nothing and with compiled kernels"
+    "The times of the whole reproduction, from nothing and with compiled kernels"
     output:
         data="<results>/speed/reproduction.json",
         table="<results>/speed/reproduction.md",

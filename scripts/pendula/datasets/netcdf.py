@@ -11,8 +11,6 @@ from typing import Any, NamedTuple
 import netCDF4
 import numpy as np
 
-from pendula.spent import spending
-
 from . import DatasetError, complete_or_absent, not_written
 from .registry import complete, describe
 from .seal import check, seal
@@ -28,7 +26,6 @@ class Variable(NamedTuple):
     attributes: Mapping[str, Any] = {}  # others, such as `significant_digits` of rounded values
 
 
-@spending("writing")
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
     """Write a dataset; a fault (a full disk, say) leaves no file, and its message names it."""
     try:
@@ -64,7 +61,6 @@ def _attributes(name: str, variable: Variable) -> dict[str, Any]:
     return describe(name, variable.long_name, variable.units) | dict(variable.attributes)
 
 
-@spending("writing")
 def save(path: str | Path, dataset) -> None:
     """Write an xarray.Dataset as `write` does."""
     stated = dataset.assign_attrs(complete(dataset.attrs, Path(path).stem))

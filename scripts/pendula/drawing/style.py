@@ -19,7 +19,6 @@ from pendula.datasets import complete_or_absent
 from pendula.datasets.digest import fingerprint
 from pendula.datasets.netcdf import save as save_dataset
 from pendula.problem import read_initial
-from pendula.spent import spending
 
 from .description import as_text, describe
 
@@ -89,7 +88,7 @@ _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key !=
 
 @contextmanager
 def _style() -> Iterator[None]:
-    with spending("drawing"), matplotlib.rc_context(_RC):
+    with matplotlib.rc_context(_RC):
         yield
 
 

@@ -16,8 +16,7 @@ import xarray as xr
 from llvmlite import binding
 
 from pendula.datasets.registry import SOLVER_NAMES
-from pendula.sources import describe_machine
-from pendula.spent import TOOK
+from pendula.sources import TOOK, describe_machine
 
 from .page import picture
 from .results import ReportError, Results
