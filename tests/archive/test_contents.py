@@ -47,7 +47,7 @@ def test_an_unpacked_archive_gives_what_its_manifest_lists(project):
     with pytest.raises(ArchiveError, match=r"manifest-sha256.txt is missing.*pack it from a clone"):
         code_files(project)
     members = {name: project / name for name in ("run", "scripts/a.py")}
-    members |= {"codemeta.json": b"{}", "results/claims.json": b"[]"}
+    members |= {"ro-crate-metadata.json": b"{}", "results/claims.json": b"[]"}
     (project / MANIFEST).write_bytes(manifest(members))
     assert code_files(project) == ["run", "scripts/a.py"]
 

@@ -18,7 +18,7 @@ from pendula.sources import digest_of
 
 MANIFEST = "manifest-sha256.txt"
 
-METADATA = ("ro-crate-metadata.json", "codemeta.json", "configuration.yaml", MANIFEST)
+METADATA = ("ro-crate-metadata.json", "configuration.yaml", MANIFEST)
 """Files that an archive holds beside the project and its results; packing makes them anew."""
 
 MADE = 315532800
