@@ -18,10 +18,7 @@ from .timing import timed
 
 TOLERANCES = 10.0 ** -np.arange(4.0, 15.5)
 ITERATED = ("crank_nicolson", "delfour_fortin_payre")
-STEPS = {
-    "splitting": 0.2 / 2.0 ** np.arange(7),
-    **{name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED},
-}
+STEPS = {name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED}
 
 PEERS: dict[str, Peer] = {
     "scipy_rk45_numpy": peers_in_python.RK45_NUMPY,
@@ -54,8 +51,6 @@ def controls(name: str, accuracy: float) -> dict:
     """Return the controls of one of our solvers for a tolerance or a step."""
     if name in ITERATED:
         return {"name": name, "step": accuracy, "tolerance": 1e-13, "iterations": 50}
-    if name == "splitting":
-        return {"name": name, "step": accuracy}
     atol = accuracy / 100 if name == "ode45" else accuracy  # the paper's ratio for ode45
     return {"name": name, "rtol": accuracy, "atol": atol}
 
@@ -71,7 +66,7 @@ def _prepare_own(name: str, problem: Problem) -> Solve:
 
 OURS = {
     name: Contestant(name, STEPS.get(name, TOLERANCES), partial(_prepare_own, name))
-    for name in ("ode45", *ITERATED, "dop853", "taylor", "splitting")
+    for name in ("ode45", *ITERATED, "dop853", "taylor")
 }
 
 

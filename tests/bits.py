@@ -24,7 +24,6 @@ CONTROLS = {
     **{name: {"rtol": value, "atol": value} for name, value in TIGHT.items()},
     "crank_nicolson": ITERATED,
     "delfour_fortin_payre": ITERATED,
-    "splitting": {"step": 0.0025},
     **{f"pendula.{name}": {"rtol": value, "atol": value} for name, value in TIGHT.items()},
     "pendula.kahan_li": {"step": 0.25},
 }

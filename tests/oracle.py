@@ -12,7 +12,6 @@ SOLVERS = {
     "ode45": {"name": "ode45", "rtol": 1e-7, "atol": 1e-9},
     "dop853": {"name": "dop853", "rtol": 1e-12, "atol": 1e-12},
     "taylor": {"name": "taylor", "rtol": 1e-12, "atol": 1e-12},
-    "splitting": {"name": "splitting", "step": 0.005},
     **{
         name: {"name": name, "step": 0.005, "tolerance": 1e-14, "iterations": 50}
         for name in ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")

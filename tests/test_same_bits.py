@@ -22,7 +22,6 @@ HASHES = {
     "ode45": "b631c3cae2ec2289",
     "crank_nicolson": "6f9d6c6adde79234",
     "delfour_fortin_payre": "24e783140ae11f55",
-    "splitting": "ff5447d6f294a8c0",
     "pendula.taylor": "388be5b48b0d412d",
     "pendula.dop853": "c5cc8852f3b1bc41",
     "pendula.ode45": "0b6e715122f228cc",

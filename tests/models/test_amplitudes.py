@@ -12,7 +12,6 @@ from pendula.models.amplitudes import (
     chain_of_tile,
     fill_site_terms,
     midpoint_rates,
-    nonlinear_flow,
     rates,
     rates_at_site,
 )
@@ -134,10 +133,8 @@ def test_all_chains_but_rings_can_be_tiled():
     assert not can_be_tiled(Chain(*CONSTANTS, PERIODIC, PERIODIC))
 
 
-def test_flows_and_terms_of_sites_leave_ghosts_alone():
+def test_terms_of_sites_leave_ghosts_alone():
     y = np.full((4, 5), 0.3)
-    nonlinear_flow(y, 0.5)
-    np.testing.assert_array_equal(y[:, [0, -1]], 0.3)
     terms = np.full(5, np.nan)
     fill_site_terms(Chain(*CONSTANTS, FREE, FREE), y, terms)
     np.testing.assert_array_equal(np.isnan(terms), [True, False, False, False, True])

@@ -12,7 +12,7 @@ from pendula.report.results import ReportError, Results
 
 HERE = Path(page.__file__).parent
 NAMES = (
-    r"Fig[s]? \d( (and|to) \d)?|\(\d\)|Theorem[s]? \d( to \d)?|Lemma \d|ode45|DOP853|BM6|"
+    r"Fig[s]? \d( (and|to) \d)?|\(\d\)|Theorem[s]? \d( to \d)?|Lemma \d|ode45|DOP853|"
     r"SHA-256|μ²|ℓ²|h[123]|2γ|τ = μ²t/2|\(−1\)|x, 0|−H &gt; 0|needs 2γ|\(2\d\)|\(1 \+ \|n\|\)|"
     r"3/2 − s in|1 − s in|s = 1, above it 1/2"
 )

@@ -13,7 +13,6 @@ CLOSE = {  # over a unit of time, worst case
     "ode45": 1e-4,
     "dop853": 1e-8,
     "taylor": 1e-8,
-    "splitting": 1e-7,
     "crank_nicolson": 1e-8,
     "implicit_midpoint": 1e-8,
     "delfour_fortin_payre": 1e-8,
@@ -24,7 +23,6 @@ DRIFTS = {
     "ode45": 1e-3,
     "dop853": 1e-9,
     "taylor": 1e-9,
-    "splitting": 1e-7,
     "delfour_fortin_payre": 1e-9,
 }
 """How well the energy is kept, relative to it where it is above one."""

@@ -54,8 +54,8 @@ def describe_archive(project: Path, members: Mapping[str, Content]) -> dict:
     }
     for key, value in (facts | of_root).items():
         crate.root_dataset[key] = value
-    (snakemake,) = (pin.split("==")[1] for pin in pins if pin.startswith("snakemake=="))
-    language = {"lang": "snakemake", "lang_version": snakemake}
+    (release,) = (pin.split("==")[1] for pin in pins if pin.startswith("snakemake=="))
+    language = {"lang": "snakemake", "lang_version": release}
     crate.add_workflow(dest_path=WORKFLOW, main=True, properties=facts, **language)
     crate.add_file(dest_path="README.md", properties={"about": {"@id": "./"}})
     for name in sorted(name for name in members if name.startswith("results/")):

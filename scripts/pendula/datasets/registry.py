@@ -77,7 +77,6 @@ SOLVER_NAMES = {
     "dop853": "DOP853",
     "taylor": "Taylor",
     "auto": "Taylor by error",
-    "splitting": "BM6 splitting",
     "kahan_li": "Kahan\N{EN DASH}Li",
 }
 """The solvers as figures and pages write them."""

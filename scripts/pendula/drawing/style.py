@@ -48,7 +48,6 @@ COLOURS = {
     "delfour_fortin_payre": "#7a2e0e",
     "dop853": "#16876b",
     "taylor": "#7b4fa3",
-    "splitting": "#5aa7d6",
     "kahan_li": "#c2558f",
 }
 
@@ -58,7 +57,6 @@ MARKERS = {
     "delfour_fortin_payre": "v",
     "dop853": "^",
     "taylor": "D",
-    "splitting": "P",
     "kahan_li": "X",
 }
 """The solvers' marks, which tell them apart in grey too."""

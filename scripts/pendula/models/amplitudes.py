@@ -3,8 +3,8 @@
     i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
                   + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
 
-and the same with A and B exchanged. What stands here: the right-hand side, the parts into which
-splitting and `delfour_fortin_payre` take it, and the energy. A state has the rows Re A, Im A, Re B,
+and the same with A and B exchanged. What stands here: the right-hand side, its mean over
+a step for `delfour_fortin_payre`, and the energy. A state has the rows Re A, Im A, Re B,
 Im B, or the first two alone where A = B (see `chain`). Whoever changes an order of operations here
 changes every result (tests/test_same_bits.py).
 """
@@ -15,7 +15,6 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.ends import DIRICHLET, PERIODIC
-from pendula.numerics import elementary
 
 from .chain import MIRROR, at_every_site, close
 
@@ -106,51 +105,7 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
-# --- Its parts: for splitting methods and for the scheme that conserves the energy --------------
-
-
-@inlined_by_llvm
-def linear_rates_at_site(chain, states, re, j, dy):
-    site_rates(chain, states[0], re, j, 0.0, dy)
-
-
-write_linear_rates = at_every_site(linear_rates_at_site)
-
-
-@kernel
-def linear_rates(chain, y, dy):
-    """Write the linear terms of the right-hand side at `y` into `dy`."""
-    close(chain, y)
-    write_linear_rates(chain, (y,), dy)
-
-
-@kernel
-def linear_radius(chain):
-    """Return a bound of the linear terms at a state whose largest modulus is one."""
-    return 4.0 * abs(chain.epsilon) + abs(chain.omega) + 2.0 * abs(chain.gamma)
-
-
-cosine = inlined_by_llvm(elementary.cosine_near_zero)
-sine = inlined_by_llvm(elementary.sine_near_zero)
-
-
-@kernel
-def nonlinear_flow(y, h):
-    """Carry `y` along the cubic terms alone over the time `h`; return whether the step is resolved.
-
-    They keep |A_n| and turn A_n by the angle -h |A_n|^2 / 2. No splitting could follow an angle of
-    a radian or more.
-    """
-    resolved = True
-    for re in range(0, y.shape[0], 2):
-        for j in range(1, y.shape[1] - 1):
-            angle = 0.5 * h * modulus2(y, re, j)
-            resolved &= abs(angle) < 1.0
-            c, s = cosine(angle), sine(angle)
-            u, v = y[re, j], y[re + 1, j]
-            y[re, j] = c * u + s * v
-            y[re + 1, j] = c * v - s * u
-    return resolved
+# --- Its mean over a step: for the scheme that conserves the energy -----------------------------
 
 
 @inlined_by_llvm

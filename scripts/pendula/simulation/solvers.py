@@ -11,15 +11,11 @@ from pendula.integrators import (
     delfour_fortin_payre,
     dop853,
     ode45,
-    splitting,
     taylor,
 )
 from pendula.models.amplitudes import (
     chain_of_tile,
-    linear_radius,
-    linear_rates,
     midpoint_rates,
-    nonlinear_flow,
     rates,
 )
 from pendula.models.amplitudes_series import continue_series
@@ -34,7 +30,6 @@ solve_crank_nicolson = crank_nicolson.build(rates, observe)
 solve_implicit_midpoint = crank_nicolson.build_midpoint(rates, observe)
 solve_delfour_fortin_payre = delfour_fortin_payre.build(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
-solve_splitting = splitting.build(linear_rates, linear_radius, nonlinear_flow, observe)
 
 
 @kernel
@@ -67,11 +62,6 @@ def run_taylor(chain, y, times, controls, work, record, stop):
     return solve_taylor(chain, y, times, controls, work, record, stop)
 
 
-@kernel
-def run_splitting(chain, y, times, controls, work, record, stop):
-    return solve_splitting(chain, y, times, controls, work, record, stop)
-
-
 class Solver(NamedTuple):
     """A compiled run, the names of its controls in their order, and the number of work arrays.
 
@@ -100,5 +90,4 @@ SOLVERS = {
     "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, delfour_fortin_payre.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
-    "splitting": Solver(run_splitting, ("step",), splitting.WORK),
 }

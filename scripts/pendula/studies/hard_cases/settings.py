@@ -21,9 +21,7 @@ MEASURES = (
 class AnySolver(Model):
     """A solver and its controls, sound or not."""
 
-    name: Literal[
-        "ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor", "splitting"
-    ]
+    name: Literal["ode45", "crank_nicolson", "delfour_fortin_payre", "dop853", "taylor"]
     rtol: AnyNumber | None = None
     atol: AnyNumber | None = None
     step: AnyNumber | None = None
