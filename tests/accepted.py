@@ -14,6 +14,7 @@ from pendula import studies
 from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.datasets.netcdf import read
+from pendula.ledger.changes import exchange, keep, put, scale, shift
 from pendula.ledger.section import Ledger
 from pendula.report.page import Picture, render
 from pendula.report.results import Results, Section
@@ -44,51 +45,30 @@ def changed(row: Mapping) -> dict[str, xr.Dataset]:
     """Return the datasets that a row of wrong_changes.yaml changes, after the change."""
     given = row.get("in", ())
     names = [given] if isinstance(given, str) else given
-    with xr.set_options(keep_attrs=True):
-        return {name: _change(dataset(row.get("take", name)), row) for name in names}
+    return {name: _change(dataset(row.get("take", name)), row) for name in names}
 
 
 def _change(data: xr.Dataset, row: Mapping) -> xr.Dataset:
-    for along, wanted in row.get("keep", {}).items():
-        data = data.isel({along: np.flatnonzero(_found(data, along, wanted))})
-    if along := row.get("exchange"):
-        data = data.assign_coords({along: data[along].values[::-1]})
+    if "keep" in row:
+        data = keep(**_labels(row["keep"]))(data)
+    if "exchange" in row:
+        data = exchange(row["exchange"])(data)
     for verb, (given, change) in VERBS.items():
-        for name in {row[verb]} if isinstance(row.get(verb), str) else {*row.get(verb, ())}:
-            if name in data:
-                here = _here(data, row.get("at", {}))
-                data = data.assign({name: data[name].where(~here, change(data[name], row[given]))})
+        names = [row[verb]] if isinstance(row.get(verb), str) else row.get(verb, ())
+        if here := tuple(name for name in names if name in data):
+            data = change(here, row[given], **_labels(row.get("at", {})))(data)
     return data
 
 
-VERBS = {
-    "scale": ("by", lambda values, factor: values * factor),
-    "shift": ("by", lambda values, amount: values + amount),
-    "set": ("to", xr.full_like),
-}
+VERBS = {"scale": ("by", scale), "shift": ("by", shift), "set": ("to", put)}
 
 
-def _here(data: xr.Dataset, at: Mapping) -> xr.DataArray:
-    """Return where all coordinates are as `at` says."""
-    here = xr.DataArray(True)
-    for along, wanted in at.items():
-        here = here & _found(data, along, wanted)
-    assert here.any(), f"nothing stands at {at}"
-    return here
-
-
-def _found(data: xr.Dataset, along: str, wanted) -> xr.DataArray:
-    """Return where a coordinate, or a place if it has none, is one of a list or in a span.
-
-    The accepted files hold coordinates in single precision.
-    """
-    labels = data[along]
-    if isinstance(wanted, dict):
-        low, high = wanted.get("from", -np.inf), wanted.get("to", np.inf)
-        return (labels >= low) & (labels <= high)
-    if labels.dtype.kind == "f":
-        wanted = np.array(wanted, np.float32)
-    return labels.isin(wanted)
+def _labels(at: Mapping) -> dict:
+    """Return labels by coordinate, spans {from, to} as slices."""
+    return {
+        along: slice(wanted.get("from"), wanted.get("to")) if isinstance(wanted, dict) else wanted
+        for along, wanted in at.items()
+    }
 
 
 def leaves(found, place: str = "") -> dict:

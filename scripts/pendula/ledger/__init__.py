@@ -1,8 +1,8 @@
 """The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
 
 `claim`      a claim, as a study declares it above the function that decides it; all their verdicts
-`blind`      which distortions a claim may be confirmed by, and why
-`chaotic`    which cases are chaotic, by cut-offs
+`changes`    the verbs that make wrong cases
+`chaos`      which cases are chaotic, and what ensembles of almost equal data may say
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `distortions` general distortions of every dataset, and what the claims' functions say of them

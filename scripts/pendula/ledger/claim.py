@@ -28,20 +28,25 @@ FEWEST = 6
 """A sweep with fewer half-widths decides nothing."""
 
 
+Wrong = str | Callable | tuple[str, Callable]
+
+
 class Control(NamedTuple):
     """A wrong case for a deciding function, which must not confirm the claim by it.
 
     `fed` says, by the name of a needed dataset, what takes its place: the name of another dataset,
-    a function that makes the wrong dataset from the right one, or a pair of a name and a function
-    that makes it from the right and the named dataset. `confirms` turns the control round, for a
-    claim that is not reproduced: the function must confirm this right case, or it could not have
-    confirmed anything. `undecided` says that the function must leave this case undecided, for
-    example because a bound does not exist there. `on` names the paper's cases and sweeps that the
-    control takes from a dataset of many.
+    a function that makes the wrong dataset from the right one, as those of `changes` do, or a pair
+    of a name and a function that makes it from the right and the named dataset. Where the claim
+    needs one dataset alone, `fed` is what takes the place of that.
+
+    `confirms` turns the control round, for a claim that is not reproduced: the function must
+    confirm this right case, or it could not have confirmed anything. `undecided` says that the
+    function must leave this case undecided, for example because a bound does not exist there. `on`
+    names the paper's cases and sweeps that the control takes from a dataset of many.
     """
 
     says: str
-    fed: Mapping[str, str | Callable | tuple[str, Callable]]
+    fed: Mapping[str, Wrong] | Wrong
     confirms: bool = False
     undecided: bool = False
     on: tuple[str, ...] = ()
@@ -117,11 +122,19 @@ def claim(
     """
 
     def declare(function: Callable) -> Callable:
-        name = function.__name__
-        function.claim = Claim(name, place, says, needs, function, controls, on, reading)
+        name, fed = function.__name__, tuple(_by_name(control, needs) for control in controls)
+        function.claim = Claim(name, place, says, needs, function, fed, on, reading)
         return function
 
     return declare
+
+
+def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
+    """Return the control with what it feeds by the name of a dataset, of which there is one."""
+    if isinstance(control.fed, Mapping):
+        return control
+    (only,) = needs
+    return control._replace(fed={only: control.fed})
 
 
 def _in(folder: str) -> Callable[..., tuple[str, ...]]:
@@ -153,11 +166,6 @@ def _wrong_in(folder: str) -> Callable[..., Control]:
         )
 
     return control
-
-
-def cases_reversed(check):
-    """Return a wrong check: the right numbers under the names of the cases in reverse order."""
-    return check.assign_coords(case=check["case"].values[::-1])
 
 
 wrong_check, wrong_run = _wrong_in("checks"), _wrong_in("trajectories")
@@ -274,7 +282,7 @@ def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     return decide(claim, {**sources, **fed})
 
 
-def _wrong(wrong: str | Callable | tuple[str, Callable], right, sources: Mapping):
+def _wrong(wrong: Wrong, right, sources: Mapping):
     if isinstance(wrong, str):
         return sources[wrong]
     if isinstance(wrong, tuple):

@@ -3,7 +3,8 @@
 import numpy as np
 
 from pendula.configuration.paper import MAPS
-from pendula.ledger.almost_equal import FAR_AS_NEAR, MAJORITY, SENSITIVITY
+from pendula.ledger.changes import exchange, put, roll, scale
+from pendula.ledger.chaos import FAR_AS_NEAR, MAJORITY, SENSITIVITY
 from pendula.ledger.claim import CHANGE, FACTOR, Control, claim
 from pendula.ledger.criterion import (
     Above,
@@ -16,6 +17,7 @@ from pendula.ledger.criterion import (
     judge,
 )
 from pendula.ledger.cutoff import Cutoff
+from pendula.models.pairs import FAMILIES
 
 SECTION = 7
 PLACE = "Section 6, breathers"
@@ -24,6 +26,8 @@ STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
 GROWTH, MAP = "breathers/growth", "breathers/fates"
 
 RATES = ("growth", "growth_half")
+OTHERS = [family.name for family in FAMILIES[1:]]
+NEXT_FAMILY = roll("growth_half", {"family": 1})
 OF_PAPER = -4.0
 """Omega of the paper's Fig 3."""
 OF_FIG_2, OF_FIG_4 = 8.0, 0.0
@@ -40,33 +44,15 @@ def at_omega(dataset, omega: float):
     return dataset.sel(omega=omega)
 
 
-def with_rates_of(omega: float):
-    """Return what gives a dataset at the paper's Omega the rates of growth at another one."""
-
-    def changed(dataset):
-        here = dataset["omega"] == OF_PAPER
-        for name in RATES:
-            if name in dataset:
-                other = at_omega(dataset, omega)[name]
-                dataset = dataset.assign({name: dataset[name].where(~here, other)})
-        return dataset
-
-    return changed
-
-
-def with_first_family_alone(steady):
-    """Return the steady states as if those of the other families were not known."""
-    first = steady["family"] == steady["family"][0]
-    return steady.assign({name: steady[name].where(first) for name in ("power", *RATES)})
-
-
 @claim(
     PLACE,
     "At the detuning of Fig 3 no steady state that is localised at one pair is stable.",
     (STEADY,),
     (
-        Control("the rates of growth at Omega = -13", {STEADY: with_rates_of(-13.0)}),
-        Control("one family known of all", {STEADY: with_first_family_alone}, undecided=True),
+        Control(
+            "the rates of growth at Omega = -13", exchange("omega", OF_PAPER, -13.0, names=RATES)
+        ),
+        Control("one family known of all", put("power", np.nan, family=OTHERS), undecided=True),
     ),
 )
 def steady_unstable(steady) -> Finding:
@@ -100,19 +86,16 @@ def known(periodic):
     return periodic
 
 
-def of_family(name: str):
-    """Return what puts another family in the place of the one with A alone."""
-    return lambda periodic: periodic.assign_coords(
-        family=[{"A only": name, name: "A only"}.get(str(one), str(one))
-                for one in periodic["family"].values]
-    )  # fmt: skip
-
-
 @claim(
     PLACE,
     "At the detuning of Fig 3 there are stable breathers, above the frequencies of linear waves.",
     (PERIODIC,),
-    (Control("breathers with A = B in place of A alone", {PERIODIC: of_family("A = B")}),),
+    (
+        Control(
+            "breathers with A = B in place of A alone",
+            exchange("family", "A only", "A = B"),
+        ),
+    ),
 )
 def periodic_stable(periodic) -> Finding:
     """Ask it of the family in which A swings and B follows by the drive."""
@@ -139,18 +122,13 @@ def verdicts_that_differ(dataset) -> int:
     return int((differ & np.isfinite(dataset["growth"])).sum())
 
 
-def of_another_family(dataset):
-    """Return a dataset whose rates on the shorter chain are those of the next family."""
-    return dataset.assign(growth_half=dataset["growth_half"].roll(family=1))
-
-
 @claim(
     PLACE,
     "Whether a breather is stable does not depend on the length of the chain.",
     (STEADY, PERIODIC),
     (
-        Control("steady states beside the rates of another family", {STEADY: of_another_family}),
-        Control("periodic ones beside the rates of another family", {PERIODIC: of_another_family}),
+        Control("steady states beside the rates of another family", {STEADY: NEXT_FAMILY}),
+        Control("periodic ones beside the rates of another family", {PERIODIC: NEXT_FAMILY}),
     ),
 )
 def stable_on_any_chain(steady, periodic) -> Finding:
@@ -184,16 +162,11 @@ def stable_on_any_chain(steady, periodic) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-def of_one_signature(periodic):
-    """Return the collisions as if both multipliers had the same signature."""
-    return periodic.assign(collision_signature=abs(periodic["collision_signature"]))
-
-
 @claim(
     PLACE,
     "Where a family of breathers becomes unstable, multipliers of opposite signatures collide.",
     (PERIODIC,),
-    (Control("both multipliers have one signature", {PERIODIC: of_one_signature}),),
+    (Control("both multipliers have one signature", put("collision_signature", 1)),),
 )
 def opposite_signatures_collide(periodic) -> Finding:
     """Ask for the product of the two Krein signatures beside each collision."""
@@ -214,16 +187,16 @@ def opposite_signatures_collide(periodic) -> Finding:
 AS_FLOQUET = Cutoff(1e-3, "runs part to 1e-4 of the breather: what is quadratic counts for less")
 
 
-def at_the_next_frequency(periodic):
-    """Return the rates of the flow beside the multipliers of the next frequency."""
-    return periodic.assign(measured_growth=periodic["measured_growth"].roll(frequency=1))
-
-
 @claim(
     PLACE,
     "Perturbations of unstable breathers grow in the nonlinear flow at the rates of Floquet.",
     (PERIODIC,),
-    (Control("rates of the flow at the next frequency", {PERIODIC: at_the_next_frequency}),),
+    (
+        Control(
+            "rates of the flow at the next frequency",
+            roll("measured_growth", {"frequency": 1}),
+        ),
+    ),
 )
 def grows_as_floquet_says(periodic) -> Finding:
     """Compare the rates of even and of odd perturbations, above the frequencies of waves."""
@@ -236,27 +209,16 @@ def grows_as_floquet_says(periodic) -> Finding:
     return judge(found, Below(AS_FLOQUET, "largest_difference", says=says))
 
 
-def at_eight(periodic):
-    """Return breathers at Omega = 8 under the name of the paper's Fig 3."""
-    return at_omega(periodic, 8.0).expand_dims(omega=[OF_PAPER])
-
-
-def with_half_in(family: str):
-    """Return what halves P of one family."""
-    return lambda periodic: periodic.assign(
-        least_power=periodic["least_power"].where(
-            periodic["family"] != family, 0.5 * periodic["least_power"]
-        )
-    )
-
-
 @claim(
     PLACE,
     "The large data at Omega = -4 have less P at any time than every periodic breather there.",
     (PERIODIC,),
     (
-        Control("breathers at Omega = 8", {PERIODIC: at_eight}),
-        Control("another family with half of its P", {PERIODIC: with_half_in("A = B")}),
+        Control("breathers at Omega = 8", exchange("omega", OF_PAPER, OF_FIG_2)),
+        Control(
+            "another family with half of its P",
+            scale("least_power", 0.5, family="A = B"),
+        ),
     ),
 )
 def data_below_breathers(periodic) -> Finding:
@@ -268,25 +230,13 @@ def data_below_breathers(periodic) -> Finding:
     return judge(measured | {"data": DATA_POWER}, Above(DATA_POWER, "least_of_a_period", says=says))
 
 
-def with_slower_law(growth):
-    """Return the runs beside a law of half the rate."""
-    return growth.assign(predicted_gain=0.5 * growth["predicted_gain"])
-
-
-def exchanged(growth):
-    """Return the runs with the laws of the drives in reverse order."""
-    return growth.assign(
-        predicted_gain=(growth["predicted_gain"].dims, growth["predicted_gain"].values[::-1])
-    )
-
-
 @claim(
     PLACE,
     "A localised motion in the band feeds on the drive by the law of weak drives, until it leaves.",
     (GROWTH,),
     (
-        Control("a law of half the rate", {GROWTH: with_slower_law}),
-        Control("runs and laws of exchanged drives", {GROWTH: exchanged}),
+        Control("a law of half the rate", scale("predicted_gain", 0.5)),
+        Control("runs and laws of exchanged drives", exchange("gamma", names="predicted_gain")),
     ),
 )
 def grows_by_drive(growth) -> Finding:
@@ -320,13 +270,11 @@ def grows_by_drive(growth) -> Finding:
         FAR_AS_NEAR,
         Control(
             "runs that spread whatever the change",
-            {SENSITIVITY: lambda given: given.assign(
-                {name: given[name] * 0.0 + 1.0 for name in ("share", "share_low", "share_high")}
-            )},
+            put(("share", "share_low", "share_high"), 1.0),
         ),
     ),
     on=("fig3_large",),
-)  # fmt: skip
+)
 def spreading_is_an_accident(sensitivity) -> Finding:
     """Ask whether most runs spread from data within 1e-6, and most do not from data off by 1e-2."""
     sizes = sensitivity["size"].values
@@ -354,32 +302,24 @@ def spreading_is_an_accident(sensitivity) -> Finding:
     return judge(measured, criterion, some if spread > 0 else "")
 
 
-def with_case(name: str):
-    """Return what puts another of the paper's cases in the place of the large one at Omega = 8."""
-    return lambda fates: fates.assign_coords(
-        case=[{"fig2_large": name, name: "fig2_large"}.get(str(one), str(one))
-              for one in fates["case"].values]
-    )  # fmt: skip
-
-
-def with_families_exchanged(fates):
-    """Return the paper's data with their distances from the families in another order."""
-    distance = fates["case_distance"]
-    return fates.assign(case_distance=distance.copy(data=np.roll(distance.values, 1, axis=-1)))
-
-
 @claim(
     "Section 6, breathers, Fig 2 lower",
     "The large data at Omega = 8 end as a breather near the stable family in which B follows A.",
     (MAP, PERIODIC),
     (
-        Control("the large data at Omega = -4", {MAP: with_case("fig3_large")}, on=("fig3_large",)),
-        Control("distances from the families in another order", {MAP: with_families_exchanged}),
-        Control("distances twenty times as large", {MAP: lambda fates: fates.assign(
-            case_distance=20.0 * fates["case_distance"])}),
+        Control(
+            "the large data at Omega = -4",
+            {MAP: exchange("case", "fig2_large", "fig3_large")},
+            on=("fig3_large",),
+        ),
+        Control(
+            "distances from the families in another order",
+            {MAP: roll("case_distance", {"family": 1})},
+        ),
+        Control("distances twenty times as large", {MAP: scale("case_distance", 20.0)}),
     ),
     on=("fig2_large",),
-)  # fmt: skip
+)
 def ends_near_stable(fates, periodic) -> Finding:
     """Ask whether the end is near this family and far from others, and this is stable there."""
     if "fig2_large" not in fates["case"].values:
@@ -408,19 +348,6 @@ def ends_near_stable(fates, periodic) -> Finding:
     return judge(measured, criterion)
 
 
-def with_detunings_exchanged(fates):
-    """Return the map of Omega = 8 at 0, and that of 0 at 8."""
-    names = {OF_FIG_2: OF_FIG_4, OF_FIG_4: OF_FIG_2}
-    return fates.assign_coords(omega=[names.get(one, one) for one in fates["omega"].values])
-
-
-def with_one_that_disperses(fates):
-    """Return the maps with one pair of data at Omega = 0 that does not spread."""
-    fate, at_zero = fates["fate"], fates["omega"] == OF_FIG_4
-    corner = (fates["a0"] == fates["a0"][-1]) & (fates["b0"] == fates["b0"][0])
-    return fates.assign(fate=fate.where(~(at_zero & corner), 0))
-
-
 def spread_on(fate):
     """Return where the data of a map spread, as 0 or 1."""
     number = fate.attrs["flag_meanings"].split().index("spreads")
@@ -432,8 +359,13 @@ def spread_on(fate):
     "The detuning decides whether unequal data of the map spread: at Omega = 0 all do, at 8 none.",
     (MAP,),
     (
-        Control("the maps of both detunings exchanged", {MAP: with_detunings_exchanged}),
-        Control("one point at Omega = 0 that disperses", {MAP: with_one_that_disperses}),
+        Control("the maps of both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
+        Control(
+            "one point at Omega = 0 that disperses",
+            lambda fates: put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(
+                fates
+            ),
+        ),
     ),
     on=(MAPS,),
 )

@@ -1,5 +1,6 @@
 """What is proved of steady breathers."""
 
+from pendula.ledger.changes import put
 from pendula.ledger.claim import Control, claim
 from pendula.ledger.criterion import (
     AllOf,
@@ -20,22 +21,19 @@ PROVED = "certified/breathers"
 NEAR = Cutoff(1e-12, "a state is told to twelve digits")
 
 
-def wrong_state(index: int):
-    """Return what puts the radius of a wrong state in the place of all others."""
-
-    def changed(proved):
-        return proved.assign(radius=proved["radius"] * 0.0 + proved["wrong_radius"][index])
-
-    return changed
-
-
 @claim(
     PLACE,
     "Steady breathers exist on the infinite chain: a theorem for each of the states computed.",
     (PROVED,),
     (
-        Control("a state tested inside the band of waves", {PROVED: wrong_state(0)}),
-        Control("a state tested at an Omega beside its own", {PROVED: wrong_state(1)}),
+        Control(
+            "a state tested inside the band of waves",
+            lambda one: put("radius", one["wrong_radius"][0])(one),
+        ),
+        Control(
+            "a state tested at an Omega beside its own",
+            lambda one: put("radius", one["wrong_radius"][1])(one),
+        ),
     ),
 )
 def breathers_exist(proved) -> Finding:
@@ -55,17 +53,12 @@ def breathers_exist(proved) -> Finding:
     return judge(measured, criterion)
 
 
-def with_verdicts(verdict: Verdict):
-    """Return what gives all states one verdict."""
-    return lambda proved: proved.assign(stable=proved["stable"] * 0 + int(verdict))
-
-
 @claim(
     PLACE,
     "Some steady breathers on a finite chain are stable and others are not, as theorems.",
     (PROVED,),
     tuple(
-        Control(f"spectra that are all {verdict.name.lower()}", {PROVED: with_verdicts(verdict)})
+        Control(f"spectra that are all {verdict.name.lower()}", put("stable", int(verdict)))
         for verdict in Verdict
     ),
 )

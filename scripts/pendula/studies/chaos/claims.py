@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pendula.ledger.almost_equal import FAR_AS_NEAR, SENSITIVITY, almost_equal, joined
+from pendula.ledger.changes import keep, repeat
+from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal, joined
 from pendula.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim, wrong_check
 from pendula.ledger.criterion import (
     Above,
@@ -129,24 +130,10 @@ WORDS = {
 }
 
 
-def taken_for(right: str | tuple[str, ...], wrong: str) -> Callable:
-    """Return a function of the members: under the name `right`, or several, stand those of `wrong`.
-
-    `wrong` is the name of one case.
-    """
-
-    def change(members):
-        cases = members["case"].values
-        chosen = [wrong if case in np.atleast_1d(right) else case for case in cases]
-        return members.sel(case=chosen).assign_coords(case=cases)
-
-    return change
-
-
-def wrong_cases(right: str | tuple[str, ...], *wrongs: str) -> tuple[Control, ...]:
+def wrong_cases(right: str, *wrongs: str) -> tuple[Control, ...]:
     """Return controls: the members of other cases in place of those of `right`."""
     return tuple(
-        wrong_check(WORDS[name], on=(*np.atleast_1d(right), name), members=taken_for(right, name))
+        wrong_check(WORDS[name], on=(right, name), members=repeat("case", name, at=right))
         for name in wrongs
     )
 
@@ -327,7 +314,7 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
             "the lower panel in place of the upper one",
             confirms=True,
             on=BOTH,
-            members=taken_for("fig4_small", "fig4_large"),
+            members=repeat("case", "fig4_large", at="fig4_small"),
         ),
     ),
     on=BOTH,
@@ -394,7 +381,7 @@ def ensemble_equilibrium(members) -> Finding:
         wrong_check(
             "amplitudes A_0 up to 6 alone",
             confirms=True,
-            lifetimes=lambda lives: lives.sel(start_amplitude=lives["start_amplitude"] <= 6.0),
+            lifetimes=keep(start_amplitude=slice(None, 6.0)),
         ),
     ),
 )

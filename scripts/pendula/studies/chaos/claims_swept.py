@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.trajectories import constants_of
-from pendula.ledger.almost_equal import (
+from pendula.ledger.changes import in_turn, keep, repeat, take
+from pendula.ledger.chaos import (
     FAR_AS_NEAR,
     SENSITIVITY,
     AlmostEqual,
@@ -148,20 +149,8 @@ def stable(right: str, *wrongs: str) -> tuple[Control, ...]:
     )
 
 
-def renamed(right: str, wrong: str, longest: int | None = None):
-    """Return a function of an ensemble: sweep `wrong` under the name `right`, up to `longest`."""
-
-    def change(ensembles):
-        chosen = [wrong if name == right else name for name in ensembles["sweep"].values]
-        other = ensembles.sel(sweep=chosen, half_width=slice(None, longest))
-        return other.assign_coords(sweep=ensembles["sweep"].values)
-
-    return change
-
-
-def with_maxima_of_l2(ensembles):
-    """Return an ensemble with the l2 norms, which grow with M, in place of the l-infinity norms."""
-    return ensembles.assign(linf_mean=ensembles["l2_mean"], linf_error=ensembles["l2_error"])
+CROSSED = keep(half_width=slice(None, 100))
+"""Chains that the front still crosses by the end."""
 
 
 # --- Fig 5, right ---------------------------------------------------------------------------------
@@ -176,7 +165,7 @@ def with_maxima_of_l2(ensembles):
         wrong_check(
             "the large data at Omega = -4, which fall again",
             on=("fig5_right", "fig6_right"),
-            ensembles=renamed("fig5_right", "fig6_right"),
+            ensembles=repeat("sweep", "fig6_right", at="fig5_right"),
         ),
     ),
     on=("fig5_right",),
@@ -205,7 +194,7 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
         *stable("fig5_right", "fig6_left", "fig5_left"),
         Control(
             "only chains that the front still crosses, on which no level is seen",
-            dict.fromkeys(NEEDS, renamed("fig5_right", "fig5_right", longest=100)),
+            dict.fromkeys(NEEDS, CROSSED),
             confirms=True,
         ),
     ),
@@ -232,7 +221,12 @@ def ensemble_fig5_conjecture(even, uneven) -> Finding:
     "Section 5, Fig 5 right, in ensembles",
     "The l-infinity norm saturates to the same level independently of M.",
     NEEDS,
-    controls=(wrong_check("the l2 norm, which grows with M", ensembles=with_maxima_of_l2),),
+    controls=(
+        wrong_check(
+            "the l2 norm, which grows with M",
+            ensembles=take(linf_mean="l2_mean", linf_error="l2_error"),
+        ),
+    ),
     on=("fig5_right",),
 )
 def ensemble_fig5_maximum(even, uneven) -> Finding:
@@ -294,7 +288,7 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     controls=(
         Control(
             "Omega = 0 on chains that its front still crosses",
-            dict.fromkeys(NEEDS, renamed("fig6_right", "fig5_right", longest=100)),
+            dict.fromkeys(NEEDS, in_turn(CROSSED, repeat("sweep", "fig5_right", at="fig6_right"))),
             confirms=True,
             on=("fig5_right",),
         ),

@@ -1,7 +1,8 @@
 """Sections 5 and 6: what stays bounded, and what is regular."""
 
-from pendula.ledger.chaotic import chaotic
-from pendula.ledger.claim import LARGE, SMALL, cases_reversed, checks, claim, wrong_check, wrong_run
+from pendula.ledger.changes import exchange
+from pendula.ledger.chaos import chaotic
+from pendula.ledger.claim import LARGE, SMALL, checks, claim, wrong_check, wrong_run
 from pendula.ledger.criterion import AtMost, Finding, judge
 from pendula.measures.norms import constants, total_power
 from pendula.models.bounds import theorem_3_bound
@@ -20,7 +21,7 @@ GAMMA = EPSILON = 1.0
     controls=(
         wrong_check(
             "the exponents of the cases in reverse order",
-            lyapunov=cases_reversed,
+            lyapunov=exchange("case"),
         ),
     ),
 )

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.ledger.changes import exchange, keep, roll, scale
 from pendula.ledger.claim import FACTOR, SETTLED, Control, claim
 from pendula.ledger.criterion import (
     Above,
@@ -28,17 +29,15 @@ THERMAL = "unbounded/thermal"
 REGULAR = ("fig2_small", "fig2_large", "fig3_small")
 SMALL_ANGLES = 0.15
 """Up to this mu the angles of the sea stay below a quarter of a turn."""
+SMALL = keep(mu=slice(None, SMALL_ANGLES))
+PENDULA = slice(1e-9, None)
+"""All mu but 0, which stands for the amplitude equations."""
 LARGE_DATA = 0.2
 """Up to this mu the larger data of the paper, at 2 mu 5 rad, stay well below the top."""
 
 ORDER = Cutoff(0.5, "an order is nearer to a whole number than to its neighbours")
 SAME = Cutoff(0.05, "P of the thermal state changes by so much where Omega changes by a quarter")
 SAME_LAW = Cutoff(0.05, "so near distributions differ by less than a figure shows")
-
-
-def small(dataset):
-    """Return the dataset at the mu up to SMALL_ANGLES."""
-    return dataset.sel(mu=dataset["mu"] <= SMALL_ANGLES)
 
 
 def late_levels(phases, norm: str = "l2"):
@@ -75,13 +74,18 @@ def with_some_mu(dataset):
     "with an error of the order mu^2.",
     (PHASES,),
     (
-        Control("norms of another case in the limit", {PHASES: lambda one: one.assign(
-            l2=one["l2"].where(one["mu"] > 0, np.roll(one["l2"], 1, axis=0)))}, on=("fig4_large",)),
-        Control("norms with an error of the order mu", {PHASES: lambda one: one.assign(
-            l2=one["l2"].sel(mu=0.0) * (1.0 + one["mu"]))}),
+        Control(
+            "norms of another case in the limit",
+            roll("l2", {"case": 1}, mu=0.0),
+            on=("fig4_large",),
+        ),
+        Control(
+            "norms with an error of the order mu",
+            lambda one: one.assign(l2=one["l2"].sel(mu=0.0) * (1.0 + one["mu"])),
+        ),
     ),
     on=REGULAR,
-)  # fmt: skip
+)
 def pendula_norms(phases) -> Finding:
     """Take the order of the difference of the mean norms between the two smallest mu."""
     levels = late_levels(phases.sel(case=list(REGULAR))).sortby("mu")
@@ -109,11 +113,14 @@ def pendula_norms(phases) -> Finding:
     "l-infinity norm stays at the same level as the initial data.",
     (PHASES,),
     (
-        Control("the smallest mu alone", {PHASES: lambda one: one.sel(
-            mu=[0.0, float(at_finite(one)["mu"].min())])}, confirms=True),
+        Control(
+            "the smallest mu alone",
+            lambda one: one.sel(mu=[0.0, float(at_finite(one)["mu"].min())]),
+            confirms=True,
+        ),
     ),
     on=("fig3_large",),
-)  # fmt: skip
+)
 def pendula_spread(phases) -> Finding:
     """Compare the late norms with those of the data, at each mu."""
     case = phases.sel(case=["fig3_large"])
@@ -150,11 +157,14 @@ def late_start(case, norm: str):
     "For Omega > 2 gamma + 4 epsilon the bound of Theorem 1 also holds for the pendula.",
     (PHASES,),
     (
-        Control("all mu at which the data stay below the top", {PHASES: lambda one: one.sel(
-            mu=one["mu"] <= LARGE_DATA, member=one["member_mu"] <= LARGE_DATA)}, confirms=True),
+        Control(
+            "all mu at which the data stay below the top",
+            lambda one: one.sel(mu=one["mu"] <= LARGE_DATA, member=one["member_mu"] <= LARGE_DATA),
+            confirms=True,
+        ),
     ),
     on=("fig2_small", "fig2_large"),
-)  # fmt: skip
+)
 def theorem_1_for_the_pendula(phases) -> Finding:
     """Compare the largest P of the envelopes with Theorem 1's bound by the data's energy.
 
@@ -188,10 +198,8 @@ def theorem_1_for_the_pendula(phases) -> Finding:
     "Section 4, Theorem 3, for the pendula (1)",
     "On a finite chain P = |A|^2 + |B|^2 of the pendula never exceeds the bound of Theorem 3.",
     (PHASES, TOP),
-    (
-        Control(f"mu up to {SMALL_ANGLES:g} alone", {PHASES: small, TOP: small}, confirms=True),
-    ),
-)  # fmt: skip
+    (Control(f"mu up to {SMALL_ANGLES:g} alone", {PHASES: SMALL, TOP: SMALL}, confirms=True),),
+)
 def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
     """Compare angles alone, which give no more than P, with the bound by the energy of the data."""
     bound = phases["theorem_3_power"]
@@ -213,26 +221,19 @@ def _least_mu(shares) -> float:
     return min(above, default=np.nan)
 
 
-def of_power(factor: float):
-    """Return what multiplies P of the pendula's sea by a factor."""
-    return lambda sea: sea.assign(
-        site_power=sea["site_power"].where(sea["mu"] == 0.0, factor * sea["site_power"])
-    )
-
-
 @claim(
     "Section 5, Fig 4, for the pendula (1)",
     "At Omega = 0 the pendula come to the same sea as the amplitudes while mu is small.",
     (SEA, THERMAL),
     (
-        Control("angles in place of their envelope", {SEA: of_power(0.5)}),
-        Control("the thermal state of another detuning", {THERMAL: lambda one: one.assign(
-            power=one["power"].shift(omega=1))}),
-        Control("distributions of the pendula moved by four cells", {SEA: lambda one: one.assign(
-            modulus_share=one["modulus_share"].where(
-                one["mu"] == 0.0, one["modulus_share"].shift(modulus=4, fill_value=0.0)))}),
+        Control("angles in place of their envelope", {SEA: scale("site_power", 0.5, mu=PENDULA)}),
+        Control("the thermal state of another detuning", {THERMAL: roll("power", {"omega": 1})}),
+        Control(
+            "distributions of the pendula moved by four cells",
+            {SEA: roll("modulus_share", {"modulus": 4}, mu=PENDULA)},
+        ),
     ),
-)  # fmt: skip
+)
 def same_sea(sea, thermal) -> Finding:
     """Compare P a site and the distribution of moduli, of ensembles on one chain."""
     limit, *others = (sea["site_power"].sel(mu=mu).values for mu in sea["mu"].values)
@@ -265,10 +266,8 @@ def same_sea(sea, thermal) -> Finding:
     "While the l2 norm of the pendula at Omega = 0 grows, their l-infinity norm remains finite: it "
     "stays at the level of the amplitudes.",
     (TOP, SEA),
-    (
-        Control(f"mu up to {SMALL_ANGLES:g} alone", {TOP: small}, confirms=True),
-    ),
-)  # fmt: skip
+    (Control(f"mu up to {SMALL_ANGLES:g} alone", {TOP: SMALL}, confirms=True),),
+)
 def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
     """Compare the largest angle by the end with 2 mu times the amplitudes' level."""
     level = sea["linf_level"].sel(mu=0.0).mean("member")
@@ -301,13 +300,14 @@ def with_middle_exchanged(over_the_top):
     "The smaller mu, the longer the pendula of the sea wait before one goes over the top.",
     (TOP,),
     (
-        Control("mu in reverse order", {TOP: lambda one: one.assign_coords(
-            mu=one["mu"].values[::-1])}),
-        Control("the same waiting times at all mu", {TOP: lambda one: one.isel(
-            mu=[0] * one.sizes["mu"]).assign_coords(mu=one["mu"].values)}),
-        Control("two middle rates exchanged", {TOP: with_middle_exchanged}, undecided=True),
+        Control("mu in reverse order", exchange("mu")),
+        Control(
+            "the same waiting times at all mu",
+            lambda one: one.isel(mu=[0] * one.sizes["mu"]).assign_coords(mu=one["mu"].values),
+        ),
+        Control("two middle rates exchanged", with_middle_exchanged, undecided=True),
     ),
-)  # fmt: skip
+)
 def waiting_grows(over_the_top) -> Finding:
     """Ask for rates that rise with mu at every step, and whose limits part from end to end."""
     ordered = over_the_top.sortby("mu")

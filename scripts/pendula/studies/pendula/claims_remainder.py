@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pendula.ledger.changes import scale
 from pendula.ledger.claim import FACTOR, Control, claim
 from pendula.ledger.criterion import (
     AllOf,
@@ -52,13 +53,13 @@ def at_common_end(remainder, name: str, expansion: str, cases=STABLE):
     return values
 
 
-def of_wrong(reading: str, expansion: str):
-    """Return what gives an expansion the orders of a wrong one."""
+def of_wrong(name: str, reading: str, expansion: str):
+    """Return what gives an expansion the orders, or the errors, of a wrong one."""
 
     def changed(remainder):
-        wrong = remainder["wrong_order"].sel(wrong_expansion=reading)
+        wrong = remainder[f"wrong_{name}"].sel(wrong_expansion=reading)
         here = remainder["expansion"] == expansion
-        return remainder.assign(order=remainder["order"].where(~here, wrong))
+        return remainder.assign({name: remainder[name].where(~here, wrong)})
 
     return changed
 
@@ -85,10 +86,14 @@ def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Findi
     "The expansion is justified on times of the order mu^-2: up to a tau of order one the angles "
     "of (3) and (4) miss those of the pendula by the order mu^3.",
     (REMAINDER,),
-    (Control("amplitudes with the slow time mu^2 t",
-             {REMAINDER: of_wrong("the slow time mu^2 t", "leading")}),),
+    (
+        Control(
+            "amplitudes with the slow time mu^2 t",
+            of_wrong("order", "the slow time mu^2 t", "leading"),
+        ),
+    ),
     on=ALL,
-)  # fmt: skip
+)
 def expansion_order(remainder) -> Finding:
     return judged_order(remainder, "leading", 3.0, ALL)
 
@@ -98,13 +103,17 @@ def expansion_order(remainder) -> Finding:
     "With its next order the expansion misses the pendula by the order mu^5.",
     (REMAINDER,),
     (
-        Control("a third harmonic of the opposite sign",
-                {REMAINDER: of_wrong("a third harmonic of the opposite sign", "corrected")}),
-        Control("the third harmonic with the amplitudes of (4)",
-                {REMAINDER: of_wrong("a third harmonic alone", "corrected")}),
+        Control(
+            "a third harmonic of the opposite sign",
+            of_wrong("order", "a third harmonic of the opposite sign", "corrected"),
+        ),
+        Control(
+            "the third harmonic with the amplitudes of (4)",
+            of_wrong("order", "a third harmonic alone", "corrected"),
+        ),
     ),
     on=ALL,  # the orders are taken at the end that every run reaches
-)  # fmt: skip
+)
 def next_order_of_the_expansion(remainder) -> Finding:
     return judged_order(remainder, "corrected", 5.0)
 
@@ -130,25 +139,18 @@ def over_late_half(remainder, cases, long: float):
     return mu, end, errors.sel(end=end) / errors.sel(end=0.5 * end, method="nearest")
 
 
-def with_error_of(reading: str):
-    """Return what gives the leading expansion the errors of a wrong one, at all ends."""
-
-    def changed(remainder):
-        wrong = remainder["wrong_error"].sel(wrong_expansion=reading)
-        right = remainder["expansion"] != "leading"
-        return remainder.assign(error=remainder["error"].where(right, wrong))
-
-    return changed
-
-
 @claim(
     "Section 2, before (4)",
     "The remainder of the expansion stays bounded as the system evolves.",
     (REMAINDER,),
-    (Control("amplitudes with the slow time mu^2 t",
-             {REMAINDER: with_error_of("the slow time mu^2 t")}),),
+    (
+        Control(
+            "amplitudes with the slow time mu^2 t",
+            of_wrong("error", "the slow time mu^2 t", "leading"),
+        ),
+    ),
     on=ALL,
-)  # fmt: skip
+)
 def remainder_bounded(remainder) -> Finding:
     """Compare the remainder at two mu and one slow time: t is four times as late at half of the mu.
 
@@ -177,11 +179,9 @@ def remainder_bounded(remainder) -> Finding:
     "Where the chain at rest is stable, the remainder of small data grows in proportion to time at "
     "most.",
     (REMAINDER,),
-    (
-        Control("errors in proportion to tau^2", {REMAINDER: in_square_of_time}),
-    ),
+    (Control("errors in proportion to tau^2", in_square_of_time),),
     on=("fig2_small", "fig3_small"),
-)  # fmt: skip
+)
 def remainder_secular(remainder) -> Finding:
     """Read the exponent of time off the late half of the runs."""
     mu, end, growth = over_late_half(remainder, ("fig2_small", "fig3_small"), LONG)
@@ -217,11 +217,10 @@ def by_power(remainder):
     (REMAINDER, LYAPUNOV),
     (
         Control("horizons in proportion to mu^-2", {REMAINDER: by_power}),
-        Control("horizons half as late again", {REMAINDER: lambda one: one.assign(
-            visible_from=1.5 * one["visible_from"])}),
+        Control("horizons half as late again", {REMAINDER: scale("visible_from", 1.5)}),
     ),
     on=(UNSTABLE,),
-)  # fmt: skip
+)
 def horizon_logarithmic(remainder, lyapunov) -> Finding:
     """An error of mu^3 e^(rate tau) is a part of an angle of the order mu at 2 ln(1 / mu) / rate.
 

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from pendula.ledger.changes import roll, scale
 from pendula.ledger.claim import Control, claim
 from pendula.ledger.criterion import (
     Above,
@@ -66,19 +67,13 @@ def limit_of(dataset):
     return continued(dataset["gamma_0"].transpose("mu", "omega").values, dataset["mu"].values)
 
 
-def with_lemma(change):
-    """Return what puts other thresholds in the place of Lemma 1's."""
-
-    def changed(dataset):
-        lemma = dataset["gamma_0_lemma"]
-        return dataset.assign(gamma_0_lemma=lemma.where(lemma == 0.0, change(dataset)))
-
-    return changed
-
-
-def far_edge(dataset):
-    """Return half of the distance of Omega from the far edge of the band."""
-    return 0.5 * abs(dataset["omega"] - 4.0 * dataset.attrs["epsilon"] * (dataset["omega"] < 0))
+def at_the_far_edge(dataset):
+    """Return Lemma 1's thresholds with half of the distance of Omega from the far edge."""
+    edge = 4.0 * dataset.attrs["epsilon"] * (dataset["omega"] < 0)
+    lemma = dataset["gamma_0_lemma"]
+    return dataset.assign(
+        gamma_0_lemma=lemma.where(lemma == 0.0, 0.5 * abs(dataset["omega"] - edge))
+    )
 
 
 @claim(
@@ -86,11 +81,10 @@ def far_edge(dataset):
     "In the limit of small mu the pendula lose stability at the gamma_0 of Lemma 1.",
     (THRESHOLD,),
     (
-        Control("thresholds at the far edge of the band", {THRESHOLD: with_lemma(far_edge)}),
-        Control("thresholds of a drive of half the strength", {
-            THRESHOLD: with_lemma(lambda dataset: 2.0 * dataset["gamma_0_lemma"])}),
+        Control("thresholds at the far edge of the band", at_the_far_edge),
+        Control("thresholds of a drive of half the strength", scale("gamma_0_lemma", 2.0)),
     ),
-)  # fmt: skip
+)
 def lemma_1_is_the_limit(threshold) -> Finding:
     """Continue the exact thresholds to mu = 0; inside the band ask for none."""
     ordered = smallest_mus(threshold)
@@ -109,19 +103,17 @@ def lemma_1_is_the_limit(threshold) -> Finding:
     return judge(measured, criterion)
 
 
-def with_correction(change):
-    """Return what puts other coefficients of mu^2 in the place of the right ones."""
-    return lambda dataset: dataset.assign(correction=change(dataset["correction"]))
-
-
 @claim(
     PLACE,
     "The pendula's threshold differs from Lemma 1's by gamma_0^2 mu^2 / 4: more below the band, "
     "less above it.",
     (THRESHOLD,),
     (
-        Control("the same sign on both sides", {THRESHOLD: with_correction(abs)}),
-        Control("half of the coefficient", {THRESHOLD: with_correction(lambda one: 0.5 * one)}),
+        Control(
+            "the same sign on both sides",
+            lambda one: one.assign(correction=abs(one["correction"])),
+        ),
+        Control("half of the coefficient", scale("correction", 0.5)),
     ),
 )
 def correction_of_the_threshold(threshold) -> Finding:
@@ -164,12 +156,13 @@ def largest_misses(dataset):
     "Unstable pendula grow at the rates of Lemma 1, with an error of the order mu^2.",
     (THRESHOLD,),
     (
-        Control("rates of exchanged detunings", {THRESHOLD: lambda one: one.assign(
-            rate_lemma=(one["rate_lemma"].dims, np.roll(one["rate_lemma"].values, 1, axis=0)))}),
-        Control("rates with an error of the order mu", {THRESHOLD: lambda one: one.assign(
-            wave_rate=one["rate_lemma"] * (1.0 + one["mu"]))}),
+        Control("rates of exchanged detunings", roll("rate_lemma", {"growth_omega": 1})),
+        Control(
+            "rates with an error of the order mu",
+            lambda one: one.assign(wave_rate=one["rate_lemma"] * (1.0 + one["mu"])),
+        ),
     ),
-)  # fmt: skip
+)
 def rates_of_the_pendula(threshold) -> Finding:
     """Take the order between the two smallest mu."""
     ordered = smallest_mus(threshold)
@@ -187,10 +180,13 @@ def rates_of_the_pendula(threshold) -> Finding:
     "The pendula at rest are linearly stable if gamma is below the gamma_0 of Lemma 1.",
     (THRESHOLD,),
     (
-        Control("detunings below the band alone", {THRESHOLD: lambda one: one.sel(
-            omega=((one["omega"] < 0) & (one["gamma_0"] > 0).all("mu")).values)}, confirms=True),
+        Control(
+            "detunings below the band alone",
+            lambda one: one.sel(omega=((one["omega"] < 0) & (one["gamma_0"] > 0).all("mu")).values),
+            confirms=True,
+        ),
     ),
-)  # fmt: skip
+)
 def lemma_1_for_the_pendula(threshold) -> Finding:
     """Compare the exact thresholds with Lemma 1's at each mu, where both are known."""
     lemma = threshold["gamma_0_lemma"]

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from pendula.ledger.claim import number
+from pendula.ledger.changes import exchange, take
+from pendula.ledger.claim import Control, number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -15,7 +16,7 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff
 
-from .deciding import changed, decides, wrong
+from .deciding import decides, wrong
 
 SECTION = 3
 
@@ -28,12 +29,6 @@ HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate 
 TOLD = Cutoff(0.05, "exponents are told to a decimal")
 
 
-def second_pair(check):
-    """Return the check with the growth of the second pair of roots in the place of the first."""
-    growth = check["second_growth"].assign_attrs(check["first_growth"].attrs)
-    return check.assign(first_growth=growth)
-
-
 @decides(
     "Section 3, (15)",
     "The characteristic equation factorises into the dispersion relation, whose first pair of roots"
@@ -41,7 +36,10 @@ def second_pair(check):
     "dispersion",
     controls=(
         wrong("the roots of half of the drive", "dispersion"),
-        changed("the second pair in place of the first", "dispersion", second_pair),
+        Control(
+            "the second pair in place of the first",
+            take(first_growth="second_growth"),
+        ),
     ),
 )
 def dispersion(check) -> Finding:
@@ -126,18 +124,13 @@ def sharp_threshold(check) -> Finding:
     )
 
 
-def of_other_side(check):
-    """Return the check with the numbers of its Omegas in reverse order."""
-    return check.assign_coords(omega=check["omega"].values[::-1])
-
-
 @decides(
     "Proof of Lemma 1",
     "Above gamma_0 waves grow near theta = pi if Omega > 4 epsilon, near 0 if Omega < 0.",
     "unstable_waves",
     controls=(
         wrong("the other edge of the band", "unstable_waves"),
-        changed("the waves of the Omega on the other side", "unstable_waves", of_other_side),
+        Control("the waves of the Omega on the other side", exchange("omega")),
     ),
 )
 def unstable_waves(check) -> Finding:

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from pendula.ledger.claim import number
+from pendula.ledger import changes
+from pendula.ledger.claim import Control, number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -20,10 +21,12 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import student
 from pendula.measures.growth import PARTS
 
-from .deciding import NEAR, changed, decides, wrong
+from .deciding import NEAR, decides, wrong
 
 SECTION = 2
 
+RIGHT, OPPOSITE = "mu^2 t / 2", "mu^2 t / 2, opposite drive"
+"""Readings of the expansion: the paper's, and the one with a drive of the other sign."""
 THIRD, SECOND = 3.0, 2.0
 """The orders in mu of the expansion's remainder, and of the energy's."""
 # ASSUME: a symmetry is missing if it is missed by more than one part in a thousand.
@@ -105,12 +108,11 @@ def told_pairs(size, limit):
     "The energy is the only integral of motion.",
     "lyapunov",
     controls=(
-        changed(
+        Control(
             "spectra at gamma = 0, where l2 is an integral too, and motion regular",
-            "lyapunov",
             without_drive,
         ),
-        changed("a second pair of zeros, which is made up", "lyapunov", with_another_pair),
+        Control("a second pair of zeros, which is made up", with_another_pair),
     ),
 )
 def one_integral(lyapunov) -> Finding:
@@ -142,11 +144,6 @@ def one_integral(lyapunov) -> Finding:
     return judge(measured, criterion, caveat, fails)
 
 
-def image(name: str):
-    """Return a change that puts another action in the place of P and T together."""
-    return lambda pt: pt.assign(pt=pt[name].assign_attrs(pt["pt"].attrs))
-
-
 @decides(
     "Section 2, (9) to (11)",
     "In the variables u, v the equations take the form (10), which is invariant under the action of"
@@ -154,8 +151,8 @@ def image(name: str):
     "pt_form",
     controls=(
         wrong("form (10) with half of the drive", "pt_form"),
-        changed("P without T", "pt_form", image("p_alone")),
-        changed("T without P", "pt_form", image("t_alone")),
+        Control("P without T", changes.take(pt="p_alone")),
+        Control("T without P", changes.take(pt="t_alone")),
     ),
 )
 def pt_form(check) -> Finding:
@@ -225,9 +222,8 @@ def inherited(check) -> Finding:
     "The drive acts at the 1:2 resonance with the frequency of each pendulum.",
     "resonance",
     controls=(
-        changed(
+        Control(
             "a drive at the pendula's own frequency",
-            "resonance",
             lambda check: check.assign_coords(drive_ratio=2.0 * check["drive_ratio"]),
         ),
     ),
@@ -244,28 +240,13 @@ def resonance(check) -> Finding:
     return judge(measured, criterion)
 
 
-def reading(name: str):
-    """Return a change after which the paper's reading of the expansion has the numbers of another.
-
-    The other one takes those of the paper's.
-    """
-
-    def swapped(expansion):
-        here, there = "mu^2 t / 2", name
-        names = {here: there, there: here}
-        labels = [names.get(str(label), str(label)) for label in expansion["reading"].values]
-        return expansion.assign_coords(reading=labels)
-
-    return swapped
-
-
 @decides(
     "Section 2, (3) and after (4)",
     "The amplitudes in the expansion are functions of mu^2 t, and move with tau = mu^2 t / 2.",
     "expansion",
     controls=(
-        changed("the slow time mu^2 t", "expansion", reading("mu^2 t")),
-        changed("the slow time mu t / 2", "expansion", reading("mu t / 2")),
+        Control("the slow time mu^2 t", changes.exchange("reading", RIGHT, "mu^2 t")),
+        Control("the slow time mu t / 2", changes.exchange("reading", RIGHT, "mu t / 2")),
         wrong("Omega = 0 for so long that instability destroys the expansion", "expansion"),
     ),
 )
@@ -274,12 +255,12 @@ def slow_time(expansion) -> Finding:
     orders = {
         name: number(expansion, "order", reading=label)
         for name, label in (
-            ("order", "mu^2 t / 2"),
+            ("order", RIGHT),
             ("order_without_the_half", "mu^2 t"),
             ("order_by_another_power", "mu t / 2"),
         )
     }
-    smallest = expansion["angle_error"].sel(reading="mu^2 t / 2")[-1]
+    smallest = expansion["angle_error"].sel(reading=RIGHT)[-1]
     measured = orders | {"smallest_error": smallest}
     return judge(measured, Near(THIRD, NEAR, "order", says="order in mu"))
 
@@ -288,11 +269,11 @@ def slow_time(expansion) -> Finding:
     "Section 2, (2) and (4)",
     "The drive D = 2 gamma mu^2 cos 2 omega t gives gamma (conj B - conj A).",
     "expansion",
-    controls=(changed("the opposite drive", "expansion", reading("mu^2 t / 2, opposite drive")),),
+    controls=(Control("the opposite drive", changes.exchange("reading", RIGHT, OPPOSITE)),),
 )
 def drive_sign(expansion) -> Finding:
-    right = number(expansion, "order", reading="mu^2 t / 2")
-    opposite = number(expansion, "order", reading="mu^2 t / 2, opposite drive")
+    right = number(expansion, "order", reading=RIGHT)
+    opposite = number(expansion, "order", reading=OPPOSITE)
     measured = {"order": right, "order_opposite": opposite}
     here, there = (f"order in mu with the {sign} sign" for sign in ("printed", "opposite"))
     least = THIRD - NEAR.value

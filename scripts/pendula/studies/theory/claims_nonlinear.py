@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pendula.ledger.claim import LARGE, SMALL, checks, claim, number
+from pendula.ledger.changes import take
+from pendula.ledger.claim import LARGE, SMALL, Control, checks, claim, number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -20,7 +21,7 @@ from pendula.ledger.criterion import (
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.norms import growth_margin
 
-from .deciding import IN_PROPORTION, NEAR, changed, decides, wrong
+from .deciding import IN_PROPORTION, NEAR, decides, wrong
 
 SECTION = 4
 
@@ -210,16 +211,17 @@ theorem_3 = theorem(
 )
 
 
-def mended(constant):
-    """Return the check with 2 gamma in the bound that is printed with gamma."""
-    return constant.assign(printed=constant["corrected"])
-
-
 @decides(
     "Proof of Theorem 3",
     "The quadratic part of H is at least -(|Omega| + gamma + 4 epsilon) P.",
     "theorem_3_constant",
-    controls=(changed("2 gamma in place of gamma", "theorem_3_constant", mended, confirms=True),),
+    controls=(
+        Control(
+            "2 gamma in place of gamma",
+            take(printed="corrected"),
+            confirms=True,
+        ),
+    ),
 )
 def theorem_3_proof(constant) -> Finding:
     measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}

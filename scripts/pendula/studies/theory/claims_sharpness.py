@@ -4,11 +4,12 @@ A bound in terms of the energy is one thing, a constant times the size of the da
 paper has both, and says "sharp" of all.
 """
 
-from pendula.ledger.claim import number
+from pendula.ledger.changes import scale
+from pendula.ledger.claim import Control, number
 from pendula.ledger.criterion import Above, Finding, judge
 from pendula.ledger.cutoff import Cutoff
 
-from .deciding import changed, decides, wrong
+from .deciding import decides, wrong
 
 SECTION = 6
 
@@ -47,17 +48,14 @@ def sharp_theorems(check) -> Finding:
 def with_least_constant(check):
     """Return the check with the least C_0 that tiny data allow in place of the proof's."""
     factor = check["limit_constant"] / check["least_constant"]
-    ball = check["form"] == "theorem_2_ball"
-    return check.assign(reached=check["reached"] * factor.where(ball, 1.0))
+    return scale("reached", factor, form="theorem_2_ball")(check)
 
 
 @decides(
     "Section 6; Theorem 2, (24)",
     "The bound C_0 delta of Theorem 2 is sharp.",
     "sharpness",
-    controls=(
-        changed("the least C_0 of tiny data", "sharpness", with_least_constant, confirms=True),
-    ),
+    controls=(Control("the least C_0 of tiny data", with_least_constant, confirms=True),),
 )
 def sharp_theorem_2_ball(check) -> Finding:
     """The paper gives no C_0, so it is the least one that its inequality allows tiny data."""

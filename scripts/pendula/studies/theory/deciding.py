@@ -26,8 +26,3 @@ def wrong(says: str, *names: str, instead: str = "", confirms: bool = False) -> 
     """
     fed = {f"checks/{name}": f"checks/{WRONG_FOLDER}{instead or name}" for name in names}
     return Control(says, fed, confirms)
-
-
-def changed(says: str, name: str, change: Callable, confirms: bool = False) -> Control:
-    """Return the control that feeds a check's dataset after a `change`."""
-    return Control(says, {f"checks/{name}": change}, confirms)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from pendula.ledger.changes import put, roll, scale
 from pendula.ledger.claim import CHANGE, CONSTANT, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -91,27 +92,11 @@ def slope_at(thermal, energy: float) -> float:
 # --- Wrong cases ----------------------------------------------------------------------------------
 
 
-def of_next_omega(thermal):
-    """Return the thermal states with the power of the next Omega at each."""
-    return thermal.assign(power=thermal["power"].roll(omega=1))
-
-
-def dispersing(run):
-    """Return the run with a bulk whose power falls as 1 / tau, as that of dispersing waves."""
-    fall = run["piece_tau"][-1] / run["piece_tau"]
-    return run.assign(bulk_power=(run["bulk_power"] * fall).transpose(*run["bulk_power"].dims))
-
-
 def noise(run):
     """Return the run with noise for the power of its bulk, of the mean that it had."""
     powers = run["bulk_power"]
     drawn = np.random.default_rng(2017).exponential(float(powers.mean()), powers.shape)
     return run.assign(bulk_power=(powers.dims, drawn))
-
-
-def faster(run):
-    """Return the run with a front that is said to be faster by a twentieth."""
-    return run.assign(predicted_speed=1.05 * run["predicted_speed"])
 
 
 def without_energy(run):
@@ -131,12 +116,6 @@ def behind_its_front(right, other):
     """Return another run as one at the Omega of the right one, behind a front of that speed."""
     names = ("omega", "predicted_speed", "predicted_delay")
     return other.assign({name: ("variant", right[name].values[:1]) for name in names})
-
-
-def one_state(thermal):
-    """Return the thermal states with that of no energy at every energy."""
-    cold = at_energy(thermal, 0.0)["power"]
-    return thermal.assign(warm_power=cold + 0.0 * thermal["warm_power"])
 
 
 def with_power(warm: bool) -> Callable:
@@ -162,6 +141,7 @@ SCATTER = 0.01
 """By how much P of made-up members is off: little, and enough for limits."""
 
 
+NEXT_OMEGA = roll("power", {"omega": 1})
 STILL = tuple(
     Control(
         f"the stable run {name}, held to the thermal state of the nearest Omega",
@@ -178,8 +158,15 @@ STILL = tuple(
     unbounded("omegas", "thermal"),
     (
         *STILL,
-        Control("the thermal states of the next Omega", {"unbounded/thermal": of_next_omega}),
-        Control("P falls as 1 / tau, as that of waves", {"unbounded/omegas": dispersing}),
+        Control("the thermal states of the next Omega", {"unbounded/thermal": NEXT_OMEGA}),
+        Control(
+            "P falls as 1 / tau, as that of waves",
+            {
+                "unbounded/omegas": lambda run: scale(
+                    "bulk_power", run["piece_tau"][-1] / run["piece_tau"]
+                )(run)
+            },
+        ),
         Control("noise of the same mean for P", {"unbounded/omegas": noise}),
     ),
     reading="infinite chain",
@@ -206,7 +193,7 @@ def unbounded_equilibrium(run, thermal) -> Finding:
     " spreading.",
     unbounded("fig4_small", "omegas", "thermal"),
     (
-        Control("the thermal states of the next Omega", {"unbounded/thermal": of_next_omega}),
+        Control("the thermal states of the next Omega", {"unbounded/thermal": NEXT_OMEGA}),
         *(
             Control(
                 f"{says}, held to the speed and the thermal state of Omega = 0",
@@ -217,7 +204,9 @@ def unbounded_equilibrium(run, thermal) -> Finding:
                 ("fig3_large", "large data at Omega = -4"),
             )
         ),
-        Control("a speed that is 5 % too high", {"unbounded/fig4_small": faster}),
+        Control(
+            "a speed that is 5 % too high", {"unbounded/fig4_small": scale("predicted_speed", 1.05)}
+        ),
     ),
 )
 def unbounded_slope(run, band, thermal) -> Finding:
@@ -262,7 +251,10 @@ WARM, THERMAL = "unbounded/fig3_large", "unbounded/thermal"
         Control("the stable run fig2_large", {WARM: "unbounded/fig2_large"}),
         Control("energy of either sign", {WARM: without_energy}),
         Control("noise of the same mean for P", {WARM: noise}),
-        Control("the cold state at every energy", {THERMAL: one_state}),
+        Control(
+            "the cold state at every energy",
+            {THERMAL: lambda thermal: put("warm_power", at_energy(thermal, 0.0)["power"])(thermal)},
+        ),
         Control(
             "a bulk in the cold state",
             {WARM: (THERMAL, with_power(warm=False))},

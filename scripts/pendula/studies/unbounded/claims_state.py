@@ -1,10 +1,9 @@
 """What moves on chains without ends: the front, the bulk behind it, and its largest amplitude."""
 
-from collections.abc import Callable
-
 import numpy as np
 
-from pendula.ledger.almost_equal import FAR_AS_NEAR, SENSITIVITY, almost_equal
+from pendula.ledger.changes import roll, scale, take
+from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
 from pendula.ledger.claim import CONSTANT, FACTOR, SETTLED, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
@@ -38,11 +37,6 @@ FAR_AHEAD = 1e6
 OMEGAS, MAIN = "unbounded/omegas", "unbounded/fig4_small"
 
 
-def another_omega(run):
-    """Return the run with the speeds that are predicted at its next Omega."""
-    return run.assign(predicted_speed=run["predicted_speed"].roll(variant=1))
-
-
 def a_stop(run):
     """Return the run with fronts that stop at half the time."""
     tau = run["piece_tau"]
@@ -55,10 +49,13 @@ def a_stop(run):
     "The central pendulum excites its neighbours, and this process continues.",
     unbounded("omegas"),
     (
-        Control("the speed of linear spreading at another Omega", {OMEGAS: another_omega}),
-        Control("fronts that stop", {OMEGAS: a_stop}),
-        Control("small data at Omega = -4", {OMEGAS: "unbounded/fig3_small"}),
-        Control("large data at Omega = 8", {OMEGAS: "unbounded/fig2_large"}),
+        Control(
+            "the speed of linear spreading at another Omega",
+            roll("predicted_speed", {"variant": 1}),
+        ),
+        Control("fronts that stop", a_stop),
+        Control("small data at Omega = -4", "unbounded/fig3_small"),
+        Control("large data at Omega = 8", "unbounded/fig2_large"),
     ),
 )
 def unbounded_front(run) -> Finding:
@@ -80,15 +77,7 @@ def unbounded_front(run) -> Finding:
 # --- The largest amplitude ------------------------------------------------------------------------
 
 
-def of_the_other_norm(run):
-    """Return the run with l2, which grows as the root of tau, in place of l-infinity."""
-    return run.assign(linf=run["l2"])
-
-
-def times(factor: float) -> Callable:
-    """Return a control that multiplies the largest amplitudes of a run."""
-    names = ("linf", "bulk_maximum")
-    return lambda run: run.assign({name: factor * run[name] for name in names})
+LARGEST = ("linf", "bulk_maximum")
 
 
 def at_a_limit(run):
@@ -114,9 +103,9 @@ def at_the_next_omega(right, omegas):
     "The l-infinity norm remains finite at the dynamical equilibrium.",
     unbounded("fig4_small", "thermal"),
     (
-        Control("l2, which grows as the root of tau, in its place", {MAIN: of_the_other_norm}),
-        Control("largest amplitudes higher by 5 %", {MAIN: times(1.05)}),
-        Control("largest amplitudes lower by 5 %", {MAIN: times(0.95)}, undecided=True),
+        Control("l2, which grows as the root of tau, in its place", {MAIN: take(linf="l2")}),
+        Control("largest amplitudes higher by 5 %", {MAIN: scale(LARGEST, 1.05)}),
+        Control("largest amplitudes lower by 5 %", {MAIN: scale(LARGEST, 0.95)}, undecided=True),
         Control("a maximum that has come to a limit", {MAIN: at_a_limit}, undecided=True),
         Control("eight times as many sites", {MAIN: of_more_sites}, undecided=True),
         Control("the bulk at another Omega", {MAIN: (OMEGAS, at_the_next_omega)}, undecided=True),
@@ -223,14 +212,14 @@ CENTRE = 8
     "Many pendula oscillate with large and comparable amplitudes with respect to the central one.",
     unbounded("fig4_small"),
     (
-        Control("large data at Omega = 8, alone in the centre", {MAIN: "unbounded/fig2_large"}),
+        Control("large data at Omega = 8, alone in the centre", "unbounded/fig2_large"),
         Control(
             "the largest data at Omega = -4, which stay in the centre",
-            {MAIN: ("unbounded/amplitudes", largest_ones)},
+            ("unbounded/amplitudes", largest_ones),
         ),
         Control(
             "small data at Omega = -4, which disperse: no bulk is left to compare",
-            {MAIN: "unbounded/fig3_small"},
+            "unbounded/fig3_small",
             undecided=True,
         ),
     ),

@@ -1,4 +1,4 @@
-"""What ensembles of almost equal data may say of data that differ by more.
+"""What verdicts need of chaos: which cases are chaotic, and what an ensemble says of other data.
 
 An ensemble whose data are within a millionth of the paper's cannot see that a change of a hundredth
 would end the motion that it measures. The study of breathers counts which runs spread by the size
@@ -10,10 +10,37 @@ not.
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 
+from pendula.measures.growth import ERRORS, MANY, is_chaotic
+from pendula.numerics.elementary import log
+
+from .changes import exchange
 from .claim import Control
 from .criterion import Above, Criterion
 from .cutoff import Cutoff
+
+MUCH_GROWTH = Cutoff(MANY, "logarithm of a growth by a hundred, where tau^6 has grown by 64")
+SURE = Cutoff(ERRORS, "three standard errors, which chance exceeds a few times in a thousand")
+
+
+def chaotic(lyapunov: xr.Dataset) -> xr.DataArray:
+    """Return whether tangent vectors of either parity grow exponentially, (case).
+
+    The dataset says it too, by the same limits; here they are cut-offs, which can move.
+    """
+    growth = lyapunov["log_growth"].transpose("case", "parity", "tau")
+    size = lyapunov["l2"].transpose("case", "tau").values[:, None]
+    limits = {"many": MUCH_GROWTH.value, "errors": SURE.value}
+    found = is_chaotic(growth["tau"].values, growth.values, size, **limits)
+    return lyapunov["case"].copy(data=found.any(axis=1)).rename("chaotic")
+
+
+def regular(lyapunov: xr.Dataset) -> xr.Dataset:
+    """Return exponents of the same cases as if nothing grew, for controls."""
+    size = lyapunov["l2"].copy(data=log(lyapunov["l2"].values))
+    return lyapunov.assign(log_growth=size + 0.0 * lyapunov["log_growth"])
+
 
 SENSITIVITY = "breathers/sensitivity"
 MAJORITY = Cutoff(0.5, '"most": more than half')
@@ -54,14 +81,9 @@ def almost_equal(sensitivity, within: float) -> AlmostEqual:
     return AlmostEqual(measured, criterion, caveat)
 
 
-def from_the_other_end(sensitivity):
-    """Return the shares under sizes in reverse order: what is close to the data does not spread."""
-    names = [name for name in ("share", "share_low", "share_high") if name in sensitivity]
-    return sensitivity.assign({name: ("size", sensitivity[name].values[::-1]) for name in names})
-
-
 FAR_AS_NEAR = Control(
-    "the shares that spread of the sizes in reverse order", {SENSITIVITY: from_the_other_end}
+    "the shares that spread of the sizes in reverse order",
+    {SENSITIVITY: exchange("size", names=("share", "share_low", "share_high"))},
 )
 """A wrong case for every claim that rests on `almost_equal`."""
 

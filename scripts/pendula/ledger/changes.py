@@ -1,0 +1,145 @@
+"""Verbs that make wrong cases of datasets, for the controls of claims and for tests.
+
+Each returns a function of a dataset that makes the changed one. `names` are one or more
+variables. `at` says where, by coordinate; without it everywhere. It is a label, a list of labels,
+or a slice of them with both ends; the labels of a dimension without any are its places 0, 1, ...
+"""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import xarray as xr
+
+from .criterion import UndecidableError
+
+Change = Callable[[xr.Dataset], xr.Dataset]
+Names = str | tuple[str, ...]
+NEAR = 1e-6
+"""Labels that differ by a smaller part are one: accepted files hold them in single precision."""
+
+
+def scale(names: Names, by: float | xr.DataArray, **at) -> Change:
+    """Multiply variables."""
+    return _in_place(names, lambda values: values * by, at)
+
+
+def shift(names: Names, by: float, **at) -> Change:
+    """Add a number to variables."""
+    return _in_place(names, lambda values: values + by, at)
+
+
+def put(names: Names, to: float, **at) -> Change:
+    """Put one number in the place of all."""
+    return _in_place(names, lambda values: xr.full_like(values, to), at)
+
+
+def roll(names: Names, places: Mapping[str, int], **at) -> Change:
+    """Move numbers along dimensions, whose labels stay; the last ones come first."""
+    return _in_place(names, lambda values: values.roll(places, roll_coords=False), at)
+
+
+def exchange(along: str, *labels, names: Names = ()) -> Change:
+    """Exchange two labels of a coordinate, or reverse all; `names` alone if they are given."""
+
+    def changed(data: xr.Dataset) -> xr.Dataset:
+        order = np.arange(data.sizes[along])
+        places = [_place(data, along, label) for label in labels] or order
+        order[places] = order[places][::-1]
+        return _ordered(data, along, order, names)
+
+    return changed
+
+
+def repeat(along: str, label, at, names: Names = ()) -> Change:
+    """Put what stands at one label at other ones too; `names` alone if they are given."""
+
+    def changed(data: xr.Dataset) -> xr.Dataset:
+        here = _found(data, along, at)
+        order = np.where(here, _place(data, along, label), np.arange(data.sizes[along]))
+        return _ordered(data, along, order, names)
+
+    return changed
+
+
+def take(**others: str) -> Change:
+    """Put other variables in the place of some, which keep their attributes."""
+    return lambda data: data.assign(
+        {name: data[other].assign_attrs(data[name].attrs) for name, other in others.items()}
+    )
+
+
+def take_from(*names: str, **at) -> Callable[[xr.Dataset, xr.Dataset], xr.Dataset]:
+    """Put variables of another dataset, which is given second, in the place of its own."""
+    return lambda data, other: _in_place(names, lambda values: other[values.name], at)(data)
+
+
+def keep(**at) -> Change:
+    """Drop all but these labels."""
+
+    def changed(data: xr.Dataset) -> xr.Dataset:
+        return data.isel({along: np.flatnonzero(_found(data, along, at[along])) for along in at})
+
+    return changed
+
+
+def in_turn(*changes: Change) -> Change:
+    """Make one change after the other."""
+
+    def changed(data: xr.Dataset) -> xr.Dataset:
+        for change in changes:
+            data = change(data)
+        return data
+
+    return changed
+
+
+def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
+    def changed(data: xr.Dataset) -> xr.Dataset:
+        here = xr.DataArray(True)
+        for along, wanted in at.items():
+            here = here & _found(data, along, wanted)
+        with xr.set_options(keep_attrs=True):
+            new = {
+                name: data[name].where(~here, change(data[name])) for name in _among(data, names)
+            }
+        return data.assign(new)
+
+    return changed
+
+
+def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names) -> xr.Dataset:
+    """Return the variables with their numbers in this order along a coordinate, which stays."""
+    kept = [name for name in _among(data, names or tuple(data)) if along in data[name].dims]
+    return data.assign(
+        {name: data[name].copy(data=data[name].isel({along: order}).values) for name in kept}
+    )
+
+
+def _among(data: xr.Dataset, names: Names) -> list[str]:
+    """Return which of the names the dataset has, which must be one at least."""
+    found = [name for name in np.atleast_1d(names) if name in data]
+    if not found:
+        raise UndecidableError(f"the dataset has no {' or '.join(np.atleast_1d(names))}")
+    return found
+
+
+def _place(data: xr.Dataset, along: str, label) -> int:
+    return int(np.flatnonzero(_found(data, along, label))[0])
+
+
+def _found(data: xr.Dataset, along: str, wanted) -> xr.DataArray:
+    """Return where a coordinate has one of some labels, of which one at least must be there."""
+    labels = data[along]
+    if isinstance(wanted, slice):
+        low = -np.inf if wanted.start is None else wanted.start
+        high = np.inf if wanted.stop is None else wanted.stop
+        found = (labels >= low) & (labels <= high)
+    elif labels.dtype.kind == "f":
+        found = labels.copy(
+            data=np.isclose(labels.values[:, None], np.atleast_1d(wanted), NEAR, 0.0).any(axis=1)
+        )
+    else:
+        found = labels.isin(np.atleast_1d(wanted))
+    if not found.any():
+        raise UndecidableError(f"there is no {along} = {wanted}")
+    return found

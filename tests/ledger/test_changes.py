@@ -1,0 +1,79 @@
+"""The verbs that make wrong cases: what they change, where, and what they leave."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from pendula.ledger.changes import (
+    exchange,
+    in_turn,
+    keep,
+    put,
+    repeat,
+    roll,
+    scale,
+    shift,
+    take,
+    take_from,
+)
+from pendula.ledger.criterion import UndecidableError
+
+
+@pytest.fixture
+def run() -> xr.Dataset:
+    """Return a run whose numbers are all different, at mu of single precision."""
+    l2 = ("case", "mu"), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], {"tolerance": 0.1}
+    mu = np.array([0.1, 0.2, 0.4], np.float32)
+    linf = "mu", [7.0, 8.0, 9.0], {"tolerance": 0.2}
+    return xr.Dataset({"l2": l2, "linf": linf}, {"case": ["one", "two"], "mu": mu})
+
+
+@pytest.mark.parametrize(
+    ("change", "l2", "linf"),
+    [
+        (scale("l2", 10.0, case="two", mu=0.1), [1, 2, 3, 40, 5, 6], [7, 8, 9]),
+        (
+            shift(("l2", "linf"), 0.5, mu=slice(0.2, None)),
+            [1, 2.5, 3.5, 4, 5.5, 6.5],
+            [7, 8.5, 9.5],
+        ),
+        (put("linf", 0.0, mu=[0.1, 0.4]), [1, 2, 3, 4, 5, 6], [0, 8, 0]),
+        (roll("l2", {"mu": 1}, case="one"), [3, 1, 2, 4, 5, 6], [7, 8, 9]),
+        (exchange("mu"), [3, 2, 1, 6, 5, 4], [9, 8, 7]),
+        (exchange("mu", 0.1, 0.2, names="l2"), [2, 1, 3, 5, 4, 6], [7, 8, 9]),
+        (exchange("case", "one", "two"), [4, 5, 6, 1, 2, 3], [7, 8, 9]),
+        (repeat("mu", 0.4, at=0.1), [3, 2, 3, 6, 5, 6], [9, 8, 9]),
+        (repeat("case", "one", at="two", names="l2"), [1, 2, 3, 1, 2, 3], [7, 8, 9]),
+        (in_turn(shift("linf", 1.0), scale("linf", 2.0)), [1, 2, 3, 4, 5, 6], [16, 18, 20]),
+    ],
+)
+def test_a_verb_changes_what_it_names_and_keeps_labels(run, change, l2, linf):
+    found = change(run)
+    assert found["l2"].values.ravel().tolist() == l2 and found["linf"].values.tolist() == linf
+    assert found["l2"].attrs == {"tolerance": 0.1} and found["l2"].dims == ("case", "mu")
+    assert found["mu"].identical(run["mu"]) and found["case"].identical(run["case"])
+    assert run["l2"].values.ravel().tolist() == [1, 2, 3, 4, 5, 6]
+
+
+def test_another_variable_takes_a_place_under_the_attributes_of_that(run):
+    found = take(l2="linf")(run)["l2"]
+    assert found.values.tolist() == [7, 8, 9] and found.attrs == {"tolerance": 0.1}
+    found = take_from("l2", case="two")(run, -run)["l2"]
+    assert found.values.ravel().tolist() == [1, 2, 3, -4, -5, -6]
+
+
+def test_what_is_not_kept_is_dropped(run):
+    found = keep(mu=slice(0.2, None), case="two")(run)
+    assert found["l2"].values.tolist() == [[5, 6]] and found["linf"].values.tolist() == [8, 9]
+
+
+def test_a_place_without_labels_has_a_number(run):
+    assert put("linf", 0.0, mu=[2])(run.drop_vars("mu"))["linf"].values.tolist() == [7, 8, 0]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [scale("l2", 2.0, mu=0.3), exchange("case", "one", "three"), put("life", 1.0), keep(mu=[])],
+)
+def test_a_change_of_what_is_not_there_cannot_be_made(run, change):
+    with pytest.raises(UndecidableError, match=r"0\.3|three|life|mu"):
+        change(run)
