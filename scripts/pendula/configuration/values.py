@@ -7,7 +7,15 @@ import math
 import re
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, create_model
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    create_model,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|[-+]?\.?(inf|nan)", re.ASCII | re.I)
@@ -158,6 +166,12 @@ class Steps(Model):
     first: Number
     last: Number
     step: Positive
+
+    @model_validator(mode="after")
+    def _forward(self) -> "Steps":
+        if not self.first < self.last:
+            raise fault(f"does not run forward from {self.first:g} to {self.last:g}")
+        return self
 
     @property
     def values(self) -> list[float]:

@@ -216,7 +216,6 @@ def test_the_dataset_holds_what_its_names_say():
         ({"mus": [0.6]}, r"growth.omegas: has -4, and at mu = 0.6"),
         ({"growth": {"omegas": [-6], "gammas": {"first": 0, "last": 12, "step": 1}}},
          r"growth.gammas: has 12, at which waves of Omega = -6 and mu = 0.3 grow by the second"),
-        ({"curve": {"first": 3, "last": 1, "step": 0.1}}, r"curve: does not run forward"),
     ],
 )  # fmt: skip
 def test_what_has_no_threshold_is_refused_by_its_key(change, text):

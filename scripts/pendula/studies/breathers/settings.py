@@ -136,13 +136,6 @@ class Settings(Model):
                 )
         if self.periodic.half_widths.least > self.periodic.half_widths.most:
             yield "periodic.half_widths.least", "is larger than `most`"
-        for key, steps in (
-            ("growth.frequencies", self.growth.frequencies),
-            ("sensitivity.scan", self.sensitivity.scan),
-            ("sensitivity.long.scan", self.sensitivity.long.scan),
-        ):
-            if not steps.first < steps.last:
-                yield key, f"does not run forward from {steps.first:g} to {steps.last:g}"
         for key, given in (("fates", self.fates), ("fates.long", self.fates.long)):
             if 2 * given.checked > given.points:
                 yield f"{key}.checked", f"leaves fewer than two of {given.points} amplitudes"

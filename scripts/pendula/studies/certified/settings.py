@@ -7,6 +7,7 @@ from pydantic import Field
 from pendula.configuration.cases import is_multiple
 from pendula.configuration.schema import PAPER_CASES, Configuration, Faults
 from pendula.configuration.values import (
+    Count,
     Model,
     Name,
     Names,
@@ -15,6 +16,7 @@ from pendula.configuration.values import (
     Number,
     Positive,
     Whole,
+    model,
     shown,
 )
 from pendula.models.pairs import FAMILIES, pair
@@ -30,20 +32,13 @@ class WrongCurve(Model):
     omega: Number | None = None
 
 
-class Curves(Model):
-    """Curves with a proven distance to the true ones."""
-
-    cases: Names
-    wrong: WrongCurve
-
-
-class Frames(Model):
-    """A curve of integers whose distance to the true one is bounded by frames."""
-
-    end_time: Positive
-    bits: Annotated[Whole, Field(ge=32, le=4096)]
-    order: Annotated[Whole, Field(ge=8, le=400)]
-    outputs_per_frame: Annotated[Whole, Field(ge=1)]
+# A curve of integers whose distance to the true one is bounded by frames.
+Frames = model(
+    end_time=Positive,
+    bits=Annotated[Whole, Field(ge=32, le=4096)],
+    order=Annotated[Whole, Field(ge=8, le=400)],
+    outputs_per_frame=Count,
+)
 
 
 class State(Model):
@@ -60,14 +55,11 @@ class WrongState(State):
     tested_at: Number
 
 
-class HalfWidths(Model):
-    """Half-widths of what is kept of the infinite chain, and of the finite chain.
-
-    The time of a proof grows as their cube, and takes minutes at the largest.
-    """
-
-    block: Annotated[Whole, Field(ge=2, le=200)]
-    chain: Annotated[Whole, Field(ge=2, le=100)]
+# Half-widths of what is kept of the infinite chain, and of the finite chain. The time of a proof
+# grows as their cube, and takes minutes at the largest.
+HalfWidths = model(
+    block=Annotated[Whole, Field(ge=2, le=200)], chain=Annotated[Whole, Field(ge=2, le=100)]
+)
 
 
 class Breathers(Model):
@@ -92,21 +84,14 @@ class Breathers(Model):
                     )
 
 
-class ShortCase(Model):
-    """A case on a short chain for a short time, whose proof others can check."""
-
-    case: Name
-    half_width: Natural
-    end_time: Positive
-
-
 class Settings(Model):
     """Section `certified` of the configuration."""
 
-    curves: Curves
+    curves: model(cases=Names, wrong=WrongCurve)  # with a proven distance to the true ones
     frames: dict[Name, Frames]
     breathers: Breathers
-    certificate: ShortCase
+    # a case on a short chain for a short time, whose proof others can check
+    certificate: model(case=Name, half_width=Natural, end_time=Positive)
     needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:

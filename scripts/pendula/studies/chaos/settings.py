@@ -19,6 +19,7 @@ from pendula.configuration.values import (
     Tolerance,
     Whole,
     Window,
+    model,
 )
 
 
@@ -54,19 +55,19 @@ class Symmetry(Model):
     seed: Natural
 
 
-class Swept(Model):
-    """The ensembles of a sweep: so many members on chains of each half-width."""
-
-    half_widths: Counts
-    members: Annotated[Whole, Field(ge=2)]
+# The ensembles of sweeps: so many members on chains of each half-width.
+Swept = Annotated[
+    dict[Name, model(half_widths=Counts, members=Annotated[Whole, Field(ge=2)])],
+    Field(min_length=1),
+]
 
 
 class Ensembles(Model):
     """Cases and sweeps from data that differ in their last digits."""
 
     cases: Names
-    sweeps: Annotated[dict[Name, Swept], Field(min_length=1)]
-    uneven: Annotated[dict[Name, Swept], Field(min_length=1)]
+    sweeps: Swept
+    uneven: Swept
     tolerance: Tolerance
     size: Positive
     members: Count

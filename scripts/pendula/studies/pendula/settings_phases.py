@@ -18,6 +18,7 @@ from pendula.configuration.values import (
     Tolerance,
     Whole,
     Window,
+    model,
 )
 
 
@@ -84,19 +85,12 @@ class Ensemble(Drawn, Followed):
     mus: Positives
 
 
-class LongSea(Model):
-    """Its longer study."""
-
-    mus: Positives
-    members: Count
-
-
 class Sea(Ensemble):
     """The state that fills the chain."""
 
     window: Window
     output_step: Positive
-    long: LongSea
+    long: model(mus=Positives, members=Count)
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the case."""
@@ -107,20 +101,13 @@ class Sea(Ensemble):
             yield from self.unfit(settings, [self.case], size.mus, key, size.members, **length)
 
 
-class LongPassages(Model):
-    """Its longer study."""
-
-    members: Count
-    end_time: Positive
-
-
 class OverTheTop(Ensemble):
     """When the first pendulum turns over."""
 
     per_period: Annotated[Whole, Field(ge=4)]
     settled: Positive
     end_time: Annotated[Positive, Field(ge=1)]
-    long: LongPassages
+    long: model(members=Count, end_time=Positive)
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the case."""

@@ -26,9 +26,8 @@ from pendula.configuration.values import (
     Numbers,
     Positive,
     Whole,
+    model,
 )
-
-Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
@@ -40,13 +39,6 @@ class Varied(Model):
     case: Name
     parameter: Literal["omega", "amplitude", "tolerance"]
     values: Numbers
-
-
-class Extent(Model):
-    """How long an ensemble of runs is, and how many members it has."""
-
-    end_time: Positive
-    members: Count
 
 
 class Maps(Model):
@@ -64,15 +56,11 @@ class Size(Model):
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
     rest: Positive
-    runs: dict[Name, Extent]
+    runs: dict[Name, model(end_time=Positive, members=Count)]
     maps: Maps
 
 
-class Warm(Model):
-    """Thermal states at the Omega of a case, each with an energy per site."""
-
-    case: Name
-    energies: Annotated[list[Number], Field(min_length=3), Distinct]
+Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
 
 class Thermal(Model):
@@ -81,7 +69,8 @@ class Thermal(Model):
     nodes: Nodes
     density_nodes: Nodes
     omegas: Numbers
-    warm: Warm
+    # at the Omega of a case, each with an energy per site
+    warm: model(case=Name, energies=Annotated[list[Number], Field(min_length=3), Distinct])
 
 
 class Settings(Model):
