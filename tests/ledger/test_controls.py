@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from pendula.ledger.claim import Claim, Control, controls_of, evaluate, needed, passes
+from pendula.ledger.claim import Claim, Control, claim, controls_of, evaluate, needed, passes
 from pendula.ledger.criterion import (
     Above,
     Below,
@@ -112,3 +112,23 @@ def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
     unknown = undecided({}, "there is no such bound")
     assert passes(silent, unknown) and not passes(refuse, unknown)
     assert [one.must for one in (refuse, silent)] == ["be refused", "not be decided"]
+
+
+def test_a_control_names_datasets_without_the_folder_of_what_it_replaces():
+    one, other = "trajectories/one", "checks/other"
+
+    def fed(needs, wrong):
+        return claim("Section 0", "It is so.", needs, (Control("wrong", wrong),))(
+            lambda *runs: runs
+        ).claim.controls[0].fed  # fmt: skip
+
+    assert fed((one,), "two") == {one: "trajectories/two"}
+    assert fed((one, other), {"one": "two", "other": (one, max)}) == {
+        one: "trajectories/two",
+        other: (one, max),
+    }
+    assert fed((one, other), {other: max}) == {other: max}
+    with pytest.raises(ValueError, match="say which of trajectories/one, checks/other"):
+        fed((one, other), "two")
+    with pytest.raises(ValueError, match="three is not one of trajectories/one"):
+        fed((one,), {"three": "two"})

@@ -37,7 +37,8 @@ class Control(NamedTuple):
     `fed` says, by the name of a needed dataset, what takes its place: the name of another dataset,
     a function that makes the wrong dataset from the right one, as those of `changes` do, or a pair
     of a name and a function that makes it from the right and the named dataset. Where the claim
-    needs one dataset alone, `fed` is what takes the place of that.
+    needs one dataset alone, `fed` is what takes the place of that. A folder can be left out of the
+    names that the claim needs, and of a name in the same folder.
 
     `confirms` turns the control round, for a claim that is not reproduced: the function must
     confirm this right case, or it could not have confirmed anything. `undecided` says that the
@@ -130,11 +131,24 @@ def claim(
 
 
 def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
-    """Return the control with what it feeds by the name of a dataset, of which there is one."""
-    if isinstance(control.fed, Mapping):
-        return control
-    (only,) = needs
-    return control._replace(fed={only: control.fed})
+    """Return the control with what it feeds by names that all have their folder."""
+    alone = not isinstance(control.fed, Mapping)
+    if alone and len(needs) > 1:
+        raise ValueError(f"control {control.says!r}: say which of {', '.join(needs)} it feeds")
+    fed = {}
+    for name, wrong in ({needs[0]: control.fed} if alone else control.fed).items():
+        right = [need for need in needs if name in (need, need.partition("/")[2])]
+        if len(right) != 1:
+            raise ValueError(f"control {control.says!r}: {name} is not one of {', '.join(needs)}")
+        folder = right[0].partition("/")[0]
+        if isinstance(wrong, tuple):
+            wrong = (_with(folder, wrong[0]), wrong[1])
+        fed[right[0]] = _with(folder, wrong) if isinstance(wrong, str) else wrong
+    return control._replace(fed=fed)
+
+
+def _with(folder: str, name: str) -> str:
+    return name if "/" in name else f"{folder}/{name}"
 
 
 def _in(folder: str) -> Callable[..., tuple[str, ...]]:
@@ -146,30 +160,6 @@ checks, runs = _in("checks"), _in("trajectories")
 sweeps, unbounded = _in("sweeps"), _in("unbounded")
 
 
-def _wrong_in(folder: str) -> Callable[..., Control]:
-    """Return a function that makes a control from names, without their folder, of datasets."""
-
-    def control(
-        says: str,
-        confirms: bool = False,
-        undecided: bool = False,
-        on: tuple[str, ...] = (),
-        **fed: str | Callable | tuple,
-    ) -> Control:
-        def named(wrong):
-            if isinstance(wrong, tuple):
-                return (named(wrong[0]), wrong[1])
-            return f"{folder}/{wrong}" if isinstance(wrong, str) else wrong
-
-        return Control(
-            says, {f"{folder}/{k}": named(w) for k, w in fed.items()}, confirms, undecided, on
-        )
-
-    return control
-
-
-wrong_check, wrong_run = _wrong_in("checks"), _wrong_in("trajectories")
-wrong_sweep = _wrong_in("sweeps")
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 

@@ -90,12 +90,7 @@ def known(periodic):
     PLACE,
     "At the detuning of Fig 3 there are stable breathers, above the frequencies of linear waves.",
     (PERIODIC,),
-    (
-        Control(
-            "breathers with A = B in place of A alone",
-            exchange("family", "A only", "A = B"),
-        ),
-    ),
+    (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
 )
 def periodic_stable(periodic) -> Finding:
     """Ask it of the family in which A swings and B follows by the drive."""
@@ -215,10 +210,7 @@ def grows_as_floquet_says(periodic) -> Finding:
     (PERIODIC,),
     (
         Control("breathers at Omega = 8", exchange("omega", OF_PAPER, OF_FIG_2)),
-        Control(
-            "another family with half of its P",
-            scale("least_power", 0.5, family="A = B"),
-        ),
+        Control("another family with half of its P", scale("least_power", 0.5, family="A = B")),
     ),
 )
 def data_below_breathers(periodic) -> Finding:

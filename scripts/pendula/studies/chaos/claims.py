@@ -11,7 +11,7 @@ import numpy as np
 
 from pendula.ledger.changes import keep, repeat
 from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal, joined
-from pendula.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim, wrong_check
+from pendula.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -133,7 +133,7 @@ WORDS = {
 def wrong_cases(right: str, *wrongs: str) -> tuple[Control, ...]:
     """Return controls: the members of other cases in place of those of `right`."""
     return tuple(
-        wrong_check(WORDS[name], on=(right, name), members=repeat("case", name, at=right))
+        Control(WORDS[name], {"members": repeat("case", name, at=right)}, on=(right, name))
         for name in wrongs
     )
 
@@ -310,11 +310,11 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
     NEEDS,
     controls=(
         *wrong_cases("fig4_small", "fig3_large", "fig3_small"),
-        wrong_check(
+        Control(
             "the lower panel in place of the upper one",
+            repeat("case", "fig4_large", at="fig4_small"),
             confirms=True,
             on=BOTH,
-            members=repeat("case", "fig4_large", at="fig4_small"),
         ),
     ),
     on=BOTH,
@@ -378,10 +378,8 @@ def ensemble_equilibrium(members) -> Finding:
     "The transition does not depend on how large the initial amplitude of the centre is.",
     checks("lifetimes"),
     controls=(
-        wrong_check(
-            "amplitudes A_0 up to 6 alone",
-            confirms=True,
-            lifetimes=keep(start_amplitude=slice(None, 6.0)),
+        Control(
+            "amplitudes A_0 up to 6 alone", keep(start_amplitude=slice(None, 6.0)), confirms=True
         ),
     ),
 )

@@ -4,7 +4,7 @@ import numpy as np
 
 from pendula.ledger.changes import roll
 from pendula.ledger.chaos import chaotic
-from pendula.ledger.claim import CHANGE, checks, claim, wrong_check
+from pendula.ledger.claim import CHANGE, Control, checks, claim
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -40,9 +40,8 @@ def chaotic_cases(lyapunov) -> np.ndarray:
     "Perturbations that are odd in n grow as fast as even ones.",
     checks("lyapunov"),
     controls=(
-        wrong_check(
-            "odd and even exponents of two cases",
-            lyapunov=roll("exponent", {"case": 1}, parity="even"),
+        Control(
+            "odd and even exponents of two cases", roll("exponent", {"case": 1}, parity="even")
         ),
     ),
 )
@@ -84,7 +83,7 @@ def with_kinds_exchanged(members):
     PLACE,
     "Bands of ensembles that are even in n are wider by the root of two than those of uneven ones.",
     checks("members", "lyapunov"),
-    controls=(wrong_check("the two kinds exchanged", members=with_kinds_exchanged),),
+    controls=(Control("the two kinds exchanged", {"members": with_kinds_exchanged}),),
 )
 def even_bands_wider(members, lyapunov) -> Finding:
     if members["window"].values[-1] != LATER:

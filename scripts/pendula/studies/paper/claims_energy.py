@@ -100,7 +100,7 @@ def energy_small(*trajectories) -> Finding:
         of_high_order(LARGE),
         Control(
             "the second solver's run, whose scheme does not conserve H, for that of the first",
-            {"trajectories/fig3_large": "trajectories/fig3_large.crank_nicolson"},
+            {"fig3_large": "fig3_large.crank_nicolson"},
         ),
     ),
 )

@@ -2,7 +2,7 @@
 
 from pendula.ledger.changes import exchange
 from pendula.ledger.chaos import chaotic
-from pendula.ledger.claim import LARGE, SMALL, checks, claim, wrong_check, wrong_run
+from pendula.ledger.claim import LARGE, SMALL, Control, checks, claim
 from pendula.ledger.criterion import AtMost, Finding, judge
 from pendula.measures.norms import constants, total_power
 from pendula.models.bounds import theorem_3_bound
@@ -19,10 +19,7 @@ GAMMA = EPSILON = 1.0
     "Stable dynamics is relatively simple, that of unstable chains is more interesting.",
     checks("lyapunov", "cases"),
     controls=(
-        wrong_check(
-            "the exponents of the cases in reverse order",
-            lyapunov=exchange("case"),
-        ),
+        Control("the exponents of the cases in reverse order", {"lyapunov": exchange("case")}),
     ),
 )
 def stable_is_regular(lyapunov, cases) -> Finding:
@@ -46,9 +43,9 @@ def stable_is_regular(lyapunov, cases) -> Finding:
     "On N sites the l2 norm is bounded for all parameters and data.",
     (*SMALL, *LARGE),
     controls=(
-        wrong_run(
+        Control(
             "the bound of a chain of three sites",
-            fig4_small=lambda run: run.assign_attrs(half_width=1),
+            {"fig4_small": lambda run: run.assign_attrs(half_width=1)},
         ),
     ),
     reading="runs of the paper",

@@ -96,16 +96,13 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
     controls=(
         Control(
             "Omega = -4 by the second solver for Omega = 8, in a regular case",
-            {"trajectories/fig2_small.crank_nicolson": "trajectories/fig3_small.crank_nicolson"},
+            {"fig2_small.crank_nicolson": "fig3_small.crank_nicolson"},
         ),
         Control(
             "Omega = -4 by the second solver for Omega = 0, in a chaotic case",
-            {"trajectories/fig4_large.crank_nicolson": "trajectories/fig3_large.crank_nicolson"},
+            {"fig4_large.crank_nicolson": "fig3_large.crank_nicolson"},
         ),
-        Control(
-            "chaotic cases held to agree as single runs",
-            {"checks/lyapunov": regular},
-        ),
+        Control("chaotic cases held to agree as single runs", {"lyapunov": regular}),
     ),
 )
 def second_solver(*datasets) -> Finding:
@@ -364,16 +361,13 @@ def without_finer_steps(steps):
         ),
         Control(
             "Omega = -4 by the second solver for Omega = 8, in a regular sweep",
-            {"sweeps/fig6_left.crank_nicolson": "sweeps/fig5_left.crank_nicolson"},
+            {"fig6_left.crank_nicolson": "fig5_left.crank_nicolson"},
         ),
         Control(
             "Omega = 8 by the second solver for Omega = -4, in a chaotic sweep",
-            {"sweeps/fig6_right.crank_nicolson": "sweeps/fig6_left.crank_nicolson"},
+            {"fig6_right.crank_nicolson": "fig6_left.crank_nicolson"},
         ),
-        Control(
-            "finer steps that change nothing",
-            {"checks/second_solver": without_finer_steps},
-        ),
+        Control("finer steps that change nothing", {"second_solver": without_finer_steps}),
     ),
 )
 def second_solver_sweeps(*datasets) -> Finding:

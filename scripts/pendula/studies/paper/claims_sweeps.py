@@ -17,7 +17,6 @@ from pendula.ledger.claim import (
     runs,
     sweeps,
     swept,
-    wrong_sweep,
 )
 from pendula.ledger.criterion import (
     Above,
@@ -70,9 +69,9 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
     "At Omega = -4 the l2 norm decreases in M towards a level.",
     sweeps("fig5_left"),
     controls=(
-        wrong_sweep("the sweep at Omega = 0, which grows", fig5_left="fig5_right"),
-        wrong_sweep("the sweep at Omega = 8, which is constant", fig5_left="fig6_left"),
-        wrong_sweep("30 % more at the second to the fifth M", fig5_left=with_a_hump),
+        Control("the sweep at Omega = 0, which grows", "fig5_right"),
+        Control("the sweep at Omega = 8, which is constant", "fig6_left"),
+        Control("30 % more at the second to the fifth M", with_a_hump),
     ),
 )
 def fig5_decreases(sweep) -> Finding:
@@ -93,7 +92,7 @@ def fig5_decreases(sweep) -> Finding:
     " with Theorem 2.",
     (*runs("fig3_small"), *sweeps("fig5_left")),
     controls=(
-        wrong_sweep("the sweep of the large data, beyond the bound", fig5_left="fig6_right"),
+        Control("the sweep of the large data, beyond the bound", {"fig5_left": "fig6_right"}),
     ),
     reading="sweep",
 )
@@ -127,12 +126,11 @@ def fig5_theorem_2(case, sweep) -> Finding:
     "Fig 5 shows maxima over [10, 50], as the text says, and not averages, as its caption says.",
     sweeps("fig5_left", "fig5_right"),
     controls=(
-        wrong_sweep("maxima and averages exchanged", fig5_left=EXCHANGED, fig5_right=EXCHANGED),
-        wrong_sweep(
+        Control("maxima and averages exchanged", {"fig5_left": EXCHANGED, "fig5_right": EXCHANGED}),
+        Control(
             "sweeps whose averages are their maxima",
+            {"fig5_left": WITHOUT_AVERAGE, "fig5_right": WITHOUT_AVERAGE},
             undecided=True,
-            fig5_left=WITHOUT_AVERAGE,
-            fig5_right=WITHOUT_AVERAGE,
         ),
     ),
 )
@@ -191,8 +189,8 @@ def maxima_of(sweep):
     "At Omega = 8 the maximal l2 norm does not change with N.",
     sweeps("fig6_left"),
     controls=(
-        wrong_sweep("the small data at Omega = -4, which fall", fig6_left="fig5_left"),
-        wrong_sweep("the large data at Omega = -4, which grow", fig6_left="fig6_right"),
+        Control("the small data at Omega = -4, which fall", "fig5_left"),
+        Control("the large data at Omega = -4, which grow", "fig6_right"),
     ),
 )
 def fig6_constant(sweep) -> Finding:
@@ -213,9 +211,9 @@ def _largest_growth(ensembles) -> Limits:
     "The norms shown are averages over [10, 40].",
     (*sweeps("fig6_left"), *checks("ensembles")),
     controls=(
-        wrong_sweep(
+        Control(
             "averages that grow on the left",
-            fig6_left=("fig5_right", take_from("l2", statistic="mean")),
+            {"fig6_left": ("fig5_right", take_from("l2", statistic="mean"))},
         ),
     ),
     on=("fig6_left", "fig6_right"),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.ledger.changes import exchange, take
-from pendula.ledger.claim import Control, number
+from pendula.ledger.claim import Control, checks, claim, number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -16,8 +16,6 @@ from pendula.ledger.criterion import (
 )
 from pendula.ledger.cutoff import Cutoff
 
-from .deciding import decides, wrong
-
 SECTION = 3
 
 RESOLVED = Cutoff(
@@ -29,17 +27,14 @@ HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate 
 TOLD = Cutoff(0.05, "exponents are told to a decimal")
 
 
-@decides(
+@claim(
     "Section 3, (15)",
     "The characteristic equation factorises into the dispersion relation, whose first pair of roots"
     " is always real, and whose second pair is real if |kappa| > 2 |gamma| and else imaginary.",
-    "dispersion",
+    checks("dispersion"),
     controls=(
-        wrong("the roots of half of the drive", "dispersion"),
-        Control(
-            "the second pair in place of the first",
-            take(first_growth="second_growth"),
-        ),
+        Control("the roots of half of the drive", "checks/wrong/dispersion"),
+        Control("the second pair in place of the first", take(first_growth="second_growth")),
     ),
 )
 def dispersion(check) -> Finding:
@@ -50,14 +45,11 @@ def dispersion(check) -> Finding:
     )
 
 
-OTHER_OMEGA = (wrong("gamma_0 of another Omega", "chart"),)
-
-
-@decides(
+@claim(
     "Lemma 1",
     "Zero is linearly stable for |gamma| < gamma_0, and linearly unstable for |gamma| > gamma_0.",
-    "chart",
-    controls=OTHER_OMEGA,
+    checks("chart"),
+    controls=(Control("gamma_0 of another Omega", "checks/wrong/chart"),),
 )
 def stable_below(chart) -> Finding:
     below = np.abs(chart["gamma"]) < chart["infinite_threshold"]
@@ -81,13 +73,13 @@ def stable_below(chart) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-@decides(
+@claim(
     "Lemma 1",
     "Zero is linearly unstable for Omega in [0, 4 epsilon] and any gamma but 0.",
-    "chart",
-    "windows",
-    "measured_windows",
-    controls=(wrong("windows of another Omega", "measured_windows"),),
+    checks("chart", "windows", "measured_windows"),
+    controls=(
+        Control("windows of another Omega", {"measured_windows": "checks/wrong/measured_windows"}),
+    ),
 )
 def unstable_band(chart, windows, measured_windows) -> Finding:
     inside = chart["omega"].where((chart["omega"] >= 0) & (chart["infinite_threshold"] == 0))
@@ -105,11 +97,11 @@ def unstable_band(chart, windows, measured_windows) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-@decides(
+@claim(
     "Section 3, before Lemma 1",
     "The bound gamma_0 on the drive is sharp.",
-    "sharp_threshold",
-    controls=(wrong("gamma_0 of another Omega", "sharp_threshold"),),
+    checks("sharp_threshold"),
+    controls=(Control("gamma_0 of another Omega", "checks/wrong/sharp_threshold"),),
 )
 def sharp_threshold(check) -> Finding:
     limit = check["threshold_error"]
@@ -124,12 +116,12 @@ def sharp_threshold(check) -> Finding:
     )
 
 
-@decides(
+@claim(
     "Proof of Lemma 1",
     "Above gamma_0 waves grow near theta = pi if Omega > 4 epsilon, near 0 if Omega < 0.",
-    "unstable_waves",
+    checks("unstable_waves"),
     controls=(
-        wrong("the other edge of the band", "unstable_waves"),
+        Control("the other edge of the band", "checks/wrong/unstable_waves"),
         Control("the waves of the Omega on the other side", exchange("omega")),
     ),
 )
@@ -144,11 +136,11 @@ def unstable_waves(check) -> Finding:
     return judge(finding.measured | {"from_its_edge": edge.max(skipna=False)}, criterion)
 
 
-@decides(
+@claim(
     "Proof of Lemma 1",
     "At |gamma| = gamma_0 perturbations grow polynomially.",
-    "threshold",
-    controls=(wrong("a drive of 1.05 gamma_0", "threshold"),),
+    checks("threshold"),
+    controls=(Control("a drive of 1.05 gamma_0", "checks/wrong/threshold"),),
 )
 def threshold_growth(threshold) -> Finding:
     exponents, one_site = threshold["spreading_exponent"], np.inf

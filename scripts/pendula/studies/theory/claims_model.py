@@ -3,7 +3,7 @@
 import numpy as np
 
 from pendula.ledger import changes
-from pendula.ledger.claim import Control, number
+from pendula.ledger.claim import Control, checks, claim, number
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -21,12 +21,12 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import student
 from pendula.measures.growth import PARTS
 
-from .deciding import NEAR, decides, wrong
-
 SECTION = 2
 
 RIGHT, OPPOSITE = "mu^2 t / 2", "mu^2 t / 2, opposite drive"
 """Readings of the expansion: the paper's, and the one with a drive of the other sign."""
+# ASSUME: an order in mu counts as a whole number if it is nearer to that than to another.
+NEAR = Cutoff(0.5, "an order counts as the whole number to which it is nearest")
 THIRD, SECOND = 3.0, 2.0
 """The orders in mu of the expansion's remainder, and of the energy's."""
 # ASSUME: a symmetry is missing if it is missed by more than one part in a thousand.
@@ -36,14 +36,15 @@ SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, of all sp
 ACTS = Cutoff(0.5, "growth is nearer to 2 gamma, that of the resonance, than to none")
 
 
-@decides(
+@claim(
     "Section 2, (7) and (8)",
     "The equations are the Hamiltonian system of the energy H, which is conserved.",
-    "gradient",
-    "conservation",
+    checks("gradient", "conservation"),
     controls=(
-        wrong("the energy of another Omega: its gradient", "gradient"),
-        wrong("the energy of another Omega: its drift", "conservation"),
+        Control("the energy of another Omega: its gradient", {"gradient": "checks/wrong/gradient"}),
+        Control(
+            "the energy of another Omega: its drift", {"conservation": "checks/wrong/conservation"}
+        ),
     ),
 )
 def hamiltonian(gradient, conservation) -> Finding:
@@ -51,14 +52,17 @@ def hamiltonian(gradient, conservation) -> Finding:
     return within_tolerance(gradient.assign(energy_drift=drift), "gradient_error", "energy_drift")
 
 
-@decides(
+@claim(
     "Abstract; Section 2",
     "The equations have no gauge symmetry, neither as (4) nor in the PT-symmetric form (10).",
-    "conservation",
-    "pt_form",
+    checks("conservation", "pt_form"),
     controls=(
-        wrong("gamma = 0, where (4) has gauge symmetry", "conservation", instead="no_drive"),
-        wrong("gamma = 0, where (10) has gauge symmetry", "pt_form", instead="pt_no_drive"),
+        Control(
+            "gamma = 0, where (4) has gauge symmetry", {"conservation": "checks/wrong/no_drive"}
+        ),
+        Control(
+            "gamma = 0, where (10) has gauge symmetry", {"pt_form": "checks/wrong/pt_no_drive"}
+        ),
     ),
 )
 def no_gauge(conservation, pt) -> Finding:
@@ -103,10 +107,10 @@ def told_pairs(size, limit):
     return 0.5 * (size + limit < between).sum("index")
 
 
-@decides(
+@claim(
     "Introduction",
     "The energy is the only integral of motion.",
-    "lyapunov",
+    checks("lyapunov"),
     controls=(
         Control(
             "spectra at gamma = 0, where l2 is an integral too, and motion regular",
@@ -144,13 +148,13 @@ def one_integral(lyapunov) -> Finding:
     return judge(measured, criterion, caveat, fails)
 
 
-@decides(
+@claim(
     "Section 2, (9) to (11)",
     "In the variables u, v the equations take the form (10), which is invariant under the action of"
     " P and T and Hamiltonian with a modified energy.",
-    "pt_form",
+    checks("pt_form"),
     controls=(
-        wrong("form (10) with half of the drive", "pt_form"),
+        Control("form (10) with half of the drive", "checks/wrong/pt_form"),
         Control("P without T", changes.take(pt="p_alone")),
         Control("T without P", changes.take(pt="t_alone")),
     ),
@@ -164,25 +168,23 @@ def pt_form(check) -> Finding:
     return judge(finding.measured | alone, finding.criterion, caveat, finding.because)
 
 
-@decides(
+@claim(
     "Section 2, before (7)",
     "The equations are invariant under the exchange of A and B.",
-    "symmetries",
-    controls=(wrong("the exchange of A and iB", "symmetries"),),
+    checks("symmetries"),
+    controls=(Control("the exchange of A and iB", "checks/wrong/symmetries"),),
 )
 def exchange(check) -> Finding:
     return within_tolerance(check, "exchange")
 
 
-@decides(
+@claim(
     "Section 2, (5) and after (6)",
     "A = B is an invariant reduction on which the drive has no effect, and gauge symmetry returns.",
-    "symmetries",
-    "conservation",
-    "opposite",
+    checks("symmetries", "conservation", "opposite"),
     controls=(
-        wrong("B = iA in place of A = B", "symmetries"),
-        wrong("phases that turn where B = iA", "conservation", instead="phase_turned"),
+        Control("B = iA in place of A = B", {"symmetries": "checks/wrong/symmetries"}),
+        Control("phases that turn where B = iA", {"conservation": "checks/wrong/phase_turned"}),
     ),
 )
 def synchronised(symmetries, conservation, opposite) -> Finding:
@@ -193,21 +195,23 @@ def synchronised(symmetries, conservation, opposite) -> Finding:
     return finding._replace(measured=finding.measured | {"opposite_departure": departure})
 
 
-@decides(
+@claim(
     "Section 2, (6)",
     "In Newton's equations x = y stays, and the drive does not affect the chain.",
-    "pendula_synchrony",
-    controls=(wrong("x = -y, which stays and feels the drive", "pendula_synchrony"),),
+    checks("pendula_synchrony"),
+    controls=(
+        Control("x = -y, which stays and feels the drive", "checks/wrong/pendula_synchrony"),
+    ),
 )
 def pendula_synchronised(check) -> Finding:
     return within_tolerance(check, "pendula_departure", "drive_effect")
 
 
-@decides(
+@claim(
     "Section 2, after (8)",
     "H is inherited from the energy of Newton's equations.",
-    "inherited_energy",
-    controls=(wrong("the energy of another Omega", "inherited_energy"),),
+    checks("inherited_energy"),
+    controls=(Control("the energy of another Omega", "checks/wrong/inherited_energy"),),
 )
 def inherited(check) -> Finding:
     static, along = check["energy_order"].values
@@ -217,10 +221,10 @@ def inherited(check) -> Finding:
     return judge(measured, Near(SECOND, NEAR, "averaged_order", "order_along_a_run", says=says))
 
 
-@decides(
+@claim(
     "Introduction; Section 6",
     "The drive acts at the 1:2 resonance with the frequency of each pendulum.",
-    "resonance",
+    checks("resonance"),
     controls=(
         Control(
             "a drive at the pendula's own frequency",
@@ -240,14 +244,17 @@ def resonance(check) -> Finding:
     return judge(measured, criterion)
 
 
-@decides(
+@claim(
     "Section 2, (3) and after (4)",
     "The amplitudes in the expansion are functions of mu^2 t, and move with tau = mu^2 t / 2.",
-    "expansion",
+    checks("expansion"),
     controls=(
         Control("the slow time mu^2 t", changes.exchange("reading", RIGHT, "mu^2 t")),
         Control("the slow time mu t / 2", changes.exchange("reading", RIGHT, "mu t / 2")),
-        wrong("Omega = 0 for so long that instability destroys the expansion", "expansion"),
+        Control(
+            "Omega = 0 for so long that instability destroys the expansion",
+            "checks/wrong/expansion",
+        ),
     ),
 )
 def slow_time(expansion) -> Finding:
@@ -265,10 +272,10 @@ def slow_time(expansion) -> Finding:
     return judge(measured, Near(THIRD, NEAR, "order", says="order in mu"))
 
 
-@decides(
+@claim(
     "Section 2, (2) and (4)",
     "The drive D = 2 gamma mu^2 cos 2 omega t gives gamma (conj B - conj A).",
-    "expansion",
+    checks("expansion"),
     controls=(Control("the opposite drive", changes.exchange("reading", RIGHT, OPPOSITE)),),
 )
 def drive_sign(expansion) -> Finding:

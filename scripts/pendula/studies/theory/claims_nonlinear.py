@@ -21,44 +21,47 @@ from pendula.ledger.criterion import (
 from pendula.ledger.cutoff import Cutoff
 from pendula.measures.norms import growth_margin
 
-from .deciding import IN_PROPORTION, NEAR, decides, wrong
+from .claims_model import NEAR
 
 SECTION = 4
 
 WAYS = ("forwards", "backwards")
 FIRST = 1.0
 """The order of the distance of two solutions in that of their data."""
+# ASSUME: what is said to grow with the chain, as C_N does in proportion to N, has an exponent of N
+# nearer to one than to zero.
+IN_PROPORTION = Cutoff(0.5, '"grows with N": nearer to proportion than to a constant')
 ROUNDING = Cutoff(1.0 + 1e-6, "solvers and rounding may exceed a bound that is reached", 1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
 
 
-@decides(
+@claim(
     "Proof of Lemma 2, (16)",
     "Solutions exist locally, by Picard's method on the integral equations.",
-    "picard",
-    controls=(wrong("an interval forty times as long", "picard"),),
+    checks("picard"),
+    controls=(Control("an interval forty times as long", "checks/wrong/picard"),),
 )
 def local_existence(check) -> Finding:
     names = (f"{name}_{way}" for name in ("contraction", "picard_error") for way in WAYS)
     return within_tolerance(check, *names)
 
 
-@decides(
+@claim(
     "Lemma 2",
     "The solution is unique.",
-    "picard",
-    controls=(wrong("rates A / |A|^(1/2) besides, from rest", "picard", instead="picard_at_rest"),),
+    checks("picard"),
+    controls=(Control("rates A / |A|^(1/2) besides, from rest", "checks/wrong/picard_at_rest"),),
 )
 def uniqueness(check) -> Finding:
     """Iterates from two first guesses must have one limit; time in steps continues that."""
     return within_tolerance(check, *(f"limits_apart_{way}" for way in WAYS))
 
 
-@decides(
+@claim(
     "Lemma 2",
     "The solution depends continuously on initial data.",
-    "dependence",
-    controls=(wrong("two solutions with an Omega of their own", "dependence"),),
+    checks("dependence"),
+    controls=(Control("two solutions with an Omega of their own", "checks/wrong/dependence"),),
 )
 def continuous_dependence(check) -> Finding:
     orders = check["distance_order"]
@@ -77,7 +80,7 @@ def continuous_dependence(check) -> Finding:
     "Lemma 2, (19)",
     "The squared l2 norm grows at most as exp(4 |gamma tau|).",
     (*checks("growth"), *SMALL, *LARGE),
-    (wrong("a bound exp(2 |gamma tau|)", "growth"),),
+    (Control("a bound exp(2 |gamma tau|)", {"growth": "checks/wrong/growth"}),),
 )
 def growth_bound(check, *trajectories) -> Finding:
     steepest = [
@@ -90,33 +93,33 @@ def growth_bound(check, *trajectories) -> Finding:
     return judge(measured, AtMost(ROUNDING, "steepest", "random_data", says=says))
 
 
-@decides(
+@claim(
     "Proof of Lemma 2",
     "The l2 norm obeys the balance equation.",
-    "balance",
-    controls=(wrong("the balance of half of the drive", "balance"),),
+    checks("balance"),
+    controls=(Control("the balance of half of the drive", "checks/wrong/balance"),),
 )
 def balance(check) -> Finding:
     return within_tolerance(check, "pointwise", "integrated")
 
 
-@decides(
+@claim(
     "Section 4, before Theorem 1",
     "It suffices to look at gamma > 0.",
-    "conservation",
-    controls=(wrong("(A, B) -> (-A, -B) for (iA, iB)", "conservation", instead="phase_turned"),),
+    checks("conservation"),
+    controls=(Control("(A, B) -> (-A, -B) for (iA, iB)", "checks/wrong/phase_turned"),),
 )
 def sign_of_gamma(conservation) -> Finding:
     return within_tolerance(conservation, "sign_defect")
 
 
-@decides(
+@claim(
     "Section 4, (17), (18), (22) and (27)",
     "The bonds of a sequence are at most four times its l2 norm squared, the l2 norm of a product"
     " is at most the product of the l2 norms, the l4 norm is at most the l2 norm, and this is at"
     " most N^(1/4) times the l4 norm on N sites.",
-    "inequalities",
-    controls=(wrong("three quarters of the right sides", "inequalities"),),
+    checks("inequalities"),
+    controls=(Control("three quarters of the right sides", "checks/wrong/inequalities"),),
 )
 def norm_inequalities(check) -> Finding:
     """Take the largest left side over its right side, in tries and in data that make it equal."""
@@ -126,13 +129,13 @@ def norm_inequalities(check) -> Finding:
     return judge(measured | sharp, AtMost(ROUNDING, *measured, says="left side over right side"))
 
 
-@decides(
+@claim(
     "Section 4, (21) and (25)",
     "For Omega > 2 gamma + 4 epsilon H is at least (Omega - 2 gamma - 4 epsilon) P, for"
     " Omega < -2 gamma -H is at least (|Omega| - 2 gamma) P - P^2 / 4, and the energy of data in l2"
     " is finite, of the order of P where P is small.",
-    "inequalities",
-    controls=(wrong("bounds with half of the drive", "inequalities"),),
+    checks("inequalities"),
+    controls=(Control("bounds with half of the drive", "checks/wrong/inequalities"),),
 )
 def energy_bounds(check) -> Finding:
     bounds = ("(21)", "(25)", "size")
@@ -155,7 +158,7 @@ def theorem(name: str, says: str, *families: str, reading: str = "") -> Callable
 
     decide.__name__ = name
     place, forgets = name.replace("_", " ").capitalize(), "bounds that forget the drive"
-    control = wrong(forgets, "samples", "worst")
+    control = Control(forgets, {"samples": "checks/wrong/samples", "worst": "checks/wrong/worst"})
     return claim(place, says, checks("samples", "worst"), (control,), reading=reading)(decide)
 
 
@@ -170,11 +173,11 @@ theorem_2 = theorem(
 )
 
 
-@decides(
+@claim(
     "Proof of Theorem 2",
     "-H > 0 for small data.",
-    "negative_depth",
-    controls=(wrong("data a hundred times as large", "negative_depth"),),
+    checks("negative_depth"),
+    controls=(Control("data a hundred times as large", "checks/wrong/negative_depth"),),
 )
 def positive_depth(depth) -> Finding:
     measured = {"largest_energy": number(depth, "most_energy")}
@@ -182,11 +185,15 @@ def positive_depth(depth) -> Finding:
     return judge(measured, Below(0.0, "largest_energy", says="largest H / P of data in the ball"))
 
 
-@decides(
+@claim(
     "Proof of Theorem 2",
     "The lower bound (25) yields the upper bound (24).",
-    "bootstrap",
-    controls=(wrong("states below the barrier, as continuity gives", "bootstrap", confirms=True),),
+    checks("bootstrap"),
+    controls=(
+        Control(
+            "states below the barrier, as continuity gives", "checks/wrong/bootstrap", confirms=True
+        ),
+    ),
 )
 def bootstrap(check) -> Finding:
     measured = {
@@ -211,17 +218,11 @@ theorem_3 = theorem(
 )
 
 
-@decides(
+@claim(
     "Proof of Theorem 3",
     "The quadratic part of H is at least -(|Omega| + gamma + 4 epsilon) P.",
-    "theorem_3_constant",
-    controls=(
-        Control(
-            "2 gamma in place of gamma",
-            take(printed="corrected"),
-            confirms=True,
-        ),
-    ),
+    checks("theorem_3_constant"),
+    controls=(Control("2 gamma in place of gamma", take(printed="corrected"), confirms=True),),
 )
 def theorem_3_proof(constant) -> Finding:
     measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
@@ -230,11 +231,13 @@ def theorem_3_proof(constant) -> Finding:
     return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
 
 
-@decides(
+@claim(
     "Theorem 3",
     "The bound C_N grows without end as N does, and has to.",
-    "chain_growth",
-    controls=(wrong("Omega = 8, where Theorem 1 bounds P on any chain", "chain_growth"),),
+    checks("chain_growth"),
+    controls=(
+        Control("Omega = 8, where Theorem 1 bounds P on any chain", "checks/wrong/chain_growth"),
+    ),
 )
 def bound_grows(check) -> Finding:
     names = ("power_exponent", "power_exponent_low", "power_exponent_high")
@@ -251,11 +254,11 @@ def bound_grows(check) -> Finding:
     return judge(measured, criterion, caveat)
 
 
-@decides(
+@claim(
     "Section 5, before Fig 4",
     "At Omega = 0 the energy does not control large solutions.",
-    "energy_shell",
-    controls=(wrong("Omega = 8, where the energy bounds P", "energy_shell"),),
+    checks("energy_shell"),
+    controls=(Control("Omega = 8, where the energy bounds P", "checks/wrong/energy_shell"),),
 )
 def energy_not_useful(check) -> Finding:
     names = ("shell_exponent", "least_quotient", "largest_quotient")

@@ -5,11 +5,9 @@ paper has both, and says "sharp" of all.
 """
 
 from pendula.ledger.changes import scale
-from pendula.ledger.claim import Control, number
+from pendula.ledger.claim import Control, checks, claim, number
 from pendula.ledger.criterion import Above, Finding, judge
 from pendula.ledger.cutoff import Cutoff
-
-from .deciding import decides, wrong
 
 SECTION = 6
 
@@ -24,11 +22,11 @@ def on_chains(check, form: str) -> dict[str, float]:
     return {f"{form}_on_{sites}_sites": part for sites, part in found.items()}
 
 
-@decides(
+@claim(
     "Section 6; Theorems 1 to 3",
     "The bounds of Theorems 1, 2 and 3 by the energy of the data are sharp.",
-    "sharpness",
-    controls=(wrong("bounds a quarter too large", "sharpness"),),
+    checks("sharpness"),
+    controls=(Control("bounds a quarter too large", "checks/wrong/sharpness"),),
 )
 def sharp_theorems(check) -> Finding:
     """What the longest chain reaches decides."""
@@ -51,10 +49,10 @@ def with_least_constant(check):
     return scale("reached", factor, form="theorem_2_ball")(check)
 
 
-@decides(
+@claim(
     "Section 6; Theorem 2, (24)",
     "The bound C_0 delta of Theorem 2 is sharp.",
-    "sharpness",
+    checks("sharpness"),
     controls=(Control("the least C_0 of tiny data", with_least_constant, confirms=True),),
 )
 def sharp_theorem_2_ball(check) -> Finding:

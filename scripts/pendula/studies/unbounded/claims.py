@@ -13,15 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal, joined
-from pendula.ledger.claim import (
-    CONSTANT,
-    FACTOR,
-    FEWEST,
-    SETTLED,
-    Control,
-    claim,
-    unbounded,
-)
+from pendula.ledger.claim import CONSTANT, FACTOR, FEWEST, SETTLED, Control, claim, unbounded
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -198,7 +190,7 @@ def unbounded_in_time(run, thermal) -> Finding:
     "4 epsilon: here it is seen at every Omega tried in the unstable band.",
     unbounded("omegas"),
     (
-        Control("amplitudes at Omega = -4", "unbounded/amplitudes"),
+        Control("amplitudes at Omega = -4", "amplitudes"),
         Control("at one Omega l2 has stopped to grow", one_stays),
         *(Control(f"l2 follows {says}", following(law)) for says, law in SLOWER),
     ),
@@ -229,9 +221,7 @@ def unbounded_band(run) -> Finding:
     (*unbounded("fig3_large", "amplitudes"), SENSITIVITY),
     (
         *in_place_of("fig3_large"),
-        Control(
-            "the run that grows at Omega = 0", {"unbounded/fig3_large": "unbounded/fig4_small"}
-        ),
+        Control("the run that grows at Omega = 0", {"fig3_large": "fig4_small"}),
         FAR_AS_NEAR,
     ),
 )
@@ -317,14 +307,8 @@ def no_matter_how_wide(found):
     "Growth in M on a fixed window shows growth on the unbounded lattice.",
     unbounded("map_fig5_right"),
     (
-        Control(
-            "small data at Omega = -4, which do not grow",
-            "unbounded/map_fig5_left",
-        ),
-        Control(
-            "large data at Omega = 8, which do not grow",
-            "unbounded/map_fig6_left",
-        ),
+        Control("small data at Omega = -4, which do not grow", "map_fig5_left"),
+        Control("large data at Omega = 8, which do not grow", "map_fig6_left"),
         Control("maxima that do not depend on M", no_matter_how_wide),
     ),
 )

@@ -158,16 +158,16 @@ STILL = tuple(
     unbounded("omegas", "thermal"),
     (
         *STILL,
-        Control("the thermal states of the next Omega", {"unbounded/thermal": NEXT_OMEGA}),
+        Control("the thermal states of the next Omega", {"thermal": NEXT_OMEGA}),
         Control(
             "P falls as 1 / tau, as that of waves",
             {
-                "unbounded/omegas": lambda run: scale(
-                    "bulk_power", run["piece_tau"][-1] / run["piece_tau"]
-                )(run)
+                "omegas": lambda run: scale("bulk_power", run["piece_tau"][-1] / run["piece_tau"])(
+                    run
+                )
             },
         ),
-        Control("noise of the same mean for P", {"unbounded/omegas": noise}),
+        Control("noise of the same mean for P", {"omegas": noise}),
     ),
     reading="infinite chain",
 )
@@ -193,20 +193,18 @@ def unbounded_equilibrium(run, thermal) -> Finding:
     " spreading.",
     unbounded("fig4_small", "omegas", "thermal"),
     (
-        Control("the thermal states of the next Omega", {"unbounded/thermal": NEXT_OMEGA}),
+        Control("the thermal states of the next Omega", {"thermal": NEXT_OMEGA}),
         *(
             Control(
                 f"{says}, held to the speed and the thermal state of Omega = 0",
-                {"unbounded/fig4_small": (f"unbounded/{name}", behind_its_front)},
+                {"fig4_small": (f"{name}", behind_its_front)},
             )
             for name, says in (
                 ("fig2_large", "the stable run fig2_large"),
                 ("fig3_large", "large data at Omega = -4"),
             )
         ),
-        Control(
-            "a speed that is 5 % too high", {"unbounded/fig4_small": scale("predicted_speed", 1.05)}
-        ),
+        Control("a speed that is 5 % too high", {"fig4_small": scale("predicted_speed", 1.05)}),
     ),
 )
 def unbounded_slope(run, band, thermal) -> Finding:
@@ -255,10 +253,7 @@ WARM, THERMAL = "unbounded/fig3_large", "unbounded/thermal"
             "the cold state at every energy",
             {THERMAL: lambda thermal: put("warm_power", at_energy(thermal, 0.0)["power"])(thermal)},
         ),
-        Control(
-            "a bulk in the cold state",
-            {WARM: (THERMAL, with_power(warm=False))},
-        ),
+        Control("a bulk in the cold state", {WARM: (THERMAL, with_power(warm=False))}),
         Control(
             "a bulk in the thermal state of its energy",
             {WARM: (THERMAL, with_power(warm=True))},

@@ -54,8 +54,8 @@ def a_stop(run):
             roll("predicted_speed", {"variant": 1}),
         ),
         Control("fronts that stop", a_stop),
-        Control("small data at Omega = -4", "unbounded/fig3_small"),
-        Control("large data at Omega = 8", "unbounded/fig2_large"),
+        Control("small data at Omega = -4", "fig3_small"),
+        Control("large data at Omega = 8", "fig2_large"),
     ),
 )
 def unbounded_front(run) -> Finding:
@@ -165,14 +165,8 @@ def unbounded_maximum(run, thermal) -> Finding:
     "The l-infinity norm stays at the same level as the initial data.",
     (*unbounded("fig3_large"), SENSITIVITY),
     (
-        Control(
-            "small data at Omega = 0, where it grows sixfold",
-            {"unbounded/fig3_large": "unbounded/fig4_small"},
-        ),
-        Control(
-            "small data at Omega = -4, which disperse",
-            {"unbounded/fig3_large": "unbounded/fig3_small"},
-        ),
+        Control("small data at Omega = 0, where it grows sixfold", {"fig3_large": "fig4_small"}),
+        Control("small data at Omega = -4, which disperse", {"fig3_large": "fig3_small"}),
         FAR_AS_NEAR,
     ),
     reading="infinite chain",
@@ -212,14 +206,14 @@ CENTRE = 8
     "Many pendula oscillate with large and comparable amplitudes with respect to the central one.",
     unbounded("fig4_small"),
     (
-        Control("large data at Omega = 8, alone in the centre", "unbounded/fig2_large"),
+        Control("large data at Omega = 8, alone in the centre", "fig2_large"),
         Control(
             "the largest data at Omega = -4, which stay in the centre",
-            ("unbounded/amplitudes", largest_ones),
+            ("amplitudes", largest_ones),
         ),
         Control(
             "small data at Omega = -4, which disperse: no bulk is left to compare",
-            "unbounded/fig3_small",
+            "fig3_small",
             undecided=True,
         ),
     ),
@@ -264,11 +258,8 @@ def large_ones(_, amplitudes):
     " determine.",
     unbounded("fig3_small", "fig2_large"),
     (
-        Control(
-            "large data at Omega = -4",
-            {"unbounded/fig3_small": ("unbounded/amplitudes", large_ones)},
-        ),
-        Control("the unstable chain", {"unbounded/fig2_large": "unbounded/fig4_small"}),
+        Control("large data at Omega = -4", {"fig3_small": ("amplitudes", large_ones)}),
+        Control("the unstable chain", {"fig2_large": "fig4_small"}),
     ),
     reading="infinite chain",
 )
