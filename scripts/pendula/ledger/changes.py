@@ -82,45 +82,27 @@ def keep(**at) -> Change:
     return changed
 
 
-def in_turn(*changes: Change) -> Change:
-    """Make one change after the other."""
-
-    def changed(data: xr.Dataset) -> xr.Dataset:
-        for change in changes:
-            data = change(data)
-        return data
-
-    return changed
-
-
 def _in_place(names: Names, change: Callable, at: Mapping) -> Change:
     def changed(data: xr.Dataset) -> xr.Dataset:
         here = xr.DataArray(True)
         for along, wanted in at.items():
             here = here & _found(data, along, wanted)
         with xr.set_options(keep_attrs=True):
-            new = {
-                name: data[name].where(~here, change(data[name])) for name in _among(data, names)
-            }
-        return data.assign(new)
+            return data.assign(
+                {name: data[name].where(~here, change(data[name])) for name in _each(names)}
+            )
 
     return changed
 
 
 def _ordered(data: xr.Dataset, along: str, order: np.ndarray, names) -> xr.Dataset:
     """Return the variables with their numbers in this order along a coordinate, which stays."""
-    kept = [name for name in _among(data, names or tuple(data)) if along in data[name].dims]
-    return data.assign(
-        {name: data[name].copy(data=data[name].isel({along: order}).values) for name in kept}
-    )
+    moved = [data[name] for name in _each(names) or data if along in data[name].dims]
+    return data.assign({one.name: one.copy(data=one.isel({along: order}).values) for one in moved})
 
 
-def _among(data: xr.Dataset, names: Names) -> list[str]:
-    """Return which of the names the dataset has, which must be one at least."""
-    found = [name for name in np.atleast_1d(names) if name in data]
-    if not found:
-        raise UndecidableError(f"the dataset has no {' or '.join(np.atleast_1d(names))}")
-    return found
+def _each(names: Names) -> tuple[str, ...]:
+    return (names,) if isinstance(names, str) else names
 
 
 def _place(data: xr.Dataset, along: str, label) -> int:

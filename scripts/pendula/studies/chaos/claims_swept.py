@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.datasets.trajectories import constants_of
-from pendula.ledger.changes import in_turn, keep, repeat, take
+from pendula.ledger.changes import keep, repeat, take
 from pendula.ledger.chaos import (
     FAR_AS_NEAR,
     SENSITIVITY,
@@ -279,7 +279,9 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     controls=(
         Control(
             "Omega = 0 on chains that its front still crosses",
-            dict.fromkeys(NEEDS, in_turn(CROSSED, repeat("sweep", "fig5_right", at="fig6_right"))),
+            dict.fromkeys(
+                NEEDS, lambda data: repeat("sweep", "fig5_right", at="fig6_right")(CROSSED(data))
+            ),
             confirms=True,
             on=("fig5_right",),
         ),
