@@ -1,45 +1,70 @@
-"""Write the README and the pages of docs/ from their templates and the committed datasets.
+"""Write the README and the pages of docs/ that quote results, from their templates.
 
-Run as `python docs/render.py` from anywhere. The templates are docs/source/*.md.j2, the numbers in
-them come from docs/facts, and tests/docs fails where a page is not what its template gives.
+Run as `python docs/render.py` from anywhere. A template takes most of its numbers from what the
+sections of the report say of the accepted results (tests/baseline/quoted/sections.json), and the
+rest from facts.py and study_errors.py. A test fails where a page is not what its template gives.
 """
 
+import json
 import re
 import sys
 import textwrap
 from pathlib import Path
 
-import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / name) for name in ("scripts", "docs", "")]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
 
-from facts.baseline import Baseline  # noqa: E402
-from facts.topics import gather  # noqa: E402
+import facts  # noqa: E402
+import study_errors  # noqa: E402
 
+SOURCE = ROOT / "docs/source"
 TIED = "\0=\0"
 """Stands for " = " while lines are filled, so that none ends between a symbol and its value."""
 
-SOURCE, BASELINE = ROOT / "docs/source", ROOT / "tests/baseline"
-
 
 def pages() -> dict[Path, Path]:
-    """Return the template of each page."""
+    """Return the template of each page that has one."""
     names = sorted(path.name.removesuffix(".j2") for path in SOURCE.glob("*.md.j2"))
     folder = {"README.md": ROOT}
     return {folder.get(name, ROOT / "docs") / name: SOURCE / f"{name}.j2" for name in names}
 
 
-def known(baseline: Baseline) -> dict[str, dict]:
-    """Return all facts, from the datasets of a baseline and from the project's configuration."""
-    names = ("config", "chaos")
-    texts = ((ROOT / f"config/{name}.yaml").read_text(encoding="utf-8") for name in names)
-    return gather(baseline, *map(yaml.safe_load, texts))
+def said() -> dict[str, dict]:
+    """Return what each section of the report says of the accepted results."""
+    told = json.loads((facts.BASELINE / "quoted/sections.json").read_text(encoding="utf-8"))
+    return {section: _nested(texts) for section, texts in told.items()}
+
+
+def _nested(texts: dict[str, str]) -> dict:
+    """Return texts by places such as ".rows.0.2" as dictionaries in each other, and lists."""
+    found: dict = {}
+    for place, text in texts.items():
+        *path, last = place.removeprefix(".").split(".")
+        inside = found
+        for name in path:
+            inside = inside.setdefault(name, {})
+        inside[last] = text
+    return _with_lists(found)
+
+
+def _with_lists(found):
+    if not isinstance(found, dict):
+        return found
+    inner = {name: _with_lists(one) for name, one in found.items()}
+    return list(inner.values()) if all(map(str.isdecimal, inner)) else inner
+
+
+def known(baseline: facts.Baseline) -> dict[str, dict]:
+    """Return all that a template can name."""
+    reached = study_errors.errors(baseline)
+    needed = {study: study_errors.given(study)["needs"] for study in reached}
+    return said() | facts.topics(baseline) | {"studies": facts.needs(needed, reached)}
 
 
 def render(values: dict[str, dict]) -> dict[Path, str]:
-    """Return the text of each page, which quotes these facts."""
+    """Return the text of each page that has a template."""
     environment = Environment(
         loader=FileSystemLoader(SOURCE), undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, lstrip_blocks=True,
@@ -78,7 +103,7 @@ def filled(text: str) -> str:
 
 
 if __name__ == "__main__":
-    for page, text in render(known(Baseline(BASELINE))).items():
+    for page, text in render(known(facts.Baseline())).items():
         if not page.exists() or page.read_text(encoding="utf-8") != text:
             page.write_text(text, encoding="utf-8")
             print(f"{page.relative_to(ROOT)} is new")

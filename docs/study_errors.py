@@ -1,19 +1,19 @@
 """The error that each part of a study needs, and the one that the accepted results reach.
 
 A study says in its configuration which error each of its parts needs, below `needs`. Here stands,
-under the same name, how that error is read from the datasets of a baseline, and what a part takes.
-Both go into docs/studies.md, and a test holds the reached errors to the needed ones.
+under the same name, how that error is read from the accepted datasets. Both go into
+docs/studies.md, and a test holds the reached errors to the needed ones.
 """
 
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 import yaml
+from facts import BASELINE
+from pendula.datasets.json_files import load_json
 from pendula.measures.confidence import difference_limits
-from pendula.report.words import number
 from pendula.studies.breathers.fates import shares_of_area
 from pendula.studies.pendula.claims_phases import pendula_norms, same_sea
 from pendula.studies.pendula.claims_remainder import STABLE, common_end
@@ -68,49 +68,6 @@ def _panels_error(members: xr.Dataset, kind: str) -> float:
     return float(difference_limits(small, large).half / large.mean())
 
 
-def chaos_sizes(given: dict) -> dict[str, str]:
-    """Return how long, how many and how finely, by the parts of `chaos`."""
-    lyapunov, swept, lives = given["lyapunov"], given["ensembles"], given["lifetimes"]
-    spectrum = lyapunov["spectrum"]
-    chains = (f"M = {m} run {number(n)} times" for m, n in spectrum["lengths"].items())
-    short = f"{' and '.join(chains)} {AS_LONG}, tolerance {number(spectrum['tolerance'])}"
-    least, undriven = min(spectrum["lengths"]), spectrum["undriven_lengths"]
-    return {
-        "exponents": f"runs {number(lyapunov['lengths'])} times {AS_LONG}, tolerance"
-        f" {number(lyapunov['tolerance'])}",
-        "divergence": f"tolerances {_listed(lyapunov['diverging_tolerances'])}",
-        "spectra": short,
-        "undriven_spectra": f"M = {number(least)} run {number(undriven)} times {AS_LONG}",
-        "evenness": f"{number(given['symmetry']['members'])} perturbed runs and one unperturbed,"
-        f" tolerance {number(given['symmetry']['tolerance'])}",
-        "sweeps": f"even in n: {_members(swept['sweeps'])}; uneven: {_members(swept['uneven'])};"
-        f" tolerance {number(swept['tolerance'])}",
-        "members": _ensemble(given["members"], "members even in n and as many uneven"),
-        "lives": _ensemble(lives, f"members from each of {len(lives['amplitudes'])} amplitudes"),
-        "rates": f"{number(lives['members'])} members from one amplitude with each of"
-        f" {len(lives['compared']['choices'])} choices of tolerance and evenness",
-    }
-
-
-AS_LONG = "as long as the case"
-
-
-def _listed(values) -> str:
-    return ", ".join(map(number, values))
-
-
-def _members(sweeps: dict[str, dict]) -> str:
-    """Return how many members each sweep has, and at how many half-widths."""
-    return ", ".join(
-        f"`{name}` {one['members']} members at each of {len(one['half_widths'])} half-widths"
-        for name, one in sweeps.items()
-    )
-
-
-def _ensemble(given: dict, words: str) -> str:
-    return f"{number(given['members'])} {words}, tolerance {number(given['tolerance'])}"
-
-
 def theory(baseline) -> dict[str, float]:
     """Return the errors of searches, thresholds and exponents."""
     growth = baseline["checks/chain_growth"]
@@ -120,18 +77,6 @@ def theory(baseline) -> dict[str, float]:
         "thresholds": _most(baseline["checks/sharp_threshold"]["threshold_error"]),
         "spreading": _most(baseline["checks/threshold"]["spreading_error"]),
         "chain_growth": _most(0.5 * (high - low)),
-    }
-
-
-def theory_sizes(given: dict) -> dict[str, str]:
-    """Return how many and how long, by the parts of `theory`."""
-    worst, growth = given["worst"], given["chain_growth"]
-    return {
-        "searches": f"{worst['starts']} searches, {worst['generations']} generations with"
-        f" {worst['population']} data each",
-        "thresholds": "chains of " + _listed(given["sharp_threshold"]["sizes"]) + " sites",
-        "spreading": "to τ = " + number(given["threshold"]["long_times"][-1]),
-        "chain_growth": f"{growth['members']} members on " + _listed(growth["sizes"]) + " sites",
     }
 
 
@@ -163,60 +108,21 @@ def _factor_of_rates(passages: xr.Dataset) -> float:
     return float((passages["passage_rate"] / passages["passage_rate_low"]).where(some).min())
 
 
-def pendula_sizes(given: dict) -> dict[str, str]:
-    """Return at how many detunings, and at which mu, by the parts of `pendula`."""
-    threshold, remainder, phases, sea, top = (
-        given[name] for name in ("threshold", "remainder", "phases", "sea", "over_the_top")
-    )
-    return {
-        "threshold": f"{number(len(threshold['omegas']))} values of Ω, μ = "
-        + _listed(threshold["mus"]),
-        "remainder": f"{len(remainder['ends'])} cases, μ = {_listed(remainder['mus'])},"
-        f" tolerance {number(remainder['tolerance'])}",
-        "phases": f"the cases of Figs 2 to 4, μ = {_listed(phases['mus'])}, tolerance"
-        f" {number(phases['tolerance'])}; {number(phases['ensemble']['members'])} members"
-        f" of `{phases['ensemble']['case']}` at μ = {number(max(phases['mus']))}",
-        "sea": _ensemble(sea, f"members at each μ = {_listed(sea['mus'])}"),
-        "over_the_top": _ensemble(
-            top,
-            f"members to τ = {number(top['end_time'])} at each of {len(top['mus'])} values of μ",
-        ),
-    }
-
-
 def breathers(baseline) -> dict[str, float]:
     """Return the errors of rates, thresholds, periods, the law of drives, and shares."""
     steady, shares = baseline["breathers/steady"], baseline["breathers/sensitivity"]
     maps = baseline["breathers/fates"]["fate"]
     below, found_to = steady["stable_below"], given("breathers")["steady"]["stability"]["to"]
-    rows = {row["name"]: row["measured"] for row in baseline.claims()}
+    rows = load_json(BASELINE / "claims.json")["rows"]
+    (law,) = (row["measured"] for row in rows if row["name"] == "grows_by_drive")
     off = abs(steady["growth"] - steady["growth_half"]) / steady["growth"].where(steady["growth"])
     return {
         "steady": _most(off),
         "thresholds": _most(abs(below.diff("chain_half_width"))) + found_to,
         "periodic": float(baseline["breathers/periodic"].attrs["residual"]),
-        "law": rows["grows_by_drive"]["largest_difference"],
+        "law": law["largest_difference"],
         "shares": _most(0.5 * (shares["share_high"] - shares["share_low"])),
         "fates": max(shares_of_area(one, mirrored=True).half.max() for one in maps.values),
-    }
-
-
-def breathers_sizes(given: dict) -> dict[str, str]:
-    """Return how long and how many, by the parts of `breathers`."""
-    steady, growth, shares = given["steady"], given["growth"], given["sensitivity"]
-    fates, periodic, widths = given["fates"], given["periodic"], given["periodic"]["half_widths"]
-    chains = f"M = {number(steady['half_width'])} and half of it"
-    return {
-        "steady": f"{number(len(steady['omegas']))} values of Ω, {chains}",
-        "thresholds": f"Ω to {number(steady['stability']['to'])}, {chains}",
-        "periodic": f"{number(len(periodic['frequencies']))} values of λ at each Ω,"
-        f" M from {number(widths['least'])} to {number(widths['most'])}",
-        "law": f"γ = {_listed(growth['end_times'])}, tolerance {number(growth['tolerance'])}",
-        "shares": f"{number(shares['members'])} members for each of"
-        f" {number(len(shares['sizes']))} sizes of the change,"
-        f" tolerance {number(shares['tolerance'])}",
-        "fates": f"{number(fates['points'])} values each of A_0 and B_0,"
-        f" tolerance {number(fates['tolerance'])}",
     }
 
 
@@ -253,31 +159,6 @@ def _lost_energy(run: xr.Dataset) -> float:
     return _most(lost / (2.0 * run["front"].isel(piece_tau=-1, front_power=0).clip(min=1.0)))
 
 
-def unbounded_sizes(given: dict) -> dict[str, str]:
-    """Return how long and how many, by the parts of `unbounded`."""
-    size, thermal = given["short"], given["thermal"]
-    runs, maps, solver = size["runs"], size["maps"], size["solver"]
-
-    def of(name: str, more: str = "") -> str:
-        return (
-            f"{number(runs[name]['members'])} members to τ = {number(runs[name]['end_time'])}{more}"
-        )
-
-    omegas = f", {number(len(given['varied']['omegas']['values']))} values of Ω"
-    return {
-        "slope": of("fig4_small"),
-        "band": of("omegas", omegas),
-        "front": of("omegas", omegas),
-        "large": of("fig3_large"),
-        "regular": of("fig3_small"),
-        "maps": f"{number(len(maps['half_widths']))} half-widths, τ to {number(maps['end_time'])},"
-        f" {number(max(maps['members'].values()))} members at most",
-        "energy": f"{solver['name']}, tolerance {number(solver['rtol'])}",
-        "thermal": f"{number(thermal['nodes'])} nodes on each side of zero for a coordinate,"
-        f" {number(thermal['density_nodes'])} for densities",
-    }
-
-
 def certified(baseline) -> dict[str, float]:
     """Return the largest proven error of each part of the proofs."""
     cases, framed = given("certified")["curves"]["cases"], given("certified")["frames"]
@@ -291,52 +172,15 @@ def certified(baseline) -> dict[str, float]:
     }
 
 
-def certified_sizes(given: dict) -> dict[str, str]:
-    """Return the cases and the states that have proofs."""
-    return {
-        "curves": ", ".join(f"`{case}`" for case in given["curves"]["cases"]),
-        "frames": ", ".join(
-            f"`{case}` to τ = {number(one['end_time'])}" for case, one in given["frames"].items()
-        ),
-        "breathers": f"{number(len(given['breathers']['proofs']))} states; half-widths "
-        + ", ".join(f"{m} ({name})" for name, m in given["breathers"]["half_widths"].items()),
-        "constants": "all that the checks of the theory store",
-    }
-
-
-STUDIES: dict[str, tuple[Callable, Callable]] = {
-    "chaos": (chaos, chaos_sizes),
-    "theory": (theory, theory_sizes),
-    "pendula": (pendula, pendula_sizes),
-    "breathers": (breathers, breathers_sizes),
-    "unbounded": (unbounded, unbounded_sizes),
-    "certified": (certified, certified_sizes),
-}
-"""The study by its name in the configuration: how its errors are read, and what its parts take."""
+STUDIES = (chaos, theory, pendula, breathers, unbounded, certified)
 
 
 def errors(baseline) -> dict[str, dict[str, float]]:
     """Return the reached error of every part of every study."""
-    return {study: reached(baseline) for study, (reached, _) in STUDIES.items()}
+    return {study.__name__: study(baseline) for study in STUDIES}
 
 
 @cache
 def given(study: str) -> dict:
     """Return a study's section of the configuration, read once; do not change it."""
     return yaml.safe_load((CONFIG / f"{study}.yaml").read_text(encoding="utf-8"))[study]
-
-
-def facts(baseline) -> dict[str, dict[str, dict[str, str]]]:
-    """Return needed and reached error and the sizes as text, by study and part."""
-    found = {}
-    for study, reached in errors(baseline).items():
-        needed, sizes = given(study)["needs"], STUDIES[study][1](given(study))
-        found[f"{study}_study"] = {
-            part: {
-                "needed": number(needed[part]),
-                "reached": number(error, 2),
-                "sizes": sizes[part],
-            }
-            for part, error in reached.items()
-        }
-    return found

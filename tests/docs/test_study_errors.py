@@ -1,15 +1,14 @@
 """The accepted results reach the error that each part of a study needs."""
 
 import pytest
-import render
 import study_errors
-from facts.baseline import Baseline
+from facts import Baseline
 
 
 @pytest.fixture(scope="module")
 def reached():
     """Return the errors of the accepted results, by study and part."""
-    return study_errors.errors(Baseline(render.BASELINE))
+    return study_errors.errors(Baseline())
 
 
 def test_the_error_of_each_part_is_below_the_one_that_it_needs(reached):

@@ -6,7 +6,7 @@ from pendula.datasets.json_files import load_json
 from pendula.ledger.claim import Origin, all_claims, decide, evaluate
 from pendula.ledger.tables import tally
 
-ROWS = load_json(BASELINE / "quoted/claims.json")["rows"]
+ROWS = load_json(BASELINE / "claims.json")["rows"]
 
 
 def test_the_paper_is_read_in_many_rows_and_each_sentence_once():

@@ -80,7 +80,7 @@ def test_the_table_quotes_the_dataset_of_the_solvers(full_run):
 def test_the_ledger_measures_what_the_dataset_of_the_solvers_holds():
     """Both are those of the accepted full run: a short run decides nothing on the energy."""
     solvers = read(BASELINE / "checks/solvers.nc")
-    rows = load_json(BASELINE / "quoted/claims.json")["rows"]
+    rows = load_json(BASELINE / "claims.json")["rows"]
     measured = {row["name"]: row["measured"] for row in rows}
     papers = solvers.sel(pair="ode45 - crank_nicolson", solver="ode45", span="whole")
     for case in map(str, solvers["case"].values):
