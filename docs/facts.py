@@ -103,6 +103,7 @@ def _with_error(data: xr.Dataset, name: str) -> str:
     return with_error(float(data[name]), float(data[f"{name}_error"]))
 
 
+PERIODIC = ("periodic_share", "periodic_if_less", "periodic_if_more", "alone", "near")
 PLANES = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and the phase of B_0"}
 
 
@@ -122,7 +123,7 @@ def fates(study: xr.Dataset) -> dict:
             for plane in study["plane"].values for omega in study["omega"].values
         ],
         "periodic": [
-            [number(omega), *(percent(one[name]) for name in ("periodic_share", "alone", "near"))]
+            [number(omega), *(percent(one[name]) for name in PERIODIC)]
             for omega in study["omega"].values for one in [study.sel(omega=omega)]
             if np.isfinite(one["near"])
         ],

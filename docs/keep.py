@@ -179,10 +179,20 @@ def keep_breathers(results: Path, folder: Path) -> None:
     sizes = {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
     about = {name: fates.attrs[name] for name in TERMS}
     title = "The long study of breathers, reduced to what the documents quote and a figure shows"
-    _write(folder / "breathers.nc", title, kept, **about, **sizes, members=spread.attrs["members"])
+    _write(
+        folder / "breathers.nc",
+        title,
+        kept,
+        **about,
+        **sizes,
+        members=spread.attrs["members"],
+        margin=MARGIN,
+    )
 
 
 AXES = ("a0", "b0", "turned_a0", "phase")
+MARGIN = 2.0
+"""By which factor the limit of P that does not return is changed, to see what rests on it."""
 
 
 def _as_it_is(values: xr.DataArray) -> Variable:
@@ -196,12 +206,18 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
 
     Shares of none are NaN.
     """
-    names = ["fate", "periodic", "breather_family", "family_distance"]
+    names = ["fate", "periodic", "unreturned", "breather_family", "family_distance"]
     stays = (fates["a0"] != fates["b0"]) & (fates["fate"] == FATES.index("stays"))
     here = fates[names].where(stays)
-    periodic, distance = here["periodic"] == 1, here["family_distance"]
+    periodic, left, distance = here["periodic"] == 1, here["unreturned"], here["family_distance"]
     shares = {
         "periodic_share": ("share of what stays that is periodic", periodic, stays),
+        "periodic_if_less": (
+            f"the same if waves explained {MARGIN:g} times less P", left <= 1.0 / MARGIN, stays
+        ),
+        "periodic_if_more": (
+            f"the same if waves explained {MARGIN:g} times more P", left <= MARGIN, stays
+        ),
         "alone": ("share of breathers of the family with A only", here["breather_family"] == 1,
                   periodic),
         "near": (f"share of these no further than {NEAR} from it",

@@ -61,6 +61,14 @@ def pages(project: Path) -> list[str]:
     return ["README.md", *dict.fromkeys(linked)]
 
 
+def inline_calls(project: Path, page: str) -> list[str]:
+    """Return the calls of Snakemake that a sentence or a table names, without the program."""
+    text = FENCED.sub("", (project / page).read_text(encoding="utf-8"))
+    spans = (" ".join(span.split()) for span in re.findall(r"`([^`]+)`", text))
+    found = (re.fullmatch(r"(?:\.venv/bin/)?snakemake (.+)", span) for span in spans)
+    return [call[1] for call in found if call]
+
+
 def blocks(project: Path, page: str) -> list[Block]:
     """Return the fenced blocks of a page."""
     text = (project / page).read_text(encoding="utf-8")
@@ -88,12 +96,6 @@ def only_targets(block: Block) -> list[str]:
     """Return the targets of a block that is one command and names nothing else."""
     found = re.fullmatch(r"\.venv/bin/snakemake((?: [a-z]\w*)+)\n", block.text)
     return found[1].split() if found else []
-
-
-def is_within(part: Block, whole: Block) -> bool:
-    """Return whether the words of a block stand in another one, in their order."""
-    words = iter(whole.text.split())
-    return part != whole and all(word in words for word in part.text.split())
 
 
 def dry(block: Block) -> Block:

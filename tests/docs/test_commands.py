@@ -28,7 +28,7 @@ from printed import (
     blocks,
     dry,
     file_of,
-    is_within,
+    inline_calls,
     only_targets,
     pages,
     prepare,
@@ -59,25 +59,16 @@ def listed(*kinds: str | None) -> set[tuple[str, str]]:
 
 LEFT_OUT = listed(None) if AS_PRINTED else listed(None, "nothing")
 DRY = set() if AS_PRINTED else listed("dry run")
-INLINE = re.findall(
-    r"`(?:\.venv/bin/)?snakemake ([a-z]\w*(?: \w+)*)`",
-    "".join((ROOT / page).read_text(encoding="utf-8") for page in PAGES),
-)
-"""What a line of text or a table says to ask Snakemake for."""
+INLINE = [call for page in PAGES for call in inline_calls(ROOT, page)]
 RUN = [block for block in ALL if block.kind in ("", "pycon") and first(block) not in LEFT_OUT]
 JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
-TARGETS = [*INLINE, *(target for block in JOINED for target in only_targets(block))]
-ASKED = Block("all pages", 0, "", "", f".venv/bin/snakemake -n {' '.join(TARGETS)}")
-PLAYED = {block: dry(block) if first(block) in DRY else block for block in [*RUN, ASKED]}
-DONE_BY = dict.fromkeys(JOINED, ASKED) | {
-    part: whole
-    for part in PLAYED
-    if first(part) in DRY and part not in JOINED
-    for whole in PLAYED
-    if is_within(PLAYED[part], PLAYED[whole])
-}
-"""The dry runs that another one does: of targets alone, which one does together with those that
-sentences name, and of words that all stand in another."""
+BY_TARGETS = {call for call in INLINE if re.fullmatch(r"[a-z]\w*( [a-z]\w*)*", call)}
+TARGETS = [*sorted(BY_TARGETS), *(target for block in JOINED for target in only_targets(block))]
+CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS)]
+ASKED = [Block(call, 0, "", "", f".venv/bin/snakemake -n {call}") for call in CALLS]
+"""What sentences and tables say to ask Snakemake for. One dry run does for all targets that are
+named alone, those of blocks too."""
+PLAYED = {block: dry(block) if first(block) in DRY else block for block in RUN}
 
 
 def accept_and_pack(clone: Path, accepted: Path, packed: Path) -> None:
@@ -104,10 +95,10 @@ def played(request, made_once, full_run) -> dict[str, Done]:
         with ready_for(clone):
             run = {
                 block.name: reader.play(PLAYED.get(block, block))
-                for block in [*tried, ASKED]
-                if block not in DONE_BY
+                for block in [*tried, *ASKED]
+                if block not in JOINED
             }
-        run |= {block.name: run[other.name] for block, other in DONE_BY.items()}
+        run |= {block.name: run[ASKED[0].name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
     found = json.loads((made_once("printed", make) / "played.json").read_text())
@@ -121,8 +112,9 @@ def test_what_is_printed_runs(played, block):
     assert "Traceback (most recent call last)" not in said
 
 
-def test_each_target_that_a_sentence_or_a_table_names_can_be_asked_for(played):
-    assert len(INLINE) > 10 and played[ASKED.name].code == 0, played[ASKED.name].said
+@pytest.mark.parametrize("block", ASKED, ids=lambda block: block.page)
+def test_what_a_sentence_or_a_table_names_can_be_asked_for(played, block):
+    assert len(TARGETS) > 10 and played[block.name].code == 0, played[block.name].said
 
 
 OUTPUTS = [
@@ -189,13 +181,6 @@ def test_a_dry_run_is_of_every_call_and_of_nothing_else():
     assert only_targets(block) == []
     alone = block._replace(text=".venv/bin/snakemake fig2 own\n")
     assert only_targets(alone) == ["fig2", "own"]
-
-
-def test_one_dry_run_does_for_another_if_it_has_its_words():
-    texts = "snakemake -n fig2 --configfile a", "snakemake -n fig2 -d b --configfile a"
-    part, whole = (Block("a.md", 1, "", "", text) for text in texts)
-    assert is_within(part, whole) and not is_within(whole, part) and not is_within(part, part)
-    assert not is_within(part._replace(text="snakemake fig2 -n"), whole)
 
 
 @pytest.mark.parametrize(
