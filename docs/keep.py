@@ -93,50 +93,48 @@ def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
     rows = [_case(run) for run in runs.values()]
     named = {"case": Variable(("case",), list(runs), "case of the paper, on a chain without ends")}
     return named | {
-        name: Variable(("case",), [row[name] for row in rows], title)
-        for name, title in {
-            "end": "slow time at the end",
-            "members": "members of the ensemble",
-            "sites": "sites that the front has passed at the end",
-            "exponent": "exponent of tau in the l2 norm over the last octaves",
-            "exponent_error": "its 95 % limits by Student's t, to each side",
-            "growth": "relative growth of l2 over the last octaves, of a line through its square",
-            "growth_error": "its 95 % limits, to each side",
-            "linf": "l-infinity norm at the end, mean over the members",
-            "speed": "speed of the front, sites per unit of tau",
-            "speed_error": "its 95 % limits, or what the places of the front resolve",
-            "predicted_speed": "speed of linear spreading, sites per unit of tau",
-            "bulk_power": "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
-            "bulk_power_error": "its 95 % limits, to each side",
-            "slope_power": "the same mean, from the slope of l2^2",
-            "slope_power_error": "its 95 % limits, to each side",
-        }.items()
+        name: Variable(("case",), [row[name][0] for row in rows], title)
+        for name, (_, title) in rows[0].items()
     }
 
 
-def _case(run: xr.Dataset) -> dict[str, float]:
+def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
+    """Return the numbers of a case, each with what it is."""
     exponent, gained = _exponent(run)
     # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
     pulled = bool(run["predicted_delay"][0] > 0)
     level = FRONT if pulled else BULK
     speed, error = speeds(run, level, corrected=pulled)
     power, slope = mean_limits(mean_powers(run, level)[0]), slope_powers(run)[0]
+    limits = "its 95 % limits, to each side"
     return {
-        "end": float(run["tau"][-1]),
-        "members": run.sizes["member"],
-        "sites": 2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
-        "exponent": exponent.value,
-        "exponent_error": exponent.half,
-        "growth": 0.5 * gained.value,
-        "growth_error": 0.5 * gained.half,
-        "linf": float(run["linf"].isel(variant=0, tau=-1).mean()),
-        "speed": speed[0],
-        "speed_error": error[0],
-        "predicted_speed": float(run["predicted_speed"][0]),
-        "bulk_power": power.value,
-        "bulk_power_error": power.half,
-        "slope_power": slope.value,
-        "slope_power_error": slope.half,
+        "end": (float(run["tau"][-1]), "slow time at the end"),
+        "members": (run.sizes["member"], "members of the ensemble"),
+        "sites": (
+            2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
+            "sites that the front has passed at the end",
+        ),
+        "exponent": (exponent.value, "exponent of tau in the l2 norm over the last octaves"),
+        "exponent_error": (exponent.half, "its 95 % limits by Student's t, to each side"),
+        "growth": (
+            0.5 * gained.value,
+            "relative growth of l2 over the last octaves, of a line through its square",
+        ),
+        "growth_error": (0.5 * gained.half, limits),
+        "linf": (
+            float(run["linf"].isel(variant=0, tau=-1).mean()),
+            "l-infinity norm at the end, mean over the members",
+        ),
+        "speed": (speed[0], "speed of the front, sites per unit of tau"),
+        "speed_error": (error[0], "its 95 % limits, or what the places of the front resolve"),
+        "predicted_speed": (
+            float(run["predicted_speed"][0]),
+            "speed of linear spreading, sites per unit of tau",
+        ),
+        "bulk_power": (power.value, "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"),
+        "bulk_power_error": (power.half, limits),
+        "slope_power": (slope.value, "the same mean, from the slope of l2^2"),
+        "slope_power_error": (slope.half, limits),
     }
 
 

@@ -6,9 +6,7 @@ rest from facts.py and study_errors.py. A test fails where a page is not what it
 """
 
 import json
-import re
 import sys
-import textwrap
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -20,8 +18,6 @@ import facts  # noqa: E402
 import study_errors  # noqa: E402
 
 SOURCE = ROOT / "docs/source"
-TIED = "\0=\0"
-"""Stands for " = " while lines are filled, so that none ends between a symbol and its value."""
 
 
 def pages() -> dict[Path, Path]:
@@ -70,36 +66,9 @@ def render(values: dict[str, dict]) -> dict[Path, str]:
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     return {
-        page: filled(environment.get_template(template.name).render(**values))
+        page: environment.get_template(template.name).render(**values)
         for page, template in pages().items()
     }
-
-
-def filled(text: str) -> str:
-    """Return Markdown with the lines of each paragraph filled, since facts differ in length.
-
-    Code, tables, headings, pictures and comments keep their lines.
-    """
-    kept = re.compile(r"    |\||#|!|<!--")
-    lines, paragraph, code = [], [], False
-    for line in [*text.splitlines(), ""]:
-        fence = line.startswith("```")
-        starts_item = line.startswith("- ")
-        ends = fence or code or starts_item or not line or (kept.match(line) and not paragraph)
-        if ends and paragraph:
-            indent = "  " if paragraph[0].startswith("- ") else ""
-            words = " ".join(part.strip() for part in paragraph).replace(" = ", TIED)
-            wrapped = textwrap.wrap(
-                words, 100, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-            )
-            lines += [line.replace(TIED, " = ") for line in wrapped]
-            paragraph = []
-        if ends and not starts_item:
-            lines.append(line)
-        else:
-            paragraph.append(line)
-        code ^= fence
-    return "\n".join(lines[:-1]) + "\n"
 
 
 if __name__ == "__main__":

@@ -10,12 +10,9 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Iterator
-from importlib.machinery import SourceFileLoader
 from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
-from types import CodeType
 
 import pytest
 import yaml
@@ -173,16 +170,6 @@ def test_a_run_and_the_tests_begin_with_the_same_command():
     assert more.replace("-m snakemake", "-m pytest") == tests.text != run.text
 
 
-def test_a_dry_run_is_of_every_call_and_of_nothing_else():
-    text = ".venv/bin/snakemake\nrm results/snakemake.txt\n../.venv/bin/snakemake own --cores 2\n"
-    block = Block("a.md", 1, "", "", text)
-    calls = ".venv/bin/snakemake -n\n", "../.venv/bin/snakemake -n own --cores 2\n"
-    assert dry(block).text == calls[0] + "rm results/snakemake.txt\n" + calls[1]
-    assert only_targets(block) == []
-    alone = block._replace(text=".venv/bin/snakemake fig2 own\n")
-    assert only_targets(alone) == ["fig2", "own"]
-
-
 @pytest.mark.parametrize(
     ("text", "said", "fits"),
     [
@@ -204,29 +191,14 @@ def quoted_messages(page: str) -> list[str]:
     return re.findall(r"^\| `(.+?)` +\|", below, re.MULTILINE)
 
 
-def compiled(path: Path) -> CodeType:
-    """Return the code of a module, which Python has kept if it has imported the module."""
-    return SourceFileLoader(path.stem, str(path)).get_code(path.stem)
-
-
-def strings_in(constant) -> Iterator[str]:
-    """Yield the strings of compiled code: adjacent ones are joined there."""
-    if isinstance(constant, str):
-        yield constant
-    for inner in getattr(constant, "co_consts", constant if isinstance(constant, tuple) else ()):
-        yield from strings_in(inner)
-
-
 @pytest.fixture(scope="module")
 def messages() -> str:
-    """Return the strings of our code, what tests of bad input expect, and Snakemake's code."""
-    code = [path for room in ("scripts", "workflow") for path in (ROOT / room).rglob("*.py")]
-    ours = [text for path in code for text in strings_in(compiled(path))]
-    rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow").rglob("*.smk")]
-    snakemake_folder = Path(find_spec("snakemake").origin).parent
-    theirs = [path.read_text(encoding="utf-8") for path in snakemake_folder.rglob("*.py")]
-    tested = (ROOT / "tests/configuration/bad_input.yaml").read_text(encoding="utf-8")
-    return "\n".join([*ours, *rules, *theirs, *SYSTEM, tested])
+    """Return our code, with adjacent strings joined, Snakemake's, and bad input of tests."""
+    rooms = [ROOT / "scripts", ROOT / "workflow", Path(find_spec("snakemake").origin).parent]
+    code = [path for room in rooms for end in ("py", "smk") for path in room.rglob(f"*.{end}")]
+    code.append(ROOT / "tests/configuration/bad_input.yaml")
+    text = "\n".join(path.read_text(encoding="utf-8") for path in code)
+    return "\n".join([re.sub(r'"\s*\n\s*f?"', "", text), *SYSTEM])
 
 
 SYSTEM = [
