@@ -29,10 +29,6 @@ class Criterion(ABC):
     def failing(self, measured: Measured) -> list[str]:
         """Return the names whose numbers do not keep the criterion."""
 
-    @abstractmethod
-    def refuted_by(self) -> list[dict[str, float]]:
-        """Return sets of measured numbers; the criterion must refuse every one of these sets."""
-
     def holds(self, measured: Measured) -> bool:
         """Return whether all numbers keep the criterion."""
         return not self.failing(measured)
@@ -52,15 +48,8 @@ class Limit(Criterion):
     def keeps(self, value: float) -> bool:
         """Return whether one number keeps the limit."""
 
-    @abstractmethod
-    def wrong(self) -> float:
-        """Return a number that does not keep it."""
-
     def failing(self, measured: Measured) -> list[str]:
         return [name for name in self.names if not self.keeps(measured[name])]
-
-    def refuted_by(self) -> list[dict[str, float]]:
-        return [{name: self.wrong()} for name in self.names]
 
     @property
     def words(self) -> str:
@@ -72,14 +61,9 @@ class Comparison(Limit):
     """Each number stands in a relation to the limit, which `sign` writes."""
 
     sign: str
-    beyond: float | None = None
-    """Where the nearest wrong number lies, if the limit itself keeps the relation."""
 
     def keeps(self, value: float) -> bool:
         return RELATIONS[self.sign](value, self.limit)
-
-    def wrong(self) -> float:
-        return self.limit if self.beyond is None else math.nextafter(self.limit, self.beyond)
 
     def __str__(self) -> str:
         return f"{self.words} {self.sign} {plain(self.limit)}"
@@ -94,7 +78,7 @@ class Below(Comparison):
 class AtMost(Comparison):
     """No number is above the limit."""
 
-    sign, beyond = "<=", math.inf
+    sign = "<="
 
 
 class Above(Comparison):
@@ -106,7 +90,7 @@ class Above(Comparison):
 class AtLeast(Comparison):
     """No number is below the limit."""
 
-    sign, beyond = ">=", -math.inf
+    sign = ">="
 
 
 class WithinFactor(Below):
@@ -129,9 +113,6 @@ class Near(Limit):
     def keeps(self, value: float) -> bool:
         return abs(value - self.target) <= self.limit
 
-    def wrong(self) -> float:
-        return self.target + 2.0 * self.limit + 1.0
-
     def __str__(self) -> str:
         if self.target == 0.0:
             return f"|{self.words}| <= {plain(self.limit)}"
@@ -147,9 +128,6 @@ class Levels(Limit):
     def keeps(self, value: float) -> bool:
         return math.isfinite(value)
 
-    def wrong(self) -> float:
-        return math.inf
-
     def __str__(self) -> str:
         return f"{self.words} is finite"
 
@@ -159,9 +137,6 @@ class NeverLevels(Levels):
 
     def keeps(self, value: float) -> bool:
         return value == math.inf
-
-    def wrong(self) -> float:
-        return 0.0
 
     def __str__(self) -> str:
         return f"{self.words} is infinite"
@@ -176,10 +151,6 @@ class AllOf(Criterion):
 
     def failing(self, measured: Measured) -> list[str]:
         return [name for one in self.criteria for name in one.failing(measured)]
-
-    def refuted_by(self) -> list[dict[str, float]]:
-        """Return numbers that one part refuses; the names of the other parts stay open."""
-        return [numbers for one in self.criteria for numbers in one.refuted_by()]
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.criteria))

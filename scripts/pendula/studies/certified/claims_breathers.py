@@ -2,13 +2,7 @@
 
 from pendula.ledger.changes import put
 from pendula.ledger.claim import Control, claim
-from pendula.ledger.criterion import (
-    AllOf,
-    AtLeast,
-    Below,
-    Finding,
-    judge,
-)
+from pendula.ledger.criterion import AllOf, AtLeast, Below, Finding, judge
 from pendula.ledger.cutoff import Cutoff
 
 from .states import Verdict

@@ -11,13 +11,7 @@ import numpy as np
 
 from pendula.datasets.trajectories import constants_of
 from pendula.ledger.changes import keep, repeat, take
-from pendula.ledger.chaos import (
-    FAR_AS_NEAR,
-    SENSITIVITY,
-    AlmostEqual,
-    almost_equal,
-    joined,
-)
+from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, AlmostEqual, almost_equal, joined
 from pendula.ledger.claim import CHANGE, FACTOR, FEWEST, NEARLY_ALL, Control, checks, claim
 from pendula.ledger.criterion import (
     Above,

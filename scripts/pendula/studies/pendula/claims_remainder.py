@@ -4,14 +4,7 @@ import numpy as np
 
 from pendula.ledger.changes import scale
 from pendula.ledger.claim import FACTOR, Control, claim
-from pendula.ledger.criterion import (
-    AllOf,
-    Below,
-    Finding,
-    Near,
-    UndecidableError,
-    judge,
-)
+from pendula.ledger.criterion import AllOf, Below, Finding, Near, UndecidableError, judge
 from pendula.ledger.cutoff import Cutoff
 from pendula.numerics.elementary import log
 
