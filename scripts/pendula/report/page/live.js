@@ -138,16 +138,12 @@ const apply = (given) => {
   if (atEnd) slider.value = slider.max;
   update();
 };
-// Take one setting as its control has it; the controls refuse what a link says and they cannot.
-const taken = (key) => (key === "boundary" ? byId(key).value : Number(byId(key).value));
+// Take one setting as its control has it, which refuses what a link says and it cannot.
+const taken = (key) => (key === "boundary" ? byId(key).value || "dirichlet" : Number(byId(key).value));
 const fromLink = () => {
-  const read = { ...chosen().settings };
-  for (const [key, text] of new URLSearchParams(location.hash.slice(1))) {
-    if (!(key in read)) continue;
-    byId(key).value = text;
-    if (byId(key).value) read[key] = taken(key);
-  }
-  apply(read);
+  const said = [...new URLSearchParams(location.hash.slice(1))].filter(([key]) => key in settings);
+  for (const [key, text] of said) byId(key).value = text;
+  apply({ ...settings, ...Object.fromEntries(said.map(([key]) => [key, taken(key)])) });
 };
 const makeSlider = ([id, text, min, max, step]) => {
   const label = made("label", { htmlFor: id, textContent: `${text} = ` });
@@ -166,106 +162,68 @@ const say = (number) => {
   const small = number && Math.abs(number) < 1e-3;
   return (small ? number.toExponential(2) : String(Number(number.toPrecision(4)))).replaceAll("-", "−");
 };
-const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
-const penOf = (canvas) => {
-  const [scale, { clientWidth: width, clientHeight: height }] = [window.devicePixelRatio, canvas];
-  Object.assign(canvas, { width: width * scale, height: height * scale });
-  const pen = canvas.getContext("2d");
-  pen.scale(scale, scale);
-  pen.font = "13px system-ui, sans-serif";
-  return { pen, width, height };
+const line = (kind, points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
+const words = (x, y, anchor, said) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${said}</text>`;
+const ticks = (most, count) => {
+  const unit = 10 ** Math.floor(Math.log10(most / count));
+  const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most);
+  return Array.from({ length: Math.floor(most / step + 1e-9) + 1 }, (_, i) => Number((i * step).toPrecision(6)));
 };
-const ticks = (least, most, count) => {
-  const unit = 10 ** Math.floor(Math.log10((most - least) / count));
-  const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most - least);
-  const found = [];
-  for (let i = Math.ceil(least / step); i * step <= most; i += 1) found.push(Number((i * step).toPrecision(6)));
-  return found;
-};
-// Draw axes; `x` and `y` return where a time and a value between `least` and `most` come to lie.
-const axes = (canvas, least, most, title) => {
-  const { pen, width, height } = penOf(canvas);
-  const [left, top, right, bottom] = [40, 24, width - 20, height - 22];
-  const x = (tau) => left + ((right - left) * tau) / settings.end_time;
-  const y = (value) => bottom - ((bottom - top) * (value - least)) / (most - least);
-  pen.fillStyle = colour("ink");
-  pen.strokeStyle = colour("rule");
-  pen.fillText(title, left, 15);
-  pen.textAlign = "right";
-  for (const value of ticks(least, most, height / 40)) {
-    pen.fillText(value, left - 6, y(value) + 4);
-    pen.strokeRect(left, y(value), right - left, 0);
-  }
-  pen.textAlign = "center";
-  for (const tau of ticks(0, settings.end_time, width / 70)) pen.fillText(tau, x(tau), bottom + 16);
-  return { pen, x, y, left, top, right, bottom };
-};
-const line = (pen, name, points, dash = []) => {
-  pen.strokeStyle = colour(name);
-  pen.setLineDash(dash);
-  pen.beginPath();
-  for (const [x, y] of points) pen.lineTo(x, y);
-  pen.stroke();
-};
-const upright = ({ pen, x, top, bottom }, tau, name, dash) => line(pen, name, [[x(tau), top], [x(tau), bottom]], dash);
-const drawNorm = (norm, title) => {
+const drawNorm = (norm) => {
   const curves = [...run[norm], ...(other ? other[norm] : [])];
-  const plot = axes(byId(norm), 0, 1.03 * Math.max(...curves.map(largestOf), 1e-9), title);
+  const most = 1.03 * Math.max(...curves.map(largestOf), 1e-9);
+  const x = (tau) => Number((40 + (340 * tau) / settings.end_time).toFixed(1));
+  const y = (value) => Number((170 - (160 * value) / most).toFixed(1));
+  const upright = (kind, tau) => line(kind, [[x(tau), 10], [x(tau), 170]]);
+  const drawn = ticks(most, 4).flatMap((value) => [
+    line("rule", [[40, y(value)], [380, y(value)]]), words(34, y(value) + 4, "end", value),
+  ]);
+  drawn.push(...ticks(settings.end_time, 5).map((tau) => words(x(tau), 188, "middle", tau)));
   curves.forEach((values, i) => {
-    plot.pen.lineWidth = i < 2 ? 1.8 : 1.2;
-    const points = Array.from(values, (value, k) => [plot.x(run.tau[k]), plot.y(value)]);
-    line(plot.pen, i % 2 ? "b" : "a", points, i < 2 ? [] : [5, 4]);
+    const points = Array.from(values, (value, k) => [x(run.tau[k]), y(value)]);
+    drawn.push(line(`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`, points));
   });
-  if ((horizon() ?? Infinity) < settings.end_time) upright(plot, horizon(), "ink", [4, 4]);
-  if (parted) upright(plot, parted, "over", [2, 3]);
-  upright(plot, now(), "link");
+  if ((horizon() ?? Infinity) < settings.end_time) drawn.push(upright("dashed", horizon()));
+  if (parted) drawn.push(upright("dotted", parted));
+  byId(norm).innerHTML = [...drawn, upright("now", now())].join("");
 };
-// Draw the moduli at the sites n and -n: the larger one is, the less paper shows through.
+// Draw the moduli at the sites n and -n, a pixel each: the larger one is, the less paper shows through.
 const drawModulus = (half, name, largest) => {
-  const edge = run.sites - 0.5;
-  const plot = axes(byId(`modulus${name}`), -edge, edge, `|${name}ₙ| ≤ ${say(largest)} at pair n`);
-  const { pen, left, top, right, bottom } = plot;
-  const image = new ImageData(run.snapshots, 2 * run.sites - 1);
-  const [, ...rgb] = colour(name.toLowerCase()).match(/#(..)(..)(..)/).map((hex) => parseInt(hex, 16));
-  for (let i = 0; i < image.width * image.height; i += 1) {
+  const canvas = byId(`modulus${name}`);
+  Object.assign(canvas, { width: run.snapshots, height: 2 * run.sites - 1 });
+  const [pen, image] = [canvas.getContext("2d"), new ImageData(canvas.width, canvas.height)];
+  const [, ...rgb] = getComputedStyle(canvas).color.match(/(\d+), (\d+), (\d+)/);
+  for (let i = 0; i < canvas.width * canvas.height; i += 1) {
     const n = Math.abs(run.sites - 1 - Math.floor(i / run.snapshots));
     image.data.set(rgb, 4 * i);
     image.data[4 * i + 3] = (255 * half[n * run.snapshots + (i % run.snapshots)]) / largest;
   }
-  const canvas = made("canvas", { width: image.width, height: image.height });
-  canvas.getContext("2d").putImageData(image, 0, 0);
-  pen.imageSmoothingEnabled = false;
-  pen.drawImage(canvas, left, top, right - left, bottom - top);
-  upright(plot, now(), "link");
+  pen.putImageData(image, 0, 0);
+  pen.fillStyle = getComputedStyle(document.body).color;
+  pen.fillRect(((canvas.width - 1) * now()) / settings.end_time, 0, 1, canvas.height);
+  byId(`scale${name}`).textContent = `|${name}ₙ| up to ${say(largest)}, n from ${say(1 - run.sites)} to ${run.sites - 1}`;
 };
 
 // Two rows of pendula: x = 2μ Re(A e^{iφ}) above, y below, and φ is the phase of the swing.
 let state = null;
 let phase = 0;
 const drawPendula = () => {
-  const { pen, width, height } = penOf(byId("pendula"));
   const [mu, pairs] = [Number(byId("mu").value), 2 * settings.half_width + 1];
-  const length = 0.22 * height;
-  const slot = (width - 2 * length) / (pairs + 1); // the outer ones need room to swing
-  let over = 0;
+  const drawn = [];
   state.forEach((rows, component) => {
-    const hook = (0.25 + 0.5 * component) * height;
     for (let place = 0; place < pairs; place += 1) {
       const at = Math.abs(place - settings.half_width) + 1;
       const [re, im] = [rows[at], rows[rows.length / 2 + at]];
       const angle = 2 * mu * (re * Math.cos(phase) - im * Math.sin(phase));
+      const [from, hook] = [50 + (700 * (place + 0.5)) / pairs, 50 + 100 * component];
+      const [x, y] = [from + 45 * Math.sin(angle), hook + 45 * Math.cos(angle)];
       const isOver = 2 * mu * Math.hypot(re, im) > Math.PI;
-      const from = length + (place + 1) * slot;
-      const [x, y] = [from + length * Math.sin(angle), hook + length * Math.cos(angle)];
-      over += isOver;
-      line(pen, isOver ? "over" : "ab"[component], [[from, hook], [x, y]]);
-      pen.fillStyle = pen.strokeStyle;
-      pen.beginPath();
-      if (isOver) pen.rect(x - 5, y - 5, 10, 10);
-      else pen.arc(x, y, Math.max(2, Math.min(6, 0.45 * slot)), 0, 2 * Math.PI);
-      pen.fill();
+      const bob = isOver ? `<rect x="${x - 5}" y="${y - 5}" width="10" height="10"/>` : `<circle cx="${x}" cy="${y}" r="4"/>`;
+      drawn.push(`<g class="${isOver ? "over" : "ab"[component]}">${line("", [[from, hook], [x, y]])}${bob}</g>`);
     }
   });
+  byId("pendula").innerHTML = drawn.join("");
+  const over = drawn.filter((one) => one.includes("rect")).length;
   byId("swings").textContent = `μ = ${mu}. Over the top at this τ: ${over} of ${2 * pairs}.`;
 };
 
@@ -323,8 +281,8 @@ const perturb = () => {
 
 const updateTime = () => {
   tell();
-  drawNorm("l2", "ℓ² norms against τ");
-  drawNorm("linf", "ℓ∞ norms against τ");
+  drawNorm("l2");
+  drawNorm("linf");
   const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
   run.modulus.forEach((half, component) => drawModulus(half, "AB"[component], largest));
   const [tau, end] = [Math.max(now(), 1e-6), settings.end_time]; // a run has a length
@@ -370,10 +328,6 @@ const play = (time) => {
   moveTo(now() + passed);
   setPlaying(now() < settings.end_time ? time : null);
 };
-const startOrStop = () => {
-  if (last === null && now() === settings.end_time) moveTo(0);
-  setPlaying(last === null ? performance.now() : null);
-};
 const save = (name, text) => {
   made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download: name }).click();
 };
@@ -404,7 +358,10 @@ const begin = async () => {
   listen("case", "change", reset);
   listen("reset", "click", reset);
   listen("tau", "input", () => moveTo(byId("tau").value));
-  listen("play", "click", startOrStop);
+  listen("play", "click", () => {
+    if (last === null && now() === settings.end_time) moveTo(0);
+    setPlaying(last === null ? performance.now() : null);
+  });
   listen("mu", "input", drawPendula);
   listen("perturb", "click", ({ target }) => {
     target.ariaPressed = String(target.ariaPressed === "false");
@@ -414,7 +371,6 @@ const begin = async () => {
   listen("compare", "click", compareAll);
   listen("csv", "click", () => save("mine.csv", csv()));
   listen("yaml", "click", () => save("mine.yaml", yaml()));
-  window.addEventListener("resize", update);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
   const byLink = () => (location.hash === "#same-bits" ? compareAll() : fromLink());
   window.addEventListener("hashchange", byLink);
