@@ -1,9 +1,5 @@
 """Other people's integrators against ours, on a small chain."""
 
-import importlib
-import re
-import sys
-
 import numpy as np
 import pytest
 from helpers import skip
@@ -75,49 +71,3 @@ def test_the_taylor_method_in_cpp_is_ours_to_rounding(name, half_width):
     expected = simulate(given.changed(solver=SOLVERS["taylor"])).final
     actual, _ = PEERS[name].prepare(given)(SOLVERS["taylor"]["rtol"])
     np.testing.assert_allclose(actual, expected, rtol=0, atol=1e-12)
-
-
-@pytest.mark.parametrize("name", PEERS)
-def test_other_boundaries_are_refused(name):
-    with pytest.raises(ValueError, match="dirichlet"):
-        PEERS[name].prepare(problem("periodic"))
-
-
-@pytest.mark.parametrize("name", ["heyoka_half", "numbalsoda_dop853_half", "cpp_taylor"])
-def test_half_a_chain_needs_even_data(name):
-    with pytest.raises(ValueError, match="even"):
-        PEERS[name].prepare(problem(even=False))
-
-
-@pytest.mark.parametrize(
-    ("name", "what"), [("octave_ode45", "octave-cli"), ("cpp_taylor", r"g\+\+")]
-)
-def test_a_missing_program_is_said_in_words(name, what, monkeypatch, tmp_path):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    assert re.search(what, PEERS[name].why_absent() or "present")
-
-
-@pytest.mark.parametrize(
-    ("name", "module", "what"),
-    [
-        ("heyoka_full", "heyoka", "heyoka"),
-        ("cvode_adams", "sksundae", "scikit-sundae"),
-        ("numbalsoda_dop853", "numbalsoda", "numbalsoda"),
-    ],
-)
-def test_a_missing_package_is_said_in_words(name, module, what, monkeypatch):
-    import importlib.util
-
-    found = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda n: None if n == module else found(n))
-    module_of_peer = sys.modules[PEERS[name].why_absent.__module__]
-    monkeypatch.setattr(module_of_peer, "find_spec", importlib.util.find_spec)
-    assert PEERS[name].why_absent() == f"the Python package {what} is not installed"
-
-
-def test_importing_the_peers_imports_none_of_their_libraries(monkeypatch):
-    for name in [name for name in sys.modules if name.split(".")[0] == "benchmarks"]:
-        monkeypatch.delitem(sys.modules, name)
-    for library in ("heyoka", "sksundae", "numbalsoda"):
-        monkeypatch.setitem(sys.modules, library, None)  # so that its import fails
-    assert importlib.import_module("benchmarks.contestants").PEERS is not PEERS

@@ -2,12 +2,8 @@
 
 import pytest
 
-from benchmarks import points
 from benchmarks.points import (
-    FEW_PAIRS,
-    LONG,
     PAIRS,
-    PATIENCE,
     Point,
     best_of,
     cheapest,
@@ -18,54 +14,11 @@ from benchmarks.points import (
 TARGET = 1e-10
 
 
-def test_each_point_holds_the_time_and_the_error(problem, exact, contestant):
-    made, _ = contestant(lambda accuracy: 1e-3)
-    found = measure_points(made, problem, exact)
-    assert [point.accuracy for point in found] == [1e-4, 1e-6, 1e-8, 1e-10, 1e-12]
-    for point in found:
-        assert point.error == pytest.approx(point.accuracy, rel=1e-3)
-        assert point.seconds == point.least == point.most == 1e-3
-
-
 def test_the_time_is_the_median_of_several_runs_after_the_first(problem, exact, contestant):
     times = iter([0.25, 0.1, 0.3, 0.2])
     made, calls = contestant(lambda accuracy: next(times), accuracies=(1e-4,))
     assert measure_points(made, problem, exact)[0][1:4] == (0.2, 0.1, 0.3)
     assert len(calls) == 4
-
-
-def test_who_takes_too_long_is_asked_no_further(problem, exact, contestant):
-    made, calls = contestant(lambda accuracy: 2 * PATIENCE if accuracy < 1e-5 else 1e-3)
-    assert [point.accuracy for point in measure_points(made, problem, exact)] == [1e-4, 1e-6]
-    assert calls.count(1e-6) == 1  # and a long run is not repeated
-
-
-def test_who_compiles_in_the_first_run_is_asked_on(problem, exact, contestant):
-    times = iter([2 * PATIENCE])
-    made, calls = contestant(lambda accuracy: next(times, 1e-3))
-    found = measure_points(made, problem, exact)
-    assert len(found) == 5 and found[0].most == 1e-3
-    assert calls[:2] == [1e-4, 1e-4]
-
-
-def test_a_run_without_end_is_broken_off(problem, exact, contestant, monkeypatch):
-    def forever(accuracy):
-        while accuracy < 1e-5:
-            pass
-        return 1e-3
-
-    monkeypatch.setattr(points, "LIMIT", 0.1)
-    made, _ = contestant(forever)
-    assert [point.accuracy for point in measure_points(made, problem, exact)] == [1e-4]
-
-
-def test_who_errs_less_than_the_goal_is_asked_no_further(problem, exact, contestant):
-    made, _ = contestant(lambda accuracy: 1e-3)
-    assert [point.accuracy for point in measure_points(made, problem, exact, goal=1e-7)] == [
-        1e-4,
-        1e-6,
-        1e-8,
-    ]
 
 
 def test_who_gives_up_or_returns_no_numbers_has_no_point_there(problem, exact, contestant):
@@ -103,13 +56,6 @@ def test_the_ratio_is_theirs_over_ours_below_the_target(problem, with_points, co
     assert found.ratios == pytest.approx([5.0] * PAIRS)
     # the run at 1e-10 errs by a little more than that, by rounding
     assert found.our_point.error <= 1e-10 and found.peer_point.error <= 1e-10
-
-
-def test_a_long_run_is_paired_less_often(problem, with_points, contestant):
-    slow, _ = contestant(lambda accuracy: 2 * LONG)
-    fast, _ = contestant(lambda accuracy: 0.1)
-    found = compare(problem, TARGET, with_points(slow), {"fast": with_points(fast)})
-    assert len(found.ratios) == FEW_PAIRS
 
 
 def test_who_never_gets_that_far_is_not_compared(problem, with_points, contestant):

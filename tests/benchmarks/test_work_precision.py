@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 from pendula.datasets.netcdf import read, write
-from pendula.drawing import style
 from pendula.simulation.simulate import simulate
 from problems import problem_of
 
-from benchmarks import contestants, figures, points, work_precision
+from benchmarks import contestants, points, work_precision
 from benchmarks.contestants import OURS
 from benchmarks.problems import OUTPUT_STEP, Reference, until
-from benchmarks.tables import tabulate_work_precision
 
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 PROBLEM = problem_of(
@@ -42,11 +40,6 @@ def measured(tmp_path_factory):
     return read(path)
 
 
-def test_there_are_no_outputs_before_the_end():
-    problem = until(PROBLEM, 2.0)
-    assert list(problem.times) == [0.0, 2.0] and problem.snapshot_every == 0
-
-
 def test_every_solver_reaches_the_reference(measured):
     case = measured.sel(case="fig3_small")
     for solver in ("ode45", "dop853", "taylor"):
@@ -68,38 +61,3 @@ def test_the_pair_is_compared_below_the_target(measured):
     assert float(pair["peer_error"]) <= 1e-10 and float(pair["our_error"]) <= 1e-10
     assert pair["our_best"].item() in ("dop853", "taylor")
     assert 1.0 < float(pair["ratio"]) < 100.0
-
-
-def test_the_table_gives_every_time_beside_its_error(measured):
-    page = "\n\n".join(tabulate_work_precision(measured))
-    rows = [line for line in page.splitlines() if line.startswith("| taylor")]
-    assert len(rows) == int(np.isfinite(measured["seconds"].sel(contestant="taylor")).sum())
-    assert "Not measured: another one is not installed." in page
-    assert "errors" in next(line for line in page.splitlines() if line.startswith("| ode45"))
-
-
-def test_the_figure_draws_every_contestant(measured):
-    data = figures.gather_work_precision(measured, "regular")
-    figure = figures.draw_work_precision(data)
-    axes = figure.axes[0]
-    assert len(axes.get_lines()) == len(OURS) + 1 + 1  # a peer, and the line of the target
-    assert axes.get_xscale() == axes.get_yscale() == "log"
-    assert axes.get_title("left") == style.name_case(data.isel(case=0))
-
-
-def test_the_figure_has_a_row_for_each_peer_with_its_ratio_and_the_scatter(measured):
-    data = figures.gather_work_precision(measured, "regular")
-    rows = figures.draw_work_precision(data).axes[1]
-    assert [label.get_text() for label in rows.get_yticklabels()] == ["ode45"]
-    ratios = rows.get_lines()[0].get_xdata()
-    assert ratios == data["ratio"].values.ravel() and ratios > 1.0
-    (bar,) = rows.collections[0].get_segments()
-    np.testing.assert_allclose(bar[:, 0], [data["ratio_least"].item(), data["ratio_most"].item()])
-
-
-def test_a_peer_that_never_comes_so_close_is_named_without_a_mark(measured):
-    data = figures.gather_work_precision(measured, "regular")
-    for name in figures.RATIOS:
-        data[name] = np.nan * data[name]
-    rows = figures.draw_work_precision(data).axes[1]
-    assert [label.get_text() for label in rows.get_yticklabels()] == ["ode45 (never so close)"]
