@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from snakemake_interface_executor_plugins.settings import CommonSettings, ExecutorSettingsBase
 
 from snakemake_executor_plugin_forked.forks import Forks
-from snakemake_executor_plugin_forked.inside import LocalExecutor
+from snakemake_executor_plugin_forked.inside import Executor as Executor
 
 common_settings = CommonSettings(
     non_local_exec=False,
@@ -28,13 +28,3 @@ class ExecutorSettings(ExecutorSettingsBase):
     def __post_init__(self):
         """Let the imports begin while Snakemake reads the workflow."""
         self.forks = Forks(self.modules.split())
-
-
-class Executor(LocalExecutor):
-    """Runs jobs on this machine: Python scripts as forks, and all else as Snakemake does."""
-
-    def __post_init__(self):
-        """Have the process ready for jobs."""
-        super().__post_init__()
-        self.forks = self.executor_settings.forks
-        self.forks.get_ready()

@@ -1,4 +1,4 @@
-"""Starts the process that forks jobs, and asks it for them. Nothing here knows Snakemake."""
+"""Starts the process that forks jobs, and asks it for them. Nothing here calls Snakemake."""
 
 import atexit
 import json
@@ -7,14 +7,15 @@ import signal
 import socket
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
-from threading import Event
 
 SERVER = Path(__file__).with_name("server.py")
 LETTER = 65536
 INTERRUPTED = 128 + signal.SIGINT
 """The exit status of what Ctrl-C ended."""
-KEPT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+LOOKS = ("-n", "--dry", "--list", "--lint", "--dag", "--rulegraph", "--summary", "--unlock")
+"""How options begin with which Snakemake runs no job: then the imports need not begin early."""
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
 THREADS = {f"{library}_THREADS": "1" for library in LIBRARIES}
 """What Snakemake tells a job of one thread."""
@@ -26,37 +27,37 @@ class RefusedError(Exception):
     """A job must start by itself; the message says why."""
 
 
-class EndedError(Exception):
-    """The process that forks jobs has ended; the message says how."""
-
-
 class Forks:
     """The process that forks jobs."""
 
-    process = None
+    process, interrupted = None, False
 
     def __init__(self, modules: list[str]):
-        """Start the process where forks are safe; it imports `modules`."""
-        self.modules, self.environment = modules, {**os.environ, **THREADS}
-        self.interrupted = Event()
-        if sys.platform != "linux":
-            return
-        self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, KEPT)  # it never hears Ctrl-C
-        with theirs:
-            command = [sys.executable, str(SERVER), str(theirs.fileno()), *modules]
-            fds = [theirs.fileno()]
-            self.process = subprocess.Popen(command, pass_fds=fds, env=self.environment)
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        atexit.register(self.end)
+        """Start the process, which imports `modules`, unless Snakemake is asked only to look."""
+        self.modules = modules
+        if sys.platform == "linux" and not any(word.startswith(LOOKS) for word in sys.argv):
+            self._start()
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-            signal.signal(signal.SIGINT, self.interrupt)
+            signal.signal(signal.SIGINT, self._interrupt)
 
-    def interrupt(self, number, frame) -> None:
+    def _start(self) -> None:
+        self.environment = {**os.environ, **THREADS}
+        self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with theirs:
+            self.process = subprocess.Popen(
+                [sys.executable, str(SERVER), str(theirs.fileno()), *self.modules],
+                pass_fds=[theirs.fileno()],
+                env=self.environment,
+                start_new_session=True,  # Ctrl-C is for Snakemake, which ends the jobs
+            )
+        atexit.register(self.end)
+
+    def _interrupt(self, number, frame) -> None:
         """End Snakemake at Ctrl-C without a traceback; another Ctrl-C changes nothing."""
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        self.interrupted.set()
-        print("\ninterrupted: the same command goes on from here", file=sys.stderr, flush=True)
+        self.interrupted = True
+        if self.process:
+            self.control.close()  # which ends all jobs
         raise SystemExit(INTERRUPTED)
 
     def changed(self) -> list[str]:
@@ -67,57 +68,53 @@ class Forks:
 
     def get_ready(self) -> None:
         """Tell the process where jobs run, now that the workflow is known."""
-        if self.process and self.changed():
+        if sys.platform != "linux":
+            return
+        if not self.process or self.changed():
             self.end()
-            self.__init__(self.modules)
-        mask = os.umask(0)
-        os.umask(mask)
-        if self.process:
-            path = os.environ.get("PYTHONPATH", "")
-            self._send({"folder": os.getcwd(), "mask": mask, "path": path})
+            self._start()
+        os.umask(mask := os.umask(0))
+        path = os.environ.get("PYTHONPATH", "")
+        self._send({"folder": os.getcwd(), "mask": mask, "path": path})
 
     def fork(self, script: str, place: str | None) -> tuple[int, socket.socket]:
-        """Return the number of a process, and where it is told to run `script`."""
+        """Return the number of a process that runs `script`, once its socket is shut down."""
         if not self.process:
             raise RefusedError(f"forks are not safe on {sys.platform}")
         if changed := self.changed():
             raise RefusedError(f"the workflow has changed {', '.join(changed)}")
         environment = dict.fromkeys(PLACES, place) if place else {}
-        asked, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        job, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             self._send({"script": os.path.abspath(script), "environment": environment}, theirs)
-        answer = self.hear(asked)
+        answer = self.hear(job)
         if not answer.isdigit():
             raise RefusedError(answer)
-        return int(answer), asked
+        return int(answer), job
 
-    def hear(self, asked: socket.socket) -> str:
-        """Return the next thing that the process says."""
-        try:
-            said = asked.recv(LETTER)
-        except ConnectionResetError:  # the job was killed before it could begin
-            said = asked.recv(LETTER)
-        if not said:
-            raise self.ended()
-        return said.decode()
+    def hear(self, job: socket.socket) -> str:
+        """Return the next thing that the process says of a job."""
+        return job.recv(LETTER).decode() or self._complain()
 
     def _send(self, what: dict, *streams: socket.socket) -> None:
         try:
             fds = [stream.fileno() for stream in streams]
             socket.send_fds(self.control, [json.dumps(what).encode()], fds)
         except OSError:
-            raise self.ended() from None
+            self._complain()
 
-    def ended(self) -> EndedError:
-        """Return what to say of the process's end."""
-        return EndedError(f"the process that jobs are forked from {in_words(self.process.wait())}")
+    def _complain(self):
+        self.end()
+        how = in_words(self.process.returncode)
+        raise ChildProcessError(f"the process that jobs are forked from {how}")
 
-    def end(self, kindly: bool = False) -> None:
-        """End the process and its jobs, which get a moment for it if this is done `kindly`."""
-        if self.process:
+    def end(self) -> None:
+        """End the process and its jobs, which get a moment for it if Ctrl-C ends them."""
+        if self.process and self.process.returncode is None:
             self.control.close()
-            if not kindly:
-                self.process.kill()
+            if not self.interrupted:
+                with suppress(ProcessLookupError):  # another thread was faster
+                    os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
 
 

@@ -4,7 +4,6 @@ It imports while nobody asks; a job that comes earlier imports for itself what i
 """
 
 import atexit
-import ctypes
 import gc
 import importlib
 import json
@@ -22,12 +21,8 @@ from types import ModuleType
 
 LETTER = 65536
 """Bytes that are more than any message has."""
-KEPT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-"""Signals to a whole group of processes, such as Ctrl-C: this process ends with Snakemake only."""
 GRACE = 3
 """Seconds in which jobs must end once Snakemake is gone, or is told to end."""
-DIE_WITH_PARENT = 1
-"""PR_SET_PDEATHSIG of Linux."""
 
 
 class Server:
@@ -37,12 +32,10 @@ class Server:
         """Listen at `control`, and import `modules` meanwhile."""
         self.control, self.modules, self.told = control, modules, False
         self.jobs: dict[int, socket.socket] = {}
-        self.pid, self.libc = os.getpid(), ctypes.CDLL(None)
-        self.handlers = {number: signal.getsignal(number) for number in (*KEPT, signal.SIGCHLD)}
         signal.signal(signal.SIGCHLD, self.bury)
 
-    def serve(self) -> dict | None:
-        """Return None when Snakemake has ended, and in each child the job that it shall do."""
+    def serve(self) -> dict[str, str | dict]:
+        """Return in each child what it shall do; end with all jobs when Snakemake has ended."""
         while True:
             if not select.select([self.control], [], [], 0)[0] and self.prepare():
                 continue
@@ -56,10 +49,10 @@ class Server:
                 return given
         for pid in list(self.jobs):
             os.kill(pid, signal.SIGINT)
-        signal.alarm(GRACE)  # it ends this process, and each job dies with its parent
-        while self.jobs:
+        end = time.monotonic() + GRACE
+        while self.jobs and time.monotonic() < end:
             time.sleep(0.01)
-        return None
+        os.killpg(0, signal.SIGKILL)
 
     def prepare(self) -> bool:
         """Import the next module, and return whether this may be done again at once."""
@@ -94,28 +87,23 @@ class Server:
             with asked:
                 asked.sendall(f"what it imported runs {threads} threads".encode())
             return False
-        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGCHLD])
         if pid := os.fork():
+            with suppress(OSError):  # Snakemake is gone
+                asked.sendall(str(pid).encode())
             self.jobs[pid] = asked
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGCHLD])
+            self.bury()  # it may have ended by now
             return False
-        self.libc.prctl(DIE_WITH_PARENT, signal.SIGKILL)
-        if os.getppid() != self.pid:
-            os._exit(1)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for end in (self.control, *self.jobs.values()):
             end.close()
         open_files_anew()
-        for number, handler in self.handlers.items():
-            heard = number == signal.SIGINT and handler is signal.default_int_handler
-            signal.signal(number, interrupt_once if heard else handler)
         gc.freeze()
         gc.enable()
         with asked:
-            asked.sendall(str(os.getpid()).encode())
             asked.recv(LETTER)  # Snakemake measures it from now on
         return True
 
-    def bury(self, number, frame) -> None:
+    def bury(self, *signalled) -> None:
         """Tell Snakemake how jobs ended."""
         for pid in list(self.jobs):
             with suppress(OSError):  # this was called while it was at work, or Snakemake is gone
@@ -140,12 +128,6 @@ def open_files_anew() -> None:
                 os.close(own)
 
 
-def interrupt_once(number, frame) -> None:
-    """Stop the job at Ctrl-C, and let it clean up in peace if there is another."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    raise KeyboardInterrupt
-
-
 def do(script: str, environment: dict[str, str]) -> int:
     """Run a script in this process as `python SCRIPT` would, and return its exit status."""
     os.environ.update(environment, PWD=os.getcwd())
@@ -158,7 +140,6 @@ def do(script: str, environment: dict[str, str]) -> int:
     main = sys.modules["__main__"] = ModuleType("__main__")
     main.__file__ = script
     try:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, [*KEPT, signal.SIGCHLD])
         with open(script, "rb") as file:
             code = compile(file.read(), script, "exec")
         exec(code, main.__dict__)
@@ -173,8 +154,6 @@ def do(script: str, environment: dict[str, str]) -> int:
         shown = error.with_traceback(error.__traceback__.tb_next)
         sys.excepthook(type(shown), shown, shown.__traceback__)
         return 1
-    finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the job is done
     return 0
 
 
@@ -192,5 +171,5 @@ if __name__ == "__main__":
     atexit.register(leave)  # the first that is registered is the last that is done
     gc.disable()
     del sys.path[: not sys.flags.safe_path]  # the folder of this file
-    if job := Server(socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]).serve():
-        status = do(**job)
+    job = Server(socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]).serve()
+    status = do(**job)

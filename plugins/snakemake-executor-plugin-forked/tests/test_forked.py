@@ -19,6 +19,7 @@ MODULES = {
     "held": "FONT = open('../font', 'rb', buffering=0); FONT.seek(2)",
     "threaded": "import threading as t, time; t.Thread(target=time.sleep, args=[9]).start()",
 }
+SHORT, LONG = [f"{n}.json" for n in range(30)], ["1.wait", "2.wait"]
 
 
 @pytest.fixture
@@ -30,10 +31,13 @@ def folder(tmp_path):
     return shutil.copytree(Path(__file__).with_name("workflow"), tmp_path / "it's here")
 
 
-def start(folder, *targets, modules="json", executor="forked", python=sys.executable):
-    """Start a run in a group of processes of its own."""
+def run(folder, *targets, modules="json", executor="forked", python=sys.executable, meanwhile=None):
+    """Return the exit status of a run and what it said; `meanwhile` is done with its process.
+
+    Each of its processes has the pipe that is read here to the end: none is left when this returns.
+    """
     chosen = ["--forked-modules", modules] if executor == "forked" else []
-    return subprocess.Popen(
+    process = subprocess.Popen(
         [python, *COMMAND, executor, *chosen, *map(str, targets)],
         cwd=folder,
         stdin=subprocess.DEVNULL,
@@ -44,27 +48,18 @@ def start(folder, *targets, modules="json", executor="forked", python=sys.execut
         env={**os.environ, "PYTHONPATH": str(folder.parent)},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
+    if meanwhile:
+        meanwhile(process)
+    said = process.communicate(timeout=600)[0]
+    return process.returncode, said
 
 
 def hear(process, words, times=1):
     """Read what a run says until it has said these words so many times."""
-    said = ""
-    while said.count(words) < times:
+    while times:
         line = process.stdout.readline()
-        assert line, said
-        said += line
-
-
-def end(process) -> str:
-    """Return what a run says until all its processes have ended: each of them has this pipe."""
-    return process.communicate()[0]
-
-
-def run(folder, *targets, **options):
-    """Return the exit status of a run and what it said."""
-    process = start(folder, *targets, **options)
-    said = end(process)
-    return process.returncode, said
+        assert line, "it has ended"
+        times -= words in line
 
 
 def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder):
@@ -78,8 +73,7 @@ def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder):
     # the file that their parent holds open is at its old place for the second one too
     told, *others = json.loads((folder / "a.json").read_text())
     assert {name: told[name] for name in alone if told[name] != alone[name]} == {}
-    assert others == [True, "lett"]
-    assert json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
+    assert others == json.loads((folder / "b.json").read_text())[1:] == [True, "lett"]
 
 
 def test_a_benchmark_measures_the_job(folder):
@@ -90,19 +84,21 @@ def test_a_benchmark_measures_the_job(folder):
 
 
 @pytest.mark.parametrize(
-    ("kind", "why", "edit"),
+    ("kind", "modules", "edit", "why"),
     [
-        ("wide", "rule wide starts a Python of its own, since it has 2 threads", ""),
-        ("json", "since what it imported runs 2 threads", ""),
-        ("json", "since the workflow changes how commands are run", "shell.prefix('nice ')"),
-        ("json", "since the workflow has changed MINE", "onstart: os.environ['MINE'] = ''"),
+        ("wide", "json", "", "rule wide starts a Python of its own, since it has 2 threads"),
+        ("json", "threaded", "", "since what it imported runs 2 threads"),
+        ("json", "json", "shell.prefix('nice ')", "the workflow changes how commands are run"),
+        ("json", "json", "onstart: os.environ['X'] = ''", "since the workflow has changed X"),
     ],
 )
-def test_a_fork_that_would_not_be_the_same_is_refused_and_told_once(folder, kind, why, edit):
+def test_a_fork_that_would_not_be_the_same_is_refused_and_told_once(
+    folder, kind, modules, edit, why
+):
     with open(folder / "Snakefile", "a") as file:
         file.write(f"\n{edit}\n")
     targets = [f"{n}.{kind}" for n in range(2)]
-    status, said = run(folder, *targets, modules="threaded" if "runs" in why else "json")
+    status, said = run(folder, *targets, modules=modules)
     assert status == 0 and said.count("forked: ") == said.count(why) == 1
     assert not any(json.loads((folder / name).read_text())[1] for name in targets)
 
@@ -125,38 +121,25 @@ def test_a_job_that_fails_says_why_once_and_the_next_run_goes_on(folder, how, sa
     assert run(folder, f"{how}.end")[0] == 0
 
 
-@pytest.mark.parametrize(("kill", "times"), [(os.killpg, 1), (os.killpg, 3), (os.kill, 1)])
-def test_ctrl_c_ends_all_without_a_traceback(folder, kill, times):
-    process = start(folder, "1.wait", "2.wait")
-    hear(process, "pid", 2)
-    for _ in range(times):
-        kill(process.pid, signal.SIGINT)
-    said = end(process)
-    assert process.returncode == 1 and said.count("interrupted: ") == 1
-    assert "Traceback" not in said and "Error in rule" not in said
+@pytest.mark.parametrize(
+    ("targets", "words", "heard", "pressed", "status"),
+    [
+        *((SHORT, "Finished jobid", heard, 1, 1) for heard in (1, 3, 7, 12)),
+        *((LONG, "pid", 2, pressed, 1) for pressed in (1, 3)),
+        ([*LONG, "--config", "slow=1"], "reading", 1, 1, 130),
+    ],
+)
+def test_ctrl_c_ends_all_without_a_traceback(folder, targets, words, heard, pressed, status):
+    def interrupt(process):
+        hear(process, words, heard)
+        for _ in range(pressed):
+            os.killpg(process.pid, signal.SIGINT)
 
-
-@pytest.mark.parametrize("jobs", [1, 3, 7, 12])
-def test_ctrl_c_among_short_jobs_is_no_traceback(folder, jobs):
-    process = start(folder, *(f"{n}.json" for n in range(30)))
-    hear(process, "Finished jobid", jobs)
-    os.killpg(process.pid, signal.SIGINT)
-    said = end(process)
-    assert process.returncode == 1 and "Traceback" not in said and "Error in rule" not in said
-
-
-def test_ctrl_c_while_snakemake_reads_the_workflow_is_no_traceback(folder):
     with open(folder / "Snakefile", "a") as file:
-        file.write("\nprint('reading', flush=True)\nimport time; time.sleep(99)\n")
-    process = start(folder, "1.wait")
-    hear(process, "reading")
-    os.killpg(process.pid, signal.SIGINT)
-    said = end(process)
-    assert process.returncode == 130 and "interrupted: " in said and "Traceback" not in said
+        file.write("\nif config: print('reading', flush=True); import time; time.sleep(99)\n")
+    ended, said = run(folder, *targets, meanwhile=interrupt)
+    assert ended == status and "Traceback" not in said and "Error in rule" not in said
 
 
 def test_no_job_outlives_snakemake(folder):
-    process = start(folder, "1.wait")
-    hear(process, "pid")
-    process.kill()
-    end(process)
+    run(folder, "1.wait", meanwhile=lambda process: hear(process, "pid") or process.kill())
