@@ -62,7 +62,8 @@ def end_when(happened, how, folder):
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         )
         try:
-            wait_for(lambda: happened(folder))
+            wait_for(lambda: happened(folder) or process.poll() is not None)
+            assert process.poll() is None, (folder / "said.txt").read_text()
             os.killpg(process.pid, how)  # as Ctrl-C in a terminal does
             wait_for(lambda: process.poll() is not None)
         finally:
@@ -73,7 +74,7 @@ def end_when(happened, how, folder):
 
 
 def is_sweeping(folder):
-    return "Sweeping mine" in (folder / "said.txt").read_text()
+    return f"Computing {SWEEP}" in (folder / "said.txt").read_text()
 
 
 def is_in_a_long_chain(folder):
