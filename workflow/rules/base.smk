@@ -46,7 +46,7 @@ rule dataset:
 rule figure:
     "Base of a job that draws a figure: gather_... returns what draw_... draws"
     output:
-        files_of("<results>/<made>"),
+        figure_files("<results>/<made>"),
     log:
         "<logs>/<made>.log",
     pathvars:

@@ -107,8 +107,8 @@ use rule figure as chaos_figures with:
         lyapunov="<results>/checks/lyapunov.nc",
         symmetry="<results>/checks/symmetry.nc",
     output:
-        files_of("<results>/figures/lyapunov"),
-        files_of("<results>/figures/symmetry"),
+        figure_files("<results>/figures/lyapunov"),
+        figure_files("<results>/figures/symmetry"),
     pathvars:
         made="figures/chaos",
     params:

@@ -131,6 +131,12 @@ def files_of(stem):
     return [f"{stem}.{kind}" for kind in FIGURE_KINDS]
 
 
+def figure_files(stem):
+    """Return the same as outputs: `snakemake --report` shows the picture."""
+    picture, *others = files_of(stem)
+    return [report(picture, category="Figures"), *others]
+
+
 def by_solvers(stem, solvers):
     return [f"{stem}.{solver}.nc" for solver in solvers]
 
@@ -254,7 +260,8 @@ def function(*names, parts=()):
     files += [path for file in found for path in (file.with_name("__init__.py"), file)]
     CALLED[(*names, *parts)] = files
     code = digest_of_code(*files)
-    told = [name for name in (*names, *parts) if "studies." in name or "/claims" in name]
+    told = [name for name in names if "studies." in name]
+    told += [part for part in parts if "claims" in part]
     CODE_OF_STUDIES.update(dict.fromkeys(told, code))
     return [*names, code]
 
@@ -267,7 +274,7 @@ def claims_in(*modules):
 
 def name_of(path):
     """Return the name that the claims have for a dataset."""
-    return "/".join(Path(path).with_suffix("").parts[1:])
+    return Path(*Path(path).with_suffix("").parts[1:]).as_posix()
 
 
 def differs_of(wildcards, input):

@@ -13,7 +13,7 @@ rule figure_diff:
         "../envs/pinned.yaml"
     params:
         call=function("pendula.figure_diff.comparison_page.compare_results"),
-        made="results",
+        made=lambda wildcards, input: os.path.commonpath(input.results),
         baseline=baseline_told_at_the_end,
         configuration=plain(SETTINGS),
         any_bits=OPTIONS["bits"] == "any",

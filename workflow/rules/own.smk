@@ -28,8 +28,8 @@ use rule figure as own_figures with:
         run="<results>/trajectories/{case}.nc",
         checks="<results>/own/cases/{case}.checks.nc",
     output:
-        files_of("<results>/own/cases/<own_case>"),
-        files_of("<results>/own/cases/<own_case>.spacetime"),
+        figure_files("<results>/own/cases/<own_case>"),
+        figure_files("<results>/own/cases/<own_case>.spacetime"),
     pathvars:
         made="own/cases/<own_case>",
     params:
@@ -43,7 +43,7 @@ use rule job as own_sweep_figure with:
     input:
         sweep="<results>/sweeps/{sweep}.nc",
     output:
-        figure=files_of("<results>/own/sweeps/<own_sweep>"),
+        figure=figure_files("<results>/own/sweeps/<own_sweep>"),
         checks="<results>/own/sweeps/<own_sweep>.checks.nc",
     pathvars:
         made="own/sweeps/<own_sweep>",

@@ -16,8 +16,8 @@ use rule figure as norms_in_time with:
         runs=expand("<results>/trajectories/fig{{n}}_{size}.nc", size=["small", "large"]),
         ensembles=lambda wildcards: ensembles_of(*SHOWN[wildcards.n]),
     output:
-        files_of("<results>/figures/fig{n,[234]}"),
-        files_of("<results>/figures/fig{n,[234]}_spacetime"),
+        figure_files("<results>/figures/fig{n,[234]}"),
+        figure_files("<results>/figures/fig{n,[234]}_spacetime"),
     pathvars:
         made="figures/fig{n,[234]}",
     params:
@@ -78,8 +78,8 @@ use rule figure as solver_figures with:
     input:
         solvers="<results>/checks/solvers.nc",
     output:
-        files_of("<results>/figures/energy_drift"),
-        files_of("<results>/figures/solver_agreement"),
+        figure_files("<results>/figures/energy_drift"),
+        figure_files("<results>/figures/solver_agreement"),
     pathvars:
         made="figures/solvers",
     params:

@@ -65,7 +65,7 @@ use rule job as speed_tables with:
 use rule speed_tables as speed_figures with:
     "Part of speed: what was timed, as figures"
     output:
-        files=[file for name in SPEED_FIGURES for file in files_of(f"<results>/figures/{name}")],
+        files=[file for name in SPEED_FIGURES for file in figure_files(f"<results>/figures/{name}")],
     pathvars:
         made="figures/speed",
     params:

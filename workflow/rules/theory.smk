@@ -75,8 +75,8 @@ use rule figure as stability_figures with:
         windows="<results>/checks/windows.nc",
         threshold="<results>/checks/threshold.nc",
     output:
-        files_of("<results>/figures/stability_chart"),
-        files_of("<results>/figures/growth_rates"),
+        figure_files("<results>/figures/stability_chart"),
+        figure_files("<results>/figures/growth_rates"),
     pathvars:
         made="figures/stability",
     params:

@@ -1,0 +1,97 @@
+"""What users of Snakemake try first, as the table in docs/cluster.md tells it."""
+
+import re
+import shutil
+from hashlib import sha256
+
+import pytest
+from helpers import ROOT, edit, planned, run_ready, snakemake, snakemake_with
+
+
+def bytes_of(folder):
+    files = sorted(folder.glob("results/figures/fig1.*"))
+    assert len(files) == 4
+    return [sha256(path.read_bytes()).hexdigest() for path in files]
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """Return a folder with Fig 1, drawn by Snakemake's own executor."""
+    folder = tmp_path_factory.mktemp("drawn")
+    result = snakemake(ROOT, folder, "--executor", "local", "--cores", "1", "fig1")
+    assert result.returncode == 0, result.stderr
+    return folder
+
+
+@pytest.mark.parametrize("options", [("--cores", "8"), ("--forceall", "--cores", "1")])
+def test_cores_and_the_executor_change_no_byte(drawn, tmp_path, options):
+    folder = shutil.copytree(drawn, tmp_path / "again")
+    (folder / "results/figures/fig1.png").unlink()
+    result = snakemake(ROOT, folder, *options, "fig1")
+    assert "1 of 1 steps" in result.stderr and bytes_of(folder) == bytes_of(drawn)
+
+
+def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path):
+    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), "fig1"]
+    result = run_ready(command, tmp_path)
+    assert "Drawing results/figures/fig1.png" in result.stdout + result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == [".snakemake"]
+
+
+def test_a_deleted_file_is_made_again_and_nothing_else(finished):
+    (finished / "results/figures/fig5.pdf").unlink()
+    assert planned(ROOT, finished, "figures") == {"norms_by_half_width": 1, "figures": 1}
+
+
+def test_touch_takes_an_edit_for_done(finished, clone):
+    edit(clone / "config/config.yaml", "{<<: *large, omega: 0}", "{<<: *large, omega: 0.5}")
+    assert planned(clone, finished, "paper")["trajectory"] == 1
+    assert snakemake(clone, finished, "--touch", "paper").returncode == 0
+    assert planned(clone, finished, "paper") == {}
+
+
+def test_a_lost_record_is_told(drawn, tmp_path):
+    folder = shutil.copytree(drawn, tmp_path / "lost")
+    shutil.rmtree(folder / ".snakemake")
+    result = snakemake(ROOT, folder, "--dry-run", "fig1")
+    assert "Rules with missing metadata: fig1" in result.stdout + result.stderr
+
+
+def test_keep_going_makes_what_does_not_rest_on_a_failed_job(tmp_path):
+    settings = {"cases": {"wild": {"omega": 0, "solver": {"name": "auto", "error": 1e-12}}}}
+    targets = "results/trajectories/wild.nc", "fig1"
+    result = snakemake_with(settings, ROOT, tmp_path, "--keep-going", "--cores", "1", *targets)
+    assert result.returncode == 1 and len(bytes_of(tmp_path)) == 4
+    assert "auto: runs in double precision agree" in result.stderr.splitlines()[-2]
+
+
+@pytest.mark.parametrize("options", [("--rerun-triggers", "code"), ("--rerun-triggers", "mtime")])
+def test_other_triggers_find_a_finished_run_whole(full_run, options):
+    assert planned(ROOT, full_run, *options) == {}
+
+
+def test_the_report_of_snakemake_shows_each_figure_with_its_rule(full_run, tmp_path):
+    page = tmp_path / "page.html"
+    result = snakemake(ROOT, full_run, "--report", str(page))
+    assert result.returncode == 0, result.stderr
+    pictures = [path.name for path in (full_run / "results/figures").glob("*.png")]
+    shown = re.findall(r'"name": "(\w+\.png)".*?"rule": "(\w+)"', page.read_text())
+    assert sorted(name for name, _ in shown) == sorted(pictures) and len(shown) >= 30
+    assert "norms_in_time" in (rules := {rule for _, rule in shown}) and "all" not in rules
+
+
+@pytest.mark.parametrize(
+    ("option", "start"),
+    [("--dag", "digraph"), ("--rulegraph", "digraph"), ("--d3dag", '{"nodes"'), ("--lint", "")],
+)
+def test_who_looks_gets_an_answer_and_no_file(tmp_path, option, start):
+    result = snakemake(ROOT, tmp_path, option)
+    assert result.returncode == 0 and result.stdout.startswith(start), result.stderr
+    assert {path.name for path in tmp_path.iterdir()} <= {".snakemake"}
+
+
+@pytest.mark.parametrize("wrong", [("fgi5",), ("fig5", "--configfile", "nowhere.yaml")])
+def test_what_is_misspelt_is_named(tmp_path, wrong):
+    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), *wrong]
+    result = run_ready(command, tmp_path)
+    assert result.returncode == 1 and wrong[-1] in result.stdout + result.stderr
