@@ -10,8 +10,8 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/base.smk"
 
 
-FIGURES = {
-    "fig1": "Fig 1: the chain of coupled pendula pairs",
+# Figures that a job draws with others, or for a longer study too, so that no rule has their name
+MADE_TOGETHER = {
     "fig2": "Fig 2: norms against time, in the paper at Omega = 8, for small and for large data",
     "fig2_spacetime": "Where the chain moves in the cases of fig2, made together with it",
     "fig3": "Fig 3: norms against time, in the paper at Omega = -4, for small and for large data",
@@ -20,35 +20,32 @@ FIGURES = {
     "fig4_spacetime": "Where the chain moves in the cases of fig4, made together with it",
     "fig5": "Fig 5: norms against half-width for small data",
     "fig6": "Fig 6: norms against half-width for large data",
-    # The paper's second solver, and its claim that the energy is conserved
     "solver_agreement": "Until when the solvers draw the same curves",
     "energy_drift": "How well each solver conserves the energy",
-    "trust_horizons": "How long each solver stays with the true trajectory, known in multiprecision",
-    # The theory
     "stability_chart": "Lemma 1: where the chain at rest is unstable",
     "growth_rates": "Lemma 1: how fast small motions grow where the chain at rest is unstable",
-    "bounds": "Theorems 1 to 3: observed norms against their bounds",
-    # Chaos
     "lyapunov": "How fast small errors grow, and until when a run can be trusted",
     "symmetry": "How a motion that is even in n loses its evenness",
-    "ensembles": "What runs from almost equal data share, beside the paper's own",
-    "lifetimes": "How long the central pendulum stays localised, against its initial amplitude",
-    # What stays at one pair, which data reach it, and which spread
-    "breathers": "Periodic breathers, and how the drive feeds a localised motion",
-    "sensitivity": "Which of almost equal data spread over the chain",
-    "fates": "What becomes of data on one pair",
-    # Newton's equations (1) beside the amplitude equations
-    "pendula_threshold": "The chart of Lemma 1 for the pendula, its correction, and rates of growth",
     "pendula_remainder": "Errors of the expansion against time and against mu, and its horizons",
-    "pendula_phases": "The paper's phases in the real pendula: norms and space-time",
     "pendula_over_the_top": "The sea of the pendula, and who leaves it over the top",
-    # Proofs
-    "certified_curves": "Proven bounds of the error of curves, and the error that is known",
-    # The paper's conjecture, on chains without ends
     "growth_law": "The chain without ends: norms against time, and the exponents that they follow",
     "front": "The chain without ends: the speed of the front, and the bulk behind it",
     "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
 }
+FIGURES = [
+    *MADE_TOGETHER,
+    *(
+        "fig1",
+        "trust_horizons",
+        "bounds",
+        "ensembles",
+        "lifetimes",
+        "breathers",
+        "sensitivity",
+        "fates",
+    ),
+    *("pendula_threshold", "pendula_phases", "certified_curves"),
+]
 
 
 include: "workflow/rules/trajectories.smk"
@@ -147,17 +144,19 @@ include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/speed.smk"
 
 
-# What README.md names and no rule is called: figures that a job draws with others, or for a longer study
-# too, cases and sweeps
+# What README.md names and no rule is called: those figures, longer studies, cases and sweeps
 NAMED = {
-    name: (FIGURES[name], files_of(f"<results>/figures/{name}"))
-    for name in (
-        *(f"fig{n}{which}" for n in (2, 3, 4) for which in ("", "_spacetime")),
-        *("fig5", "fig6", "solver_agreement", "energy_drift", "stability_chart", "growth_rates"),
-        *("lyapunov", "symmetry", "pendula_remainder", "pendula_over_the_top"),
-        *("growth_law", "front", "window_map"),
-    )
+    name: (text, files_of(f"<results>/figures/{name}")) for name, text in MADE_TOGETHER.items()
 }
+LONGER_STUDIES = {
+    "sensitivity": "Which of almost equal data spread, with many members and a long scan",
+    "fates": "The map of fates on a fine grid, which takes minutes",
+    "remainder": "The error of the expansion to the end of the paper's runs, which takes a minute",
+    "over_the_top": "The sea, and when pendula go over the top, with many members for long",
+}
+for name, text in LONGER_STUDIES.items():
+    figure = name if name in FIGURES else f"pendula_{name}"
+    NAMED[name] = f"{text}: results/long/figures/", files_of(f"<results>/long/figures/{figure}")
 for case in PAPER_CASES:
     stem = f"<results>/trajectories/{case}"
     NAMED[case] = f"The case {case} by every solver", [f"{stem}.nc", *by_solvers(stem, ALL_SOLVERS)]

@@ -131,22 +131,6 @@ rule breathers:
         "The breathers and their figures are there"
 
 
-rule sensitivity:
-    "Which of almost equal data spread, with many members and a long scan: results/long/figures/"
-    input:
-        files_of("<results>/long/figures/sensitivity"),
-    message:
-        "The long study of sensitivity is there"
-
-
-rule fates:
-    "The map of fates on a fine grid, which takes minutes: results/long/figures/"
-    input:
-        files_of("<results>/long/figures/fates"),
-    message:
-        "The map of fates is there"
-
-
 use rule decide_claims as decide_breathers with:
     "The claims on breathers: results/tables/claims_breathers.md"
     input:

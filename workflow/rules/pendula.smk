@@ -150,22 +150,6 @@ rule pendula:
         "The study of the pendula is there"
 
 
-rule remainder:
-    "The error of the expansion to the end of the paper's runs, which takes a minute: results/long/"
-    input:
-        files_of("<results>/long/figures/pendula_remainder"),
-    message:
-        "The long study of the expansion's error is there: results/long/figures/"
-
-
-rule over_the_top:
-    "The sea, and when pendula go over the top, with many members for long: results/long/"
-    input:
-        files_of("<results>/long/figures/pendula_over_the_top"),
-    message:
-        "The long study of pendula that go over the top is there: results/long/figures/"
-
-
 use rule decide_claims as decide_pendula with:
     "The claims on the pendula themselves: results/tables/claims_pendula.md"
     input:
