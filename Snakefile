@@ -102,16 +102,12 @@ rule paper:
     input:
         [file for n in range(1, 7) for file in files_of(f"<results>/figures/fig{n}")],
         "<results>/tables/claims_figures.md",
-    message:
-        "The paper's figures and the table of the claims on them are there: results/figures/"
 
 
 rule figures:
     "All figures, each as PNG and PDF with the data that it shows"
     input:
         [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
-    message:
-        "All figures are there: results/figures/"
 
 
 rule theory:
@@ -121,8 +117,6 @@ rule theory:
         expand("<results>/figures/{name}.png", name=["stability_chart", "growth_rates", "bounds"]),
         "<results>/claims.json",
         "<results>/controls.json",
-    message:
-        "The checks of the theory and its figures are there"
 
 
 rule chaos:
@@ -132,8 +126,6 @@ rule chaos:
         rules.chaos_figures.output,
         rules.ensembles.output,
         rules.lifetimes.output,
-    message:
-        "What is measured of chaos, and its figures, are there"
 
 
 include: "workflow/rules/ledger.smk"
@@ -172,11 +164,15 @@ for name, (text, files) in NAMED.items():
             name
         input:
             files,
-        message:
-            f"{text}: there"
 
     *_, made = workflow.rules
     made.docstring = text
+
+
+# Of a target, whose files may be hundreds, Snakemake says in one line that they are there.
+for target in workflow.rules:
+    if not target.output and not target.message:
+        target.message = f"There: {target.docstring}"
 
 
 # Said when Snakemake has ended, below its own last lines

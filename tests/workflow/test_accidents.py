@@ -36,7 +36,7 @@ def test_a_copy_that_lost_its_times_reruns_nothing(small_run, tmp_path):
 
 def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(made):
     changed = SETTINGS | {"solvers": {"ode45": {"rtol": 1e-5}}}
-    assert planned_with(changed, ROOT, made, *TARGETS) == {"own_trajectory": 1}
+    assert planned_with(changed, ROOT, made, *TARGETS) == {"trajectory": 1}
     others = ["check_stability", "check_bounds", "hard_cases"]
     before = planned_with(SETTINGS, ROOT, made, *others)
     assert "compile_solver" in before  # of the solvers that the small run did without

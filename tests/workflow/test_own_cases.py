@@ -118,14 +118,14 @@ def test_sweeps_are_enough(tmp_path):
 def test_a_new_omega_reruns_that_case_and_the_report(made, changed):
     changed["cases"]["sea"]["omega"] = 0.5
     assert planned_with(changed, ROOT, made, "own") == {
-        "own_trajectory": 1, "own_checks": 1, "own_figures": 1, "own_report": 1, "own": 1
+        "trajectory": 1, "own_checks": 1, "own_figures": 1, "own_report": 1, "own": 1
     }  # fmt: skip
 
 
 def test_a_new_omega_reruns_the_sweep_of_its_case(made, changed):
     changed["cases"]["fig5"]["omega"] = 7.5
     assert planned_with(changed, ROOT, made, "own") == {
-        "own_trajectory": 1, "own_checks": 1, "own_figures": 1, "own_sweep": 1,
+        "trajectory": 1, "own_checks": 1, "own_figures": 1, "sweep": 1,
         "own_sweep_figure": 1, "own_report": 1, "own": 1,
     }  # fmt: skip
 

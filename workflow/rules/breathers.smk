@@ -127,8 +127,6 @@ rule breathers:
             name=["steady", "periodic", "growth", "sensitivity", "fates"],
         ),
         figures=expand("<results>/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
-    message:
-        "The breathers and their figures are there"
 
 
 use rule decide_claims as decide_breathers with:

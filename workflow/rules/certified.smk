@@ -18,8 +18,6 @@ rule certified:
     "The proofs of large and chaotic cases, which a full run takes as they are committed (long)"
     input:
         expand("<results>/certified/{case}.nc", case=CERTIFIED.frames),
-    message:
-        "The proofs by frames are there"
 
 
 use rule dataset as certify_by_frames with:

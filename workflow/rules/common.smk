@@ -104,6 +104,8 @@ pathvars:
     own_case=f"{{case,{one_of(OWN_CASES)}}}",
     paper_sweep=f"{{sweep,{one_of(PAPER_SWEEPS)}}}",
     own_sweep=f"{{sweep,{one_of(OWN_SWEEPS)}}}",
+    any_case=f"{{case,{one_of(SETTINGS.cases)}}}",
+    any_sweep=f"{{sweep,{one_of(SETTINGS.sweeps)}}}",
     any_solver=f"{{solver,{one_of([*ALL_SOLVERS, 'auto', 'kahan_li'])}}}",
     size="{size,(long/)?}",  # a longer study lies in a folder of its own
 

@@ -6,8 +6,6 @@ rule own:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:
         "<results>/own_report.html",
-    message:
-        "The report of your own cases and sweeps is there: results/own_report.html"
 
 
 use rule dataset as own_checks with:

@@ -146,8 +146,6 @@ rule pendula:
             "<results>/figures/pendula_{name}.png",
             name=["threshold", "remainder", "phases", "over_the_top"],
         ),
-    message:
-        "The study of the pendula is there"
 
 
 use rule decide_claims as decide_pendula with:

@@ -10,8 +10,6 @@ rule reference:
     "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
     input:
         expand("<results>/reference/{name}.nc", name=[*PAPER_CASES, "fig4_small.double"]),
-    message:
-        "The references are there"
 
 
 use rule dataset as reference_case with:

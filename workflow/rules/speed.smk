@@ -6,8 +6,6 @@ rule speed:
     input:
         expand("<results>/speed/{name}.md", name=["work_precision", "cost", "pendula"]),
         expand("<results>/figures/{name}.{kind}", name=SPEED_FIGURES, kind=FIGURE_KINDS),
-    message:
-        "The measurements of speed are there"
 
 
 use rule dataset as work_precision with:

@@ -15,11 +15,11 @@ use rule job as compile_solver with:
 
 
 use rule dataset as trajectory with:
-    "A case of the paper by its own solver: results/trajectories/{case}.nc"
+    "A case by its own solver: results/trajectories/{case}.nc"
     input:
         kernels=lambda wildcards: own_kernels(wildcards.case),
     pathvars:
-        made="trajectories/<paper_case>",
+        made="trajectories/<any_case>",
     params:
         call=function("pendula.studies.paper.runs.run_case"),
         name="{case}",
@@ -43,14 +43,6 @@ use rule dataset as trajectory_by_solvers with:
         },
 
 
-use rule trajectory as own_trajectory with:
-    "A case of your own, by its own solver: results/trajectories/{case}.nc"
-    pathvars:
-        made="trajectories/<own_case>",
-    params:
-        problem=lambda wildcards: SETTINGS.shown_problem(wildcards.case),
-
-
 use rule trajectory as own_trajectory_by_solver with:
     "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
@@ -62,13 +54,13 @@ use rule trajectory as own_trajectory_by_solver with:
 
 
 use rule dataset as sweep with:
-    "A sweep of the paper by its own solver: results/sweeps/{sweep}.nc"
+    "A sweep by its own solver: results/sweeps/{sweep}.nc"
     input:
         kernels=lambda wildcards: own_kernels(
             SETTINGS.sweeps[wildcards.sweep].case, own_sweep_solver(wildcards)
         ),
     pathvars:
-        made="sweeps/<paper_sweep>",
+        made="sweeps/<any_sweep>",
     params:
         call=function("pendula.studies.paper.runs.run_sweep"),
         name="{sweep}",
@@ -86,9 +78,3 @@ use rule sweep as sweep_by_second_solver with:
         made="sweeps/<paper_sweep>.crank_nicolson",
     params:
         problem=lambda wildcards: SETTINGS.swept_problem(wildcards.sweep, "crank_nicolson"),
-
-
-use rule sweep as own_sweep with:
-    "A sweep of your own, by its own solver: results/sweeps/{sweep}.nc"
-    pathvars:
-        made="sweeps/<own_sweep>",

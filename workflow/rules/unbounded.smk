@@ -14,8 +14,6 @@ rule unbounded:
             name=["growth_law", "front", "window_map"],
             kind=["png", "pdf"],
         ),
-    message:
-        "The long study of the chain without ends is there"
 
 
 use rule dataset as spread with:
