@@ -33,6 +33,7 @@ class Server:
         self.control, self.modules, self.told = control, modules, False
         self.jobs: dict[int, socket.socket] = {}
         signal.signal(signal.SIGCHLD, self.bury)
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # a job hears it in its script
 
     def serve(self) -> dict[str, str | dict]:
         """Return in each child what it shall do; end with all jobs when Snakemake has ended."""
@@ -140,6 +141,7 @@ def do(script: str, environment: dict[str, str]) -> int:
     main = sys.modules["__main__"] = ModuleType("__main__")
     main.__file__ = script
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
         with open(script, "rb") as file:
             code = compile(file.read(), script, "exec")
         exec(code, main.__dict__)
@@ -154,6 +156,8 @@ def do(script: str, environment: dict[str, str]) -> int:
         shown = error.with_traceback(error.__traceback__.tb_next)
         sys.excepthook(type(shown), shown, shown.__traceback__)
         return 1
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the job is done
     return 0
 
 
