@@ -50,11 +50,11 @@ def test_who_only_looks_leaves_the_folder_as_it_is(looked):
     assert {path.name for path in (looked / "folder").iterdir()} <= {".snakemake"}
 
 
-@pytest.fixture
-def read_only(tmp_path):
+@pytest.fixture(params=["", ".snakemake"], ids=["the folder", "its notes"])
+def read_only(request, tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""
-    folder = tmp_path / "read_only"
-    folder.mkdir()
+    folder = tmp_path / "here" / request.param
+    folder.mkdir(parents=True)
     if os.access("/", os.W_OK):
         mount = ["mount", "-t", "tmpfs", "-o", "ro,size=1m", "none", str(folder)]
         if subprocess.run(mount, capture_output=True).returncode:
@@ -67,8 +67,8 @@ def read_only(tmp_path):
         folder.chmod(0o755)
 
 
-def test_a_dry_run_in_a_read_only_folder_says_what_it_needs(read_only):
-    result = snakemake(ROOT, read_only, "--dry-run", "fig1")
+def test_a_dry_run_in_a_read_only_folder_says_what_it_needs(read_only, tmp_path):
+    result = snakemake(ROOT, tmp_path / "here", "--dry-run", "fig1")
     assert result.returncode != 0
     said = result.stdout + result.stderr
     assert f"{read_only} is read-only" in said and "--directory" in said

@@ -21,11 +21,12 @@ def stop(reason):
 
 
 RESULTS = Path("results").absolute()
-if not os.access(".", os.W_OK):
-    stop(
-        f"{os.getcwd()} is read-only, and Snakemake keeps notes there even of a dry run: name a "
-        "folder that you may write to, by --directory"
-    )
+for folder in filter(os.path.exists, (".", ".snakemake")):
+    if not os.access(folder, os.W_OK):
+        stop(
+            f"{os.path.abspath(folder)} is read-only, and Snakemake keeps notes there even of a dry "
+            "run: name a folder that you may write to, by --directory"
+        )
 
 # Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
 os.environ.update(
