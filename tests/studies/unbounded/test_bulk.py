@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from made_up_unbounded import POWER, TAU, TERMS, spread, thermal
 from oracle import random_chain
+from pendula.ledger.changes import put
 from pendula.ledger.criterion import Verdict
 from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import (
@@ -23,7 +24,6 @@ from pendula.studies.unbounded.bulk import (
 )
 from pendula.studies.unbounded.claims_bulk import (
     at_energy,
-    one_state,
     unbounded_equilibrium,
     unbounded_slope,
     unbounded_warm,
@@ -152,7 +152,8 @@ def test_a_bulk_with_energy_is_held_to_the_state_of_that_energy():
 
 def test_a_bulk_is_told_from_the_state_of_no_energy_or_nothing_is_decided():
     warm = spread(0.5, omegas=(-4.0,), members=4)
-    assert unbounded_warm(warm, one_state(thermal())).verdict == Verdict.NOT_REPRODUCED
+    cold = put("warm_power", at_energy(thermal(), 0.0)["power"])(thermal())
+    assert unbounded_warm(warm, cold).verdict == Verdict.NOT_REPRODUCED
     without = with_power(warm=False)(warm, thermal())
     finding = unbounded_warm(without, thermal())
     assert finding.verdict == Verdict.NOT_REPRODUCED
