@@ -123,5 +123,6 @@ def _found(data: xr.Dataset, along: str, wanted) -> xr.DataArray:
     else:
         found = labels.isin(np.atleast_1d(wanted))
     if not found.any():
-        raise UndecidableError(f"there is no {along} = {wanted}")
+        told = f"from {low:g} to {high:g}" if isinstance(wanted, slice) else f"= {wanted}"
+        raise UndecidableError(f"there is no {along} {told}")
     return found
