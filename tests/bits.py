@@ -1,6 +1,6 @@
 """A run whose every bit is hashed; started as a program for each kind of code generation.
 
-    python bits.py [threads]
+    python bits.py [threads [solvers]]
 
 prints, as JSON, the family of the processor, the hash of each run, and how often each kernel came
 from the cache.
@@ -60,12 +60,13 @@ def hits(model: str, solver: str) -> int:
     return sum(MODELS[model].solvers[solver].run.stats.cache_hits.values())
 
 
-def main(threads: int) -> dict:
+def main(threads: int, names: list[str]) -> dict:
+    runs = [(name, even) for name, even in RUNS if name in names] * threads
     with ThreadPoolExecutor(threads) as pool:
-        hashes = list(pool.map(lambda task: run(*task), RUNS * threads))
-    cached = {name: hits(*of_model(name)) for name in CONTROLS}
-    found = {name: set() for name in CONTROLS}
-    for (name, _), value in zip(RUNS * threads, hashes, strict=True):
+        hashes = list(pool.map(lambda task: run(*task), runs))
+    cached = {name: hits(*of_model(name)) for name in names}
+    found = {name: set() for name in names}
+    for (name, _), value in zip(runs, hashes, strict=True):
         found[name].add(value)
     hashes = {name: sorted(values) for name, values in found.items()}
     return {"machine": platform.machine(), "hashes": hashes, "cached": cached}
@@ -73,4 +74,4 @@ def main(threads: int) -> dict:
 
 if __name__ == "__main__":
     np.seterr(all="raise")
-    print(json.dumps(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1)))
+    print(json.dumps(main(int((sys.argv[1:] or [1])[0]), sys.argv[2:] or [*CONTROLS])))

@@ -58,6 +58,14 @@ def need_machine(name: str) -> None:
         skip(why, machines.ELSEWHERE)
 
 
+def another_numba(folder: Path) -> dict[str, str]:
+    """Return the environment of a process in which numba says that it is of an unknown version."""
+    said = folder / "numba-0.0.1.dist-info/METADATA"
+    said.parent.mkdir()
+    said.write_text("Metadata-Version: 2.1\nName: numba\nVersion: 0.0.1\n")
+    return os.environ | {"PYTHONPATH": str(folder)}
+
+
 def package(module: str, install: str) -> ModuleType:
     """Return a module that some tests need; where it is missing, skip and say what to install."""
     try:

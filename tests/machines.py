@@ -21,10 +21,10 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import numba
 import numpy as np
 import scipy
 from llvmlite import binding
-from numba.core.registry import cpu_target
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def why_not(name: str) -> str:
 
 def found() -> dict:
     """Return what the libraries of this process chose, and a hash of the C library's bits."""
-    name = cpu_target.target_context.codegen().magic_tuple()[1]
+    name = numba.config.CPU_NAME or binding.get_host_cpu_name()
     points = [k / 97 for k in range(1, 4001)]
     bits = [f(x) for f in (math.exp, math.sin, math.log) for x in points]
     return {

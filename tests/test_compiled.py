@@ -1,11 +1,13 @@
-"""The cache of kernels: what one process keeps, another must load as it was."""
+"""What one process keeps, another must load as it was: by our cache, and by that of numba."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 
-from pendula.compiled import FunctionIdentity
+import pytest
+from helpers import another_numba
 from pendula.sources import SCRIPTS
 
 LONG = "\n".join(f"        x += inner(x, {i}.0) / (1.0 + x * x)" for i in range(30))
@@ -53,24 +55,37 @@ for names in sys.argv[1:]:
 """
 
 
-def test_kernels_that_two_processes_kept_stay_apart_in_a_third(tmp_path):
+@pytest.fixture(params=["ours", "numba alone"])
+def python(request, tmp_path):
+    """Return a function: what a new Python says that finds a copy of the library, and each way."""
+    shutil.copytree(SCRIPTS / "pendula", tmp_path / "pendula")
+    alone = request.param == "numba alone"
+    environment = another_numba(tmp_path) if alone else dict(os.environ)
+    environment |= {"PYTHONPATH": str(tmp_path), "PENDULA_CACHE": str(tmp_path)}
+
+    def run(*arguments):
+        command = [sys.executable, *arguments]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        assert ("compiles kernels in its own way" in done.stderr) == alone
+        return done.stdout
+
+    return run
+
+
+def test_kernels_that_two_processes_kept_stay_apart_in_a_third(python, tmp_path):
     """Each process numbers its functions alike, so `long` had the same name in both."""
     (tmp_path / "made.py").write_text(MADE)
-    settings = {"PYTHONPATH": f"{SCRIPTS}{os.pathsep}{tmp_path}", "PENDULA_CACHE": str(tmp_path)}
-    command = [sys.executable, "-c", FORKS, "of_sums", "of_products", "of_sums of_products"]
-    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True)
-    first, second, third = map(json.loads, done.stdout.splitlines())
+    said = python("-c", FORKS, "of_sums", "of_products", "of_sums of_products")
+    first, second, third = map(json.loads, said.splitlines())
     assert first != second and third == first + second
 
 
-def test_the_forks_of_a_process_name_their_functions_apart():
-    reads, writes = os.pipe()
-    for _ in range(2):
-        if not (child := os.fork()):
-            os.write(writes, b"%d\n" % next(FunctionIdentity._unique_ids))
-            os._exit(0)
-        os.waitpid(child, 0)
-    os.close(writes)
-    with open(reads) as said:
-        first, second = said.read().split()
-    assert first != second
+def test_an_edit_of_a_function_in_another_file_is_seen(python, tmp_path):
+    inner, outer = (tmp_path / "pendula" / name for name in ("inner.py", "outer.py"))
+    kernel = "from .compiled import kernel\n@kernel\ndef {}(x):\n    return {}\n"
+    outer.write_text("from .inner import double\n" + kernel.format("twice", "double(double(x))"))
+    found = []
+    for factor in (2, 300):  # of another length, see test_kernel_cache
+        inner.write_text(kernel.format("double", f"{factor} * x"))
+        found.append(python("-c", "from pendula import outer; print(outer.twice(1))"))
+    assert found == ["4\n", "90000\n"]

@@ -1,7 +1,7 @@
 """Dependencies are used by their front door: no private name, no patch, no walk through frames.
 
 Such code works until the next release, and then fails in a place that nobody thinks of. Where numba
-has no public way, the modules of NUMBA use a private one and say so.
+or Snakemake have no public way, one module for each uses a private one, see INSIDE.
 """
 
 import ast
@@ -14,10 +14,12 @@ from pathlib import Path
 import pytest
 from helpers import ROOT
 
-NUMBA = ("compiled", "kernel_parts", "kernel_cache")
-"""Modules of the library that compile, and keep what they compiled. Their tests look inside too."""
-NOT_YET = ("workflow/", "profiles/", "plugins/", "tests/workflow/")
-"""Places that are not looked at."""
+INSIDE = (
+    "scripts/pendula/inside_numba.py",
+    "tests/test_inside_numba.py",
+    "plugins/snakemake-executor-plugin-forked/snakemake_executor_plugin_forked/inside.py",
+)
+"""What looks inside numba, and inside Snakemake: each says on top what it rests upon, and why."""
 VALIDATOR = "tests/archive/test_metadata.py"
 """Answers in place of the net, which the validator asks even where it is told to be offline."""
 
@@ -25,7 +27,9 @@ NAMED_TUPLES = {"_replace", "_asdict", "_fields", "_make"}
 DOCUMENTED = NAMED_TUPLES | {"_exit", "_current_exceptions", "_getvalue"}
 """Public in spite of their underscore, and documented: by Python, and by numba (structures)."""
 FRAMES = {"_getframe", "_current_frames", "currentframe", "f_back", "f_locals", "f_globals"}
-PUBLIC_OF_SNAKEMAKE = {"api", "utils", "settings", "script"}
+PUBLIC_OF_SNAKEMAKE = {"api", "utils", "logging", "exceptions", "settings", "script"}
+PUBLIC_OF_NUMBA_CORE = {"cgutils", "errors"}
+"""What the guide to extending numba uses, and the errors that users meet."""
 
 
 @cache
@@ -81,8 +85,11 @@ def faults(tree: ast.Module) -> Iterator[str]:
     imported = set()
     for path, name in foreign_imports(tree):
         imported.add(name)
-        inner = path[0] == "snakemake" and path[1:] and path[1] not in PUBLIC_OF_SNAKEMAKE
-        if inner or any(map(is_private, path)):
+        inside = {
+            "snakemake": path[1:] and path[1] not in PUBLIC_OF_SNAKEMAKE,
+            "numba": path[1:2] == ["core"] and not PUBLIC_OF_NUMBA_CORE.intersection(path[2:3]),
+        }
+        if inside.get(path[0]) or any(map(is_private, path)):
             yield f"imports {'.'.join(path)}"
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute):
@@ -105,10 +112,7 @@ def is_of(imported: set[str], owner: ast.expr) -> bool:
 
 
 def test_dependencies_are_used_by_their_front_door():
-    places = [
-        place for name in NUMBA for place in (f"scripts/pendula/{name}.py", f"tests/test_{name}.py")
-    ]
-    looked_at = [name for name in files() if not name.startswith((*places, *NOT_YET, VALIDATOR))]
+    looked_at = [name for name in files() if name not in (*INSIDE, VALIDATOR)]
     assert len(looked_at) > 300
     found = [f"{name} {fault}" for name in looked_at for fault in faults(files()[name])]
     assert found == []
@@ -119,6 +123,7 @@ def test_dependencies_are_used_by_their_front_door():
     [
         "from matplotlib._mathtext import Parser",
         "from numba.core.caching import _Cache",
+        "from numba.core import registry",
         "from snakemake.dag import DAG",
         "axis._update_ticks()",
         "import numba\nnumba.njit = None",

@@ -25,7 +25,7 @@ STOREYS = (
     ("configuration",),
     ("feasibility",),
     ("problem", "ends"),
-    ("simd", "compiled", "kernel_parts", "kernel_cache", "numerics", "sources"),
+    ("simd", "compiled", "inside_numba", "kernel_cache", "numerics", "sources"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""
 

@@ -9,11 +9,11 @@ import threading
 import time
 from importlib.util import module_from_spec, spec_from_file_location
 
-import numba
 import pytest
 from helpers import skip
 from pendula import kernel_cache, sources
-from pendula.kernel_cache import UNUSED, VARIABLE, KernelCache, kept_in
+from pendula.inside_numba import make_kernel
+from pendula.kernel_cache import UNUSED, VARIABLE, KernelFiles, kept_in
 
 MADE = "def double(x):\n    return 2 * x\n"
 
@@ -38,9 +38,7 @@ def compile_anew(path, kept):
     spec = spec_from_file_location("made", path)
     made = sys.modules["made"] = module_from_spec(spec)  # kept code names its module
     spec.loader.exec_module(made)
-    compiled = numba.njit(made.double)
-    compiled._cache = KernelCache(made.double, kept)
-    return compiled
+    return make_kernel(made.double, kept)
 
 
 def found(compiled) -> int:
@@ -101,7 +99,7 @@ def test_a_file_that_others_can_write_is_not_loaded(module, kept):
 def test_a_payload_that_does_not_fit_is_compiled_again(module, kept, payload):
     compile_anew(module, kept)(3)
     (file,) = kept.rglob("*.kernel")
-    file.write_bytes(KernelCache._seal(file, payload) + payload)
+    file.write_bytes(KernelFiles._seal(file, payload) + payload)
     compiled = compile_anew(module, kept)
     assert compiled(3) == 6 and found(compiled) == 0
 
@@ -195,18 +193,17 @@ def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
     assert not list(kept.rglob("*.kernel"))
 
 
-def compile_when_told(told, module, kept):
-    """Compile `double` as this process does, but wait before the compiler begins."""
-    compiled = compile_anew(module, kept)
-    compile_now = compiled._compiler.compile
+def files_of(module, kept):
+    return KernelFiles(compile_anew(module, kept).py_func, kept, ".kernel")
 
-    def wait_and_compile(*arguments):
-        told.send("compiling")
-        told.recv()
-        return compile_now(*arguments)
 
-    compiled._compiler.compile = wait_and_compile
-    told.send(compiled(3))
+def keep_when_told(told, module, kept):
+    files = files_of(module, kept)
+    assert files.load("int") is None
+    told.send("compiling")
+    told.recv()
+    files.save(b"code", "int")
+    told.send("kept")
 
 
 @pytest.fixture
@@ -216,7 +213,7 @@ def other(module, kept):
         skip("this system has no locks on files", "run the tests on Linux or macOS")
     forks = multiprocessing.get_context("fork")
     ours, theirs = forks.Pipe()
-    process = forks.Process(target=compile_when_told, args=(theirs, module, kept))
+    process = forks.Process(target=keep_when_told, args=(theirs, module, kept))
     process.start()
     assert ours.recv() == "compiling"
     yield process, ours
@@ -234,9 +231,8 @@ def test_two_processes_that_need_a_kernel_at_once_compile_it_once(other, module,
             tell.send("go on")
 
     monkeypatch.setattr(kernel_cache.time, "sleep", tell_the_other_to_go_on)
-    compiled = compile_anew(module, kept)
-    assert compiled(3) == 6 and found(compiled) == 1
-    assert looked.is_set() and tell.recv() == 6
+    assert files_of(module, kept).load("int") == b"code"
+    assert looked.is_set() and tell.recv() == "kept"
     assert [path.suffix for path in kept.rglob("*.*")] == [".kernel"]
 
 
@@ -244,11 +240,9 @@ def test_a_process_that_was_killed_while_it_compiled_keeps_nobody_waiting(other,
     process, _ = other
     process.kill()
     process.join()
-    compiled = compile_anew(module, kept)
-    assert compiled(3) == 6 and found(compiled) == 0
+    assert files_of(module, kept).load("int") is None
 
 
 def test_nobody_waits_for_ever(other, module, kept, monkeypatch):
     monkeypatch.setattr(kernel_cache, "PATIENCE", 0.0)
-    compiled = compile_anew(module, kept)
-    assert compiled(3) == 6 and found(compiled) == 0
+    assert files_of(module, kept).load("int") is None

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import some_numbers
 from accepted import BASELINE
-from helpers import need_machine, skip
+from helpers import another_numba, need_machine, skip
 from unlike import unlike
 
 HASHES = {
@@ -34,15 +34,16 @@ SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
 COMMITTED = {name: [value] for name, value in HASHES.items()}
 
 
-def run(python, environment, cache, threads):
+def run(python, environment, cache, threads, *solvers):
     """Run the cases in a process of its own."""
     settings = {"PENDULA_CACHE": str(cache)}
-    return json.loads(output_of([python, bits.__file__, threads], environment | settings))
+    return json.loads(output_of([python, bits.__file__, threads, *solvers], environment | settings))
 
 
 def output_of(command, environment):
     """Return what a program prints that uses the library."""
-    settings = environment | {"PYTHONPATH": str(SCRIPTS)}
+    path = os.pathsep.join([str(SCRIPTS), environment.get("PYTHONPATH", "")])
+    settings = environment | {"PYTHONPATH": path}
     done = subprocess.run([*map(str, command)], env=settings, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -68,6 +69,14 @@ def test_code_for_another_processor_gives_the_same_bits_cold_warm_and_threaded(m
     cold, warm = (run(sys.executable, played, tmp_path, threads) for threads in (1, 2))
     assert set(cold["cached"].values()) == {0} and min(warm["cached"].values()) > 0
     assert cold["hashes"] == warm["hashes"] == COMMITTED
+
+
+def test_numba_alone_compiles_and_keeps_code_of_the_same_bits(tmp_path):
+    environment, solvers = another_numba(tmp_path), ("pendula.kahan_li",)
+    cold, warm = (run(sys.executable, environment, tmp_path, 1, *solvers) for _ in range(2))
+    assert (set(cold["cached"].values()), set(warm["cached"].values())) == ({0}, {1})
+    assert {file.suffix for file in tmp_path.rglob("*.nb*")} == {".nbi", ".nbc"}
+    assert cold["hashes"] == warm["hashes"] == {name: COMMITTED[name] for name in solvers}
 
 
 @pytest.fixture(scope="module")

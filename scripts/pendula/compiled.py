@@ -2,46 +2,61 @@
 
 A `kernel` is compiled for plain values and kept on disk. What it calls may be other kernels, or
 functions that are not kept by themselves: `uncached` ones, `inlined_by_numba` and
-`inlined_by_llvm`. All of them become parts of the kernel, and none allocates memory (see
-`kernel_parts`).
+`inlined_by_llvm`. All of them become parts of the kernel, and none allocates memory.
 
-Cache. `kernel_cache` keeps machine code by its content, in one folder for all projects of a user.
+Two ways. `inside_numba` compiles and keeps kernels faster than numba does, and rests on private
+parts of the versions TESTED. With any other version numba compiles and keeps them by itself.
 
 Names. Machine code calls other functions by their names, in which numba puts the number that a
 function has in its process. Two solvers that one builder made can so get one name, if two processes
 compiled and kept them, and a third that loads both would run one of them in place of the other
-(numba issue 10486). So each process counts from a random number, and so does each of its forks.
+(numba issue 10486). So functions that are not kept by themselves have a random number in the name.
 
 Bits. No kernel uses fastmath: without it LLVM neither reorders nor contracts operations, and +, -,
 *, / and sqrt give the same bits on every processor. The functions of the C library (x^0.2, a sine)
 do not, so kernels take those of `numerics` (tests/test_same_bits.py).
 """
 
-import itertools
-import os
 import secrets
+import warnings
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 import numba
-from numba.core.bytecode import FunctionIdentity
 
-from .kernel_cache import kept_in
-from .kernel_parts import make_kernel
+from .kernel_cache import folder_of, kept_in
 
-
-def _count_from_a_random_number() -> None:
-    FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
+TESTED = ("0.68",)
+"""Versions of numba whose private parts are those that `inside_numba` uses."""
 
 
-_count_from_a_random_number()
-if hasattr(os, "register_at_fork"):  # Windows has no forks
-    os.register_at_fork(after_in_child=_count_from_a_random_number)
+def _with_numba_alone(function: Callable, root: Path | None, **options) -> Callable:
+    """Return the compiled function, kept by numba's own cache in the folder of its module's text.
+
+    numba does not see that a function in another file has changed, but such a folder does.
+    """
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder_of(function, root) or "")
+    try:
+        return numba.njit(function, error_model="numpy", nogil=True, cache=bool(root), **options)
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+if version("numba").rpartition(".")[0] in TESTED:
+    from .inside_numba import make_kernel
+else:
+    make_kernel = _with_numba_alone
+    warnings.warn(
+        f"numba {version('numba')} compiles kernels in its own way, which takes twice as long and"
+        f" gives the same numbers; the faster way was tested with numba {', '.join(TESTED)}",
+        stacklevel=2,
+    )
 
 
 def kernel(function: Callable) -> Callable:
     """Compile a function of plain values and keep its code on disk."""
-    return _compiled(function, root=kept_in())
+    return _compiled(function, kept_in())
 
 
 def uncached(function: Callable) -> Callable:
@@ -68,6 +83,8 @@ def _compiled(function: Callable, root: Path | None = None, **options) -> Callab
     if numba.config.DISABLE_JIT:
         function.py_func = function  # by which name a compiled function has it too
         return function
+    if not root:
+        function.__qualname__ += f"_{secrets.token_hex(8)}"
     return make_kernel(function, root, **options)
 
 

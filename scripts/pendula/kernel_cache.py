@@ -1,13 +1,10 @@
 """Where compiled kernels are kept between processes, projects and runs of one user.
 
-Compiling takes longer than most runs, so machine code is kept. numba could keep it, but it names
-what it keeps after the path and the time stamp of a source file: a moved or cloned project compiles
-everything again, an edit of another file that the kernel calls goes unnoticed, and two processes
-that compile one function for two types of arguments at once may write both to the same file. Here a
-file is named by all that its content follows from: the text of the kernel's module and of all that
-it imports, the versions and settings of the compiler, the processor, and the types of the
-arguments. It appears whole or not at all, and it begins with a hash of its name and the rest. So it
-cannot be stale, torn, or that of another kernel, wherever the project lies.
+Compiling takes longer than most runs, so machine code is kept. A file is named by all that its
+content follows from: the text of the kernel's module and of all that it imports, the versions and
+settings of the compiler, the processor, and the types of the arguments. It appears whole or not at
+all, and it begins with a hash of its name and the rest. So it cannot be stale, torn, or that of
+another kernel, wherever the project lies.
 
 The folder is that of the platform for caches (~/.cache/pendula on Linux). The environment variable
 PENDULA_CACHE names another, or switches the cache off by `off`. Loading machine code runs it, so
@@ -16,9 +13,7 @@ only a folder and files that belong to this user, and that nobody else can write
 
 import hashlib
 import os
-import pickle
 import platform
-import shutil
 import tempfile
 import time
 import warnings
@@ -35,9 +30,6 @@ except ImportError:  # Windows has none: two processes then compile what both ne
 import llvmlite
 import numba
 import platformdirs
-from numba.core.caching import _Cache
-from numba.core.compiler import CompileResult
-from numba.core.serialize import dumps
 
 from .sources import digest_of_modules
 
@@ -87,58 +79,46 @@ def _is_private(place: Path | int) -> bool:
     )
 
 
-class KernelCache(_Cache):
-    """The machine code of one function, in the form that a dispatcher of numba asks for.
+def folder_of(function: Callable, root: Path | None) -> Path | None:
+    """Return the folder below `root` for the module of a function, by its text and that of all that
+    it imports; None if there is no root."""
+    module = Path(function.__code__.co_filename).resolve()
+    return root and root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
+
+
+class KernelFiles:
+    """The files that keep the machine code of one function, each for some types of arguments.
 
     What several processes need at once is compiled by one of them, and the others wait for it: a
     function that is not there is looked up under a lock, which its compiler holds until it is kept.
     """
 
-    ENDING = ".kernel"
-
-    def __init__(self, function: Callable, root: Path):
+    def __init__(self, function: Callable, root: Path, ending: str):
         """Keep the machine code of `function`, which is no closure, below the folder `root`."""
-        module = Path(function.__code__.co_filename).resolve()
-        self._name = function.__qualname__
-        self._folder = root / f"{module.stem}-{_digest(digest_of_modules(module), _compiler())}"
+        self._name, self._ending = function.__qualname__, ending
+        self.folder = folder_of(function, root)
         self._locks = {}
 
-    @property
-    def cache_path(self) -> str:
-        """The folder of the machine code of this module."""
-        return str(self._folder)
+    def load(self, *key) -> bytes | None:
+        """Return what was saved by the types of arguments and the processor that are the `key`.
 
-    def load_overload(self, signature, target_context) -> CompileResult | None:
-        """Return the machine code for these types of arguments, or None where there is none."""
-        target_context.refresh()
-        file = self._file(signature, target_context.codegen())
-        found = self._load(file, target_context)
-        if found is None:
+        None if there is nothing: whoever asked then compiles it, and must `save` or `release`.
+        """
+        file = self._file(key)
+        kept = self._read(file)
+        if kept is None:
             self._lock(file)
-            found = self._load(file, target_context)
-        if found is not None:
+            kept = self._read(file)
+        if kept is not None:
             self.release()
-        return found
-
-    def _load(self, file: Path, target_context) -> CompileResult | None:
-        """Return what a file keeps, or None: then the function is compiled, and kept again."""
-        payload = self._read(file)
-        try:
-            return None if payload is None else self.restore(target_context, payload)
-        except Exception:  # whatever unpickling raises: the payload is not one of this numba
-            return None
-
-    @staticmethod
-    def restore(target_context, payload: bytes) -> CompileResult:
-        """Return what `save_overload` kept."""
-        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+        return kept
 
     def _read(self, file: Path) -> bytes | None:
         """Return what is kept in a file; None if it is absent, damaged, or written by others."""
         try:
             with file.open("rb") as kept:
                 content = kept.read() if _is_private(kept.fileno()) else b""
-            os.utime(self._folder)
+            os.utime(self.folder)
         except OSError:
             return None
         payload = content[DIGEST:]
@@ -148,15 +128,9 @@ class KernelCache(_Cache):
     def _seal(file: Path, payload: bytes) -> bytes:
         return hashlib.sha256(file.name.encode() + payload).digest()
 
-    def save_overload(self, signature, data: CompileResult) -> None:
-        """Keep machine code. Where that is impossible the run goes on, with a warning.
-
-        Code that holds addresses of this process, as of a large global array, is not kept.
-        """
-        if data.library.has_dynamic_globals:
-            return
-        payload = dumps(data._reduce())
-        file = self._file(signature, data.codegen)
+    def save(self, payload: bytes, *key) -> None:
+        """Keep machine code. Where that is impossible the run goes on, with a warning."""
+        file = self._file(key)
         try:
             self._make_folder()
             partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
@@ -170,7 +144,7 @@ class KernelCache(_Cache):
                 partial.unlink(missing_ok=True)
         except OSError as fault:
             warnings.warn(
-                f"compiled kernels cannot be kept in {self._folder.parent}, so that each job"
+                f"compiled kernels cannot be kept in {self.folder.parent}, so that each job"
                 f" compiles its own ({fault.strerror}); name another folder by {VARIABLE}, or"
                 f" `{VARIABLE}={OFF}`",
                 stacklevel=2,
@@ -204,24 +178,14 @@ class KernelCache(_Cache):
                 path.unlink()
             os.close(lock)
 
-    def enable(self) -> None:
-        """Do nothing: a kernel whose code shall not be kept has no such cache."""
-
-    disable = enable
-
-    def flush(self) -> None:
-        """Remove the machine code of this function's module."""
-        shutil.rmtree(self._folder, ignore_errors=True)
-
-    def _file(self, signature, codegen) -> Path:
-        digest = _digest(signature, codegen.magic_tuple())
-        return self._folder / f"{self._name}-{digest}{self.ENDING}"
+    def _file(self, key: tuple) -> Path:
+        return self.folder / f"{self._name}-{_digest(*key)}{self._ending}"
 
     def _make_folder(self) -> None:
-        if not self._folder.exists():
+        if not self.folder.exists():
             self._remove_unused()
-            self._folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            self._folder.mkdir(mode=0o700, exist_ok=True)
+            self.folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self.folder.mkdir(mode=0o700, exist_ok=True)
 
     def _remove_unused(self) -> None:
         """Remove what was compiled from former texts of this module, unless it was used of late.
@@ -229,9 +193,9 @@ class KernelCache(_Cache):
         A user may name a folder that holds other things too, so only what has the names of ours is
         removed.
         """
-        former = self._folder.name.rpartition("-")[0]
+        former = self.folder.name.rpartition("-")[0]
         ours = f"{former}-{'[0-9a-f]' * DIGITS}"
-        for folder in self._folder.parent.glob(ours):
+        for folder in self.folder.parent.glob(ours):
             if time.time() - folder.stat().st_mtime > UNUSED:
                 for ending in ("kernel", "part", "lock"):
                     for file in folder.glob(f"*.{ending}"):

@@ -20,6 +20,7 @@ import numba
 import numpy as np
 from llvmlite import binding
 
+from pendula.compiled import TESTED
 from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain
 from pendula.models.chain import MIRROR
@@ -46,7 +47,7 @@ def webassembly(solver: str) -> bytes:
     It takes what the kernel `run_<solver>` takes, as numba passes it: the address of the outcome,
     that of a place for errors, then all numbers of the arguments. An array is passed as two zeros,
     its number of elements, the bytes of one, its address, its shape and its strides in bytes.
-    Raises WebAssemblyError where numba's code rests on the size of pointers.
+    Raises WebAssemblyError where numba's code rests on the size of pointers or counts references.
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
@@ -69,6 +70,11 @@ def webassembly(solver: str) -> bytes:
 def _code_of(solver: str) -> str:
     """Return the intermediate code of a solver and of all that it calls."""
     method = SOLVERS[solver]
+    if not hasattr(method.run, "part"):
+        raise WebAssemblyError(
+            "code of this numba counts references, which WebAssembly cannot; the page that"
+            f" computes needs numba {', '.join(TESTED)}, see environment.txt"
+        )
     y = np.zeros((4, 4))
     record = blank_record(2, 2, 2, 1)
     given = (

@@ -1,13 +1,19 @@
 """A kernel and its parts: compiled once, together, and without memory of their own."""
 
+from importlib.metadata import version
+
 import numpy as np
 import pytest
 from numba.core import event
 from numba.core.errors import NumbaError
-from pendula.compiled import kernel, uncached
-from pendula.kernel_cache import KernelCache
-from pendula.kernel_parts import PartLibrary, make_kernel
+from pendula.compiled import TESTED, kernel, uncached
+from pendula.inside_numba import KernelCache, PartLibrary, make_kernel
 from pendula.simd import largest_magnitude
+
+
+def test_the_numba_of_the_tests_is_one_that_was_looked_into():
+    """What to do on the day when this fails stands at the top of inside_numba."""
+    assert version("numba").rpartition(".")[0] in TESTED
 
 
 @uncached
@@ -96,7 +102,7 @@ def test_a_function_that_fails_to_compile_keeps_nobody_waiting(tmp_path):
     kernel = make_kernel(wrong, tmp_path)
     with pytest.raises(NumbaError):
         kernel(1.0)
-    assert not list(tmp_path.rglob("*.*")) and not kernel._cache._locks
+    assert not list(tmp_path.rglob("*.*")) and not kernel._cache._files._locks
 
 
 def wrong(x):

@@ -1,20 +1,35 @@
-"""How kernels are compiled: a kernel as a whole, and the functions that it calls as its parts.
+"""All that this project does inside numba: kernels compiled as a whole, and kept by their content.
 
-numba compiles each function for itself: LLVM optimises its code together with that of all that it
-calls, and turns the result into machine code. So a function at the bottom is optimised again in
-each of its callers, and nobody runs the machine code of any but the outermost. Here a function that
-a kernel calls is a part. It is compiled to code that can be linked and no further, and the kernel
-is optimised once, together with all its parts. That takes half of the time.
+`compiled` uses this module for the versions of numba that it was tested with. With any other it
+uses what numba offers to all: the same bits, but twice the time to compile, and runs on short
+chains take up to twice as long too.
 
-No kernel allocates memory, so none counts references to arrays. numba would count up and down for
-every row of an array that a kernel looks at, which took half of a run on a short chain. A kernel
-that asks for memory is refused when it is compiled ("Only accept returning of array passed ...").
+Why a kernel is compiled as a whole. numba compiles each function for itself: LLVM optimises its
+code together with that of all that it calls, and turns the result into machine code. So a function
+at the bottom is optimised again in each of its callers, and nobody runs the machine code of any but
+the outermost. Here a function that a kernel calls is a part. It is compiled to code that can be
+linked and no further, and the kernel is optimised once, together with all its parts. That takes
+half of the time.
 
-What it rests upon, all of it private to numba: a dispatcher compiles in `compile`, tells callers
-its types in `get_call_template` and the key of its code in `get_overload`, and keeps a result in
-`add_overload`; a `CodeLibrary` optimises in `_optimize_final_module` and makes machine code in
-`_finalize_final_module`; the flag `no_compile` asks for no machine code, and `_nrt` switches the
-counting of references. When numba is upgraded, run tests/test_kernel_parts.py first.
+Why no references are counted. No kernel allocates memory. numba would all the same count up and
+down for every row of an array that a kernel looks at, which took half of a run on a short chain. A
+kernel that asks for memory is refused when it is compiled ("Only accept returning of array ...").
+
+Why numba's own cache is not used. It names what it keeps after the path and the time stamp of a
+source file: a copied project compiles everything again, and two processes that compile one function
+for two types of arguments at once may write both to the same file. `kernel_cache` keeps it instead.
+
+What this rests upon, all of it private to numba:
+- a dispatcher compiles in `compile`, tells callers its types in `get_call_template` and the key of
+  its code in `get_overload`, keeps a result in `add_overload`, and asks its `_cache` for
+  `load_overload`, `save_overload` and `cache_path`;
+- a `CodeLibrary` optimises in `_optimize_final_module`, makes machine code in
+  `_finalize_final_module`, and `_reduce` and `_rebuild` turn a result into bytes and back;
+- the flag `no_compile` asks for no machine code, and `_nrt` switches the counting of references;
+- `numba.core.event` tells when the compiler works.
+
+When numba is upgraded, tests/test_inside_numba.py fails until its version stands in
+`compiled.TESTED`. Put it there, run that module and tests/test_same_bits.py, and mend what breaks.
 """
 
 import pickle
@@ -27,8 +42,9 @@ from numba import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, CompileResult
 from numba.core.registry import CPUDispatcher
+from numba.core.serialize import dumps
 
-from .kernel_cache import KernelCache
+from .kernel_cache import KernelFiles
 
 OPTIONS = {
     "nopython": True,
@@ -76,14 +92,48 @@ class PartCompiler(Compiler):
         self.state.flags.no_compile = True
 
 
+class KernelCache:
+    """The machine code of one function, in the form that a dispatcher asks for."""
+
+    ENDING = ".kernel"
+
+    def __init__(self, function: Callable, root: Path):
+        self._files = KernelFiles(function, root, self.ENDING)
+        self.release = self._files.release
+
+    @property
+    def cache_path(self) -> str:
+        """The folder of the machine code of this module."""
+        return str(self._files.folder)
+
+    def load_overload(self, signature, target_context) -> CompileResult | None:
+        """Return the machine code for these types of arguments, or None where there is none."""
+        target_context.refresh()
+        kept = self._files.load(signature, target_context.codegen().magic_tuple())
+        try:
+            return None if kept is None else self.restore(target_context, kept)
+        except Exception:  # whatever unpickling raises: this is nothing that this numba kept
+            return None
+
+    @staticmethod
+    def restore(target_context, kept: bytes) -> CompileResult:
+        """Return what `save_overload` kept."""
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))
+
+    def save_overload(self, signature, data: CompileResult) -> None:
+        """Keep machine code, unless it holds addresses of this process, as of a large array."""
+        if not data.library.has_dynamic_globals:
+            self._files.save(dumps(data._reduce()), signature, data.codegen.magic_tuple())
+
+
 class PartCache(KernelCache):
     """The code of a part, kept as that of a kernel is."""
 
     ENDING = ".part"
 
     @staticmethod
-    def restore(target_context, payload: bytes) -> CompileResult:
-        code, descriptor, environment, signature, *_ = pickle.loads(payload)
+    def restore(target_context, kept: bytes) -> CompileResult:
+        code, descriptor, environment, signature, *_ = pickle.loads(kept)
         return CompileResult(
             typing_context=target_context.typing_context,
             target_context=target_context,
@@ -141,7 +191,7 @@ class Kernel(Kept):
 
     @cached_property
     def part(self) -> Part:
-        part = Part(self.py_func, None, self.targetoptions)
+        part = Part(self.py_func, {}, self.targetoptions)
         if self.root:
             part.keep_in(self.root)
         return part
@@ -156,7 +206,7 @@ class Kernel(Kept):
 
 def make_kernel(function: Callable, root: Path | None = None, **options) -> Kernel:
     """Return the compiled function, whose code is kept below the folder `root` if there is one."""
-    made = Kernel(function, None, {**OPTIONS, **options})
+    made = Kernel(function, {}, {**OPTIONS, **options})
     if root:
         made.keep_in(root)
     return made
