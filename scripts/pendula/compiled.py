@@ -27,7 +27,7 @@ import numba
 
 from .kernel_cache import folder_of, kept_in
 
-TESTED = ("0.68",)
+TESTED = tuple(f"0.{minor}" for minor in range(61, 69))
 """Versions of numba whose private parts are those that `inside_numba` uses."""
 
 

@@ -6,28 +6,23 @@ line names the file. A block `pycon` is a session of Python. A comment `<!-- fai
 above a block says that its commands must fail.
 """
 
-import io
 import os
 import re
 import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from threading import Thread
 from typing import NamedTuple
 from venv import EnvBuilder
 
 import yaml
-from helpers import ask_ready, run_ready
+from helpers import run_ready
 from pendula.archive.contents import code_files
 from pendula.configuration.files import merge
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-ASK = Path(__file__).with_name("ask_ready.py")
-PIPES = "asked", "answered"
+SNAKEMAKE = re.compile(r"(\.\./)*\.venv/bin/snakemake( |$)")
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "proofs", "speed", "quoted")
@@ -141,40 +136,13 @@ def _take_quick_configuration(folder: Path) -> None:
 
 
 def _share_packages(venv: Path) -> None:
-    """Make a virtual environment with the packages of this one, and its own Snakemake."""
+    """Make a virtual environment with the packages of this one."""
     EnvBuilder(symlinks=True).create(venv)
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     packages = venv / "lib" / version / "site-packages"
     packages.mkdir(parents=True, exist_ok=True)
     ours = [path for path in sys.path if path.endswith("site-packages")]
     (packages / "ours.pth").write_text("\n".join(ours) + "\n")
-    program = venv / "bin/snakemake"
-    program.write_text(f"#!{venv}/bin/python -IS\n" + ASK.read_text(encoding="utf-8"))
-    program.chmod(0o755)
-
-
-@contextmanager
-def ready_for(clone: Path) -> Iterator[None]:
-    """Pass on what the program `snakemake` of a clone asks for, and the answers."""
-    with ExitStack() as opened:
-        asked, answered = (opened.enter_context(_pipe(clone.parent / name)) for name in PIPES)
-
-        def pass_on():
-            for request in iter(asked.readline, b"\n"):
-                answered.write(b"%d\n" % ask_ready(request.decode().rstrip("\n")))
-
-        passing = Thread(target=pass_on)
-        passing.start()
-        try:
-            yield
-        finally:
-            asked.write(b"\n")
-            passing.join()
-
-
-def _pipe(path: Path) -> io.FileIO:
-    os.mkfifo(path)
-    return open(path, "r+b", buffering=0)
 
 
 class Reader:
@@ -183,6 +151,7 @@ class Reader:
     def __init__(self, clone: Path):
         self.clone, self.folder, self.page = clone, clone, ""
         self.beside = clone.parent
+        self.path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # where `python3` is ours
 
     def play(self, block: Block) -> Done:
         """Run a block as it is printed. Every page starts in the folder of the clone."""
@@ -193,12 +162,38 @@ class Reader:
             return Done(0, "")
         if block.kind == "pycon":
             return self._session(block.text)
+        said = ""
+        for line in block.text.splitlines():
+            done = self._snakemake(line) if SNAKEMAKE.match(line) else self._shell(line)
+            said += done.said
+            if done.code:
+                break
+        return Done(done.code, said)
+
+    def _snakemake(self, line: str) -> Done:
+        """Run Snakemake where its imports are done: they are nearly half of most commands."""
+        program, *words = shlex.split(line)
+        assert (self.folder / program).resolve() == self.clone.resolve() / ".venv/bin/snakemake"
+        command = ["python", "-m", "snakemake", *words]
+        done = run_ready(command, self.folder, PATH=self.path, PYTHONPATH="")
+        return Done(done.returncode, done.stdout + done.stderr)
+
+    def _shell(self, line: str) -> Done:
+        """Run a line in a shell, and stay in the folder to which it leads."""
         reached = self.beside / "folder.txt"
-        script = f"{block.text}\npwd > {shlex.quote(str(reached))}"
-        done = self._run(["bash", "-euo", "pipefail", "-c", script])
-        if not done.code:
+        script = f"{line}\npwd > {shlex.quote(str(reached))}"
+        run = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", script],
+            cwd=self.folder,
+            env={**os.environ, "PATH": self.path, "PYTHONPATH": ""},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        if not run.returncode:
             self.folder = Path(reached.read_text().rstrip("\n"))
-        return done
+        return Done(run.returncode, run.stdout)
 
     def _session(self, text: str) -> Done:
         session = self.beside / "session.txt"
@@ -207,16 +202,3 @@ class Reader:
         command = [python, "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
         done = run_ready(command, self.folder, PYTHONPATH=str(self.clone / "scripts"))
         return Done(done.returncode, done.stdout + done.stderr)
-
-    def _run(self, command: list[str]) -> Done:
-        path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # where `python3` is ours
-        run = subprocess.run(
-            command,
-            cwd=self.folder,
-            env={**os.environ, "PATH": path, "PYTHONPATH": ""},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        return Done(run.returncode, run.stdout)

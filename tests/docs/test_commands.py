@@ -29,7 +29,6 @@ from printed import (
     only_targets,
     pages,
     prepare,
-    ready_for,
     shown,
 )
 
@@ -89,12 +88,11 @@ def played(request, made_once, full_run) -> dict[str, Done]:
             accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
         tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
         reader = Reader(clone)
-        with ready_for(clone):
-            run = {
-                block.name: reader.play(PLAYED.get(block, block))
-                for block in [*tried, *ASKED]
-                if block not in JOINED
-            }
+        run = {
+            block.name: reader.play(PLAYED.get(block, block))
+            for block in [*tried, *ASKED]
+            if block not in JOINED
+        }
         run |= {block.name: run[ASKED[0].name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
