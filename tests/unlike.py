@@ -1,5 +1,11 @@
-"""What differs between the same results of two machines, told by file, variable and size."""
+"""What differs between the same results of two machines, told by file, variable and size.
 
+    python unlike.py here there
+
+compares the variables of all datasets of two folders: their bytes depend on the version of netCDF.
+"""
+
+import sys
 from pathlib import Path
 
 import netCDF4
@@ -47,3 +53,10 @@ def difference(one: np.ndarray, other: np.ndarray) -> str:
         return ""
     apart = abs(np.where(one == other, 0, one - other))
     return f"differs by {np.nanmax(apart):.2g} of {np.nanmax(abs(one)):.2g}"
+
+
+if __name__ == "__main__":
+    said = [
+        one for one in unlike(*map(Path, sys.argv[1:]), ".nc") if "attributes differ" not in one
+    ]
+    sys.exit("\n".join(said) or None)
