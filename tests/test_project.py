@@ -27,6 +27,7 @@ def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
     assert all(re.fullmatch(r"[\w.-]+==[\w.]+", pin) for pin in pins)
     conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
     library = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    library = [re.match(r"[\w-]+", package)[0] for package in library]
     imported = {*library, *sources.PACKAGES, "snakemake"}
     assert set(conda["dependencies"][-1]["pip"]) == {
         pin for pin in pins if pin.split("==")[0] in imported

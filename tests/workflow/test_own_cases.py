@@ -112,7 +112,7 @@ def test_sweeps_are_enough(tmp_path):
     """And so are cases: docs/own_cases.md has no sweep."""
     sweeps = {"sweeps": {"mine": SETTINGS["sweeps"]["mine"]}}
     jobs = planned_with(sweeps, ROOT, tmp_path, "own")
-    assert jobs.keys() == {"compile_solver", "own_sweep", "own_sweep_figure", "own_report", "own"}
+    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own_report", "own"}
 
 
 def test_a_new_omega_reruns_that_case_and_the_report(made, changed):
