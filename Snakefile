@@ -7,6 +7,8 @@ min_version("9.19")
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/code.smk"
+include: "workflow/rules/settings.smk"
 include: "workflow/rules/base.smk"
 
 

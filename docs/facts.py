@@ -1,8 +1,8 @@
 """What the README and docs/ quote beside the sections of the report, as text.
 
-That are the counts of the ledger, the long studies, which no full run makes, proofs rounded upward,
-and what was measured of speed and of the tests. A function stands for a topic: a template says
-`{{ long.exponent }}`. No number is typed here.
+These are the counts of the ledger, the long studies, which no full run makes, proofs rounded
+upward, and what was measured of speed and of the tests. A function stands for a topic: a template
+says `{{ long.exponent }}`. No number is typed here.
 """
 
 import json
@@ -70,7 +70,7 @@ def ledger(rows: list[dict]) -> dict[str, str]:
 
 
 def long(study: xr.Dataset, cut: xr.Dataset) -> dict[str, str]:
-    """Return how norms grow in the long study of the chain without ends, also with an edge cut."""
+    """Return the growth of norms on the infinite chain; `cut` is of the run with a cut edge."""
     bulk, large = (study.sel(case=case) for case in ("fig4_small", "fig3_large"))
     ratio = study["omega_bulk_power"] / study["omega_thermal_power"]
     off = abs(study["omega_bulk_power"] - study["omega_thermal_power"])

@@ -168,16 +168,9 @@ def measure_ensembles(
     return cases | sweep_moments(runs, windows, **drawn), about
 
 
-def compare_runs(
-    ensembles: xr.Dataset,
-    lyapunov: xr.Dataset,
-    runs: Mapping[str, xr.Dataset],
-    references: Mapping[str, xr.Dataset],
-    sweeps: Mapping[str, xr.Dataset],
-    windows: Mapping[str, str],
-) -> xr.Dataset:
-    """Return `compare`, and how many chaotic cases have no ensemble."""
-    found = compare(ensembles, runs, references, sweeps, windows)
+def compare_runs(ensembles: xr.Dataset, lyapunov: xr.Dataset, **others: Mapping) -> xr.Dataset:
+    """Return `compare`, which takes the `others`, and how many chaotic cases have no ensemble."""
+    found = compare(ensembles, **others)
     found["mismatched"] = mismatched(ensembles["case"].values, lyapunov)
     print(describe("ensembles of the chaotic cases", found.to_dict()))
     return found

@@ -1,0 +1,142 @@
+# The configuration as plain values, as functions of the library take them.
+
+
+def values_of(part, *names):
+    """Return the settings of these names, or all but those of a longer study, as plain values."""
+    plain = part.model_dump()
+    chosen = names or [name for name in plain if name != "long"]
+    found = {name: getattr(part, name) for name in chosen}
+    return {k: one.values if isinstance(one, Steps) else plain[k] for k, one in found.items()}
+
+
+def of_size(part, wildcards):
+    """Return a part of the configuration, or its part for a longer study."""
+    return part.long if wildcards.size else part
+
+
+def sized(part, *names):
+    """Return a function of the wildcards that gives the settings of these names."""
+    return lambda wildcards: values_of(of_size(part, wildcards), *names)
+
+
+def extent(wildcards):
+    """Return how far chains without ends are run."""
+    return SETTINGS.unbounded.long if wildcards.size else SETTINGS.unbounded.short
+
+
+def run_of(case, tolerance, solver="taylor", **changes):
+    """Return a case as a study runs it."""
+    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
+    return {**SETTINGS.problem(case), "solver": solver, "snapshot_every": 0, **changes}
+
+
+def followed(cases, tolerance, solver="taylor", **changes):
+    return {case: run_of(case, tolerance, solver, **changes) for case in cases}
+
+
+def longest(cases):
+    return max(SETTINGS.cases[case].end_time for case in cases)
+
+
+def in_any(sweeps, key):
+    """Return what the sweeps have under `key`, each once: all are run over all of it."""
+    return sorted({value for name in sweeps for value in getattr(SETTINGS.sweeps[name], key)})
+
+
+def swept(drawn, tolerance):
+    """Return by sweep what its ensembles run, each to the end of the last window of any."""
+    end_time = max(end for _, end in in_any(drawn, "windows"))
+    return {
+        name: {
+            "problem": run_of(SETTINGS.sweeps[name].case, tolerance, end_time=end_time),
+            **dict(one),
+        }
+        for name, one in drawn.items()
+    }
+
+
+def own_sweep_solver(wildcards):
+    return SETTINGS.swept_problem(wildcards.sweep)["solver"]["name"]
+
+
+def drawn_windows(sweep):
+    drawn = SETTINGS.sweeps[sweep].drawn
+    return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
+
+
+def other_cases(solver):
+    """Return the cases by a solver that the configuration has changed: no longer the paper's."""
+    return [case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.{solver}"])]
+
+
+def points_are_the_papers():
+    """Return whether no case of a figure has other constants than in the paper."""
+    constants = ("epsilon", "gamma", "omega")
+    return not any(f"cases.{case}.{key}" in DIFFERS for case in PAPER_CASES for key in constants)
+
+
+def points_of_cases():
+    """Return (Omega, gamma) of the figures' cases in units of epsilon, once each."""
+    problems = [SETTINGS.problem(case) for case in PAPER_CASES]
+    problems = [problem for problem in problems if problem["epsilon"]]
+    return sorted({(p["omega"] / p["epsilon"], p["gamma"] / p["epsilon"]) for p in problems})
+
+
+def cases_on_one_pair():
+    """Return the paper's cases that have real data on one pair."""
+
+    def on_one_pair(initial):
+        (site, pair), *others = initial.items()
+        return not (others or site or any(complex(one).imag for one in pair))
+
+    return [case for case in PAPER_CASES if on_one_pair(SETTINGS.problem(case)["initial"])]
+
+
+def certified_problem(case):
+    """Return a case as a problem whose solver is not asked; stop where no bound can be proved.
+
+    A case of the paper that the configuration has changed has an infinite bound then, so that the
+    rest of a full run goes on.
+    """
+    plain = SETTINGS.problem(case, snapshot_step=None)
+    if case in OWN_CASES:
+        if plain.get("model", "amplitudes") != "amplitudes":
+            stop(f"cases.{case}.model: proofs are of curves of the amplitudes, equations (4)")
+        try:
+            find_form(Constants.of(plain))
+        except NotDefiniteError as error:
+            stop(f"cases.{case}.omega: {error}")
+    return {**plain, "solver": {"name": "polynomials"}}
+
+
+def framed_problem(case):
+    from pendula.problem import Problem  # this and the next for a long target alone
+    from pendula.studies.certified.fixed_point import NotEvenError, half_chain
+
+    given = SETTINGS.certified.frames[case]
+    problem = {**certified_problem(case), "end_time": given.end_time}
+    try:
+        half_chain(Problem.of(problem), given.bits)
+    except NotEvenError as error:
+        stop(f"cases.{case}: {error}")
+    return problem
+
+
+def reference_problem(case):
+    sweeps = [SETTINGS.sweeps[name] for name in PAPER_SWEEPS]
+    drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
+    ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
+    return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
+
+
+def settings_in_words():
+    """Return the configuration of the paper's cases and sweeps as text."""
+    cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
+    sweeps = {sweep: SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS}
+    swept = {
+        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
+        for name, sweep in sweeps.items()
+    }
+    studies = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
+    told = {"cases": cases, "sweeps": swept, **studies}
+    return json.dumps(told, sort_keys=True, default=str)
