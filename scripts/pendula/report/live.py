@@ -1,7 +1,7 @@
 """The page on which a reader runs the cases of Figs 2 to 4, and compares the bits with these runs.
 
-A mark is a hash of all that a run keeps at one output time, as `live.js` makes it of its own run:
-so the page tells at which time a bit is wrong.
+A mark is a hash of all that a run keeps at one output time. `live.js` makes the same of its own run
+and reports the first time at which a bit differs.
 """
 
 import base64
@@ -33,32 +33,20 @@ change of one word changes it."""
 
 
 def write_live(runs: list[str], trust: str, lines: str, html: str) -> None:
-    """Write the page `html`; the names of `runs` are <case>.<solver>.nc, of one solver."""
-    by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
-    with complete_or_absent(html) as partial:
-        Path(partial).write_text(live_page(by_case, read(trust), read(lines)), encoding="utf-8")
+    """Write the page `html` on the trajectories `runs`, each <case>.<solver>.nc, of one solver.
 
-
-def live_page(runs: Mapping[str, xr.Dataset], trust: xr.Dataset, lines: xr.Dataset) -> str:
-    """Return the page; `runs` has the trajectory of each case by the solver of the page.
-
-    `trust` is the dataset checks/trust, `lines` is certified/lines. A case with data beside the
-    central pair is left out, since the page cannot set them.
+    `trust` is the dataset checks/trust, `lines` is certified/lines. A case with initial data beside
+    the central pair is left out, since the page cannot set them.
     """
-    about = next(iter(runs.values())).attrs
-    name = str(about["solver"])
-    trust, controls = trust.sel(solver=name, level="visible"), SOLVERS[name].controls
-    solver = {"name": name, **{one: float(about[f"solver_{one}"]) for one in controls}}
+    by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
+    about = next(iter(by_case.values())).attrs
+    trusted = read(trust).sel(solver=about["solver"], level="visible")
+    proved = read(lines)
     data = {
-        "solver": {
-            "code": _text(webassembly(name)),
-            "controls": [solver[one] for one in controls],
-            "named": yaml.safe_dump(solver, default_flow_style=True).strip(),
-            "work": SOLVERS[name].work,
-        },
+        "solver": _solver(about),
         "cases": [
-            _case(name, run, trust.sel(case=name), lines.sel(case=name))
-            for name, run in runs.items()
+            _case(name, run, trusted.sel(case=name), proved.sel(case=name))
+            for name, run in by_case.items()
             if set(read_initial(run.attrs["initial"])) == {0}
         ],
         "faults": FAULTS,
@@ -68,7 +56,7 @@ def live_page(runs: Mapping[str, xr.Dataset], trust: xr.Dataset, lines: xr.Datas
     style, more, script = (
         (HERE / name).read_text(encoding="utf-8") for name in ("style.css", "live.css", "live.js")
     )
-    return render(
+    page = render(
         "live.html.j2",
         data=Markup(json.dumps(data, ensure_ascii=False)),
         live_style=Markup(style + more),
@@ -76,15 +64,33 @@ def live_page(runs: Mapping[str, xr.Dataset], trust: xr.Dataset, lines: xr.Datas
         style_hash=_digest(style + more),
         script_hash=_digest(script),
     )
+    with complete_or_absent(html) as partial:
+        Path(partial).write_text(page, encoding="utf-8")
 
 
 def marks(run: xr.Dataset) -> np.ndarray:
     """Return the mark of each output time of a trajectory, (time,)."""
     found = np.full(run.sizes["tau"], OFFSET)
-    for values in (*run["linf"].values, *run["l2"].values, run["energy"].values):
-        for words in np.ascontiguousarray(values).view("<u4").reshape(-1, 2).T:
-            found = (found ^ words) * PRIME
+    half = run["modulus"].sel(site=slice(0, None)).values  # the data are even, and so is the run
+    every = int(run.attrs["snapshot_every"])
+    norms = np.concatenate([run["linf"].values, run["l2"].values, run["energy"].values[None]])
+    for step, series in ((1, norms), (every, half.reshape(-1, half.shape[-1]))):
+        for values in series:
+            for words in values.view("<u4").reshape(series.shape[-1], -1).T:
+                found[::step] = (found[::step] ^ words) * PRIME
     return found
+
+
+def _solver(about: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the page holds of the solver that the attributes of a trajectory name."""
+    name, controls = str(about["solver"]), SOLVERS[str(about["solver"])].controls
+    solver = {"name": name, **{one: float(about[f"solver_{one}"]) for one in controls}}
+    return {
+        "code": _text(webassembly(name)),
+        "controls": [solver[one] for one in controls],
+        "named": yaml.safe_dump(solver, default_flow_style=True).strip(),
+        "work": SOLVERS[name].work,
+    }
 
 
 def _case(name: str, run: xr.Dataset, trust: xr.Dataset, lines: xr.Dataset) -> dict[str, Any]:
@@ -99,6 +105,7 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset, lines: xr.Dataset) -> d
         "title": f"Fig {name.removeprefix('fig')[0]}: {case_of(trust)}",
         "settings": settings,
         "output_step": float(about["output_step"]),
+        "every": int(about["snapshot_every"]),
         "marks": _text(marks(run).tobytes()),
         "horizon": known or None,
         "contained": float(lines["contained_until"].min(skipna=False).fillna(0.0)) or None,

@@ -6,12 +6,11 @@ operations of IEEE and no fused ones: so its bits are those of this machine.
 Pointers. numba wrote the code for a machine whose pointers have 8 bytes, and in WebAssembly they
 have 4. What lies on the stack therefore keeps the size that it has here: code that counts bytes
 from its start, or clears it, then stays inside. The optimiser runs before that, while the code
-still says that pointers have 8 bytes.
+still declares pointers of 8 bytes.
 
-No linker. LLVM makes an object file, whose calls and addresses are right as they are, since it is
-the only one. It lacks a list of what can be called from outside, which is added here; its tables
-for a linker are left out. Who runs it gives the memory, in which the first bytes are constants, and
-the start of a stack that grows downwards.
+No linker. LLVM makes one object file, whose calls and addresses need no change. It lacks a list of
+exported functions, which is added here; its tables for a linker are left out. The caller provides
+the memory, whose first bytes are constants, and the start of a stack that grows downwards.
 """
 
 import re
@@ -112,23 +111,15 @@ def _exported(module: bytes, place: int) -> bytes:
     """Return an object file as a module that lets `run`, its function at `place`, be called."""
     sections, i = [], 8
     while i < len(module):
-        size, start = _number(module, i + 1)
-        sections.append((module[i], module[i : start + size]))
-        i = start + size
-    (imports,) = (content for kind, content in sections if kind == IMPORT)
+        # LLVM writes each size in 5 bytes, of 7 bits each (LEB128)
+        size = sum((byte & 127) << 7 * k for k, byte in enumerate(module[i + 1 : i + 6]))
+        sections.append(module[i : i + 6 + size])
+        i += 6 + size
+    (imports,) = (section for section in sections if section[0] == IMPORT)
     called = imports.count(b"\x03env") - sum(name in imports for name in NOT_CALLED)
     entry = bytes([1, 3]) + b"run" + bytes([0, called + place])
     exports = bytes([EXPORT, len(entry)]) + entry
-    # sections stand in an order, and exports before the code and all that belongs to it
-    before = [content for kind, content in sections if CUSTOM < kind < EXPORT]
-    after = [content for kind, content in sections if kind > EXPORT]
+    # exports stand before the code and all that belongs to it
+    before = [section for section in sections if CUSTOM < section[0] < EXPORT]
+    after = [section for section in sections if section[0] > EXPORT]
     return b"".join([module[:8], *before, exports, *after])
-
-
-def _number(code: bytes, i: int) -> tuple[int, int]:
-    """Return the number that begins at a byte, in groups of 7 bits (LEB128), and where it ends."""
-    value = shift = 0
-    while True:
-        value, shift, i = value | (code[i] & 127) << shift, shift + 7, i + 1
-        if code[i - 1] < 128:
-            return value, i

@@ -13,8 +13,8 @@ const ENDS = { dirichlet: 0, free: FREE, periodic: FREE }; // an even solution o
 const PARTS = ["a_re", "a_im", "b_re", "b_im"];
 const decoded = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-// Return the solver as a function of settings, the step of its outputs, and how many of them go to a
-// snapshot of the moduli (0: there are none).
+// Return the solver as a function of settings, the step of its outputs, and how many of these lie
+// between two snapshots of the moduli (0: there are none).
 const load = async ({ code, controls, work }) => {
   const memory = new WebAssembly.Memory({ initial: 1024 });
   const env = {
@@ -47,7 +47,7 @@ const load = async ({ code, controls, work }) => {
     const values = new Float64Array(memory.buffer, place, count).fill(0);
     return { values, place, passed: [0, 0, BigInt(count), 8n, place, ...numbers] };
   };
-  return (given, outputStep, every) => {
+  return (given, { output_step: outputStep, every }) => {
     // half of the chain, since the data are even, and A alone where A = B
     const start = PARTS.map((part) => given[part]);
     const components = start[0] === start[2] && start[1] === start[3] ? 1 : 2;
@@ -63,10 +63,10 @@ const load = async ({ code, controls, work }) => {
     const modulus = array(components, sites, snapshots);
     const error = instance.exports.run(
       outcome.place, fault.place,
-      ...[given.epsilon, given.gamma, given.omega, BigInt(MIRROR), BigInt(ENDS[given.boundary])],
-      ...[...y.passed, ...times.passed, ...controls, ...array(work, rows, width).passed],
-      ...[...linf.passed, ...l2.passed, ...energy.passed, ...modulus.passed, BigInt(every)],
-      ...[...array(2, width).passed, ...array(1).passed],
+      given.epsilon, given.gamma, given.omega, BigInt(MIRROR), BigInt(ENDS[given.boundary]),
+      ...y.passed, ...times.passed, ...controls, ...array(work, rows, width).passed,
+      ...linf.passed, ...l2.passed, ...energy.passed, ...modulus.passed, BigInt(every),
+      ...array(2, width).passed, ...array(1).passed,
     );
     const [status] = new BigInt64Array(memory.buffer, outcome.place, 1);
     if (error || status) {
@@ -77,25 +77,29 @@ const load = async ({ code, controls, work }) => {
       return [values.slice(0, part), values.slice(values.length - part)];
     };
     const kept = { linf: both(linf), l2: both(l2), modulus: both(modulus), state: both(y) };
-    return { ...kept, tau: times.values.slice(), energy: energy.values.slice(), sites, snapshots };
+    const [tau, energies] = [times.values.slice(), energy.values.slice()];
+    return { ...kept, tau, energy: energies, sites, snapshots, every };
   };
 };
 
 // --- The same bits? -----------------------------------------------------------------------------
 
-// A hash for each output time, over the words of its norms and its energy.
-const marksOf = ({ tau, linf, l2, energy }) => {
+// A hash for each output time, over the words of its norms, its energy and, if they are kept, moduli.
+const marksOf = ({ tau, linf, l2, energy, modulus, snapshots, every }) => {
   const marks = new Uint32Array(tau.length).fill(data.hash.offset);
-  for (const values of [...linf, ...l2, energy]) {
-    new Uint32Array(values.buffer).forEach((word, k) => {
-      marks[k >> 1] = Math.imul(marks[k >> 1] ^ word, data.hash.prime);
-    });
+  const add = (values, step) => new Uint32Array(values.buffer).forEach((word, k) => {
+    const i = step * Math.floor((4 * k) / values.BYTES_PER_ELEMENT);
+    marks[i] = Math.imul(marks[i] ^ word, data.hash.prime);
+  });
+  for (const values of [...linf, ...l2, energy]) add(values, 1);
+  for (const half of modulus) { // in single precision, as the datasets have them
+    for (let k = 0; k < half.length; k += snapshots) add(new Float32Array(half.slice(k, k + snapshots)), every);
   }
   return marks;
 };
 const compareAll = () => {
   const lines = data.cases.map((one) => {
-    const run = solve(one.settings, one.output_step, 0);
+    const run = solve(one.settings, one);
     const [marks, accepted] = [marksOf(run), new Uint32Array(decoded(one.marks).buffer)];
     const first = accepted.findIndex((mark, i) => mark !== marks[i]);
     const found = first < 0 ? `the same at all ${accepted.length} times` : `first differs at τ = ${run.tau[first]}`;
@@ -109,46 +113,30 @@ const compareAll = () => {
 
 // --- Settings -----------------------------------------------------------------------------------
 
-const OUTPUT_STEP = 0.025;
-const EVERY = 4;
-const SLIDERS = [
-  ["omega", "Ω, detuning", -12, 12, 0.1],
-  ["gamma", "γ, strength of the drive", 0, 3, 0.05],
-  ["epsilon", "ε, coupling", 0, 3, 0.05],
-  ["half_width", "M, half-width of the chain", 1, 100, 1],
-  ["a_re", "Re A₀", -10, 10, 0.1],
-  ["a_im", "Im A₀", -10, 10, 0.1],
-  ["b_re", "Re B₀", -10, 10, 0.1],
-  ["b_im", "Im B₀", -10, 10, 0.1],
-  ["end_time", "End of the run, τ", 1, 100, 1],
-];
 let settings = null;
 let solve = null;
 const chosen = () => data.cases[byId("case").selectedIndex];
 const isOfPaper = () => Object.entries(chosen().settings).every(([key, value]) => settings[key] === value);
 
-// Take settings, and let all controls say what they are.
+// Take settings, and let all controls show them.
 const apply = (given) => {
   settings = given;
-  for (const [key, value] of Object.entries(settings)) byId(key).value = value;
-  for (const [key] of SLIDERS) byId(`${key}_said`).textContent = settings[key];
+  for (const [key, value] of Object.entries(settings)) {
+    byId(key).value = value;
+    if (key !== "boundary") byId(`${key}_said`).textContent = value;
+  }
   byId("link").href = `#${new URLSearchParams(settings)}`;
   const [slider, atEnd] = [byId("tau"), byId("tau").value === byId("tau").max];
   slider.max = settings.end_time;
   if (atEnd) slider.value = slider.max;
   update();
 };
-// Take one setting as its control has it, which refuses what a link says and it cannot.
+// Return one setting as its control has it, since a control rejects what it cannot show.
 const taken = (key) => (key === "boundary" ? byId(key).value || "dirichlet" : Number(byId(key).value));
 const fromLink = () => {
-  const said = [...new URLSearchParams(location.hash.slice(1))].filter(([key]) => key in settings);
-  for (const [key, text] of said) byId(key).value = text;
-  apply({ ...settings, ...Object.fromEntries(said.map(([key]) => [key, taken(key)])) });
-};
-const makeSlider = ([id, text, min, max, step]) => {
-  const label = made("label", { htmlFor: id, textContent: `${text} = ` });
-  label.append(made("output", { id: `${id}_said`, htmlFor: id }));
-  byId("sliders").append(label, made("input", { type: "range", id, min, max, step }));
+  const given = [...new URLSearchParams(location.hash.slice(1))].filter(([key]) => key in settings);
+  for (const [key, text] of given) byId(key).value = text;
+  apply({ ...settings, ...Object.fromEntries(given.map(([key]) => [key, taken(key)])) });
 };
 
 // --- Pictures -----------------------------------------------------------------------------------
@@ -164,44 +152,50 @@ const say = (number) => {
 };
 const line = (kind, points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
 const words = (x, y, anchor, said) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${said}</text>`;
-const ticks = (most, count) => {
-  const unit = 10 ** Math.floor(Math.log10(most / count));
-  const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most);
-  return Array.from({ length: Math.floor(most / step + 1e-9) + 1 }, (_, i) => Number((i * step).toPrecision(6)));
+const ticks = (least, most, count) => {
+  const unit = 10 ** Math.floor(Math.log10((most - least) / count));
+  const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most - least);
+  const first = Math.ceil(least / step);
+  return Array.from({ length: Math.floor(most / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
 };
-const drawNorm = (norm) => {
-  const curves = [...run[norm], ...(other ? other[norm] : [])];
-  const most = 1.03 * Math.max(...curves.map(largestOf), 1e-9);
+// Draw axes against time, from least to most upwards, the curves, and marks of some times.
+const drawPanel = (id, least, most, curves) => {
   const x = (tau) => Number((40 + (340 * tau) / settings.end_time).toFixed(1));
-  const y = (value) => Number((170 - (160 * value) / most).toFixed(1));
-  const upright = (kind, tau) => line(kind, [[x(tau), 10], [x(tau), 170]]);
-  const drawn = ticks(most, 4).flatMap((value) => [
-    line("rule", [[40, y(value)], [380, y(value)]]), words(34, y(value) + 4, "end", value),
+  const y = (value) => Number((170 - (160 * (value - least)) / (most - least)).toFixed(1));
+  const drawn = ticks(least, most, 4).flatMap((value) => [
+    line("rule", [[36, y(value)], [curves.length ? 380 : 40, y(value)]]),
+    words(34, y(value) + 4, "end", say(value)),
   ]);
-  drawn.push(...ticks(settings.end_time, 5).map((tau) => words(x(tau), 188, "middle", tau)));
+  for (const tau of ticks(0, settings.end_time, 5)) {
+    drawn.push(line("rule", [[x(tau), 170], [x(tau), 174]]), words(x(tau), 188, "middle", say(tau)));
+  }
   curves.forEach((values, i) => {
     const points = Array.from(values, (value, k) => [x(run.tau[k]), y(value)]);
     drawn.push(line(`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`, points));
   });
-  if ((horizon() ?? Infinity) < settings.end_time) drawn.push(upright("dashed", horizon()));
-  if (parted) drawn.push(upright("dotted", parted));
-  byId(norm).innerHTML = [...drawn, upright("now", now())].join("");
+  for (const [kind, tau] of Object.entries({ dashed: horizon(), dotted: parted, now: now() })) {
+    if (tau && (tau < settings.end_time || kind === "now")) drawn.push(line(kind, [[x(tau), 10], [x(tau), 170]]));
+  }
+  byId(id).innerHTML = drawn.join("");
+};
+const drawNorm = (norm) => {
+  const curves = [...run[norm], ...(other ? other[norm] : [])];
+  drawPanel(norm, 0, 1.03 * Math.max(...curves.map(largestOf), 1e-9), curves);
 };
 // Draw the moduli at the sites n and -n, a pixel each: the larger one is, the less paper shows through.
 const drawModulus = (half, name, largest) => {
   const canvas = byId(`modulus${name}`);
   Object.assign(canvas, { width: run.snapshots, height: 2 * run.sites - 1 });
-  const [pen, image] = [canvas.getContext("2d"), new ImageData(canvas.width, canvas.height)];
+  const image = new ImageData(canvas.width, canvas.height);
   const [, ...rgb] = getComputedStyle(canvas).color.match(/(\d+), (\d+), (\d+)/);
   for (let i = 0; i < canvas.width * canvas.height; i += 1) {
     const n = Math.abs(run.sites - 1 - Math.floor(i / run.snapshots));
     image.data.set(rgb, 4 * i);
     image.data[4 * i + 3] = (255 * half[n * run.snapshots + (i % run.snapshots)]) / largest;
   }
-  pen.putImageData(image, 0, 0);
-  pen.fillStyle = getComputedStyle(document.body).color;
-  pen.fillRect(((canvas.width - 1) * now()) / settings.end_time, 0, 1, canvas.height);
-  byId(`scale${name}`).textContent = `|${name}ₙ| up to ${say(largest)}, n from ${say(1 - run.sites)} to ${run.sites - 1}`;
+  canvas.getContext("2d").putImageData(image, 0, 0);
+  byId(`scale${name}`).textContent = `|${name}ₙ| at site n against τ; full colour is ${say(largest)}`;
+  drawPanel(`axes${name}`, 0.5 - run.sites, run.sites - 0.5, []);
 };
 
 // Two rows of pendula: x = 2μ Re(A e^{iφ}) above, y below, and φ is the phase of the swing.
@@ -229,34 +223,32 @@ const drawPendula = () => {
 
 // --- Words --------------------------------------------------------------------------------------
 
-// Return the first time at which the central pair holds no more than an even share of the power.
-const lifeOf = ({ modulus, sites, snapshots, tau }) => {
+// Return the first time at which the central pair holds at most an even share of the power.
+const lifeOf = ({ modulus, sites, snapshots, tau, every }) => {
   const power = (n, s) => modulus[0][n * snapshots + s] ** 2 + modulus[1][n * snapshots + s] ** 2;
   for (let s = 0; s < snapshots; s += 1) {
     let others = 0;
     for (let n = 1; n < sites; n += 1) others += power(n, s); // each stands for n and -n
-    if (power(0, s) * (sites - 1) <= others) return tau[s * EVERY];
+    if (power(0, s) * (sites - 1) <= others) return tau[s * every];
   }
   return null;
 };
 const until = (time) => (time < settings.end_time ? `until τ = ${say(time)}` : "to the end");
 const tell = () => {
-  const i = Math.round(now() / OUTPUT_STEP);
+  const i = Math.round(((run.tau.length - 1) * now()) / settings.end_time);
   const norms = ["l2", "linf"].map((norm) => `${say(run[norm][0][i])} of A and ${say(run[norm][1][i])} of B`);
-  const life = lifeOf(run);
-  const localised = life === null ? "to the end: the motion stays localised" : `until τ = ${say(life)}`;
   byId("numbers").textContent = `At τ = ${say(now())}: ℓ² norms ${norms[0]}, largest amplitudes ${norms[1]}. `
-    + `The central pair holds more than an even share of the power Σ|Aₙ|² + |Bₙ|² ${localised}. `
     + `The energy has changed by ${say(run.energy[i] - run.energy[0])} since τ = 0.`;
+  byId("localised").textContent = until(lifeOf(run) ?? Infinity);
   byId("tau_said").textContent = `τ = ${say(now())}`;
   byId("l2").ariaLabel = `ℓ² norms against time: ${norms[0]}`;
   byId("linf").ariaLabel = `ℓ∞ norms against time: ${norms[1]}`;
 };
 const tellHorizon = () => {
-  if (!isOfPaper()) return "These settings are your own, and nothing is certified of them.";
+  if (!isOfPaper()) return "These settings are your own, and nothing is proved of their curves.";
   const [proved, known] = [chosen().contained, horizon()].map((time) => (time === null ? "at no known time" : until(time)));
-  return `Certified horizon of ${chosen().title}: this line, by ode45, is proved to contain the true curve ${proved}. It is within `
-    + `${100 * data.visible} % of the true norms ${known} (a dashed line), as the reference in multiprecision tells.`;
+  return `Certified horizon of ${chosen().title}: the printed line, by ode45, is proved to contain the true curve ${proved}. `
+    + `It is within ${100 * data.visible} % of the norms of the multiprecision reference ${known} (a dashed line).`;
 };
 // Return the first time at which the norms of two runs differ by the visible part of full scale.
 const partingOf = (one, two) => {
@@ -270,14 +262,14 @@ const perturb = () => {
   [other, parted] = [null, null];
   if (byId("perturb").ariaPressed === "false") return "";
   for (const part of PARTS) changed[part] *= 1 + size;
-  other = solve(changed, OUTPUT_STEP, 0);
+  other = solve(changed, chosen());
   parted = partingOf(run, other);
   const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
-  return `With data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms part by `
-    + `${100 * data.visible} % of full scale ${when}.`;
+  return `With initial data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms differ `
+    + `by ${100 * data.visible} % of full scale ${when}.`;
 };
 
-// --- What a change of the settings, or of the time, asks for ------------------------------------
+// --- What a change of the settings, or of the time, changes ------------------------------------
 
 const updateTime = () => {
   tell();
@@ -285,8 +277,9 @@ const updateTime = () => {
   drawNorm("linf");
   const largest = Math.max(...run.modulus.map(largestOf), 1e-300);
   run.modulus.forEach((half, component) => drawModulus(half, "AB"[component], largest));
-  const [tau, end] = [Math.max(now(), 1e-6), settings.end_time]; // a run has a length
-  state = tau < end ? solve({ ...settings, end_time: tau }, tau, 0).state : run.state;
+  const tau = Math.max(now(), 1e-6); // a run has a length
+  const toTau = () => solve({ ...settings, end_time: tau }, { output_step: tau, every: 0 });
+  ({ state } = tau < settings.end_time ? toTau() : run);
   drawPendula();
 };
 let asked = false;
@@ -294,7 +287,7 @@ const update = () => {
   if (!asked) requestAnimationFrame(() => {
     const start = performance.now();
     try {
-      run = solve(settings, OUTPUT_STEP, EVERY);
+      run = solve(settings, chosen());
       byId("parted").textContent = `${perturb()} ${tellHorizon()}`;
       updateTime();
       byId("fault").textContent = "";
@@ -340,7 +333,8 @@ const complex = (re, im) => (im ? `"${re}${im < 0 ? "" : "+"}${im}j"` : re);
 const yaml = () => {
   const { a_re, a_im, b_re, b_im, ...keys } = settings;
   keys.initial = `{0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}`;
-  Object.assign(keys, { output_step: OUTPUT_STEP, snapshot_step: OUTPUT_STEP * EVERY, solver: data.solver.named });
+  const { output_step, every } = chosen();
+  Object.assign(keys, { output_step, snapshot_step: output_step * every, solver: data.solver.named });
   const lines = Object.entries(keys).map(([key, value]) => `    ${key}: ${value}`);
   return ["# .venv/bin/snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
 };
@@ -351,7 +345,6 @@ const reset = () => {
 };
 const begin = async () => {
   solve = await load(data.solver);
-  SLIDERS.forEach(makeSlider);
   data.cases.forEach(({ title }) => byId("case").add(new Option(title)));
   const listen = (id, event, act) => byId(id).addEventListener(event, act);
   for (const key of Object.keys(chosen().settings)) listen(key, "input", () => apply({ ...settings, [key]: taken(key) }));
