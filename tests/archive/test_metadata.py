@@ -4,14 +4,13 @@ import json
 
 import pytest
 import yaml
+from helpers import ROOT
 from pendula import __version__
 from pendula.archive.metadata import describe_archive
 from pendula.datasets import netcdf
-from pendula.sources import SCRIPTS
 from rocrate.rocrate import ROCrate
 
-PROJECT = SCRIPTS.parent
-CITATION = yaml.safe_load((PROJECT / "CITATION.cff").read_text())
+CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())
 FIGURE, DATASET = "results/figures/fig2.png", "results/figures/fig2.nc"
 
 
@@ -25,11 +24,29 @@ def members(tmp_path):
 
 @pytest.fixture
 def described(members):
-    return describe_archive(PROJECT, members)
+    return describe_archive(ROOT, members)
 
 
-def test_the_citation_speaks_of_this_version():
+def test_the_citation_is_of_this_version():
     assert CITATION["version"] == __version__
+
+
+def test_code_and_results_have_their_licences(described):
+    entities = {entity["@id"]: entity for entity in described["@graph"]}
+    found = [entities[name]["license"]["@id"].rpartition("/")[2] for name in ("./", DATASET)]
+    assert found == [CITATION["license"], "CC-BY-4.0"]
+
+
+def test_codecheck_lists_files_of_the_run_and_cites_the_paper():
+    """The fields are those of https://codecheck.org.uk/spec/config/2.0/ that authors fill in."""
+    text = (ROOT / "codecheck.yml").read_text()
+    check = yaml.safe_load(text)
+    made = json.loads((ROOT / "tests/baseline/hashes.json").read_text())["files"]
+    assert text.startswith("---\n") and all(one["comment"] for one in check["manifest"])
+    assert {one["file"] for one in check["manifest"]} <= {f"results/{name}" for name in made}
+    paper = check["paper"]
+    assert (paper["title"], paper["authors"]) == (CITATION["title"], CITATION["authors"])
+    assert paper["reference-other"] == [f"https://doi.org/{CITATION['references'][0]['doi']}"]
 
 
 def test_the_crate_is_read_back_with_its_workflow_and_the_paper(described, members, tmp_path):
@@ -41,7 +58,7 @@ def test_the_crate_is_read_back_with_its_workflow_and_the_paper(described, membe
     read = ROCrate(folder)
     assert read.mainEntity.id == "Snakefile" and read.name == CITATION["title"]
     paper = read.root_dataset["citation"]
-    assert paper["name"] == CITATION["preferred-citation"]["title"]
+    assert paper["name"] == CITATION["references"][0]["title"]
     assert [author["name"] for author in paper["author"]][2] == "D. E. Pelinovsky"
 
 
@@ -55,6 +72,6 @@ def test_a_dataset_is_described_by_its_title_and_a_figure_by_its_dataset(describ
 
 def test_the_same_files_give_the_same_description_at_any_time(described, members, monkeypatch):
     monkeypatch.setattr("rocrate.model.root_dataset.iso_now", lambda: "2001-01-01T00:00:00+00:00")
-    again = describe_archive(PROJECT, dict(reversed(members.items())))
+    again = describe_archive(ROOT, dict(reversed(members.items())))
     assert json.dumps(again) == json.dumps(described)
     assert "2001" not in json.dumps(described)

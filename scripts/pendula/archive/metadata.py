@@ -1,6 +1,6 @@
-"""What an archive says of itself: ro-crate-metadata.json, as a Workflow RO-Crate 1.0.
+"""The description of an archive: ro-crate-metadata.json, as a Workflow RO-Crate 1.0.
 
-Each fact about the project stands in one file only, CITATION.cff or environment.txt.
+Each fact about the project stands in one file only: CITATION.cff, LICENSE-DATA or environment.txt.
 
 The library rocrate, which writes the crate, puts the time of the run wherever it has no date, and a
 random identifier where it has none. So the root gets the date of the release, and every entity an
@@ -35,22 +35,23 @@ FORMATS = {
 def describe_archive(project: Path, members: Mapping[str, Content]) -> dict:
     """Return the description of an archive with these members, by name, as JSON-LD.
 
-    It cites the paper that CITATION.cff of the `project` names, and describes each result.
+    It cites the paper that CITATION.cff of the `project` names first among its references, and
+    describes each result.
     """
     citation = yaml.safe_load((project / "CITATION.cff").read_text("utf-8"))
     pins = (project / "environment.txt").read_text("utf-8").split()
+    of_data = (project / "LICENSE-DATA").read_text("utf-8").split()[1]
     crate = ROCrate(version="1.1")
-    license_page = f"https://spdx.org/licenses/{citation['license']}"
     facts = {
         "name": citation["title"],
         "version": __version__,
         "author": [_author(crate, author) for author in citation["authors"]],
-        "license": _entity(crate, license_page, "CreativeWork", name=citation["license"]),
+        "license": _license(crate, citation["license"]),
     }
     of_root = {
         "description": f"{citation['title']}: code, environment, datasets and figures",
         "datePublished": str(citation["date-released"]),
-        "citation": _paper(crate, citation["preferred-citation"]),
+        "citation": _paper(crate, citation["references"][0]),
     }
     for key, value in (facts | of_root).items():
         crate.root_dataset[key] = value
@@ -58,13 +59,14 @@ def describe_archive(project: Path, members: Mapping[str, Content]) -> dict:
     language = {"lang": "snakemake", "lang_version": release}
     crate.add_workflow(dest_path=WORKFLOW, main=True, properties=facts, **language)
     crate.add_file(dest_path="README.md", properties={"about": {"@id": "./"}})
+    rights = {"license": _license(crate, of_data)}
     for name in sorted(name for name in members if name.startswith("results/")):
-        _add_result(crate, name, members)
+        crate.add_file(dest_path=name, properties=_about_result(name, members) | rights)
     return crate.metadata.generate()
 
 
-def _add_result(crate: ROCrate, name: str, members: Mapping[str, Content]) -> None:
-    """Describe a result: a dataset by its title, a figure by the dataset that it shows."""
+def _about_result(name: str, members: Mapping[str, Content]) -> dict:
+    """Return facts on a result: of a dataset its title, of a figure the dataset that it shows."""
     path, content = PurePosixPath(name), members[name]
     size = len(content) if isinstance(content, bytes) else content.stat().st_size
     facts = {
@@ -78,7 +80,11 @@ def _add_result(crate: ROCrate, name: str, members: Mapping[str, Content]) -> No
             facts["description"] = file.title
     elif data in members:
         facts["isBasedOn"] = {"@id": quote(data)}
-    crate.add_file(dest_path=name, properties=facts)
+    return facts
+
+
+def _license(crate: ROCrate, name: str) -> ContextEntity:
+    return _entity(crate, f"https://spdx.org/licenses/{name}", "CreativeWork", name=name)
 
 
 def _author(crate: ROCrate, author: dict) -> ContextEntity:
