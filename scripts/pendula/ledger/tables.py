@@ -110,7 +110,8 @@ def claims_section(rows: list[dict]) -> list[str]:
         )
         for row in rows
     ]
-    return ["# What the paper says, and what the numbers say", counts, markdown(head, cells)]
+    made = "`snakemake results/<data>.nc` makes the data of a row, by each name in its last column."
+    return ["# What the paper says, and what the numbers say", counts, made, markdown(head, cells)]
 
 
 def shown(value: float | str) -> str:
