@@ -23,14 +23,13 @@ solution that is even in n is given whole or by half. Its loop counts outputs by
 
 from typing import NamedTuple
 
-DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, STEP_TOO_LONG, INTERRUPTED = range(6)
+DONE, STEP_TOO_SMALL, NOT_FINITE, NO_CONTRACTION, INTERRUPTED = range(5)
 """The status of a run."""
 
 FAULTS = {
     STEP_TOO_SMALL: "the step fell below what rounding or the length of the run allows",
     NOT_FINITE: "the state is no longer finite",
     NO_CONTRACTION: "the fixed-point iteration did not contract even at the smallest step",
-    STEP_TOO_LONG: "the step is too long for amplitudes that large, or they are not finite",
     INTERRUPTED: "it was interrupted",
 }
 """What a status other than DONE means, in words."""
