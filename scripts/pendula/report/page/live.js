@@ -8,8 +8,8 @@ const largestOf = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 // --- The solver: the project's compiled kernel, as WebAssembly ----------------------------------
 
 const STACK = 1 << 20; // the constants of a module and its stack lie below, arrays above
-const [FREE, MIRROR] = [1, 3];
-const ENDS = { dirichlet: 0, free: FREE, periodic: FREE }; // an even solution on a ring sees itself
+const ENDS = { dirichlet: 0n, free: 1n, periodic: 1n }; // an even solution on a ring sees itself
+const MIRROR = 3n; // the end at the centre of an even chain
 const PARTS = ["a_re", "a_im", "b_re", "b_im"];
 const decoded = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
@@ -20,24 +20,17 @@ const load = async ({ code, controls, work }) => {
   const env = {
     __linear_memory: memory,
     __stack_pointer: new WebAssembly.Global({ value: "i32", mutable: true }, STACK),
-    // numba asks for the strides of an array that it sees in another shape: all are contiguous
-    numba_attempt_nocopy_reshape: (rank, shape, strides, newRank, newShape, newStrides) => {
-      const view = new DataView(memory.buffer);
-      for (let axis = Number(newRank) - 1, stride = 8n; axis >= 0; axis -= 1) {
-        view.setBigInt64(newStrides + 8 * axis, stride, true);
-        stride *= view.getBigInt64(newShape + 8 * axis, true);
-      }
+    // writes the strides of an array in another shape, as numba's runtime does: all are contiguous
+    numba_attempt_nocopy_reshape: (rank, shape, strides, newRank, ...places) => {
+      const [sizes, steps] = places.slice(0, 2).map((at) => new BigInt64Array(memory.buffer, at, Number(newRank)));
+      sizes.reduceRight((stride, size, axis) => (steps[axis] = stride) * size, 8n);
       return 1;
     },
-    // the number next to a positive one
-    numba_nextafter: (x, towards) => {
-      const bits = new BigInt64Array(new Float64Array([x]).buffer);
-      bits[0] += towards > x ? 1n : -1n;
-      return new Float64Array(bits.buffer)[0];
-    },
+    // the number next to x > 0: what is added has 0.54 to 1.08 units of its last place
+    numba_nextafter: (x, towards) => x + Math.sign(towards - x) * 1.2e-16 * x,
   };
   const { instance } = await WebAssembly.instantiate(decoded(code), { env });
-  let free = STACK;
+  let free;
   // zeros of a shape: the numbers, and what numba passes to a kernel for such an array
   const array = (...shape) => {
     const count = shape.reduce((a, b) => a * b, 1);
@@ -63,7 +56,7 @@ const load = async ({ code, controls, work }) => {
     const modulus = array(components, sites, snapshots);
     const error = instance.exports.run(
       outcome.place, fault.place,
-      given.epsilon, given.gamma, given.omega, BigInt(MIRROR), BigInt(ENDS[given.boundary]),
+      given.epsilon, given.gamma, given.omega, MIRROR, ENDS[given.boundary],
       ...y.passed, ...times.passed, ...controls, ...array(work, rows, width).passed,
       ...linf.passed, ...l2.passed, ...energy.passed, ...modulus.passed, BigInt(every),
       ...array(2, width).passed, ...array(1).passed,
@@ -72,13 +65,12 @@ const load = async ({ code, controls, work }) => {
     if (error || status) {
       throw new Error(`the run stopped at τ = ${outcome.values[1]}: ${data.faults[status] ?? "an error"}`);
     }
-    const both = ({ values }) => {
-      const part = values.length / components;
-      return [values.slice(0, part), values.slice(values.length - part)];
-    };
+    const both = ({ values }) => [0, components - 1].map((component) => {
+      const length = values.length / components;
+      return values.slice(component * length, (component + 1) * length);
+    });
     const kept = { linf: both(linf), l2: both(l2), modulus: both(modulus), state: both(y) };
-    const [tau, energies] = [times.values.slice(), energy.values.slice()];
-    return { ...kept, tau, energy: energies, sites, snapshots, every };
+    return { ...kept, tau: times.values.slice(), energy: energy.values.slice(), sites, snapshots, every };
   };
 };
 
@@ -98,23 +90,21 @@ const marksOf = ({ tau, linf, l2, energy, modulus, snapshots, every }) => {
   return marks;
 };
 const compareAll = () => {
-  const lines = data.cases.map((one) => {
+  byId("bits").replaceChildren(...data.cases.map((one) => {
     const run = solve(one.settings, one);
     const [marks, accepted] = [marksOf(run), new Uint32Array(decoded(one.marks).buffer)];
     const first = accepted.findIndex((mark, i) => mark !== marks[i]);
-    const found = first < 0 ? `the same at all ${accepted.length} times` : `first differs at τ = ${run.tau[first]}`;
-    const className = first < 0 ? "same" : "other";
-    return made("li", { className, textContent: `${first < 0 ? "✓" : "✗"} ${one.title}: ${found}` });
-  });
-  byId("bits").replaceChildren(...lines);
-  const agree = lines.filter(({ className }) => className === "same").length;
-  byId("same-bits").textContent = `${agree} of ${lines.length}`;
+    const [className, found] = first < 0
+      ? ["same", `✓ ${one.title}: the same at all ${accepted.length} times`]
+      : ["other", `✗ ${one.title}: first differs at τ = ${run.tau[first]}`];
+    return made("li", { className, textContent: found });
+  }));
+  byId("same-bits").textContent = `${byId("bits").querySelectorAll(".same").length} of ${data.cases.length}`;
 };
 
 // --- Settings -----------------------------------------------------------------------------------
 
-let settings = null;
-let solve = null;
+let solve, settings;
 const chosen = () => data.cases[byId("case").selectedIndex];
 const isOfPaper = () => Object.entries(chosen().settings).every(([key, value]) => settings[key] === value);
 
@@ -141,17 +131,15 @@ const fromLink = () => {
 
 // --- Pictures -----------------------------------------------------------------------------------
 
-let run = null;
-let other = null;
-let parted = null;
+let run, other, parted;
 const now = () => Number(byId("tau").value);
 const horizon = () => (isOfPaper() ? chosen().horizon : null);
 const say = (number) => {
   const small = number && Math.abs(number) < 1e-3;
   return (small ? number.toExponential(2) : String(Number(number.toPrecision(4)))).replaceAll("-", "−");
 };
-const line = (kind, points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
-const words = (x, y, anchor, said) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${said}</text>`;
+const line = (kind, ...points) => `<polyline class="${kind}" points="${points.join(" ")}"/>`;
+const label = (x, y, anchor, said) => `<text x="${x}" y="${y}" text-anchor="${anchor}">${say(said)}</text>`;
 const ticks = (least, most, count) => {
   const unit = 10 ** Math.floor(Math.log10((most - least) / count));
   const step = unit * [1, 2, 5, 10].find((times) => times * unit * count >= most - least);
@@ -162,21 +150,17 @@ const ticks = (least, most, count) => {
 const drawPanel = (id, least, most, curves) => {
   const x = (tau) => Number((40 + (340 * tau) / settings.end_time).toFixed(1));
   const y = (value) => Number((170 - (160 * (value - least)) / (most - least)).toFixed(1));
-  const drawn = ticks(least, most, 4).flatMap((value) => [
-    line("rule", [[36, y(value)], [curves.length ? 380 : 40, y(value)]]),
-    words(34, y(value) + 4, "end", say(value)),
-  ]);
-  for (const tau of ticks(0, settings.end_time, 5)) {
-    drawn.push(line("rule", [[x(tau), 170], [x(tau), 174]]), words(x(tau), 188, "middle", say(tau)));
-  }
-  curves.forEach((values, i) => {
-    const points = Array.from(values, (value, k) => [x(run.tau[k]), y(value)]);
-    drawn.push(line(`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`, points));
-  });
-  for (const [kind, tau] of Object.entries({ dashed: horizon(), dotted: parted, now: now() })) {
-    if (tau && (tau < settings.end_time || kind === "now")) drawn.push(line(kind, [[x(tau), 10], [x(tau), 170]]));
-  }
-  byId(id).innerHTML = drawn.join("");
+  const upright = (kind, tau, from, to) => line(kind, [x(tau), from], [x(tau), to]);
+  byId(id).innerHTML = [
+    ...ticks(least, most, 4).map((value) => line("rule", [36, y(value)], [curves.length ? 380 : 40, y(value)])
+      + label(34, y(value) + 4, "end", value)),
+    ...ticks(0, settings.end_time, 5).map((tau) => upright("rule", tau, 170, 174) + label(x(tau), 188, "middle", tau)),
+    ...curves.map((values, i) => line(`${"ab"[i % 2]} ${i < 2 ? "" : "dashed"}`,
+      ...Array.from(values, (value, k) => [x(run.tau[k]), y(value)]))),
+    horizon() && horizon() < settings.end_time ? upright("dashed", horizon(), 10, 170) : "",
+    parted ? upright("dotted", parted, 10, 170) : "",
+    upright("now", now(), 10, 170),
+  ].join("");
 };
 const drawNorm = (norm) => {
   const curves = [...run[norm], ...(other ? other[norm] : [])];
@@ -199,7 +183,7 @@ const drawModulus = (half, name, largest) => {
 };
 
 // Two rows of pendula: x = 2μ Re(A e^{iφ}) above, y below, and φ is the phase of the swing.
-let state = null;
+let state;
 let phase = 0;
 const drawPendula = () => {
   const [mu, pairs] = [Number(byId("mu").value), 2 * settings.half_width + 1];
@@ -213,7 +197,7 @@ const drawPendula = () => {
       const [x, y] = [from + 45 * Math.sin(angle), hook + 45 * Math.cos(angle)];
       const isOver = 2 * mu * Math.hypot(re, im) > Math.PI;
       const bob = isOver ? `<rect x="${x - 5}" y="${y - 5}" width="10" height="10"/>` : `<circle cx="${x}" cy="${y}" r="4"/>`;
-      drawn.push(`<g class="${isOver ? "over" : "ab"[component]}">${line("", [[from, hook], [x, y]])}${bob}</g>`);
+      drawn.push(`<g class="${isOver ? "over" : "ab"[component]}">${line("", [from, hook], [x, y])}${bob}</g>`);
     }
   });
   byId("pendula").innerHTML = drawn.join("");
@@ -241,8 +225,6 @@ const tell = () => {
     + `The energy has changed by ${say(run.energy[i] - run.energy[0])} since τ = 0.`;
   byId("localised").textContent = until(lifeOf(run) ?? Infinity);
   byId("tau_said").textContent = `τ = ${say(now())}`;
-  byId("l2").ariaLabel = `ℓ² norms against time: ${norms[0]}`;
-  byId("linf").ariaLabel = `ℓ∞ norms against time: ${norms[1]}`;
 };
 const tellHorizon = () => {
   if (!isOfPaper()) return "These settings are your own, and nothing is proved of their curves.";
