@@ -6,7 +6,7 @@ names are listed in `pendula.__all__` and explained in `help(pendula.notebook)`.
 
 from importlib import import_module
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _HOMES = {
     "notebook": (

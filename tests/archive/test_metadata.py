@@ -27,8 +27,9 @@ def described(members):
     return describe_archive(ROOT, members)
 
 
-def test_the_citation_is_of_this_version():
-    assert CITATION["version"] == __version__
+def test_citation_changelog_and_library_have_one_version():
+    released = f"\n## {__version__}, {CITATION['date-released']}\n"
+    assert CITATION["version"] == __version__ and released in (ROOT / "CHANGELOG.md").read_text()
 
 
 def test_code_and_results_have_their_licences(described):
