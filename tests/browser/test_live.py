@@ -101,7 +101,7 @@ def test_a_wrong_number_is_reported_with_its_time(live, wrong):
 
 def test_every_slider_changes_numbers_in_time_and_the_link(live):
     frames = []
-    for name in run(live, "[...document.querySelectorAll('#sliders input')].map(({ id }) => id)"):
+    for name in run(live, "[...document.querySelectorAll('.settings input')].map(({ id }) => id)"):
         before = text(live, "numbers")
         least, value = (run(live, what) for what in (f"{name}.min", f"settings.{name}"))
         left = "\ue012" * 25 if name == "half_width" else "\ue012"  # the arrow key
@@ -120,48 +120,38 @@ def test_every_slider_changes_numbers_in_time_and_the_link(live):
     wait_for(lambda: text(live, "numbers") == moved)
 
 
-@pytest.mark.parametrize("amplitude", [5, 7, 8])
-def test_the_motion_stays_localised_as_long_as_in_the_library(live, amplitude):
-    choose(live, LARGE)
-    move(live, "a_re", amplitude)
-    ran = simulate(problem_of("fig4_large", initial={0: (amplitude, 1)}, snapshot_every=4))
-    spread = ran.tau[::4][shares_alike(ran.modulus)]
-    end = f"until τ = {spread[0]:.4g}" if spread.size else "to the end"
-    assert text(live, "localised") == end
-
-
 def test_pictures_of_space_and_time_have_axes(live):
     axes = run(live, "[...document.querySelectorAll('#axesA text')].map((one) => one.textContent)")
     assert axes == ["−20", "0", "20", *map(str, range(0, 60, 10))]
 
 
-@pytest.mark.parametrize("case", ["fig2_small", "fig4_large"])
-def test_perturbed_runs_diverge_when_those_of_the_library_do(live, case):
-    choose(live, list(CASES).index(case))
-    live.find_element("id", "perturb").click()
+SETTINGS = {
+    "as the paper": {},
+    "localised": {"omega": 0, "a_re": 8, "b_re": 1},
+    "chaotic": {"omega": 0, "a_re": 7, "b_re": 1},
+    "A = B, free ends": {"boundary": "free", "half_width": 1, "a_re": 2, "b_re": 2},
+    "a ring": {"boundary": "periodic", "half_width": 7, "a_im": -2, "b_re": 0.5},
+    "a long chain": {"half_width": 64, "a_re": 0, "a_im": 5, "b_im": 1, "end_time": 5},
+}
+
+
+@pytest.mark.parametrize("changes", SETTINGS.values(), ids=SETTINGS)
+def test_a_run_of_the_page_agrees_with_the_library(live, changes):
+    """In its bits, how long the motion stays localised, and when a perturbed run diverges."""
+    live.execute_script("byId('perturb').click(); apply({...settings, ...arguments[0]})", changes)
     settle(live)
-    problem = problem_of(case)
-    one = simulate(problem)
-    two = simulate(problem.changed(initial=problem.initial * (1 + 1e-7)))
+    given = run(live, "settings")
+    pair = [complex(given.pop(f"{name}_re"), given.pop(f"{name}_im")) for name in "ab"]
+    problem = problem_of("fig2_small", **given, initial={0: pair}, snapshot_every=4)
+    perturbed = problem.changed(initial=problem.initial * (1 + 1e-7))
+    one, two = simulate(problem), simulate(perturbed)
+    assert np.array_equal(run(live, "Array.from(run.energy)"), one.energy)
+    spread = one.tau[::4][shares_alike(one.modulus)]
+    until = f"until τ = {spread[0]:.4g}" if spread.size else "to the end"
+    assert text(live, "localised") == until
     parted = first_above(one.tau, norm_difference(one.linf, one.l2, two.linf, two.l2), 0.01)
-    told = f"at τ = {parted:.4g} " if np.isfinite(parted) else "at no time"
-    assert f"1 % of full scale {told}" in text(live, "parted")
-
-
-@pytest.mark.parametrize(
-    "boundary, half_width, pair",
-    [("free", 1, (2, 2)), ("periodic", 7, (1 - 2j, 0.5)), ("dirichlet", 64, (5j, 1 + 1j))],
-)
-def test_all_ends_symmetries_and_data_have_the_bits_of_the_library(
-    live, boundary, half_width, pair
-):
-    chain = {"half_width": half_width, "boundary": boundary, "end_time": 5.0}
-    parts = [part for number in pair for part in (complex(number).real, complex(number).imag)]
-    given = chain | dict(zip(("a_re", "a_im", "b_re", "b_im"), parts, strict=True))
-    run_of_page = "solve({...settings, ...arguments[0]}, chosen())"
-    energy = live.execute_script(f"return Array.from({run_of_page}.energy)", given)
-    problem = problem_of("fig2_small", **chain, initial={0: pair})
-    assert np.array_equal(energy, simulate(problem).energy)
+    when = f"at τ = {parted:.4g} " if np.isfinite(parted) else "at no time"
+    assert f"1 % of full scale {when}" in text(live, "parted")
 
 
 def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
@@ -204,7 +194,7 @@ def test_it_does_not_scroll_sideways(live, width):
 
 
 def test_firefox_gets_the_same_bits(made, tmp_path):
-    """Asked in the language WebDriver BiDi, which Firefox speaks without a driver."""
+    """By the protocol WebDriver BiDi, for which Firefox needs no driver."""
     websocket = package("websocket", "-r tests/browser/requirements.txt")
     program = shutil.which("firefox-esr") or shutil.which("firefox")
     if not program:
@@ -224,10 +214,9 @@ def test_firefox_gets_the_same_bits(made, tmp_path):
         call("session.new", capabilities={})
         page = {"context": call("browsingContext.getTree")["contexts"][0]["context"]}
         call("browsingContext.navigate", **page, url=f"{made.as_uri()}#same-bits", wait="complete")
-        asked = {"expression": "document.getElementById('same-bits').textContent"}
-        asked |= {"awaitPromise": False, "target": page}
-        wait_for(lambda: " of " in call("script.evaluate", **asked)["result"]["value"])
-        assert call("script.evaluate", **asked)["result"]["value"] == "6 of 6"
+        counted = "document.getElementById('same-bits').textContent"
+        asked = {"expression": counted, "awaitPromise": False, "target": page}
+        wait_for(lambda: call("script.evaluate", **asked)["result"]["value"] == "6 of 6")
     finally:
         firefox.terminate()
         firefox.wait()

@@ -1,12 +1,11 @@
 """The compiled solvers as WebAssembly: the code that a browser runs is that of the project.
 
-numba writes a kernel as LLVM's intermediate code, and LLVM makes WebAssembly of it, which has the
-operations of IEEE and no fused ones: so its bits are those of this machine.
+numba writes a kernel as LLVM's intermediate code, and LLVM makes WebAssembly of it, whose
+operations are those of IEEE, unfused: so its bits are those of this machine.
 
-Pointers. numba wrote the code for a machine whose pointers have 8 bytes, and in WebAssembly they
-have 4. What lies on the stack therefore keeps the size that it has here: code that counts bytes
-from its start, or clears it, then stays inside. The optimiser runs before that, while the code
-still declares pointers of 8 bytes.
+Pointers have 8 bytes in numba's code and 4 in WebAssembly. What lies on the stack therefore keeps
+the size that it has here: code that counts bytes from its start, or clears it, then stays inside.
+The optimiser runs before that, while the code still declares pointers of 8 bytes.
 
 No linker. LLVM makes one object file, whose calls and addresses need no change. It lacks a list of
 exported functions, which is added here; its tables for a linker are left out. The caller provides

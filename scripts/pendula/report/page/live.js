@@ -148,8 +148,8 @@ const ticks = (least, most, count) => {
 };
 // Draw axes against time, from least to most upwards, the curves, and marks of some times.
 const drawPanel = (id, least, most, curves) => {
-  const x = (tau) => Number((40 + (340 * tau) / settings.end_time).toFixed(1));
-  const y = (value) => Number((170 - (160 * (value - least)) / (most - least)).toFixed(1));
+  const x = (tau) => Math.round(400 + (3400 * tau) / settings.end_time) / 10;
+  const y = (value) => Math.round(1700 - (1600 * (value - least)) / (most - least)) / 10;
   const upright = (kind, tau, from, to) => line(kind, [x(tau), from], [x(tau), to]);
   byId(id).innerHTML = [
     ...ticks(least, most, 4).map((value) => line("rule", [36, y(value)], [curves.length ? 380 : 40, y(value)])
