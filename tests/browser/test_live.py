@@ -22,7 +22,6 @@ from pendula.studies.paper.runs import run_case
 from test_report_in_browser import resize, run
 
 BASELINE = ROOT / "tests/baseline"
-LARGE = list(CASES).index("fig4_large")
 
 
 def problem_of(case: str, **changes) -> Problem:
@@ -78,8 +77,9 @@ def move(page, name: str, value: float, event: str = "input") -> None:
     settle(page)
 
 
-def choose(page, case: int) -> None:
-    move(page, "case", run(page, f"data.cases[{case}].title"), "change")
+def change(page, **settings) -> None:
+    page.execute_script("apply({...settings, ...arguments[0]})", settings)
+    settle(page)
 
 
 def test_all_cases_have_the_accepted_bits(live):
@@ -138,8 +138,8 @@ SETTINGS = {
 @pytest.mark.parametrize("changes", SETTINGS.values(), ids=SETTINGS)
 def test_a_run_of_the_page_agrees_with_the_library(live, changes):
     """In its bits, how long the motion stays localised, and when a perturbed run diverges."""
-    live.execute_script("byId('perturb').click(); apply({...settings, ...arguments[0]})", changes)
-    settle(live)
+    live.find_element("id", "perturb").click()
+    change(live, **changes)
     given = run(live, "settings")
     pair = [complex(given.pop(f"{name}_re"), given.pop(f"{name}_im")) for name in "ab"]
     problem = problem_of("fig2_small", **given, initial={0: pair}, snapshot_every=4)
@@ -155,9 +155,7 @@ def test_a_run_of_the_page_agrees_with_the_library(live, changes):
 
 
 def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
-    choose(live, LARGE)
-    for name, value in {"omega": -1.7, "a_im": 0.3, "half_width": 12, "end_time": 11}.items():
-        move(live, name, value)
+    change(live, omega=-1.7, a_re=5, a_im=0.3, half_width=12, end_time=11)
     folder = {"behavior": "allow", "downloadPath": str(tmp_path)}
     live.execute_cdp_cmd("Browser.setDownloadBehavior", folder)
     for kind in ("yaml", "csv"):
@@ -174,7 +172,7 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
 
 
 def test_it_plays_and_marks_who_goes_over_the_top(live):
-    choose(live, LARGE)
+    move(live, "case", run(live, "data.cases.at(-1).title"), "change")
     move(live, "tau", 18)
     move(live, "mu", 0.4)
     swings = 0.8 * abs(simulate(problem_of("fig4_large", end_time=18)).final)

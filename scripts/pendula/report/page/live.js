@@ -210,12 +210,12 @@ const drawPendula = () => {
 // Return the first time at which the central pair holds at most an even share of the power.
 const lifeOf = ({ modulus, sites, snapshots, tau, every }) => {
   const power = (n, s) => modulus[0][n * snapshots + s] ** 2 + modulus[1][n * snapshots + s] ** 2;
-  for (let s = 0; s < snapshots; s += 1) {
+  const hasSpread = (s) => {
     let others = 0;
     for (let n = 1; n < sites; n += 1) others += power(n, s); // each stands for n and -n
-    if (power(0, s) * (sites - 1) <= others) return tau[s * every];
-  }
-  return null;
+    return power(0, s) * (sites - 1) <= others;
+  };
+  return tau.find((_, i) => i % every === 0 && hasSpread(i / every)) ?? Infinity;
 };
 const until = (time) => (time < settings.end_time ? `until τ = ${say(time)}` : "to the end");
 const tell = () => {
@@ -223,7 +223,7 @@ const tell = () => {
   const norms = ["l2", "linf"].map((norm) => `${say(run[norm][0][i])} of A and ${say(run[norm][1][i])} of B`);
   byId("numbers").textContent = `At τ = ${say(now())}: ℓ² norms ${norms[0]}, largest amplitudes ${norms[1]}. `
     + `The energy has changed by ${say(run.energy[i] - run.energy[0])} since τ = 0.`;
-  byId("localised").textContent = until(lifeOf(run) ?? Infinity);
+  byId("localised").textContent = until(lifeOf(run));
   byId("tau_said").textContent = `τ = ${say(now())}`;
 };
 const tellHorizon = () => {
