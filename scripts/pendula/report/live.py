@@ -71,13 +71,13 @@ def write_live(runs: list[str], trust: str, lines: str, html: str) -> None:
 def marks(run: xr.Dataset) -> np.ndarray:
     """Return the mark of each output time of a trajectory, (time,)."""
     found = np.full(run.sizes["tau"], OFFSET)
-    half = run["modulus"].sel(site=slice(0, None)).values  # the data are even, and so is the run
-    every = int(run.attrs["snapshot_every"])
-    norms = np.concatenate([run["linf"].values, run["l2"].values, run["energy"].values[None]])
-    for step, series in ((1, norms), (every, half.reshape(-1, half.shape[-1]))):
-        for values in series:
-            for words in values.view("<u4").reshape(series.shape[-1], -1).T:
-                found[::step] = (found[::step] ^ words) * PRIME
+    kept = [(1, values) for values in (*run["linf"], *run["l2"], run["energy"])]
+    if every := int(run.attrs["snapshot_every"]):
+        half = run["modulus"].sel(site=slice(0, None))  # the data are even, and so is the run
+        kept += [(every, values) for component in half for values in component]
+    for step, values in kept:
+        for words in np.ascontiguousarray(values).view("<u4").reshape(values.size, -1).T:
+            found[::step] = (found[::step] ^ words) * PRIME
     return found
 
 

@@ -106,6 +106,7 @@ const compareAll = () => {
 
 let solve, settings;
 const chosen = () => data.cases[byId("case").selectedIndex];
+const steps = () => ({ ...chosen(), every: chosen().every || 1 }); // a picture needs the moduli
 const isOfPaper = () => Object.entries(chosen().settings).every(([key, value]) => settings[key] === value);
 
 // Take settings, and let all controls show them.
@@ -244,7 +245,7 @@ const perturb = () => {
   [other, parted] = [null, null];
   if (byId("perturb").ariaPressed === "false") return "";
   for (const part of PARTS) changed[part] *= 1 + size;
-  other = solve(changed, chosen());
+  other = solve(changed, steps());
   parted = partingOf(run, other);
   const when = parted ? `at τ = ${say(parted)} (the dotted line)` : "at no time";
   return `With initial data larger by the factor 1 + ${size.toExponential(0)} (dashed curves) the norms differ `
@@ -269,7 +270,7 @@ const update = () => {
   if (!asked) requestAnimationFrame(() => {
     const start = performance.now();
     try {
-      run = solve(settings, chosen());
+      run = solve(settings, steps());
       byId("parted").textContent = `${perturb()} ${tellHorizon()}`;
       updateTime();
       byId("fault").textContent = "";
@@ -315,7 +316,7 @@ const complex = (re, im) => (im ? `"${re}${im < 0 ? "" : "+"}${im}j"` : re);
 const yaml = () => {
   const { a_re, a_im, b_re, b_im, ...keys } = settings;
   keys.initial = `{0: [${complex(a_re, a_im)}, ${complex(b_re, b_im)}]}`;
-  const { output_step, every } = chosen();
+  const { output_step, every } = steps();
   Object.assign(keys, { output_step, snapshot_step: output_step * every, solver: data.solver.named });
   const lines = Object.entries(keys).map(([key, value]) => `    ${key}: ${value}`);
   return ["# .venv/bin/snakemake own --configfile mine.yaml", "cases:", "  mine:", ...lines, ""].join("\n");
