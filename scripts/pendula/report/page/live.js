@@ -117,9 +117,7 @@ const apply = (given) => {
     if (key !== "boundary") byId(`${key}_said`).textContent = value;
   }
   byId("link").href = `#${new URLSearchParams(settings)}`;
-  const [slider, atEnd] = [byId("tau"), byId("tau").value === byId("tau").max];
-  slider.max = settings.end_time;
-  if (atEnd) slider.value = slider.max;
+  byId("tau").max = settings.end_time;
   update();
 };
 // Return one setting as its control has it, since a control rejects what it cannot show.
@@ -230,8 +228,9 @@ const tell = () => {
 const tellHorizon = () => {
   if (!isOfPaper()) return "These settings are your own, and nothing is proved of their curves.";
   const [proved, known] = [chosen().contained, horizon()].map((time) => (time === null ? "at no known time" : until(time)));
+  const dashed = known.startsWith("until") ? " (the dashed line)" : "";
   return `Certified horizon of ${chosen().title}: the printed line, by ode45, is proved to contain the true curve ${proved}. `
-    + `It is within ${100 * data.visible} % of the norms of the multiprecision reference ${known} (a dashed line).`;
+    + `It is within ${100 * data.visible} % of the norms of the multiprecision reference ${known}${dashed}.`;
 };
 // Return the first time at which the norms of two runs differ by the visible part of full scale.
 const partingOf = (one, two) => {
@@ -289,7 +288,6 @@ const moveTo = (tau) => {
 
 // --- Play, export, and the start ----------------------------------------------------------------
 
-const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 let last = null; // the time of the picture before, while it plays
 const setPlaying = (since) => {
   last = since;
@@ -300,12 +298,12 @@ const setPlaying = (since) => {
 const play = (time) => {
   if (last === null) return;
   const passed = Math.max(0, Math.min((time - last) / 1000, 0.2));
-  if (!still.matches) phase += 2 * Math.PI * passed;
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) phase += 2 * Math.PI * passed;
   moveTo(now() + passed);
   setPlaying(now() < settings.end_time ? time : null);
 };
-const save = (name, text) => {
-  made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download: name }).click();
+const save = (download, text) => {
+  made("a", { href: `data:text/plain;charset=utf-8,${encodeURIComponent(text)}`, download }).click();
 };
 const csv = () => {
   const columns = [run.tau, ...run.l2, ...run.linf, run.energy];
@@ -323,8 +321,8 @@ const yaml = () => {
 };
 const reset = () => {
   setPlaying(null);
-  byId("tau").value = byId("tau").max;
   apply({ ...chosen().settings });
+  byId("tau").value = settings.end_time;
 };
 const begin = async () => {
   solve = await load(data.solver);
