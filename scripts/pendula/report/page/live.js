@@ -169,13 +169,14 @@ const drawNorm = (norm) => {
 const drawModulus = (half, name, largest) => {
   const canvas = byId(`modulus${name}`);
   Object.assign(canvas, { width: run.snapshots, height: 2 * run.sites - 1 });
-  const image = new ImageData(canvas.width, canvas.height);
-  const [, ...rgb] = getComputedStyle(canvas).color.match(/(\d+), (\d+), (\d+)/);
-  for (let i = 0; i < canvas.width * canvas.height; i += 1) {
+  const [, red, green, blue] = getComputedStyle(canvas).color.match(/(\d+), (\d+), (\d+)/);
+  const pixels = new Uint32Array(canvas.width * canvas.height);
+  for (let i = 0; i < pixels.length; i += 1) {
     const n = Math.abs(run.sites - 1 - Math.floor(i / run.snapshots));
-    image.data.set(rgb, 4 * i);
-    image.data[4 * i + 3] = (255 * half[n * run.snapshots + (i % run.snapshots)]) / largest;
+    const opacity = (255 * half[n * run.snapshots + (i % run.snapshots)]) / largest;
+    pixels[i] = (opacity << 24) | (blue << 16) | (green << 8) | red;
   }
+  const image = new ImageData(new Uint8ClampedArray(pixels.buffer), canvas.width);
   canvas.getContext("2d").putImageData(image, 0, 0);
   byId(`scale${name}`).textContent = `|${name}ₙ| at site n against τ; full colour is ${say(largest)}`;
   drawPanel(`axes${name}`, 0.5 - run.sites, run.sites - 0.5, []);
