@@ -1,4 +1,4 @@
-"""How long a whole reproduction takes: from nothing, with compiled kernels, without work.
+"""How long a whole reproduction takes and how much disk: from nothing, with kernels, without work.
 
 Run as `python -m benchmarks.reproduction DATA` in the project's folder. It works on a copy of the
 project in a temporary folder, with a cache of kernels of its own, writes what was measured as JSON
@@ -63,7 +63,15 @@ def measure(project: Path) -> dict:
             shutil.rmtree(project / "results")
             shutil.rmtree(project / ".snakemake")
         runs[name] = run(project)
-    return {"machine": {**describe_machine(), "cores": os.cpu_count()}, "runs": runs}
+    folders = {"packages": Path(sys.prefix), "results": project / "results"}
+    megabytes = {name: _megabytes(folder) for name, folder in folders.items()}
+    machine = {**describe_machine(), "cores": os.cpu_count()}
+    return {"machine": machine, "runs": runs, "megabytes": megabytes}
+
+
+def _megabytes(folder: Path) -> int:
+    files = (path for path in folder.rglob("*") if path.is_file() and not path.is_symlink())
+    return round(sum(path.stat().st_size for path in files) / 1e6)
 
 
 def main(data: Path) -> None:

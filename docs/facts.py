@@ -231,10 +231,12 @@ def speeds(baseline: Baseline) -> dict:
 
 
 def full_run(measured: dict) -> dict:
-    """Return the wall time and the processor time of whole runs, in seconds."""
+    """Return the wall and processor time of whole runs in seconds, and their disk space in MB."""
     return {
         "processor": measured["machine"]["processor"],
         "cores": str(measured["machine"]["cores"]),
+        "cold": f"{measured['runs']['cold']['wall']:.0f}",
+        **{name: str(size) for name, size in measured["megabytes"].items()},
         "rows": [
             [reproduction.RUNS[name], f"{one['wall']:.0f}", f"{one['processor']:.0f}"]
             for name, one in measured["runs"].items()

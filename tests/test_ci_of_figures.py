@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[1]
 def test_ci_finds_the_run_command_of_the_readme():
     text = (ROOT / "README.md").read_text()
     (block,) = re.findall(r"<!-- run command -->\n```\n(.*?)\n```", text)
-    assert block.startswith("python3 -m venv") and block.endswith("-m snakemake")
+    assert block.startswith("python3 -m venv") and block.endswith("&& snakemake")
     script = (ROOT / ".ci/figures").read_text()
     assert "<!-- run command -->" in script and "snakemake figure_diff" in script
 

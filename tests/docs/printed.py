@@ -14,7 +14,6 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import NamedTuple
-from venv import EnvBuilder
 
 import yaml
 from helpers import run_ready
@@ -22,7 +21,7 @@ from pendula.archive.contents import code_files
 from pendula.configuration.files import merge
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-SNAKEMAKE = re.compile(r"(\.\./)*\.venv/bin/snakemake( |$)")
+SNAKEMAKE = re.compile(r"snakemake( |$)")
 KINDS = ("", "text", "yaml", "pycon")
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "proofs", "speed", "quoted")
@@ -60,7 +59,7 @@ def inline_calls(project: Path, page: str) -> list[str]:
     """Return the calls of Snakemake that a sentence or a table names, without the program."""
     text = FENCED.sub("", (project / page).read_text(encoding="utf-8"))
     spans = (" ".join(span.split()) for span in re.findall(r"`([^`]+)`", text))
-    found = (re.fullmatch(r"(?:\.venv/bin/)?snakemake (.+)", span) for span in spans)
+    found = (re.fullmatch(r"snakemake (.+)", span) for span in spans)
     return [call[1] for call in found if call]
 
 
@@ -89,15 +88,13 @@ def shown(text: str, said: str) -> bool:
 
 def only_targets(block: Block) -> list[str]:
     """Return the targets of a block that is one command and names nothing else."""
-    found = re.fullmatch(r"\.venv/bin/snakemake((?: [a-z]\w*)+)\n", block.text)
+    found = re.fullmatch(r"snakemake((?: [a-z]\w*)+)\n", block.text)
     return found[1].split() if found else []
 
 
 def dry(block: Block) -> Block:
     """Return the block with each call of Snakemake as a dry run."""
-    return block._replace(
-        text=re.sub(r"(?<=/)snakemake(?= |$)", "snakemake -n", block.text, flags=re.M)
-    )
+    return block._replace(text=re.sub(r"^snakemake(?= |$)", "snakemake -n", block.text, flags=re.M))
 
 
 def prepare(project: Path, finished: Path, clone: Path) -> None:
@@ -117,7 +114,6 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
     for folder in ("results", ".snakemake"):
         shutil.copytree(finished / folder, clone / folder)
     _take_quick_configuration(clone / "config")
-    _share_packages(clone / ".venv")
 
 
 def is_wanted(name: str) -> bool:
@@ -133,16 +129,6 @@ def _take_quick_configuration(folder: Path) -> None:
         if path.name != "quick.yaml":
             merged = merge(settings, {key: quick[key] for key in settings.keys() & quick.keys()})
             path.write_text(yaml.safe_dump(merged, sort_keys=False))
-
-
-def _share_packages(venv: Path) -> None:
-    """Make a virtual environment with the packages of this one."""
-    EnvBuilder(symlinks=True).create(venv)
-    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    packages = venv / "lib" / version / "site-packages"
-    packages.mkdir(parents=True, exist_ok=True)
-    ours = [path for path in sys.path if path.endswith("site-packages")]
-    (packages / "ours.pth").write_text("\n".join(ours) + "\n")
 
 
 class Reader:
@@ -172,9 +158,7 @@ class Reader:
 
     def _snakemake(self, line: str) -> Done:
         """Run Snakemake where its imports are done: they are nearly half of most commands."""
-        program, *words = shlex.split(line)
-        assert (self.folder / program).resolve() == self.clone.resolve() / ".venv/bin/snakemake"
-        command = ["python", "-m", "snakemake", *words]
+        command = ["python", "-m", *shlex.split(line)]
         done = run_ready(command, self.folder, PATH=self.path, PYTHONPATH="")
         return Done(done.returncode, done.stdout + done.stderr)
 
@@ -198,7 +182,6 @@ class Reader:
     def _session(self, text: str) -> Done:
         session = self.beside / "session.txt"
         session.write_text(text, encoding="utf-8")
-        python = str(self.clone / ".venv/bin/python")
-        command = [python, "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
+        command = ["python", "-m", "doctest", "-o", "NORMALIZE_WHITESPACE", str(session)]
         done = run_ready(command, self.folder, PYTHONPATH=str(self.clone / "scripts"))
         return Done(done.returncode, done.stdout + done.stderr)

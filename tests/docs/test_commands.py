@@ -61,7 +61,7 @@ JOINED = [block for block in RUN if first(block) in DRY and only_targets(block)]
 BY_TARGETS = {call for call in INLINE if re.fullmatch(r"[a-z]\w*( [a-z]\w*)*", call)}
 TARGETS = [*sorted(BY_TARGETS), *(target for block in JOINED for target in only_targets(block))]
 CALLS = [" ".join(TARGETS), *sorted({*INLINE} - BY_TARGETS)]
-ASKED = [Block(call, 0, "", "", f".venv/bin/snakemake -n {call}") for call in CALLS]
+ASKED = [Block(call, 0, "", "", f"snakemake -n {call}") for call in CALLS]
 """What sentences and tables say to ask Snakemake for. One dry run does for all targets that are
 named alone, those of blocks too."""
 PLAYED = {block: dry(block) if first(block) in DRY else block for block in RUN}
@@ -165,7 +165,7 @@ def test_a_run_and_the_tests_begin_with_the_same_command():
     """CI gives the command of the tests as it is printed, so that the other needs no play."""
     run, tests = (block for block in PRINTED["README.md"] if block.mark.endswith(" command"))
     more = run.text.replace("environment.txt", "environment.txt -r tests/requirements.txt")
-    assert more.replace("-m snakemake", "-m pytest") == tests.text != run.text
+    assert more.replace("&& snakemake", "&& pytest") == tests.text != run.text
 
 
 @pytest.mark.parametrize(

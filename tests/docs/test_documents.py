@@ -36,7 +36,8 @@ NAMES = [
     r"Theorems? \d( to \d)?",
     r"\bl2²?\b",  # a norm
     r"ode45|DOP853|BM6",
-    r"x86-64|AVX2|AVX-512|netCDF-4",
+    r"x86-64|AVX2|AVX-512|netCDF-4|HDF5",
+    r"95 %\s+confidence interval",  # the level of all of them
     r"Python 3\.11",  # the least version, which pyproject.toml says as well
     r"381 \(2017\) 3884|arXiv 1708\.06134",  # where the paper stands
     r"BSD 3-Clause",
