@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from pendula.problem import Constants
-from pendula.studies.theory.equations import total_energy
-from pendula.studies.theory.newton import averaged_energy, driven_growth, one_pair, pendula_run
+from pendula.studies.theory.equations import one_pair, total_energy
+from pendula.studies.theory.newton import averaged_energy, driven_growth, pendula_run
 from scipy.integrate import solve_ivp
 
 CONSTANTS = Constants(epsilon=0.7, gamma=1.3, omega=-2.0)

@@ -48,6 +48,7 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
     start, observed = float(power[0]), np.float64(power.max())
     delta_0, c_0 = theorem_2_constants(constants)
     at_rest = kind_of(boundary) == DIRICHLET
+    best = best_bound(energy, start, sites, constants, boundary)
     numbers = {
         "energy": energy,
         "start": start,
@@ -56,24 +57,23 @@ def case_numbers(trajectory: xr.Dataset) -> dict[str, float | str]:
         "theorem_2": theorem_2_bound(energy, start, constants),
         "widened": widened_bound(energy, start, constants) if at_rest else np.inf,
         "theorem_3": theorem_3_bound(energy, sites, constants),
-        "best": best_bound(energy, start, sites, constants, boundary),
+        "best": best,
+        "ratio": observed / best,
         "delta_0": delta_0,
         "c_0": c_0,
+        **growth_margin(trajectory["tau"].values, trajectory["l2"].values, constants.gamma),
     }
-    tau, l2 = trajectory["tau"].values, trajectory["l2"].values
-    numbers |= growth_margin(tau, l2, constants.gamma)
-    numbers["ratio"] = observed / numbers["best"]
     region = proven_region(energy, start, constants, boundary)
     return {"region": region, **{name: float(value) for name, value in numbers.items()}}
 
 
-def labels(datasets, dims: tuple) -> dict:
+def labels(datasets, dim: str) -> dict:
     """Return the detuning and the initial data of each dataset, by which a figure names it."""
+    omegas = [float(ds.attrs["omega"]) for ds in datasets]
+    initials = [str(ds.attrs["initial"]) for ds in datasets]
     return {
-        "omega": variable([float(ds.attrs["omega"]) for ds in datasets], dims, "detuning Omega"),
-        "initial": variable(
-            [str(ds.attrs["initial"]) for ds in datasets], dims, "initial {site: [A, B]}"
-        ),
+        "omega": variable(omegas, (dim,), "detuning Omega"),
+        "initial": variable(initials, (dim,), "initial {site: [A, B]}"),
     }
 
 
@@ -84,7 +84,7 @@ def check_cases(trajectories: Mapping[str, xr.Dataset]) -> dict:
         {"case": list(trajectories)},
         map(case_numbers, trajectories.values()),
         NUMBERS,
-        **labels(trajectories.values(), ("case",)),
+        **labels(trajectories.values(), "case"),
     )
 
 
@@ -99,20 +99,18 @@ def check_sweeps(sweeps: Mapping[str, xr.Dataset]) -> dict:
         for half_width, peak in zip(sweep["half_width"].values, peaks, strict=True):
             j, sites = np.searchsorted(half_widths, half_width), 2 * int(half_width) + 1
             amplitudes = place(on_sites(read_initial(sweep.attrs["initial"])), int(half_width))
-            energy = total_energy(constants, boundary, amplitudes)
-            start = power_of(amplitudes)
+            energy, start = total_energy(constants, boundary, amplitudes), power_of(amplitudes)
             observed[i, j] = peak
             finite[i, j] = theorem_3_bound(energy, sites, constants)
             best[i, j] = best_bound(energy, start, sites, constants, boundary)
+    ratio = np.nanmax(observed / best)
     return table(
         "The paper's sweeps beside the bounds of its theorems",
         {"sweep": list(sweeps), "half_width": half_widths},
         swept_observed=variable(observed, dims, "largest P in the windows"),
         **columns(dims, NUMBERS, {"theorem_3": finite, "best": best}),
-        **labels(sweeps.values(), ("sweep",)),
-        swept_ratio=variable(
-            np.nanmax(observed / best), (), "largest P of all over its bound", tolerance=1.0
-        ),
+        **labels(sweeps.values(), "sweep"),
+        swept_ratio=variable(ratio, (), "largest P of all over its bound", tolerance=1.0),
     )
 
 

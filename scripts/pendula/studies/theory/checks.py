@@ -21,15 +21,13 @@ from . import (
     sharpness,
     stability_chart,
     threshold,
-    well_posed,
     worst_data,
 )
 from .settings import WRONG_FOLDER
 
 MODULES = (
-    *(equations, other_forms, newton, errata),
-    *(dispersion, stability_chart, threshold),
-    *(estimates, inequalities, well_posed, worst_data, sharpness),
+    *(equations, other_forms, newton, errata, dispersion, stability_chart, threshold),
+    *(estimates, inequalities, worst_data, sharpness),
 )
 
 CHECKS = {
@@ -49,9 +47,8 @@ def run_checks(checks: Mapping[str, Mapping[str, Any]]) -> Iterator[xr.Dataset]:
     """
     for name, arguments in checks.items():
         check = run_check(name, arguments)
-        said = describe(name, check)
         wrong = name.startswith(WRONG_FOLDER)
-        print(f"a wrong statement, for a control: {name}" if wrong else said)
+        print(f"a wrong statement, for a control: {name}" if wrong else describe(name, check))
         yield xr.Dataset.from_dict(check)
 
 
@@ -60,14 +57,12 @@ def run_check(name: str, arguments: Mapping[str, Any]) -> dict:
 
     A wrong statement names its `check` among them.
     """
-    given = {key: _read(key, value) for key, value in arguments.items()}
+    spacings = {"linear": np.linspace, "logarithmic": elementary.geometric}
+    given = dict(arguments)
+    for key, value in arguments.items():
+        if key == "constants":
+            given[key] = Constants.of(value)
+        elif isinstance(value, Mapping) and "points" in value:
+            spaced = spacings[value["spacing"]]
+            given[key] = spaced(value["first"], value["last"], value["points"])
     return CHECKS[given.pop("check", name)](**given)
-
-
-def _read(key: str, value: Any) -> Any:
-    if key == "constants":
-        return Constants.of(value)
-    if isinstance(value, Mapping) and "points" in value:
-        spaced = {"linear": np.linspace, "logarithmic": elementary.geometric}[value["spacing"]]
-        return spaced(value["first"], value["last"], value["points"])
-    return value

@@ -16,51 +16,45 @@ from pendula.models.bounds import (
 )
 from pendula.numerics.draws import complex_normal, uniform
 from pendula.numerics.elementary import modulus, square_modulus
-from pendula.problem import Constants, Problem, on_sites
-from pendula.simulation.simulate import Trajectory, simulate
+from pendula.problem import Constants
+from pendula.simulation.simulate import Trajectory
 
 from .bounds import NUMBERS
-from .equations import draw_shape, run, squared_norm, total_energy
-
-DEPTH = "-H, which Theorem 2 takes for positive"
-
-
-def alternating(sites: int, x: float) -> np.ndarray:
-    """Return A_n = -B_n = (-1)^n x, shape (2, N)."""
-    wave = x * (1.0 - 2.0 * (np.arange(sites) % 2))
-    return np.stack([wave, -wave]).astype(complex)
-
-
-def theorem_3_margin(constants: Constants, amplitudes: np.ndarray, drive: float) -> float:
-    """Return H minus the lower bound of Theorem 3's proof with `drive` times gamma in it.
-
-    The paper prints one, the right number is two. The quartic terms of both sides are equal, so
-    that the sign does not depend on the size of the data.
-    """
-    density = square_modulus(amplitudes)
-    quartic = np.sum(density**2, axis=1)
-    constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
-    linear = constant * np.sqrt(amplitudes.shape[1]) * np.sum(np.sqrt(quartic))
-    return total_energy(constants, "dirichlet", amplitudes) - (0.25 * quartic.sum() - linear)
+from .equations import (
+    alternating,
+    draw_shape,
+    one_pair,
+    run,
+    squared_norm,
+    total_energies,
+    total_energy,
+)
 
 
 def check_theorem_3_constant(constants: Constants, amplitude: float, longest: int) -> dict:
-    """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails."""
-    sizes = np.arange(1, longest + 1, 2)
-    chains = [alternating(n, amplitude) for n in sizes]
-    printed, corrected = (
-        np.array([theorem_3_margin(constants, chain, drive) for chain in chains])
-        for drive in (1.0, 2.0)
-    )
-    failing = sizes[printed < 0]
+    """Find the smallest chain on which the lower bound printed in Theorem 3's proof fails.
+
+    The paper prints gamma in it, right is 2 gamma. The quartic terms of both sides are equal, so
+    that the sign of their difference does not depend on the size of the data.
+    """
+    sizes, margins = np.arange(1, longest + 1, 2), []
+    for z in (alternating(n, amplitude) for n in sizes):
+        quartic = np.sum(square_modulus(z) ** 2, axis=1)
+        energy, norms = total_energy(constants, "dirichlet", z), np.sum(np.sqrt(quartic))
+        for drive in (1.0, 2.0):
+            constant = abs(constants.omega) + drive * constants.gamma + 4.0 * constants.epsilon
+            linear = constant * np.sqrt(z.shape[1]) * norms
+            margins.append(energy - (0.25 * quartic.sum() - linear))
+    printed, corrected = np.reshape(margins, (-1, 2)).T
+    failing, dims = sizes[printed < 0], ("sites",)
     smallest = failing.min() if len(failing) else 0
     return table(
         "The lower bound in the proof of Theorem 3 on A = -B = x (-1)^n",
         {"sites": sizes},
-        printed=variable(printed, ("sites",), "H minus the bound with gamma, as printed"),
-        corrected=variable(corrected, ("sites",), "H minus the bound with 2 gamma"),
+        printed=variable(printed, dims, "H minus the bound with gamma, as printed"),
+        corrected=variable(corrected, dims, "H minus the bound with 2 gamma"),
         violation=variable(
-            -corrected, ("sites",), "excess of the corrected bound over H", tolerance=1e-12
+            -corrected, dims, "excess of the corrected bound over H", tolerance=1e-12
         ),
         smallest=variable(smallest, (), "smallest chain that breaks the printed bound"),
     )
@@ -68,24 +62,22 @@ def check_theorem_3_constant(constants: Constants, amplitude: float, longest: in
 
 def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
-    amplitudes = np.zeros((2, sites), complex)
-    amplitudes[:, sites // 2] = pair
-    start = power_of(amplitudes)
-    energy = total_energy(constants, "dirichlet", amplitudes)
+    amplitudes = one_pair(sites, pair)
+    start, energy = power_of(amplitudes), total_energy(constants, "dirichlet", amplitudes)
     (delta_0, c_0), gap = theorem_2_constants(constants), theorem_2_gap(constants)
     numbers = {
         "start": start,
-        "depth": -energy,
-        "barrier": gap * gap,
         "delta_0": delta_0,
         "c_0": c_0,
+        "depth": -energy,
+        "barrier": gap * gap,
         "widened_barrier": widened_barrier(constants)[1],
         "widened_delta_0": widened_delta_0(constants),
         "widened_bound": float(widened_bound(energy, start, constants)),
     }
     about = {
         **{name: NUMBERS[name] for name in ("start", "delta_0", "c_0")},
-        "depth": (DEPTH, None),
+        "depth": ("-H, which Theorem 2 takes for positive", None),
         "barrier": ("barrier of -H in (25)", None),
         "widened_barrier": ("barrier of -H with the bonds kept", None),
         "widened_delta_0": ("radius of the widened theorem", None),
@@ -106,7 +98,7 @@ def check_negative_depth(constants: Constants, count: int, seed: int, scale: flo
         np.sqrt(radius * uniform(rng, 1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
         for i in range(count)
     ]
-    states += [np.array([[x], [0.0]], complex) for x in np.sqrt(radius * np.linspace(0.01, 1, 50))]
+    states += [one_pair(1, (x, 0.0)) for x in np.sqrt(radius * np.linspace(0.01, 1, 50))]
     depth = [-total_energy(constants, "dirichlet", z) / power_of(z) for z in states]
     return table(
         "The sign of -H for data as small as Theorem 2 asks",
@@ -132,38 +124,29 @@ def check_bootstrap(
     delta, gap = part * delta_0, theorem_2_gap(constants)
     sizes = np.linspace(0.0, longest, 20001)[1:]
     powers = sizes**2
-    depth = -np.array(
-        [total_energy(constants, "dirichlet", np.array([[x], [0.0]], complex)) for x in sizes]
-    )
+    pairs = np.stack([sizes, 0.0 * sizes], axis=1)[:, :, None].astype(complex)
+    depth = -total_energies(constants, "dirichlet", pairs)
     premises = (depth > 0.0) & (depth <= extent(constants) * delta)
     premises &= depth >= gap * powers - 0.25 * powers**2
     if below_barrier:
         premises &= powers < 2.0 * gap
     breaks = premises & (powers > c_0 * delta)
+    breaking = powers[breaks].min() if breaks.any() else np.inf
     return table(
         "What the printed proof of Theorem 2 concludes without continuity",
         {},
         allowed_power=variable(c_0 * delta, (), "C_0 delta of the small data"),
         largest_power=variable(powers[premises].max(), (), "largest P that the premises allow"),
-        breaking=variable(
-            powers[breaks].min() if breaks.any() else np.inf, (), "least P that breaks (24)"
-        ),
+        breaking=variable(breaking, (), "least P that breaks (24)"),
         barrier_power=variable(2.0 * gap, (), "P at the barrier of (25), 2 a"),
     )
 
 
 def run_small_data(omega: float, half_width: int, end_time: float, solver: Mapping) -> Trajectory:
-    """Run the paper's small data, (A_0, B_0) = (1, 0.1), as the paper's figures have it."""
-    problem = Problem(
-        constants=Constants(epsilon=1.0, gamma=1.0, omega=omega),
-        half_width=half_width,
-        boundary="dirichlet",
-        initial=on_sites({0: (1.0, 0.1)}),
-        end_time=end_time,
-        output_step=0.025,
-        solver=solver,
-    )
-    return simulate(problem)
+    """Run the paper's small data, (A_0, B_0) = (1, 0.1), as the paper's figures have them."""
+    constants = Constants(epsilon=1.0, gamma=1.0, omega=omega)
+    data = one_pair(2 * half_width + 1, (1.0, 0.1))
+    return run(constants, "dirichlet", data, end_time, round(40 * end_time), solver)
 
 
 def check_energy_drift(solver: Mapping, end_time: float, omegas) -> dict:
@@ -183,8 +166,7 @@ def check_opposite(constants: Constants, sites: int, end_time: float, seed: int)
 
     The paper mentions A = B alone, where the drive is silent.
     """
-    rng = np.random.default_rng(seed)
-    a = complex_normal(rng, sites)
+    a = complex_normal(np.random.default_rng(seed), sites)
     final = run(constants, "dirichlet", np.stack([a, -a]), end_time).final
     return table(
         "The second invariant reduction, A = -B",
@@ -193,9 +175,7 @@ def check_opposite(constants: Constants, sites: int, end_time: float, seed: int)
     )
 
 
-def check_not_shown(
-    half_widths, window: tuple[float, float], omega: float, solver: Mapping
-) -> dict:
+def check_not_shown(half_widths, window, omega: float, solver: Mapping) -> dict:
     """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
     peaks = []
     for half_width in half_widths:

@@ -16,29 +16,27 @@ from pendula.numerics.draws import uniform
 from pendula.numerics.elementary import product, square_modulus
 from pendula.problem import Constants
 
-from .equations import BOUNDARIES, draw_shape, misstated, random_amplitudes, total_energy
-from .errata import alternating
+from .equations import (
+    BOUNDARIES,
+    alternating,
+    draw_shape,
+    misstated,
+    random_amplitudes,
+    total_energy,
+)
 
-ON_SEQUENCES = ["(17)", "(18)", "(22)", "(27)"]
-ON_ENERGY = ["(21)", "(25)", "(25) widened", "Theorem 3", "size"]
 LONGEST = 13
 """The longest chain that is drawn."""
 
 
-def norm(a: np.ndarray) -> float:
-    """Return the l2 norm of a sequence."""
-    return float(np.sqrt(np.sum(square_modulus(a))))
-
-
-def norm_of_fourth_powers(a: np.ndarray) -> float:
-    """Return the l4 norm of a sequence."""
-    return float(np.sqrt(np.sqrt(np.sum(square_modulus(a) ** 2))))
-
-
 def sequence_ratios(a: np.ndarray, b: np.ndarray) -> list[float]:
     """Return left over right side of (17), (18), (22) and (27), each at most one."""
-    padded = np.concatenate([[0.0], a, [0.0]])
-    bonds, four = np.sum(square_modulus(np.diff(padded))), norm_of_fourth_powers(a)
+
+    def norm(sequence: np.ndarray) -> float:
+        return float(np.sqrt(np.sum(square_modulus(sequence))))
+
+    bonds = np.sum(square_modulus(np.diff(np.pad(a, 1))))
+    four = float(np.sqrt(np.sqrt(np.sum(square_modulus(a) ** 2))))  # the l4 norm
     return [
         bonds / (4.0 * norm(a) * norm(a)),
         norm(product(a, b)) / (norm(a) * norm(b)),
@@ -58,7 +56,7 @@ def draw_range(rng: np.random.Generator) -> tuple[Constants, Constants]:
 def energy_excess(
     high: Constants, low: Constants, amplitudes: np.ndarray, boundary: str, gamma_times: float
 ) -> list[float]:
-    """Return (lower bound - energy) / P of each bound in ON_ENERGY; none is above zero.
+    """Return (lower bound - energy) / P of each bound on the energy; none is above zero.
 
     (25) and its widened form are on -H. The size of H is bounded by c P + P^2 / 4. A statement
     may have another gamma.
@@ -78,12 +76,6 @@ def energy_excess(
     return [one / power for one in found]
 
 
-def edge_waves(sites: int, size: float) -> list[np.ndarray]:
-    """Return the small A = -B that come nearest to (21) and to (25), and -H to its largest size."""
-    wave = alternating(sites, size)[0]
-    return [np.stack([one, -one]) for one in (wave, np.full(sites, 1j * size), 1j * wave)]
-
-
 def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: float = 1.0) -> dict:
     """Test every inequality on random states, and on those that make it sharp.
 
@@ -97,18 +89,23 @@ def check_inequalities(count: int, seed: int, gamma_times: float = 1.0, scale: f
         other = random_amplitudes(rng, sites, 1.0)
         boundary, (high, low) = BOUNDARIES[sample % 3], draw_range(rng)
         ratios.append(sequence_ratios(amplitudes[0], other[0]))
-        for state in (amplitudes, *edge_waves(sites, 1e-3)):
+        # the small A = -B that come nearest to (21) and to (25), and -H to its largest size
+        wave = alternating(sites, 1e-3)[0]
+        edges = [np.stack([a, -a]) for a in (wave, np.full(sites, 1e-3j), 1j * wave)]
+        for state in (amplitudes, *edges):
             excess.append(energy_excess(high, low, state, boundary, gamma_times))
     wave, one, flat = alternating(1001, 1.0)[0], np.eye(1, 5)[0], np.ones(7)
     sharp = np.diag([sequence_ratios(a, a) for a in (wave, one, one, flat)])
+    largest = np.maximum(np.max(ratios, axis=0), sharp) / scale
+    coords = {
+        "inequality": ["(17)", "(18)", "(22)", "(27)"],
+        "bound": ["(21)", "(25)", "(25) widened", "Theorem 3", "size"],
+    }
     return table(
         "The inequalities behind the theorems",
-        {"inequality": ON_SEQUENCES, "bound": ON_ENERGY},
+        coords,
         left_over_right=variable(
-            np.maximum(np.max(ratios, axis=0), sharp) / scale,
-            ("inequality",),
-            "largest left over right side",
-            tolerance=1 + 1e-12,
+            largest, ("inequality",), "largest left over right side", tolerance=1.0 + 1e-12
         ),
         sharp=variable(sharp, ("inequality",), "the same for the sharpest sequence"),
         bound_excess=variable(

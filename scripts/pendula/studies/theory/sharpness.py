@@ -22,8 +22,14 @@ from pendula.numerics.draws import uniform
 from pendula.numerics.elementary import log
 from pendula.problem import Constants
 
-from .equations import run, squared_norm, total_energy
-from .errata import alternating
+from .equations import (
+    alternating,
+    one_pair,
+    run,
+    squared_norm,
+    total_energies,
+    total_energy,
+)
 from .worst_data import OMEGAS
 
 FORMS = ("theorem_1", "theorem_2", "theorem_2_ball", "theorem_3")
@@ -73,10 +79,9 @@ def reached(form: str, constants: Constants, sites: int) -> float:
 def limit_constant(constants: Constants) -> float:
     """Return C_0 of Theorem 2 as the inequality before its end gives it where delta goes to zero.
 
-    Outside the range of parameters of the theorem it is infinite.
-
     The paper gives no number: C delta / (|Omega| - 2 gamma - C_0 delta / 4) <= C_0 delta, where
-    |H| <= C delta. A larger delta_0 takes a larger C_0, twice this one in `models.bounds`.
+    |H| <= C delta. A larger delta_0 takes a larger C_0, twice this one in `models.bounds`. Outside
+    the range of parameters of the theorem it is infinite.
     """
     gap = theorem_2_gap(constants)
     return extent(constants) / gap if gap > 0.0 else np.inf
@@ -98,25 +103,14 @@ def check_sharpness(epsilon: float, gamma: float, sizes, scale: float = 1.0) -> 
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[form[:9]])
         ratios.append([reached(form, constants, int(n)) / scale for n in sizes])
     negative = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS["theorem_2"])
+    limit, least = limit_constant(negative), least_constant(negative)
     return table(
         "What part of the bounds of Theorems 1 to 3 is reached on longer and longer chains",
         {"form": FORMS, "sites": sizes},
         reached=variable(ratios, ("form", "sites"), "largest P over its bound of the best data"),
-        limit_constant=variable(
-            limit_constant(negative), (), "C_0 of the proof of Theorem 2 for tiny data"
-        ),
-        least_constant=variable(
-            least_constant(negative), (), "least C_0 that tiny data on an infinite chain allow"
-        ),
+        limit_constant=variable(limit, (), "C_0 of the proof of Theorem 2 for tiny data"),
+        least_constant=variable(least, (), "least C_0 that tiny data on an infinite chain allow"),
     )
-
-
-def late_power(constants: Constants, data: np.ndarray, end_time: float) -> float:
-    """Return the mean of P over the second half of a run."""
-    outputs = 4 * round(end_time)
-    solver = {"name": "taylor", "rtol": 1e-9, "atol": 1e-12}
-    power = squared_norm(run(constants, "dirichlet", data, end_time, outputs, solver).l2)
-    return float(power[outputs // 2 :].mean())
 
 
 def check_chain_growth(
@@ -129,14 +123,15 @@ def check_chain_growth(
     """
     rng, sizes = np.random.default_rng(seed), np.asarray(sizes)
     late, bounds = np.empty((members, len(sizes))), np.empty(len(sizes))
+    outputs, solver = 4 * round(end_time), {"name": "taylor", "rtol": 1e-9, "atol": 1e-12}
     for i, n in enumerate(map(int, sizes)):
-        data = np.zeros((2, n), complex)
-        data[:, n // 2] = pair
+        data = one_pair(n, pair)
         bounds[i] = theorem_3_bound(total_energy(constants, "dirichlet", data), n, constants)
         for member in range(members):
             off = uniform(rng, -1.0, 1.0, (2, 2, n))
             other = data + 1e-6 * (off[0] + 1j * off[1])
-            late[member, i] = late_power(constants, other, end_time)
+            power = squared_norm(run(constants, "dirichlet", other, end_time, outputs, solver).l2)
+            late[member, i] = power[outputs // 2 :].mean()
     x = log(sizes)
     mean, least, most = mean_limits([lay_line(x, log(powers)).slope for powers in late])
     return table(
@@ -156,13 +151,12 @@ def shell_state(constants: Constants, sites: int, energy: float) -> np.ndarray |
 
     The energy falls from zero where it can and grows with x^4 in the end.
     """
-    low, high = 0.0, 1e3
     unit = alternating(sites, 1.0)
     sizes = np.sqrt(2.0 * extent(constants)) * np.linspace(0.0, 1.0, 101)
-    energies = [total_energy(constants, "dirichlet", x * unit) for x in sizes]
+    energies = total_energies(constants, "dirichlet", sizes[:, None, None] * unit)
     if min(energies) > energy:
         return None
-    low = sizes[int(np.argmin(energies))]
+    low, high = sizes[int(np.argmin(energies))], 1e3
     for _ in range(60):
         middle = 0.5 * (low + high)
         below = total_energy(constants, "dirichlet", middle * unit) < energy
@@ -177,21 +171,19 @@ def check_energy_shell(constants: Constants, sizes, pair) -> dict:
     """
     powers, sizes = [], np.asarray(sizes)
     for n in map(int, sizes):
-        data = np.zeros((2, n), complex)
-        data[:, n // 2] = pair
-        energy = total_energy(constants, "dirichlet", data)
-        found = shell_state(constants, n, energy)
+        data = one_pair(n, pair)
+        found = shell_state(constants, n, total_energy(constants, "dirichlet", data))
         powers.append(power_of(data if found is None else found))
-    tiny = [alternating(int(sizes[-1]), SIZE), np.full((2, int(sizes[-1])), SIZE * 1j)]
-    tiny[1][1] *= -1.0
+    longest = int(sizes[-1])
+    flat = SIZE * np.ones(longest)
+    tiny = alternating(longest, SIZE), np.stack([1j * flat, -1j * flat])
     quotients = [total_energy(constants, "dirichlet", z) / power_of(z) for z in tiny]
+    exponent = lay_line(log(sizes), log(powers)).slope
     return table(
         "The largest norm of data that have the energy of one pair",
         {"sites": sizes},
         shell_power=variable(powers, ("sites",), "P of such data"),
-        shell_exponent=variable(
-            lay_line(log(sizes), log(powers)).slope, (), "exponent of that P in N"
-        ),
+        shell_exponent=variable(exponent, (), "exponent of that P in N"),
         least_quotient=variable(min(quotients), (), "least H / P of tiny data"),
         largest_quotient=variable(max(quotients), (), "largest H / P of tiny data"),
     )

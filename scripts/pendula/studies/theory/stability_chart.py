@@ -42,38 +42,16 @@ ABOUT = {
 }
 
 
-def tiny_tolerances(rtol: float = 1e-9) -> dict:
-    """Return tolerances for tiny data: the absolute tolerance lies below these data."""
-    return {"rtol": rtol, "atol": rtol * TINY}
-
-
 def log_slope(start: float, end: float, span: float) -> float:
     """Return the growth rate of a norm from its squares at two times, `span` apart."""
     return 0.5 * float(log(end / start)) / span
 
 
-def flow_slopes(
-    amplitudes: np.ndarray,
-    epsilon: float,
-    gamma: float,
-    omegas: np.ndarray,
-    boundary: str,
-    end_time: float,
-) -> list[float]:
-    """Return what the exact linear flow gives for the growth rates over the second half."""
-    half, whole = (
-        flow(amplitudes, tau, epsilon, gamma, omegas, boundary)
-        for tau in (0.5 * end_time, end_time)
-    )
-    ends = zip(map(power_of, half), map(power_of, whole), strict=True)
-    return [log_slope(*pair, 0.5 * end_time) for pair in ends]
-
-
 def measured_slopes(cells, boundary: str, data: np.ndarray, end_time: float) -> np.ndarray:
     """Return the growth rates of TINY * data over the second half of nonlinear runs, by cell."""
-    count = len(cells)
+    count, tolerances = len(cells), {"rtol": 1e-9, "atol": 1e-9 * TINY}
     starts = [TINY * data] * count
-    powers, _ = run_powers(cells, [boundary] * count, starts, end_time, 2, tiny_tolerances())
+    powers, _ = run_powers(cells, [boundary] * count, starts, end_time, 2, tolerances)
     return np.array([log_slope(p[1], p[2], 0.5 * end_time) for p in powers])
 
 
@@ -100,14 +78,17 @@ def check_chart(
     data = random_amplitudes(np.random.default_rng(seed), sites, 1.0)
     # until a mode can outgrow another, at 2 |gamma|, by e^foldings
     times = np.minimum(end_time, foldings / np.maximum(2.0 * np.abs(gammas), 1e-300))
-    measured, exact = [], []
-    for gamma, end in zip(gammas, times, strict=True):
+    measured, exact = np.empty((2, len(omegas), len(gammas)))
+    for j, (gamma, end) in enumerate(zip(gammas, times, strict=True)):
         cells = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
-        measured.append(measured_slopes(cells, boundary, data, end))
-        exact.append(flow_slopes(data, epsilon, gamma, omegas, boundary, end))
-    measured, exact = np.array(measured).T, np.array(exact).T
-    stated = omegas + omega_off
-    grid, chain = (stated[:, None], gammas[None, :]), (epsilon, sites, boundary)
+        measured[:, j] = measured_slopes(cells, boundary, data, end)
+        half, whole = (
+            flow(data, tau, epsilon, gamma, omegas, boundary) for tau in (0.5 * end, end)
+        )
+        ends = zip(map(power_of, half), map(power_of, whole), strict=True)
+        exact[:, j] = [log_slope(*pair, 0.5 * end) for pair in ends]
+    stated, chain = omegas + omega_off, (epsilon, sites, boundary)
+    grid = stated[:, None], gammas[None, :]
     finite = finite_rate(*grid, *chain)
     fine = np.linspace(omegas[0], omegas[-1], CURVE_POINTS)
     rates = {
@@ -159,26 +140,18 @@ def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:
         share = np.sum(windows[:, 1] - windows[:, 0]) / (4.0 * epsilon)
         rows.append({"count": len(windows), "share": share})
     largest = [widest_gamma(epsilon, 2 * m + 1, boundary) for m in half_widths]
-    return tabulate(
-        "Windows of stability of finite chains inside [0, 4 epsilon]",
-        {"half_width": half_widths, "gamma": gammas},
-        rows,
-        {
-            "count": ("number of windows of stability", None),
-            "share": ("share of [0, 4 epsilon] that is stable", None),
-        },
-        largest_gamma=variable(largest, ("half_width",), "drive at which the last window closes"),
-    )
+    about = {
+        "count": ("number of windows of stability", None),
+        "share": ("share of [0, 4 epsilon] that is stable", None),
+    }
+    title = "Windows of stability of finite chains inside [0, 4 epsilon]"
+    closing = variable(largest, ("half_width",), "drive at which the last window closes")
+    coords = {"half_width": half_widths, "gamma": gammas}
+    return tabulate(title, coords, rows, about, largest_gamma=closing)
 
 
 def check_measured_windows(
-    gamma: float,
-    epsilon: float,
-    sites: int,
-    boundary: str,
-    end_time: float,
-    seed: int,
-    omega_off: float = 0.0,
+    gamma: float, epsilon: float, sites: int, boundary: str, end_time: float, seed, omega_off=0.0
 ) -> dict:
     """Run tiny data in the middle of each window of stability in [0, 4 epsilon] and between them.
 

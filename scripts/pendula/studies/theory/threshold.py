@@ -22,12 +22,6 @@ DIGITS = 9
 START = 1e-130
 """Size of the wave: so small that the cubic terms are exactly zero in doubles."""
 
-ABOUT = {
-    "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
-    "threshold": ("threshold of the finite chain", None),
-    "finite_gap": ("threshold of the finite chain minus gamma_0", None),
-}
-
 
 def threshold_run(epsilon: float, omega: float, sites: int, times, gamma_times: float):
     """Return gamma and |Im D| / (4 gamma tau |D_0|) of a mode run at exactly its own threshold.
@@ -77,28 +71,13 @@ def spreading_norms(epsilon: float, omega: float, decays, times, sites: int, gam
         grown = 1.0 + 4.0 * gamma * tau
         for norm, data, decay in zip(norms, starts, decays, strict=True):
             p, q = (np.fft.irfft(part * data, sites) for part in along)
-            square = p * p + q * q
-            total = np.sum(square) + (1.0 + grown * grown) * beyond_the_ring(sites, decay)
+            square, outside = p * p + q * q, 0.0
+            if np.isfinite(decay):  # the sum of (1 + |n|)^(-2 decay) over all sites beyond the ring
+                slow = 2.0 * decay - 1.0
+                outside = 2.0 * power(0.5 * sites, -slow) / slow
+            total = np.sum(square) + (1.0 + grown * grown) * outside
             norm[:, i] = np.sqrt(total), np.sqrt(square.max())
     return norms
-
-
-def beyond_the_ring(sites: int, decay: float) -> float:
-    """Return the sum of (1 + |n|)^(-2 decay) over all sites beyond the ring, as an integral."""
-    if not np.isfinite(decay):
-        return 0.0
-    return 2.0 * power(0.5 * sites, 1.0 - 2.0 * decay) / (2.0 * decay - 1.0)
-
-
-def law(decays: np.ndarray) -> np.ndarray:
-    """Return the exponents of tau in l2 and in l-infinity for data that decay so, (decay, norm)."""
-    slow = np.maximum(0.0, 1.0 - np.asarray(decays))
-    return np.stack([0.5 + slow, slow], axis=-1)
-
-
-def log2(x: np.ndarray) -> np.ndarray:
-    """Return the logarithm to base two."""
-    return log(x) / log(2.0)
 
 
 def exponents(norms: np.ndarray, times: np.ndarray, decays: np.ndarray) -> np.ndarray:
@@ -108,22 +87,15 @@ def exponents(norms: np.ndarray, times: np.ndarray, decays: np.ndarray) -> np.nd
     increments over two doublings are free of the constant. Of fast ones the slope of the last
     doubling is taken: their increments go to zero.
     """
-    found, slow = log2(norms[..., -1] / norms[..., -2]), np.asarray(decays) < 1.0
+    found, slow = log(norms[..., -1] / norms[..., -2]) / log(2.0), np.asarray(decays) < 1.0
     free = norms[slow] / np.stack([np.sqrt(times), np.ones_like(times)])
     steps = np.diff(free[..., -3:])
-    found[slow] = log2(steps[..., 1] / steps[..., 0]) + np.array([0.5, 0.0])
+    found[slow] = log(steps[..., 1] / steps[..., 0]) / log(2.0) + np.array([0.5, 0.0])
     return found
 
 
 def check_threshold(
-    epsilon: float,
-    sites: int,
-    omegas,
-    times,
-    decays,
-    long_times,
-    ring_sites: int,
-    gamma_times: float = 1.0,
+    epsilon: float, sites: int, omegas, times, decays, long_times, ring_sites: int, gamma_times=1.0
 ) -> dict:
     """Test the polynomial growth at |gamma| = gamma_0 that Lemma 1 ends with.
 
@@ -134,35 +106,34 @@ def check_threshold(
     decays = np.array([*decays, np.inf])
     found = [threshold_run(epsilon, omega, sites, times, gamma_times) for omega in omegas]
     gammas, ratios = map(np.array, zip(*found, strict=True))
-    spread = (long_times, ring_sites, gamma_times)
-    norms = np.array([spreading_norms(epsilon, omega, decays, *spread) for omega in omegas])
+    ring = (decays, long_times, ring_sites, gamma_times)
+    norms = np.array([spreading_norms(epsilon, omega, *ring) for omega in omegas])
     norms = rounded(norms, DIGITS)
     measured = np.array([exponents(own, long_times, decays) for own in norms])
+    slow = np.maximum(0.0, 1.0 - decays)
+    law = np.stack([0.5 + slow, slow], axis=-1)
     numbers = {
         "wave_error": np.abs(ratios - 1.0).max(axis=1),
         "threshold": gammas,
         "finite_gap": gammas - gamma_0(np.asarray(omegas, float), epsilon),
     }
-    dims = ("omega", "decay", "norm")
+    about = {
+        "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
+        "threshold": ("threshold of the finite chain", None),
+        "finite_gap": ("threshold of the finite chain minus gamma_0", None),
+    }
+    grown, dims = 4.0 * gammas[:, None] * times * ratios, ("omega", "decay", "norm")
+    wave = "growth of the threshold mode, |Im D| / |D(0)|"
+    spread = "norm of D at gamma_0 on the infinite chain from (1 + i) (1 + |n|)^-decay"
+    error, apart = np.abs(measured - law), "difference of the two exponents"
     coords = {"omega": omegas, "tau": times, "decay": decays}
     return table(
         "Growth exactly at the threshold of Lemma 1",
         {**coords, "norm": ["l2", "linf"], "long_tau": long_times},
-        **columns(("omega",), ABOUT, numbers),
-        grown=variable(
-            4.0 * gammas[:, None] * times * ratios,
-            ("omega", "tau"),
-            "growth of the threshold mode, |Im D| / |D(0)|",
-        ),
-        spreading=variable(
-            norms,
-            (*dims, "long_tau"),
-            "norm of D at gamma_0 on the infinite chain from (1 + i) (1 + |n|)^-decay",
-            digits=DIGITS,
-        ),
+        **columns(("omega",), about, numbers),
+        grown=variable(grown, ("omega", "tau"), wave),
+        spreading=variable(norms, (*dims, "long_tau"), spread, digits=DIGITS),
         spreading_exponent=variable(measured, dims, "exponent of tau in that norm"),
-        spreading_law=variable(law(decays), dims[1:], "exponent that the wave equation gives"),
-        spreading_error=variable(
-            np.abs(measured - law(decays)), dims, "difference of the two exponents", tolerance=0.02
-        ),
+        spreading_law=variable(law, dims[1:], "exponent that the wave equation gives"),
+        spreading_error=variable(error, dims, apart, tolerance=0.02),
     )

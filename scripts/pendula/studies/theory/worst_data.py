@@ -15,7 +15,7 @@ larger states have H > 0.
 
 import numpy as np
 
-from pendula.datasets.checks import table, variable
+from pendula.datasets.checks import columns, table, variable
 from pendula.measures.norms import power_of
 from pendula.models.bounds import (
     extent,
@@ -33,45 +33,33 @@ from pendula.numerics.elementary import complex_of, exp, square_modulus
 from pendula.numerics.search import maximise_all
 from pendula.problem import Constants
 
-from .equations import BOUNDARIES, draw_shape, misstated, run_powers, total_energies, total_energy
+from .equations import (
+    BOUNDARIES,
+    alternating,
+    draw_shape,
+    misstated,
+    run_powers,
+    total_energies,
+    total_energy,
+)
 
-FAMILIES = ("theorem_1", "theorem_2_ball", "theorem_2_energy", "theorem_2_widened", "theorem_3")
-
-
-def draw_constants(rng: np.random.Generator, family: str) -> Constants:
-    """Return constants inside the range of parameters of a family."""
-    epsilon, gamma = uniform(rng, 0.2, 2.0), uniform(rng, 0.0, 2.0)
-    if family == "theorem_1":
-        omega = 2.0 * gamma + 4.0 * epsilon + exponential(rng)
-    elif family == "theorem_3":
-        omega = uniform(rng, -6.0, 10.0)
-    else:
-        omega = -2.0 * gamma - uniform(rng, 0.1, 4.0)
-    return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-
-
-def largest_power(family: str, constants: Constants) -> float:
-    """Return the largest P(0) to draw for a family."""
-    if family == "theorem_2_ball":
-        return 0.999 * theorem_2_constants(constants)[0]
-    if family == "theorem_2_energy":
-        return 2.0 * theorem_2_gap(constants)
-    if family == "theorem_2_widened":
-        return widened_barrier(constants)[0]
-    return 60.0
-
-
-def bound(family: str, energy, start, sites: int, constants: Constants):
-    """Return the bound on P that a family's theorem gives data with this H and P(0), as arrays."""
-    if family == "theorem_1":
-        return theorem_1_bound(energy, constants)
-    if family == "theorem_2_ball":
-        return theorem_2_constants(constants)[1] * np.asarray(start)
-    if family == "theorem_2_energy":
-        return theorem_2_bound(energy, start, constants)
-    if family == "theorem_2_widened":
-        return widened_bound(energy, start, constants)
-    return theorem_3_bound(energy, sites, constants)
+BOUNDS = {
+    "theorem_1": lambda energy, start, sites, k: theorem_1_bound(energy, k),
+    "theorem_2_ball": lambda energy, start, sites, k: theorem_2_constants(k)[1] * np.asarray(start),
+    "theorem_2_energy": lambda energy, start, sites, k: theorem_2_bound(energy, start, k),
+    "theorem_2_widened": lambda energy, start, sites, k: widened_bound(energy, start, k),
+    "theorem_3": lambda energy, start, sites, k: theorem_3_bound(energy, sites, k),
+}
+"""What each family's theorem gives for a bound on P of data with this H and P(0), as arrays."""
+FAMILIES = tuple(BOUNDS)
+LARGEST = {
+    "theorem_1": lambda k: 60.0,
+    "theorem_2_ball": lambda k: 0.999 * theorem_2_constants(k)[0],
+    "theorem_2_energy": lambda k: 2.0 * theorem_2_gap(k),
+    "theorem_2_widened": lambda k: widened_barrier(k)[0],
+    "theorem_3": lambda k: 60.0,
+}
+"""The largest P(0) to draw for each family."""
 
 
 def draw_case(rng: np.random.Generator, family: str, sites: int, gamma_times: float):
@@ -80,14 +68,21 @@ def draw_case(rng: np.random.Generator, family: str, sites: int, gamma_times: fl
     The bound is that of a statement whose gamma is `gamma_times` the right one.
     """
     while True:
-        constants = draw_constants(rng, family)
+        epsilon, gamma = uniform(rng, 0.2, 2.0), uniform(rng, 0.0, 2.0)
+        if family == "theorem_1":
+            omega = 2.0 * gamma + 4.0 * epsilon + exponential(rng)
+        elif family == "theorem_3":
+            omega = uniform(rng, -6.0, 10.0)
+        else:
+            omega = -2.0 * gamma - uniform(rng, 0.1, 4.0)
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         boundary = "dirichlet" if family == "theorem_2_widened" else str(rng.choice(BOUNDARIES))
         part = uniform(rng, 1e-3, 1.0)
-        power = largest_power(family, constants) * part * part
+        power = LARGEST[family](constants) * part * part
         amplitudes = np.sqrt(power) * draw_shape(rng, sites)
         energy = total_energy(constants, boundary, amplitudes)
         stated = misstated(constants, gamma_times=gamma_times)
-        limit = float(bound(family, energy, power, sites, stated))
+        limit = float(BOUNDS[family](energy, power, sites, stated))
         if np.isfinite(limit):
             return constants, boundary, amplitudes, limit
 
@@ -97,8 +92,7 @@ def check_samples(count: int, end_time: float, sizes, seed: int, gamma_times: fl
 
     The parameters are drawn too, and ends of all kinds.
     """
-    ratio = np.zeros((len(FAMILIES), len(sizes), count))
-    outputs = round(10 * end_time)
+    ratio, outputs = np.zeros((len(FAMILIES), len(sizes), count)), round(10 * end_time)
     for i, family in enumerate(FAMILIES):
         for j, sites in enumerate(sizes):
             rng = np.random.default_rng([seed, i, j])
@@ -106,12 +100,11 @@ def check_samples(count: int, end_time: float, sizes, seed: int, gamma_times: fl
             constants, boundaries, amplitudes, limits = zip(*drawn, strict=True)
             powers, _ = run_powers(constants, boundaries, amplitudes, end_time, outputs)
             ratio[i, j] = powers.max(axis=1) / limits
+    coords = {"family": FAMILIES, "sites": sizes, "sample": np.arange(count)}
     return table(
         "Largest P over its bound for random data inside the proven regions",
-        {"family": FAMILIES, "sites": sizes, "sample": np.arange(count)},
-        sampled=variable(
-            ratio, ("family", "sites", "sample"), "largest P over its bound", tolerance=1 + 1e-7
-        ),
+        coords,
+        sampled=variable(ratio, coords, "largest P over its bound", tolerance=LIMIT),
         worst_sample=variable(ratio.max(axis=(1, 2)), ("family",), "the worst of each family"),
     )
 
@@ -124,9 +117,10 @@ QUESTIONS = [
     if (family, boundary) != ("theorem_2_widened", "periodic")  # it needs ends at rest
 ]
 
-
 RUN = ("theorem_2_ball",)
 """Families whose bound is a multiple of P(0)."""
+LIMIT = 1.0 + 1e-7
+"""The largest P over its bound that solvers and rounding can lead to."""
 SAME_HILL = 1e-6
 """Searches whose values differ by less end at the same data, or at their images by a symmetry."""
 
@@ -143,7 +137,7 @@ def decode(points: np.ndarray, family: str, constants: Constants) -> np.ndarray:
     The last number sets P, squeezed into the range of the search.
     """
     raw = points[:, :-1].reshape(len(points), 4, -1)
-    shapes, limit = complex_of(raw[:, 0::2], raw[:, 1::2]), largest_power(family, constants)
+    shapes, limit = complex_of(raw[:, 0::2], raw[:, 1::2]), LARGEST[family](constants)
     if family == "theorem_3":
         limit = 8.0 * raw.shape[2] * extent(constants)
     powers = limit / (1.0 + exp(-np.minimum(np.maximum(points[:, -1], -20.0), 20.0)))
@@ -155,7 +149,7 @@ def ratios(
     constants: Constants,
     stated: Constants,
     boundary: str,
-    end_time: float,
+    end_time,
     points: np.ndarray,
 ) -> np.ndarray:
     """Return P over its bound for each point, its largest P where a run is needed to know.
@@ -168,7 +162,7 @@ def ratios(
     else:
         powers = np.sum(square_modulus(amplitudes), axis=(1, 2))[:, None]
         energies = total_energies(constants, boundary, amplitudes)
-    limits = bound(family, energies, powers[:, 0], amplitudes.shape[2], stated)
+    limits = BOUNDS[family](energies, powers[:, 0], amplitudes.shape[2], stated)
     inside = np.isfinite(limits)
     # outside, the energy leads back to where it lies below the barrier
     return np.where(inside, powers.max(axis=1) / np.where(inside, limits, 1.0), -np.abs(energies))
@@ -176,8 +170,7 @@ def ratios(
 
 def follow(constants: Constants, boundary: str, amplitudes, end_time: float):
     """Return P (run, time) of runs from each of `amplitudes` and their energies (run,)."""
-    count = len(amplitudes)
-    outputs = round(10 * end_time)
+    count, outputs = len(amplitudes), round(10 * end_time)
     return run_powers([constants] * count, [boundary] * count, amplitudes, end_time, outputs)
 
 
@@ -216,11 +209,11 @@ def check_worst(
     Each question has as many searches as `starts`, as a search may end on a lower hill; where every
     candidate is run one is enough, since those find one hill.
     """
-    questions = [
-        (family, constants, misstated(constants, gamma_times=gamma_times), boundary)
-        for family, boundary in QUESTIONS
-        for constants in (Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[family[:9]]),)
-    ]
+    questions = []
+    for family, boundary in QUESTIONS:
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS[family[:9]])
+        stated = misstated(constants, gamma_times=gamma_times)
+        questions.append((family, constants, stated, boundary))
     counts = [1 if family in RUN else starts for family, _ in QUESTIONS]
     keys = [[seed, number, i] for number, count in enumerate(counts) for i in range(count)]
     firsts = np.array([first_point(sites, key) for key in keys])
@@ -233,48 +226,46 @@ def check_worst(
         return np.concatenate(values).reshape(len(points), -1)
 
     searched = maximise_all(objective, firsts, 0.5, generations, population, keys)
-    found, followed, history, alike, known = [], [], [], [], []
+    rows, history = [], []
     parts = (np.split(part, ends) for part in searched)
     for question, points, values, rises in zip(questions, *parts, strict=True):
         family, constants, stated, boundary = question
-        found.append(values.max())
-        alike.append(np.mean(values > values.max() - SAME_HILL))
-        history.append(rises.max(axis=0))
         data = decode(points[[np.argmax(values)]], family, constants)
         powers, energies = follow(constants, boundary, data, end_time)
-        limit = float(bound(family, energies[0], powers[0, 0], sites, stated))
-        followed.append(powers.max() / limit)
-        known.append(supremum(family, constants, sites, boundary))
-    dims, rise = ("question",), np.array(history)
-    families, boundaries = zip(*QUESTIONS, strict=True)
+        limit = float(BOUNDS[family](energies[0], powers[0, 0], sites, stated))
+        history.append(rises.max(axis=0))
+        row = {
+            "searched_family": family,
+            "boundary": boundary,
+            "worst": values.max(),
+            "followed": powers.max() / limit,
+            "agreeing": np.mean(values > values.max() - SAME_HILL),
+            "last_rise": history[-1][-1] - history[-1][3 * generations // 4],
+            "small_data": supremum(family, constants, sites, boundary),
+        }
+        rows.append(row)
+    about = {
+        "searched_family": ("family of the bound", None),
+        "boundary": ("ends of the chain", None),
+        "worst": ("largest P over its bound found", LIMIT),
+        "followed": ("the same along a run from those data", LIMIT),
+        "agreeing": ("share of the searches that end there", None),
+        "last_rise": ("rise over the last quarter of the generations", SAME_HILL),
+        "small_data": ("its value for tiny data in the nearest mode", None),
+    }
+    numbers = {name: np.array([row[name] for row in rows]) for name in about}
+    coords = {
+        "question": [f"{family}, {boundary}" for family, boundary in QUESTIONS],
+        "generation": np.arange(1, generations + 1),
+    }
+    attained = attained_theorem_3(epsilon, gamma, gamma_times)
     return table(
         f"The worst data found on {sites} sites for the bounds of Theorems 1 to 3",
-        {
-            "question": [f"{family}, {boundary}" for family, boundary in QUESTIONS],
-            "generation": np.arange(1, generations + 1),
-        },
+        coords,
         sites=variable(sites, (), "number of sites N"),
-        searched_family=variable(families, dims, "family of the bound"),
-        boundary=variable(boundaries, dims, "ends of the chain"),
-        worst=variable(found, dims, "largest P over its bound found", tolerance=1.0 + 1e-7),
-        followed=variable(
-            followed, dims, "the same along a run from those data", tolerance=1.0 + 1e-7
-        ),
-        agreeing=variable(alike, dims, "share of the searches that end there"),
-        last_rise=variable(
-            rise[:, -1] - rise[:, 3 * generations // 4],
-            dims,
-            "rise over the last quarter of the generations",
-            tolerance=SAME_HILL,
-        ),
-        small_data=variable(known, dims, "its value for tiny data in the nearest mode"),
-        progress=variable(rise, ("question", "generation"), "best after each generation"),
-        attained=variable(
-            attained_theorem_3(epsilon, gamma, gamma_times),
-            (),
-            "P over C_N on a ring of two",
-            tolerance=1.0 + 1e-7,
-        ),
+        **columns(("question",), about, numbers),
+        progress=variable(np.array(history), coords, "best after each generation"),
+        attained=variable(attained, (), "P over C_N on a ring of two", tolerance=LIMIT),
     )
 
 
@@ -285,11 +276,10 @@ def attained_theorem_3(epsilon: float, gamma: float, gamma_times: float = 1.0) -
     P^2 / (8 N) - c P = H.
     """
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS["theorem_3"])
-    x = np.sqrt(2.0 * extent(constants)) * np.array([1.0, -1.0])
-    amplitudes = np.stack([x, -x]).astype(complex)
+    amplitudes = alternating(2, np.sqrt(2.0 * extent(constants)))
     energy = ring_energy(constants, amplitudes)
     stated = misstated(constants, gamma_times=gamma_times)
-    return float(power_of(amplitudes) / bound("theorem_3", energy, 0.0, 2, stated))
+    return float(power_of(amplitudes) / theorem_3_bound(energy, 2, stated))
 
 
 def ring_energy(constants: Constants, amplitudes: np.ndarray) -> float:
