@@ -36,15 +36,18 @@ SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, of all sp
 ACTS = Cutoff(0.5, "growth is nearer to 2 gamma, that of the resonance, than to none")
 
 
+def wrong(name: str, check: str = "") -> dict[str, str]:
+    """Return what feeds a check the wrong statement `check`, or the one of its own name."""
+    return {name: f"checks/wrong/{check or name}"}
+
+
 @claim(
     "Section 2, (7) and (8)",
     "The equations are the Hamiltonian system of the energy H, which is conserved.",
     checks("gradient", "conservation"),
     controls=(
-        Control("the energy of another Omega: its gradient", {"gradient": "checks/wrong/gradient"}),
-        Control(
-            "the energy of another Omega: its drift", {"conservation": "checks/wrong/conservation"}
-        ),
+        Control("the energy of another Omega: its gradient", wrong("gradient")),
+        Control("the energy of another Omega: its drift", wrong("conservation")),
     ),
 )
 def hamiltonian(gradient, conservation) -> Finding:
@@ -57,17 +60,15 @@ def hamiltonian(gradient, conservation) -> Finding:
     "The equations have no gauge symmetry, neither as (4) nor in the PT-symmetric form (10).",
     checks("conservation", "pt_form"),
     controls=(
-        Control(
-            "gamma = 0, where (4) has gauge symmetry", {"conservation": "checks/wrong/no_drive"}
-        ),
-        Control(
-            "gamma = 0, where (10) has gauge symmetry", {"pt_form": "checks/wrong/pt_no_drive"}
-        ),
+        Control("gamma = 0, where (4) has gauge symmetry", wrong("conservation", "no_drive")),
+        Control("gamma = 0, where (10) has gauge symmetry", wrong("pt_form", "pt_no_drive")),
     ),
 )
 def no_gauge(conservation, pt) -> Finding:
-    checks = {"gauge_defect": conservation["gauge_defect"], "gauge_defect_pt": pt["gauge_defect"]}
-    measured = {name: defect.max() for name, defect in checks.items()}
+    measured = {
+        "gauge_defect": conservation["gauge_defect"].max(),
+        "gauge_defect_pt": pt["gauge_defect"].max(),
+    }
     says = "defect of turning all phases, of (4) and of (10)"
     return judge(measured, Above(MISSED, *measured, says=says))
 
@@ -91,30 +92,13 @@ def with_another_pair(lyapunov):
     return lyapunov.assign(both)
 
 
-def widening(spectra: int) -> float:
-    """Return by what the limits of an exponent widen so that all of so many spectra hold together.
-
-    With a second integral at least four exponents of a spectrum vanish, and one of these beyond its
-    limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
-    """
-    level = 1.0 - SIGNIFICANT.value / (4 * spectra)
-    return student(PARTS - 1, level) / student(PARTS - 1)
-
-
-def told_pairs(size, limit):
-    """Return how many pairs of each spectrum lie nearer to zero than exponents to each other."""
-    between = 2.0 * size.max("index") / size.notnull().sum("index")
-    return 0.5 * (size + limit < between).sum("index")
-
-
 @claim(
     "Introduction",
     "The energy is the only integral of motion.",
     checks("lyapunov"),
     controls=(
         Control(
-            "spectra at gamma = 0, where l2 is an integral too, and motion regular",
-            without_drive,
+            "spectra at gamma = 0, where l2 is an integral too, and motion regular", without_drive
         ),
         Control("a second pair of zeros, which is made up", with_another_pair),
     ),
@@ -122,10 +106,17 @@ def told_pairs(size, limit):
 def one_integral(lyapunov) -> Finding:
     size, error = abs(lyapunov["exponents"]), lyapunov["exponents_error"]
     along = ("spectrum_case", "spectrum_half_width")
-    wider = widening(int(np.prod([lyapunov.sizes[name] for name in along])))
+    # With a second integral at least four exponents of a spectrum vanish, and one of these beyond
+    # its limits is enough to hide it: Bonferroni's bound, over the four of every spectrum.
+    spectra = int(np.prod([lyapunov.sizes[name] for name in along]))
+    level = 1.0 - SIGNIFICANT.value / (4 * spectra)
+    wider = student(PARTS - 1, level) / student(PARTS - 1)
     pairs = (0.5 * (size <= wider * error).sum("index")).stack(spectrum=along)
+    # those that lie nearer to zero than exponents to each other
+    between = 2.0 * size.max("index") / size.notnull().sum("index")
+    told = 0.5 * (size + wider * error < between).sum("index")
     measured = {"fewest_pairs": pairs.min(), "most_pairs": pairs.max(), "wider_limits": wider}
-    measured["most_told_pairs"] = told_pairs(size, wider * error).max()
+    measured["most_told_pairs"] = told.max()
     measured |= {
         f"pairs_{case}_{half_width}": count
         for (case, half_width), count in zip(pairs["spectrum"].values, pairs.values, strict=True)
@@ -183,8 +174,8 @@ def exchange(check) -> Finding:
     "A = B is an invariant reduction on which the drive has no effect, and gauge symmetry returns.",
     checks("symmetries", "conservation", "opposite"),
     controls=(
-        Control("B = iA in place of A = B", {"symmetries": "checks/wrong/symmetries"}),
-        Control("phases that turn where B = iA", {"conservation": "checks/wrong/phase_turned"}),
+        Control("B = iA in place of A = B", wrong("symmetries")),
+        Control("phases that turn where B = iA", wrong("conservation", "phase_turned")),
     ),
 )
 def synchronised(symmetries, conservation, opposite) -> Finding:
@@ -233,10 +224,9 @@ def inherited(check) -> Finding:
     ),
 )
 def resonance(check) -> Finding:
-    mu = float(check["mu"][-1])
-    rates = check["driven_rate"].sel(mu=mu)
-    at_two = rates.sel(drive_ratio=2.0)
-    measured = {"at_1_to_2": at_two, "elsewhere": rates.where(rates["drive_ratio"] != 2.0).max()}
+    rates = check["driven_rate"].isel(mu=-1)
+    elsewhere = rates.where(rates["drive_ratio"] != 2.0).max()
+    measured = {"at_1_to_2": rates.sel(drive_ratio=2.0), "elsewhere": elsewhere}
     criterion = AllOf(
         Above(ACTS, "at_1_to_2", says="growth over 2 gamma at 1:2"),
         Below(ACTS, "elsewhere", says="growth over 2 gamma at other ratios"),
@@ -259,16 +249,13 @@ def resonance(check) -> Finding:
 )
 def slow_time(expansion) -> Finding:
     """What is a function of mu^2 t / 2 is one of mu^2 t, and of no other power of mu times t."""
-    orders = {
-        name: number(expansion, "order", reading=label)
-        for name, label in (
-            ("order", RIGHT),
-            ("order_without_the_half", "mu^2 t"),
-            ("order_by_another_power", "mu t / 2"),
-        )
+    order = expansion["order"]
+    measured = {
+        "order": order.sel(reading=RIGHT),
+        "order_without_the_half": order.sel(reading="mu^2 t"),
+        "order_by_another_power": order.sel(reading="mu t / 2"),
+        "smallest_error": expansion["angle_error"].sel(reading=RIGHT)[-1],
     }
-    smallest = expansion["angle_error"].sel(reading=RIGHT)[-1]
-    measured = orders | {"smallest_error": smallest}
     return judge(measured, Near(THIRD, NEAR, "order", says="order in mu"))
 
 
@@ -279,9 +266,8 @@ def slow_time(expansion) -> Finding:
     controls=(Control("the opposite drive", changes.exchange("reading", RIGHT, OPPOSITE)),),
 )
 def drive_sign(expansion) -> Finding:
-    right = number(expansion, "order", reading=RIGHT)
-    opposite = number(expansion, "order", reading=OPPOSITE)
-    measured = {"order": right, "order_opposite": opposite}
+    order = expansion["order"].sel
+    measured = {"order": order(reading=RIGHT), "order_opposite": order(reading=OPPOSITE)}
     here, there = (f"order in mu with the {sign} sign" for sign in ("printed", "opposite"))
     least = THIRD - NEAR.value
     criterion = AllOf(Above(least, "order", says=here), Below(least, "order_opposite", says=there))
