@@ -30,14 +30,7 @@ SWEPT = [("o", style.BLUE), ("s", style.RED), ("^", "#16876b"), ("D", "#7a4fa3")
 POWER = r"$P = \|A\|^2 + \|B\|^2$"
 
 
-def gather_bounds(
-    cases: xr.Dataset,
-    sweeps: xr.Dataset,
-    samples: xr.Dataset,
-    worst: xr.Dataset,
-    sharpness: xr.Dataset,
-    growth: xr.Dataset,
-) -> xr.Dataset:
+def gather_bounds(cases, sweeps, samples, worst, sharpness, growth) -> xr.Dataset:
     """Return cases and sweeps with their bounds, what data reach, and what grows with the chain."""
     seen = cases[["omega", "initial", "observed", "start", "ratio", *BOUNDS]]
     shared = ["omega", "initial", "best"]
@@ -103,9 +96,9 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     label = f"search on {int(data['searched_sites'])} sites"
     axes.plot([found[name] for name in families], rows, "o", color=style.RED, label=label)
     longest = data["reached"].sel(form=list(FORMS)).isel(reached_sites=-1)
-    mark = {"color": style.BLUE, "markersize": 14, "markeredgewidth": 2}
-    axes.plot(longest, rows, "|", **mark)
-    axes.plot([], [], "|", **{**mark, "markersize": 8}, label=f"a wave on {int(sites[-1])}")
+    mark = {"color": style.BLUE, "markeredgewidth": 2}
+    axes.plot(longest, rows, "|", **mark, markersize=14)
+    axes.plot([], [], "|", **mark, markersize=8, label=f"a wave on {int(sites[-1])}")
     axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
     axes.set_yticks(rows, [words for _, words in FORMS.values()])
     axes.invert_yaxis()

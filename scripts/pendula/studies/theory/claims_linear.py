@@ -22,8 +22,6 @@ RESOLVED = Cutoff(
     0.15, "bounded beats change a slope over the second half of a run to tau = 40 by 6 / tau"
 )
 HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate at least")
-
-
 TOLD = Cutoff(0.05, "exponents are told to a decimal")
 
 
@@ -40,9 +38,8 @@ TOLD = Cutoff(0.05, "exponents are told to a decimal")
 def dispersion(check) -> Finding:
     names = ("eigenvalue_error", "factorisation", "first_growth", "contradictions")
     finding = within_tolerance(check, *names)
-    return finding._replace(
-        measured=finding.measured | {"fastest": float(check["second_growth"].max())}
-    )
+    fastest = {"fastest": float(check["second_growth"].max())}
+    return finding._replace(measured=finding.measured | fastest)
 
 
 @claim(
@@ -84,10 +81,9 @@ def stable_below(chart) -> Finding:
 def unstable_band(chart, windows, measured_windows) -> Finding:
     inside = chart["omega"].where((chart["omega"] >= 0) & (chart["infinite_threshold"] == 0))
     rates = chart["infinite_rate"].where(np.isfinite(inside) & (chart["gamma"] > 0))
-    largest = windows["largest_gamma"]
     measured = {
         "slowest_infinite_rate": rates.min(),
-        "largest_gamma_with_a_window": largest.values[-1],
+        "largest_gamma_with_a_window": windows["largest_gamma"].values[-1],
         "misclassified": number(measured_windows, "misclassified"),
     }
     caveat = ""
@@ -104,16 +100,16 @@ def unstable_band(chart, windows, measured_windows) -> Finding:
     controls=(Control("gamma_0 of another Omega", "checks/wrong/sharp_threshold"),),
 )
 def sharp_threshold(check) -> Finding:
-    limit = check["threshold_error"]
-    measured = {"distance": limit.max(), "orders": check["threshold_order"].min()}
-    measured["distance_of_the_longest"] = abs(
-        check["threshold_found"].isel(sites=-1) - check["threshold_limit"]
-    ).max()
+    gap = abs(check["threshold_found"].isel(sites=-1) - check["threshold_limit"])
+    measured = {
+        "distance": check["threshold_error"].max(),
+        "orders": check["threshold_order"].min(),
+        "distance_of_the_longest": gap.max(),
+    }
     caveat = "on the infinite chain; N sites lose their stability later, by a square of 1 / (N + 1)"
     says = "distance to gamma_0 of the measured threshold, continued to the infinite chain"
-    return judge(
-        measured, AtMost(tolerance(check, "threshold_error"), "distance", says=says), caveat
-    )
+    criterion = AtMost(tolerance(check, "threshold_error"), "distance", says=says)
+    return judge(measured, criterion, caveat)
 
 
 @claim(
@@ -160,12 +156,9 @@ def threshold_growth(threshold) -> Finding:
         " tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity; summable data, such as one site, as"
         " tau^(1/2) in l2 and not in l-infinity; the Dirichlet chain is stable there"
     )
+    error = tolerance(threshold, "wave_error")
     criterion = AllOf(
-        AtMost(
-            tolerance(threshold, "wave_error"),
-            "wave_error",
-            says="error of a wave's growth 4 gamma tau",
-        ),
+        AtMost(error, "wave_error", says="error of a wave's growth 4 gamma tau"),
         Above(0.0, "least_l2_exponent", says="least exponent of data in l2"),
         AtMost(1.0, "largest_l2_exponent", says="their largest exponent"),
         AtMost(TOLD, "law_error", says="distance of the exponents to the law"),

@@ -64,10 +64,12 @@ def uniqueness(check) -> Finding:
     controls=(Control("two solutions with an Omega of their own", "checks/wrong/dependence"),),
 )
 def continuous_dependence(check) -> Finding:
-    orders = check["distance_order"]
-    measured = {"least_order": orders.min(), "largest_order": orders.max()}
-    measured["largest_stretch"] = check["stretch"].max()
-    measured["over_gronwall"] = check["stretch_over_bound"].max()
+    measured = {
+        "least_order": check["distance_order"].min(),
+        "largest_order": check["distance_order"].max(),
+        "largest_stretch": check["stretch"].max(),
+        "over_gronwall": check["stretch_over_bound"].max(),
+    }
     says = "order of the distance at the end in that of the data"
     criterion = AllOf(
         Near(FIRST, NEAR, "least_order", "largest_order", says=says),
@@ -87,8 +89,11 @@ def growth_bound(check, *trajectories) -> Finding:
         growth_margin(ds["tau"].values, ds["l2"].values, ds.attrs["gamma"])["steepest"]
         for ds in trajectories
     ]
-    measured = {"steepest": max(steepest), "random_data": check["steepest"].max()}
-    measured["sharp_case"] = number(check, "sharpest")
+    measured = {
+        "steepest": max(steepest),
+        "random_data": check["steepest"].max(),
+        "sharp_case": number(check, "sharpest"),
+    }
     says = "slope of log P over 4 gamma"
     return judge(measured, AtMost(ROUNDING, "steepest", "random_data", says=says))
 
@@ -138,9 +143,8 @@ def norm_inequalities(check) -> Finding:
     controls=(Control("bounds with half of the drive", "checks/wrong/inequalities"),),
 )
 def energy_bounds(check) -> Finding:
-    bounds = ("(21)", "(25)", "size")
-    measured = {f"excess_{bound}": check["bound_excess"].sel(bound=bound) for bound in bounds}
-    limit = tolerance(check, "bound_excess")
+    excess, limit = check["bound_excess"], tolerance(check, "bound_excess")
+    measured = {f"excess_{bound}": excess.sel(bound=bound) for bound in ("(21)", "(25)", "size")}
     return judge(measured, AtMost(limit, *measured, says="bound minus energy, over P"))
 
 
@@ -180,8 +184,8 @@ theorem_2 = theorem(
     controls=(Control("data a hundred times as large", "checks/wrong/negative_depth"),),
 )
 def positive_depth(depth) -> Finding:
-    measured = {"largest_energy": number(depth, "most_energy")}
-    measured["radius"] = number(depth, "largest_start")
+    radius = number(depth, "largest_start")
+    measured = {"largest_energy": number(depth, "most_energy"), "radius": radius}
     return judge(measured, Below(0.0, "largest_energy", says="largest H / P of data in the ball"))
 
 
@@ -196,18 +200,16 @@ def positive_depth(depth) -> Finding:
     ),
 )
 def bootstrap(check) -> Finding:
-    measured = {
-        name: number(check, name) for name in ("largest_power", "allowed_power", "breaking")
-    }
+    names = ("largest_power", "allowed_power", "breaking")
+    measured = {name: number(check, name) for name in names}
+    _, allowed, breaking = measured.values()
     fails = (
-        f"a pair with P = {measured['breaking']:.3g} satisfies (25) and has the energy of data for"
-        f" which (24) allows {measured['allowed_power']:.3g}: the proof assumes P <= C_0 delta,"
+        f"a pair with P = {breaking:.3g} satisfies (25) and has the energy of data for"
+        f" which (24) allows {allowed:.3g}: the proof assumes P <= C_0 delta,"
         " which it is to prove; the theorem stands, as P is continuous and starts below the barrier"
     )
-    says = "largest P that the premises allow"
-    return judge(
-        measured, AtMost(measured["allowed_power"], "largest_power", says=says), fails=fails
-    )
+    criterion = AtMost(allowed, "largest_power", says="largest P that the premises allow")
+    return judge(measured, criterion, fails=fails)
 
 
 theorem_3 = theorem(
@@ -225,7 +227,7 @@ theorem_3 = theorem(
     controls=(Control("2 gamma in place of gamma", take(printed="corrected"), confirms=True),),
 )
 def theorem_3_proof(constant) -> Finding:
-    measured = {"printed": constant["printed"].min(), "corrected": constant["corrected"].min()}
+    measured = {name: constant[name].min() for name in ("printed", "corrected")}
     measured["smallest_chain"] = smallest = number(constant, "smallest")
     fails = f"A = -B = x (-1)^n breaks it from {smallest:.0f} sites on; it needs 2 gamma"
     return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
@@ -240,10 +242,10 @@ def theorem_3_proof(constant) -> Finding:
     ),
 )
 def bound_grows(check) -> Finding:
-    names = ("power_exponent", "power_exponent_low", "power_exponent_high")
-    measured = {name: number(check, name) for name in ("constant_exponent", *names)}
-    over = (check["late_power"].mean("member") / check["constant_n"]).values[-1]
-    measured["part_of_the_bound"] = over
+    names = ("constant_exponent", "power_exponent", "power_exponent_low", "power_exponent_high")
+    measured = {name: number(check, name) for name in names}
+    over = check["late_power"].mean("member") / check["constant_n"]
+    measured["part_of_the_bound"] = over.values[-1]
     caveat = (
         "has to at Omega = 0; for Omega > 2 gamma + 4 epsilon Theorem 1 has one bound for all N"
     )

@@ -16,10 +16,8 @@ SHARP = Cutoff(0.9, '"sharp": all but a tenth of the bound is reached', ideal=1.
 
 def on_chains(check, form: str) -> dict[str, float]:
     """Return what part of a bound is reached on the shortest and on the longest chain."""
-    ratios = check["reached"].sel(form=form)
-    shortest, longest = (int(n) for n in ratios["sites"].values[[0, -1]])
-    found = {shortest: float(ratios[0]), longest: float(ratios[-1])}
-    return {f"{form}_on_{sites}_sites": part for sites, part in found.items()}
+    ends = check["reached"].sel(form=form)[[0, -1]]
+    return {f"{form}_on_{int(one['sites'])}_sites": float(one) for one in ends}
 
 
 @claim(
@@ -31,8 +29,7 @@ def on_chains(check, form: str) -> dict[str, float]:
 def sharp_theorems(check) -> Finding:
     """What the longest chain reaches decides."""
     by_form = [on_chains(check, form) for form in ("theorem_1", "theorem_2", "theorem_3")]
-    longest = [list(found)[-1] for found in by_form]
-    sites = int(check["sites"][-1])
+    longest, sites = [list(found)[-1] for found in by_form], int(check["sites"][-1])
     says = f"parts of the bounds that are reached on {sites} sites"
     how = (
         "in terms of the energy, and in the limit of long chains: Theorems 1 and 2 by tiny data in"

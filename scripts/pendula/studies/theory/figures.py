@@ -28,9 +28,9 @@ CURVES = {
     },
 }
 PREDICTED = "rate of the fastest mode\n(per unit of $\\tau$)"
-SPREADING = ["spreading", "spreading_exponent"]
+NORMS = {"l2": (1, 0), "linf": (3, 1.5)}
+"""The norms at the threshold, and the dashes of their curves."""
 DECAYS = [style.BLUE, "#16876b", "#7b4fa3", "#b3541e"]
-COMPARED = ["measured", "exact_flow", "finite_rate"]
 
 
 def gather_chart(
@@ -48,11 +48,10 @@ def gather_chart(
     renamed = {name: f"short_{name}" for name in (*short.data_vars, *short.coords)}
     closing = windows[["share"]].rename(gamma="window_gamma")
     data = xr.merge([chart[CHART], short.rename(renamed), closing], combine_attrs="drop_conflicts")
-    omegas, gammas = np.array(points, float).reshape(-1, 2).T
-    for name, values in (("point_omega", omegas), ("point_gamma", gammas)):
-        whose = "the paper's cases" if of_paper else "the cases"
-        about = {"long_name": f"{name.removeprefix('point_')} of {whose}", "units": "1"}
-        data[name] = ("point", values, about)
+    whose = "the paper's cases" if of_paper else "the cases"
+    for name, values in zip(("omega", "gamma"), np.reshape(points, (-1, 2)).T, strict=True):
+        about = {"long_name": f"{name} of {whose}", "units": "1"}
+        data[f"point_{name}"] = ("point", values.astype(float), about)
     return data if of_paper else data.assign_attrs(points="Figs 2 to 4 of this run")
 
 
@@ -62,17 +61,16 @@ def draw_chart(data: xr.Dataset) -> Figure:
     figure = style.new_figure(style.DOUBLE, 5.2)
     panels = figure.subplot_mosaic([["long", "long"], ["short", "share"]])
     _draw_rates_over(figure, panels["long"], data)
-    _mark_points(panels["long"], data)
-    _draw_rates_over(figure, panels["short"], _short_chart(data))
+    hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
+    label = data.attrs.get("points", "the paper's figures")
+    panels["long"].plot(data["point_omega"], data["point_gamma"], "o", label=label, **hollow)
+    short = data[[name for name in data.data_vars if name.startswith("short_")]]
+    short = short.drop_vars(["omega", "gamma", "curve_omega"], errors="ignore")
+    short = short.rename({name: str(name).removeprefix("short_") for name in short.variables})
+    _draw_rates_over(figure, panels["short"], short)
     _draw_share(panels["share"], data)
     style.name_legend(figure, panels["long"])
     return figure
-
-
-def _short_chart(data: xr.Dataset) -> xr.Dataset:
-    names = [name for name in data.data_vars if name.startswith("short_")]
-    short = data[names].drop_vars(["omega", "gamma", "curve_omega"], errors="ignore")
-    return short.rename({name: str(name).removeprefix("short_") for name in short.variables})
 
 
 def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
@@ -81,20 +79,12 @@ def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
     image = axes.pcolormesh(chart["omega"], chart["gamma"], rate, **look)
     bar = figure.colorbar(image, ax=axes, pad=0.015, aspect=18)
     bar.set_label("measured growth rate\n(per unit of $\\epsilon \\tau$)")
-    sites = int(chart["sites"])
-    curve = chart["curve_omega"]
     for name, look in CURVES.items():
-        axes.plot(curve, chart[name], **look)
+        axes.plot(chart["curve_omega"], chart[name], **look)
     axes.set_xlim(float(chart["omega"][0]), float(chart["omega"][-1]))
     axes.set_ylim(0, float(chart["gamma"][-1]))
     axes.set(xlabel=r"$\Omega / \epsilon$", ylabel=r"$\gamma / \epsilon$")
-    axes.set_title(f"$N = {sites}$ sites, Dirichlet ends", loc="left")
-
-
-def _mark_points(axes: Axes, data: xr.Dataset) -> None:
-    hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
-    label = data.attrs.get("points", "the paper's figures")
-    axes.plot(data["point_omega"], data["point_gamma"], "o", label=label, **hollow)
+    axes.set_title(f"$N = {int(chart['sites'])}$ sites, Dirichlet ends", loc="left")
 
 
 def _draw_share(axes: Axes, data: xr.Dataset) -> None:
@@ -114,14 +104,15 @@ def gather_rates(chart: xr.Dataset, short_chart: xr.Dataset, threshold: xr.Datas
     """Return every measured cell of two charts in one row each, and the growth at the threshold."""
     rows = []
     for name, cells in (("long", chart), ("short", short_chart)):
-        row = cells[COMPARED].stack(cell=("omega", "gamma")).reset_index("cell")
+        row = cells[["measured", *ERRORS]].stack(cell=("omega", "gamma")).reset_index("cell")
         row["chain"] = ("cell", np.full(row.sizes["cell"], name))
         row["sites"] = ("cell", np.full(row.sizes["cell"], int(cells["sites"])))
         rows.append(row)
     joined = xr.concat(rows, "cell", combine_attrs="drop_conflicts").reset_coords()
     joined["chain"].attrs = {"long_name": "chart to which a cell belongs", "units": "1"}
     joined["sites"].attrs = chart["sites"].attrs
-    growth = threshold[["grown", "threshold", *SPREADING]].rename(omega="threshold_omega")
+    growth = threshold[["grown", "threshold", "spreading", "spreading_exponent"]]
+    growth = growth.rename(omega="threshold_omega")
     return xr.merge([joined, growth], combine_attrs="drop_conflicts")
 
 
@@ -130,32 +121,24 @@ def draw_rates(data: xr.Dataset) -> Figure:
     """Draw rates against each other, their relative errors, and the growth at the threshold."""
     figure = style.new_figure(style.DOUBLE, 3.2)
     rates, errors, threshold = figure.subplots(1, 3)
-    _draw_measured(rates, data)
-    _draw_errors(errors, data)
-    _draw_threshold(threshold, data)
-    return figure
-
-
-def _draw_measured(axes: Axes, data: xr.Dataset) -> None:
     for name, (marker, colour, size) in CHARTS.items():
         cells = data.isel(cell=data["chain"].values == name)
         look = {"color": colour, "markersize": size, "label": f"$N = {int(cells['sites'][0])}$"}
-        axes.plot(cells["finite_rate"], cells["measured"], marker, **look)
+        rates.plot(cells["finite_rate"], cells["measured"], marker, **look)
     top = float(data["finite_rate"].max())
-    axes.plot([0, top], [0, top], color="black", lw=0.8, label="equal")
-    axes.set(xlabel=PREDICTED, ylabel="measured growth rate (per unit of $\\tau$)")
-    _legend_above(axes)
-
-
-def _draw_errors(axes: Axes, data: xr.Dataset) -> None:
+    rates.plot([0, top], [0, top], color="black", lw=0.8, label="equal")
+    rates.set(xlabel=PREDICTED, ylabel="measured growth rate (per unit of $\\tau$)")
+    _legend_above(rates)
     growing = data.isel(cell=data["finite_rate"].values > 0)
     for name, (marker, colour, label) in ERRORS.items():
         with np.errstate(divide="ignore"):
             error = abs(growing["measured"] / growing[name] - 1)
-        shown = error.where(error > 0)
-        axes.plot(growing["finite_rate"], shown, marker, color=colour, markersize=2.5, label=label)
-    axes.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
-    _legend_above(axes, title="measured against the")
+        look = {"color": colour, "markersize": 2.5, "label": label}
+        errors.plot(growing["finite_rate"], error.where(error > 0), marker, **look)
+    errors.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
+    _legend_above(errors, title="measured against the")
+    _draw_threshold(threshold, data)
+    return figure
 
 
 def _legend_above(axes: Axes, **look) -> None:
@@ -168,29 +151,24 @@ def _legend_above(axes: Axes, **look) -> None:
 def _draw_threshold(axes: Axes, data: xr.Dataset) -> None:
     """Draw one wave, and what spreads from data that decay in different ways, by both norms.
 
-    All Omega give the same but for rounding; the first is drawn.
+    All Omega give the same but for rounding; the first is drawn. Of the decays below one every
+    other is, and one site.
     """
-    first = data.isel(threshold_omega=0)
+    first, decays = data.isel(threshold_omega=0), data["decay"].values
     tau = first["tau"]
     axes.plot(tau, 4 * float(first["threshold"]) * tau, color="0.6", lw=2.5)
     wave = {"color": style.RED, "marker": "o", "markersize": 3.5, "linestyle": "none"}
     axes.plot(tau, first["grown"], **wave, label="one wave: 1")
-    for colour, decay in zip(DECAYS, _drawn_decays(data["decay"].values), strict=False):
+    drawn = [*decays[decays < 1.0][1::2], decays[-1]]
+    for colour, decay in zip(DECAYS, drawn, strict=False):
         own = first.sel(decay=decay)
-        exponents = (float(own["spreading_exponent"].sel(norm=n)) for n in ("l2", "linf"))
+        exponents = (f"{float(own['spreading_exponent'].sel(norm=n)):.2f}" for n in NORMS)
         name = "one site" if np.isinf(decay) else f"$s = {decay:g}$"
-        label = f"{name}: " + " and ".join(
-            f"{value:.2f}".replace("-", "\N{MINUS SIGN}") for value in exponents
-        )
-        for norm, dashes in (("l2", (1, 0)), ("linf", (3, 1.5))):
+        label = f"{name}: {' and '.join(exponents)}".replace("-", "\N{MINUS SIGN}")
+        for norm, dashes in NORMS.items():
             look = {"color": colour, "dashes": dashes, "lw": 1.2}
             spread = own["spreading"].sel(norm=norm)
             axes.plot(data["long_tau"], spread, **look, label=label if norm == "l2" else None)
     axes.set(xscale="log", yscale="log", xlabel=r"$\tau$")
     axes.set_ylabel("growth of $A - B$ at the threshold")
     _legend_above(axes, title=r"exponents: $\ell^2$ full, $\ell^\infty$ dashed")
-
-
-def _drawn_decays(decays: np.ndarray) -> list[float]:
-    """Return every other decay below one, and the last: one site."""
-    return [*decays[decays < 1.0][1::2], decays[-1]]
