@@ -47,31 +47,21 @@ class Grid(Model):
 
 ARGUMENTS = {
     "constants": Constants,
-    "epsilon": Number,
-    "gamma": Number,
-    "omega": Number,
+    **dict.fromkeys(("epsilon", "gamma", "omega"), Number),
     "omegas": Annotated[list[Number], Field(min_length=1)],
     "gammas": Grid,
     "points": Annotated[list[tuple[Number, Number]], Field(min_length=1)],  # (Omega, gamma)
     "boundary": Literal[tuple(ENDS)],
     "solver": Solver,
     # chains and their data
-    "sites": Size,
-    "sizes": Sizes,  # numbers of sites
-    "ring_sites": Size,
-    "half_widths": Sizes,
+    **dict.fromkeys(("sites", "ring_sites"), Size),
+    **dict.fromkeys(("sizes", "half_widths"), Sizes),  # `sizes` are numbers of sites
     "pair": tuple[Complex, Complex],  # (A_0, B_0)
-    "norm": Positive,
-    "distances": Annotated[list[Positive], Field(min_length=2)],
+    **dict.fromkeys(("norm", "above", "mu", "amplitude", "longest"), Positive),
+    **dict.fromkeys(("distances", "mus"), Annotated[list[Positive], Field(min_length=2)]),
     "decays": Annotated[list[Annotated[Number, Field(gt=0.5)]], Field(min_length=1)],
-    "above": Positive,
-    "mu": Positive,
     "ratios": Annotated[list[Positive], Field(min_length=1)],
     "part": Annotated[Number, Field(gt=0, lt=1)],
-    "members": Annotated[Whole, Field(ge=2)],
-    "amplitude": Positive,
-    "longest": Positive,
-    "mus": Annotated[list[Positive], Field(min_length=2)],
     # times
     "end_time": Annotated[Positive, Field(le=10_000)],
     "foldings": Positive,
@@ -81,19 +71,13 @@ ARGUMENTS = {
     "panels": Size,
     # random data
     "seed": Natural,
-    "samples": Size,
-    "count": Size,
-    "generations": Size,
+    **dict.fromkeys(("samples", "count", "generations", "starts"), Size),
+    "members": Annotated[Whole, Field(ge=2)],
     "population": Annotated[Whole, Field(ge=4)],
-    "starts": Size,
     # what a wrong statement has in place of the right one
-    "omega_off": Number,
-    "gamma_times": Number,
-    "scale": Positive,
+    **dict.fromkeys(("omega_off", "gamma_times", "sign", "root"), Number),
+    **dict.fromkeys(("scale", "span_times"), Positive),
     "turn": Complex,
-    "sign": Number,
-    "span_times": Positive,
-    "root": Number,
     "below_barrier": bool,
 }
 
@@ -193,13 +177,9 @@ class Section(Model):
         found = {}
         for name in WRONG:
             given = getattr(self.wrong, name)
-            changes = given.model_dump(include=given.model_fields_set)
-            check = changes.pop("check", name)
-            found[f"{WRONG_FOLDER}{name}"] = {
-                "check": check,
-                **getattr(self, check).model_dump(),
-                **changes,
-            }
+            changes = {"check": name} | given.model_dump(include=given.model_fields_set)
+            right = getattr(self, changes["check"]).model_dump()
+            found[f"{WRONG_FOLDER}{name}"] = right | changes
         return found
 
 
