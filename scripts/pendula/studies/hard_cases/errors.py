@@ -23,8 +23,7 @@ OUTPUTS = 5
 
 def random_data(sites: int, size: float) -> np.ndarray:
     """Return complex Gaussian amplitudes (2, N), each of order `size`, the same every time."""
-    rng = np.random.default_rng(sites)
-    return size * complex_normal(rng, (2, sites))
+    return size * complex_normal(np.random.default_rng(sites), (2, sites))
 
 
 def of(epsilon: float = 1.0, gamma: float = 1.0, omega: float = 0.0) -> Constants:
@@ -32,9 +31,7 @@ def of(epsilon: float = 1.0, gamma: float = 1.0, omega: float = 0.0) -> Constant
     return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
 
 
-def run(
-    constants: Constants, data: np.ndarray, tau: float, solver: dict, outputs: int = OUTPUTS
-) -> Trajectory:
+def run(constants: Constants, data, tau: float, solver: dict, outputs=OUTPUTS) -> Trajectory:
     """Integrate `data` (2, N) up to `tau`, between ends at rest."""
     problem = Problem(
         constants=constants,
@@ -91,22 +88,23 @@ def motion_of_rest(solver, tau) -> float:
     return float(modulus(run(of(), np.zeros((2, 5), complex), tau, solver).final).max())
 
 
-def other_of(solver: dict) -> dict:
-    """Return the finest solver of another kind: taylor, or for taylor itself dop853."""
-    return FINE["dop853" if solver["name"] == "taylor" else "taylor"]
+def fine_run(solver: dict, constants: Constants, data, tau: float, outputs=OUTPUTS) -> np.ndarray:
+    """Return the end of a run by the finest solver of another kind: taylor, for taylor dop853."""
+    fine = FINE["dop853" if solver["name"] == "taylor" else "taylor"]
+    return run(constants, data, tau, fine, outputs).final
 
 
 def miss_of_other(solver, sites, omega=-4.0, tau=5.0, size=0.3) -> float:
     """Compare with another solver at tighter tolerances."""
     constants, data = of(omega=omega), random_data(sites, size)
-    exact = run(constants, data, tau, other_of(solver)).final
+    exact = fine_run(solver, constants, data, tau)
     return state_error(run(constants, data, tau, solver).final, exact)
 
 
 def miss_of_scaled(solver, power, tau=2.0, sites=5) -> float:
     """Compare s A(s^2 tau) with A, s = 2^power, where all constants are s^2 times as large."""
     s, constants, data = 2.0**power, of(omega=-4.0), random_data(sites, 1.0)
-    exact = run(constants, data, tau, other_of(solver)).final
+    exact = fine_run(solver, constants, data, tau)
     found = run(constants.scaled(s * s), s * data, tau / (s * s), solver).final
     return state_error(found / s, exact)
 
@@ -114,14 +112,14 @@ def miss_of_scaled(solver, power, tau=2.0, sites=5) -> float:
 def miss_of_single_pairs(solver, sites=5, tau=5.0) -> float:
     """Compare a chain without coupling with its pairs, each a chain of its own."""
     constants, data = of(epsilon=0.0, omega=-1.0), random_data(sites, 1.0)
-    pairs = [run(constants, data[:, [n]], tau, other_of(solver)).final for n in range(sites)]
+    pairs = [fine_run(solver, constants, data[:, [n]], tau) for n in range(sites)]
     return state_error(run(constants, data, tau, solver).final, np.concatenate(pairs, axis=1))
 
 
 def miss_of_short_chain(solver, half_width, tau=1.0, short=30) -> float:
     """Compare the middle of a long chain with a chain whose ends the front has not reached."""
     start, constants = on_sites({0: (1.0, 0.1)}), of()
-    exact = run(constants, place(start, short), tau, other_of(solver), outputs=1).final
+    exact = fine_run(solver, constants, place(start, short), tau, outputs=1)
     found = run(constants, place(start, half_width), tau, solver, outputs=1).final
     return state_error(found[:, half_width - short : half_width + short + 1], exact)
 

@@ -4,7 +4,7 @@ It keeps no times, in which two runs would differ.
 """
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -14,61 +14,47 @@ from pendula.simulation.simulate import IntegrationError
 
 from . import errors
 
-
-class Outcome(NamedTuple):
-    """What one solver made of a row."""
-
-    case: str
-    solver: str
-    error: float  # NaN where it refused
-    refusal: str  # empty where it did not
-    reference: str
-    expected: float | str
-    sound: bool
-
-
-def outcomes(cases: list[Mapping[str, Any]]) -> list[Outcome]:
-    """Run every solver on every case; these are plain values of `settings.HardCase`."""
-    return [evaluate(case, solver) for case in cases for solver in case["solvers"]]
+LONG_NAMES = {
+    "case": "",  # as in the registry
+    "solver": "solver, and its controls",
+    "error": "error, not a number where the run was refused",
+    "limit": "largest sound error",
+    "refusal": "why the run was refused, empty where it was not",
+    "reference": "what the error is measured against",
+    "sound": "whether the outcome is the expected one",
+}
+"""What is kept of each run."""
 
 
-def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> Outcome:
-    """Run one solver on a case."""
+def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, Any]:
+    """Run one solver on a case, plain values of `settings.HardCase`; return what LONG_NAMES says.
+
+    A case expects an error of at most so much, or a refusal with these words.
+    """
     error, refusal, expected = np.nan, "", case["expected"]
     try:
         error = getattr(errors, case["measure"])(solver, **case["arguments"])
     except IntegrationError as fault:
         refusal = str(fault)
-    refused = isinstance(expected, str)
-    sound = expected in refusal if refused else bool(error <= expected)
-    sound = sound and refused == bool(refusal)
-    name, against = describe_solver(solver), case["against"]
-    return Outcome(case["case"], name, error, refusal, against, expected, sound)
-
-
-def describe_solver(solver: Mapping[str, Any]) -> str:
-    """Return the solver's name and its controls."""
-    controls = (f"{key} {value:g}" for key, value in solver.items() if key != "name")
-    return f"{solver['name']}: {', '.join(controls)}"
-
-
-def variables(results: list[Outcome]) -> dict[str, Variable]:
-    """Return the variables of the dataset, each of shape (row,)."""
-
-    def column(name: str, long_name: str = "") -> Variable:
-        return Variable(("row",), np.array([getattr(r, name) for r in results]), long_name)
-
-    limits = [np.nan if isinstance(r.expected, str) else r.expected for r in results]
-    sound = np.array([r.sound for r in results], np.int8)
+    must_refuse = isinstance(expected, str)
+    sound = expected in refusal if must_refuse else bool(error <= expected)
+    controls = ", ".join(f"{key} {value:g}" for key, value in solver.items() if key != "name")
     return {
-        "case": column("case"),
-        "solver": column("solver", "solver, and its controls"),
-        "error": column("error", "error, not a number where the run was refused"),
-        "limit": Variable(("row",), np.array(limits), "largest sound error"),
-        "refusal": column("refusal", "why the run was refused, empty where it was not"),
-        "reference": column("reference", "what the error is measured against"),
-        "sound": Variable(("row",), sound, "whether the outcome is the expected one"),
+        "case": case["case"],
+        "solver": f"{solver['name']}: {controls}",
+        "error": error,
+        "limit": np.nan if must_refuse else expected,
+        "refusal": refusal,
+        "reference": case["against"],
+        "sound": sound and must_refuse == bool(refusal),
     }
+
+
+def variables(results: list[dict]) -> dict[str, Variable]:
+    """Return the variables of the dataset, each of shape (row,)."""
+    columns = {name: np.array([row[name] for row in results]) for name in LONG_NAMES}
+    columns["sound"] = columns["sound"].astype(np.int8)
+    return {name: Variable(("row",), columns[name], words) for name, words in LONG_NAMES.items()}
 
 
 def hard_cases_contents(cases: list[dict]) -> Contents:
@@ -76,10 +62,10 @@ def hard_cases_contents(cases: list[dict]) -> Contents:
 
     A row that does not end as expected is said here and marked in it.
     """
-    results = outcomes(cases)
-    for result in results:
-        if not result.sound:
-            print(f"NOT AS EXPECTED: {result.case}, {result.solver}: {result.error:.3g} ")
+    results = [evaluate(case, solver) for case in cases for solver in case["solvers"]]
+    for row in results:
+        if not row["sound"]:
+            print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g} ")
     title = "Hard cases for the solvers: errors against what is known, or refusals in words"
     seeds = "the number of sites, for random data; cases say their constants"
     return variables(results), {"title": title, "seed": seeds}

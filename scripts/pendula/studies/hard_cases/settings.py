@@ -5,7 +5,7 @@ Numbers may be anything, not finite ones too, since solvers must refuse what mak
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, create_model, model_validator
 from pydantic_core import PydanticCustomError
 
 from pendula.configuration.values import AnyNumber, Model, Name, Whole
@@ -29,19 +29,15 @@ class AnySolver(Model):
     iterations: Whole | None = None
 
 
-class Arguments(Model):
-    """What the functions of `errors` take; each takes some of them."""
-
-    omega: AnyNumber | None = None
-    gamma: AnyNumber | None = None
-    factor: AnyNumber | None = None
-    size: AnyNumber | None = None
-    turns: AnyNumber | None = None
-    tau: AnyNumber | None = None
-    amplitude: AnyNumber | None = None
-    power: Whole | None = None
-    sites: Whole | None = None
-    half_width: Whole | None = None
+NUMBERS = ("omega", "gamma", "factor", "size", "turns", "tau", "amplitude")
+WHOLE = ("power", "sites", "half_width")
+Arguments = create_model(
+    "Arguments",
+    __base__=Model,
+    __doc__="What the functions of `errors` take; each takes some of them.",
+    **dict.fromkeys(NUMBERS, (AnyNumber | None, None)),
+    **dict.fromkeys(WHOLE, (Whole | None, None)),
+)
 
 
 class HardCase(Model):
@@ -65,24 +61,18 @@ class Settings(Model):
     def _solvers_are_known(self) -> "Settings":
         for case in self.cases:
             if isinstance(case.solvers, str) and case.solvers not in self.solvers:
+                known = ", ".join(self.solvers)
                 raise PydanticCustomError(
                     "solvers",
                     "{case}: there are no solvers {name}; known are {known}",
-                    {
-                        "case": repr(case.case),
-                        "name": repr(case.solvers),
-                        "known": ", ".join(self.solvers),
-                    },
+                    {"case": repr(case.case), "name": repr(case.solvers), "known": known},
                 )
         return self
 
     def plain(self) -> list[dict[str, Any]]:
         """Return the cases as plain values, every one with its own list of solvers."""
-        return [
-            case.model_dump(exclude_none=True)
-            | {"solvers": [one.model_dump(exclude_none=True) for one in self._solvers_of(case)]}
-            for case in self.cases
-        ]
-
-    def _solvers_of(self, case: HardCase) -> list[AnySolver]:
-        return self.solvers[case.solvers] if isinstance(case.solvers, str) else case.solvers
+        shared, cases = self.model_dump(exclude_none=True)["solvers"], []
+        for case in self.model_dump(exclude_none=True)["cases"]:
+            named = isinstance(case["solvers"], str)
+            cases.append(case | {"solvers": shared[case["solvers"]] if named else case["solvers"]})
+        return cases

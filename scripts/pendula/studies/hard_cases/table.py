@@ -1,4 +1,4 @@
-"""Write the outcomes of the hard cases as a table to read."""
+"""The outcomes of the hard cases as a table to read."""
 
 import xarray
 
@@ -13,20 +13,17 @@ def tabulate_hard_cases(data: str, table: str) -> None:
 
 def page(data: xarray.Dataset) -> list[str]:
     """Return the parts of a page of Markdown on the dataset of the hard cases."""
-    rows = [data.isel(row=index) for index in range(data.sizes["row"])]
+    lines = []
+    for index in range(data.sizes["row"]):
+        row = {name: variable.values[index] for name, variable in data.items()}
+        refusal = row["refusal"]
+        outcome = f"refused: {refusal}" if refusal else f"error {row['error']:.1e}"
+        as_expected = "yes" if row["sound"] else "NO"
+        lines.append((row["case"], row["solver"], outcome, row["reference"], as_expected))
     unsound = int((data["sound"] == 0).sum())
     words = (
-        f"{len(rows)} runs, {unsound} with an outcome that is not the expected one. An error is "
+        f"{len(lines)} runs, {unsound} with an outcome that is not the expected one. An error is "
         "that of the largest component over the largest, or of what the reference names."
     )
     head = ("case", "solver", "outcome", "reference", "as expected")
-    return ["# Hard cases", words, markdown(head, map(cells, rows))]
-
-
-def cells(row: xarray.Dataset) -> tuple[str, ...]:
-    """Return one row of the table."""
-    case, solver, refusal, reference = (
-        str(row[name].values) for name in ("case", "solver", "refusal", "reference")
-    )
-    said = f"refused: {refusal}" if refusal else f"error {float(row['error']):.1e}"
-    return case, solver, said, reference, "yes" if int(row["sound"]) else "NO"
+    return ["# Hard cases", words, markdown(head, lines)]

@@ -10,13 +10,7 @@ from pendula.datasets.checks import table, variable
 from pendula.measures.confidence import mean_limits
 from pendula.measures.growth import lay_line
 from pendula.measures.norms import power_of
-from pendula.models.bounds import (
-    extent,
-    theorem_1_bound,
-    theorem_2_bound,
-    theorem_2_gap,
-    theorem_3_bound,
-)
+from pendula.models.bounds import extent, theorem_2_gap, theorem_3_bound
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.numerics.draws import uniform
 from pendula.numerics.elementary import log
@@ -30,50 +24,37 @@ from .equations import (
     total_energies,
     total_energy,
 )
-from .worst_data import OMEGAS
+from .worst_data import BOUNDS, OMEGAS
 
 FORMS = ("theorem_1", "theorem_2", "theorem_2_ball", "theorem_3")
 SIZE = 1e-5
 """Amplitude of tiny data: the cubic terms change ratios by its square."""
 
 
-def tiny_wave(constants: Constants, sites: int) -> tuple[np.ndarray, float, float]:
-    """Return A = -B in the wave nearest to the band's edge, its largest P, and its energy.
-
-    It starts in the phase in which P is least and is carried, by the exact linear flow, for a
-    quarter of its period, to where P is largest.
-    """
-    low = constants.omega < 0.0
-    k = 0 if low else sites - 1
-    shape = SIZE * modes(sites, "dirichlet")[k]
-    kappa = constants.epsilon * curvatures(sites, "dirichlet")[k] - constants.omega
-    drive = 2.0 * constants.gamma
-    quarter = 0.5 * np.pi / np.sqrt((kappa - drive) * (kappa + drive))
-    start = shape * (1.0 if low else 1j)
-    data = np.stack([start, -start]).astype(complex)
-    numbers = (constants.epsilon, constants.gamma, constants.omega, "dirichlet")
-    moved = flow(data, quarter, *numbers)
-    return data, power_of(moved), total_energy(constants, "dirichlet", data)
-
-
 def reached(form: str, constants: Constants, sites: int) -> float:
     """Return P over its bound of this form for the best data known on a Dirichlet chain.
 
     For Theorem 3 that is A = -B = (-1)^n x at rest with x^2 = 2 c, the state at which its bound is
-    attained where no end breaks the wave and Omega is not positive.
+    attained where no end breaks the wave and Omega is not positive. For the others it is tiny: A =
+    -B in the wave nearest to the band's edge, which starts in the phase in which P is least and is
+    carried, by the exact linear flow, for a quarter of its period, to where P is largest.
     """
     if form == "theorem_3":
         data = alternating(sites, np.sqrt(2.0 * extent(constants)))
-        energy = total_energy(constants, "dirichlet", data)
-        return float(power_of(data) / theorem_3_bound(energy, sites, constants))
-    data, largest, energy = tiny_wave(constants, sites)
-    start = power_of(data)
-    bounds = {
-        "theorem_1": theorem_1_bound(energy, constants),
-        "theorem_2": theorem_2_bound(energy, start, constants),
-        "theorem_2_ball": limit_constant(constants) * start,
-    }
-    return float(largest / bounds[form])
+        largest = power_of(data)
+    else:
+        low, (epsilon, gamma, omega) = constants.omega < 0.0, constants
+        k = 0 if low else sites - 1
+        kappa = epsilon * curvatures(sites, "dirichlet")[k] - omega
+        quarter = 0.5 * np.pi / np.sqrt((kappa - 2.0 * gamma) * (kappa + 2.0 * gamma))
+        start = SIZE * modes(sites, "dirichlet")[k] * (1.0 if low else 1j)
+        data = np.stack([start, -start]).astype(complex)
+        largest = power_of(flow(data, quarter, epsilon, gamma, omega, "dirichlet"))
+    energy, power = total_energy(constants, "dirichlet", data), power_of(data)
+    if form == "theorem_2_ball":
+        return float(largest / (limit_constant(constants) * power))
+    family = "theorem_2_energy" if form == "theorem_2" else form
+    return float(largest / BOUNDS[family](energy, power, sites, constants))
 
 
 def limit_constant(constants: Constants) -> float:
