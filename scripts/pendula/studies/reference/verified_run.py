@@ -58,29 +58,23 @@ def integrate(problem: Problem, snapshots: list[float], bits: int, decimal: bool
     """
     numbers = Numbers(bits, decimal)
     constants = RealConstants(*map(numbers.given, problem.constants))
-    times = problem.times
-    kept = np.isin(times, snapshots)
-    stepper = _stepper(numbers, constants, start(problem, numbers))
+    times, tolerance = problem.times, 2.0**-bits
+    stepper = numbers.heyoka.taylor_adaptive(  # it chooses its order from the tolerance
+        right_hand_side(numbers.heyoka, constants, problem.half_width),
+        start(problem, numbers).ravel(),
+        time=numbers.exact(0.0),
+        fp_type=numbers.heyoka.real,
+        prec=bits,
+        tol=numbers.exact(tolerance),
+        compact_mode=True,  # else it compiles every site by itself, for minutes
+    )
     outcome, _, _, steps, _, states = stepper.propagate_grid(numbers.exactly(times))
     if outcome != numbers.heyoka.taylor_outcome.time_limit:
         raise IntegrationError(f"heyoka stopped at tau = {float(stepper.time):.6g}: {outcome}")
-    states = states.reshape(len(times), 4, -1)
+    states, kept = states.reshape(len(times), 4, -1), np.isin(times, snapshots)
     energies = energy(constants, states)
     observed = (times, *norms(states), energies, times[kept], states[kept])
     return Run(*observed, bits, stepper.order, float(stepper.tol), steps)
-
-
-def _stepper(numbers: Numbers, constants: RealConstants, state: np.ndarray):
-    """Return heyoka's adaptive Taylor method, which chooses its order from the tolerance."""
-    return numbers.heyoka.taylor_adaptive(
-        right_hand_side(numbers.heyoka, constants, state.shape[1] - 1),
-        state.ravel(),
-        time=numbers.exact(0.0),
-        fp_type=numbers.heyoka.real,
-        prec=numbers.bits,
-        tol=numbers.exact(2.0**-numbers.bits),
-        compact_mode=True,  # else it compiles every site by itself, for minutes
-    )
 
 
 LIMIT = 1e-12
@@ -118,56 +112,28 @@ def require_agreement(name: str, run: Run, check: Run, discrepancy: Discrepancy)
         )
 
 
-MIRRORED = Reduction(even=True, synchronised=False)
-
-
 def as_variables(run: Run, apart: Discrepancy) -> dict[str, Variable]:
     """Return the variables; times are exact, `amplitude` may start any run as an exact state."""
-    series = ("component", "tau")
-    reach = run.amplitude.shape[2] - 1
+    series, reach = ("component", "tau"), run.amplitude.shape[2] - 1
+    mirrored = Reduction(even=True, synchronised=False)
+    rows = run.amplitude.astype(float).transpose(1, 2, 0)
+    amplitude = np.stack([unfold(rows[part::2], mirrored) for part in (0, 1)])
+    grid = ("part", "component", "site", "snapshot")
+    norm_apart = "largest difference of a norm from that of the second run"
+    amplitude_apart = "largest difference from the second run's amplitudes"
     return {
         "tau": Variable(("tau",), run.tau),
         "component": COMPONENTS,
         "linf": Variable(series, run.linf.astype(float)),
         "l2": Variable(series, run.l2.astype(float)),
         "energy": Variable(("tau",), run.energy.astype(float)),
-        "discrepancy": Variable(
-            ("tau",), apart.norms, "largest difference of a norm from that of the second run"
-        ),
+        "discrepancy": Variable(("tau",), apart.norms, norm_apart),
         "part": Variable(("part",), ["re", "im"]),
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
         "snapshot_tau": Variable(("snapshot",), run.snapshot_tau),
-        "amplitude": Variable(
-            ("part", "component", "site", "snapshot"), _amplitude(run), "amplitude on a site"
-        ),
-        "amplitude_discrepancy": Variable(
-            ("snapshot",), apart.amplitude, "largest difference from the second run's amplitudes"
-        ),
+        "amplitude": Variable(grid, amplitude, "amplitude on a site"),
+        "amplitude_discrepancy": Variable(("snapshot",), apart.amplitude, amplitude_apart),
     }
-
-
-def _amplitude(run: Run) -> np.ndarray:
-    """Return amplitudes (part, component, site, snapshot) on the whole chain, in doubles."""
-    rows = run.amplitude.astype(float).transpose(1, 2, 0)
-    return np.stack([unfold(rows[part::2], MIRRORED) for part in (0, 1)])
-
-
-def as_case(name: str, problem: Problem, run: Run, check: Run, apart: Discrepancy, decimal: bool):
-    """Return the attributes: the case, the controls of both runs, what they agree on."""
-    about = describe_run(name, problem, {"name": "heyoka", **_controls(run)})
-    numbers = "the printed decimals" if decimal else "the doubles nearest to them"
-    return {
-        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {numbers}",
-        **shared_by([about], "snapshot_every"),
-        **{f"second_run_{key}": value for key, value in _controls(check).items()},
-        "parameters_mean": numbers,
-        "energy_drift": apart.energy_drift,
-        "largest_discrepancy": float(apart.norms.max()),
-    }
-
-
-def _controls(run: Run) -> dict:
-    return {name: getattr(run, name) for name in ("bits", "order", "tolerance", "steps")}
 
 
 def reference_contents(
@@ -184,4 +150,17 @@ def reference_contents(
         print(f"{name}: {one.bits} bits, order {one.order}, {one.steps} steps")
     print(f"{name}: the norms differ by {apart.norms.max():.1e}, H drifts {apart.energy_drift:.1e}")
     require_agreement(name, run, check, apart)
-    return as_variables(run, apart), as_case(name, problem, run, check, apart, decimal)
+    controls, others = (
+        {key: getattr(one, key) for key in ("bits", "order", "tolerance", "steps")}
+        for one in (run, check)
+    )
+    numbers = "the printed decimals" if decimal else "the doubles nearest to them"
+    about = describe_run(name, problem, {"name": "heyoka", **controls})
+    return as_variables(run, apart), {
+        "title": f"Norms, energy and snapshots of {name} in multiprecision, from {numbers}",
+        **shared_by([about], "snapshot_every"),
+        **{f"second_run_{key}": value for key, value in others.items()},
+        "parameters_mean": numbers,
+        "energy_drift": apart.energy_drift,
+        "largest_discrepancy": float(apart.norms.max()),
+    }
