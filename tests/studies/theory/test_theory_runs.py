@@ -16,19 +16,12 @@ def draw(runs):
     return constants, boundaries, rng.normal(size=(runs, 2, 3, 2)) @ (1.0, 1j)
 
 
-def run_drawn(constants, boundaries, data):
-    return run_powers(
-        [constants_of(numbers) for numbers in constants], boundaries, data, END, OUTPUTS
-    )
-
-
 def test_each_run_keeps_its_place_its_ends_and_its_parameters():
     constants, boundaries, data = draw(7)
-    powers, energies = run_powers(
-        list(map(constants_of, constants)), boundaries, data, END, OUTPUTS
-    )
+    given = list(map(constants_of, constants))
+    powers, energies = run_powers(given, boundaries, data, END, OUTPUTS)
     for i, boundary in enumerate(boundaries):
-        alone = run(constants_of(constants[i]), boundary, data[i], END, OUTPUTS)
+        alone = run(given[i], boundary, data[i], END, OUTPUTS)
         np.testing.assert_allclose(powers[i], squared_norm(alone.l2), rtol=1e-10)
         np.testing.assert_allclose(energies[i], hamiltonian(data[i], constants[i], boundary))
 
@@ -36,9 +29,8 @@ def test_each_run_keeps_its_place_its_ends_and_its_parameters():
 def test_a_run_that_is_refused_has_an_infinite_power_after_its_start():
     constants, boundaries, data = draw(4)
     constants[2, 0] = 1e300
-    powers, energies = run_powers(
-        list(map(constants_of, constants)), boundaries, data, END, OUTPUTS
-    )
+    given = list(map(constants_of, constants))
+    powers, energies = run_powers(given, boundaries, data, END, OUTPUTS)
     lost = np.zeros((4, 3), bool)
     lost[2, 1:] = True
     np.testing.assert_array_equal(powers == np.inf, lost)

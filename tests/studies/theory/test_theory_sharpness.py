@@ -6,8 +6,8 @@ from pendula.models.bounds import theorem_3_bound
 from pendula.numerics.quadrature import integration_matrix
 from pendula.problem import Constants
 from pendula.studies.theory.equations import BOUNDARIES, right_hand_side, total_energy
-from pendula.studies.theory.sharpness import least_constant, limit_constant, reached, shell_state
 from pendula.studies.theory.estimates import picard
+from pendula.studies.theory.sharpness import least_constant, limit_constant, reached, shell_state
 from pendula.studies.theory.worst_data import supremum
 
 NEGATIVE = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
