@@ -27,12 +27,12 @@ def newton(t, flat, constants, mu):
 
 def test_the_pendula_follow_an_independent_solver():
     mu, times = 0.2, np.linspace(0.0, 40.0, 5)
-    angles, velocities = pendula_run([CONSTANTS], mu, one_pair(3, (1.0, 0.4 - 0.3j)), times)
-    start = np.concatenate([angles[0, 0].ravel(), velocities[0, 0].ravel()])
+    angles, velocities = pendula_run(CONSTANTS, mu, one_pair(3, (1.0, 0.4 - 0.3j)), times)
+    start = np.concatenate([angles[0].ravel(), velocities[0].ravel()])
     controls = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-12}
     found = solve_ivp(newton, (0.0, times[-1]), start, args=(CONSTANTS, mu), **controls).y[:, -1]
-    np.testing.assert_allclose(angles[-1, 0].ravel(), found[:6], atol=1e-9)
-    np.testing.assert_allclose(velocities[-1, 0].ravel(), found[6:], atol=1e-9)
+    np.testing.assert_allclose(angles[-1].ravel(), found[:6], atol=1e-9)
+    np.testing.assert_allclose(velocities[-1].ravel(), found[6:], atol=1e-9)
 
 
 def test_a_pair_grows_at_twice_gamma_at_one_to_two_and_nowhere_else():

@@ -6,14 +6,7 @@ import numpy as np
 
 from pendula.datasets.checks import table, tabulate, variable
 from pendula.measures.norms import power_of
-from pendula.models.bounds import (
-    extent,
-    theorem_2_constants,
-    theorem_2_gap,
-    widened_barrier,
-    widened_bound,
-    widened_delta_0,
-)
+from pendula.models import bounds
 from pendula.numerics.draws import complex_normal, uniform
 from pendula.numerics.elementary import modulus, square_modulus
 from pendula.problem import Constants
@@ -64,16 +57,16 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     """Set the paper's small case beside the regions of Theorem 2 and of its widened form."""
     amplitudes = one_pair(sites, pair)
     start, energy = power_of(amplitudes), total_energy(constants, "dirichlet", amplitudes)
-    (delta_0, c_0), gap = theorem_2_constants(constants), theorem_2_gap(constants)
+    (delta_0, c_0), gap = bounds.theorem_2_constants(constants), bounds.theorem_2_gap(constants)
     numbers = {
         "start": start,
         "delta_0": delta_0,
         "c_0": c_0,
         "depth": -energy,
         "barrier": gap * gap,
-        "widened_barrier": widened_barrier(constants)[1],
-        "widened_delta_0": widened_delta_0(constants),
-        "widened_bound": float(widened_bound(energy, start, constants)),
+        "widened_barrier": bounds.widened_barrier(constants)[1],
+        "widened_delta_0": bounds.widened_delta_0(constants),
+        "widened_bound": float(bounds.widened_bound(energy, start, constants)),
     }
     about = {
         **{name: NUMBERS[name] for name in ("start", "delta_0", "c_0")},
@@ -93,7 +86,7 @@ def check_negative_depth(constants: Constants, count: int, seed: int, scale: flo
     Random data of P up to delta_0, and real pairs. A control allows `scale` times that P.
     """
     rng = np.random.default_rng(seed)
-    radius = scale * theorem_2_constants(constants)[0]
+    radius = scale * bounds.theorem_2_constants(constants)[0]
     states = [
         np.sqrt(radius * uniform(rng, 1e-3, 1.0)) * draw_shape(rng, 1 + 2 * (i % 4))
         for i in range(count)
@@ -120,13 +113,13 @@ def check_bootstrap(
     continuous and starts below 2 a. With `below_barrier` only states below 2 a are allowed, as by
     continuity.
     """
-    delta_0, c_0 = theorem_2_constants(constants)
-    delta, gap = part * delta_0, theorem_2_gap(constants)
+    delta_0, c_0 = bounds.theorem_2_constants(constants)
+    delta, gap = part * delta_0, bounds.theorem_2_gap(constants)
     sizes = np.linspace(0.0, longest, 20001)[1:]
     powers = sizes**2
     pairs = np.stack([sizes, 0.0 * sizes], axis=1)[:, :, None].astype(complex)
     depth = -total_energies(constants, "dirichlet", pairs)
-    premises = (depth > 0.0) & (depth <= extent(constants) * delta)
+    premises = (depth > 0.0) & (depth <= bounds.extent(constants) * delta)
     premises &= depth >= gap * powers - 0.25 * powers**2
     if below_barrier:
         premises &= powers < 2.0 * gap

@@ -4,7 +4,6 @@ The model of (1) shares the chain and the integrators with that of (4), but no e
 it takes nothing from the expansion but the data. Angles are in radians.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,44 +27,34 @@ from .equations import (
 
 OUTPUTS = 41
 """Times at which angles are compared, the first of them the start."""
-SOLVER = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
 READINGS = ["mu^2 t / 2", "mu^2 t", "mu t / 2", "mu^2 t / 2, opposite drive"]
 """The slow time of (4), with its factor left out, with another power of mu; the opposite drive."""
 
 
-def pendula_run(
-    constants: Sequence[Constants], mu: float, amplitudes: np.ndarray, times, drives=1.0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return angles and velocities (time, run, 2, N) of (1) from what (3) makes of `amplitudes`.
+def pendula_run(constants: Constants, mu: float, amplitudes: np.ndarray, times, drive=1.0):
+    """Return angles and velocities (time, 2, N) of (1) from what (3) makes of `amplitudes` (2, N).
 
-    Every run has `constants` of its own, its drive times one of `drives`, and data (2, N) of its
-    own or the same as all. The velocity keeps the slow rate of the amplitudes, so that the data err
-    by mu^3 only. `times` are equal steps of t from 0 on. Both components are integrated on the
-    whole chain, whatever the symmetries.
+    The drive is `drive` times that of the constants. The velocity keeps the slow rate of the
+    amplitudes, so that the data err by mu^3 only. `times` are equal steps of t from 0 on. Both
+    components are integrated on the whole chain, whatever the symmetries.
     """
-    runs = len(constants)
-    data = np.broadcast_to(amplitudes, (runs, *np.shape(amplitudes)[-2:]))
-    strengths = np.broadcast_to(drives, runs)
+    rates = right_hand_side(constants, "dirichlet", amplitudes)
+    slow = mu * mu * mu * rates.real  # mu times d/dt of 2 mu A
+    angles, velocities = angles_of(amplitudes, constants.omega, mu)
     end = 0.5 * mu * mu * times[-1]
-    states = []
-    for own, strength, z in zip(constants, strengths, data, strict=True):
-        slow = mu * mu * mu * right_hand_side(own, "dirichlet", z).real  # mu times d/dt of 2 mu A
-        angles, velocities = angles_of(z, own.omega, mu)
-        problem = Problem(
-            constants=replace(own, gamma=float(strength * own.gamma)),
-            half_width=z.shape[-1] // 2,
-            boundary="dirichlet",
-            initial=amplitudes_of(angles, velocities + slow, own.omega, mu),
-            end_time=end,
-            output_step=end / (len(times) - 1),
-            solver=SOLVER,
-            snapshot_every=1,
-            model=PENDULA,
-            mu=mu,
-        )
-        states.append(simulate(problem, WHOLE).snapshots)
-    angles, velocities = np.array(states).transpose(1, 4, 0, 2, 3)
-    return angles, velocities
+    problem = Problem(
+        constants=replace(constants, gamma=drive * constants.gamma),
+        half_width=amplitudes.shape[-1] // 2,
+        boundary="dirichlet",
+        initial=amplitudes_of(angles, velocities + slow, constants.omega, mu),
+        end_time=end,
+        output_step=end / (len(times) - 1),
+        solver={"name": "taylor", "rtol": 1e-14, "atol": 1e-14},
+        snapshot_every=1,
+        model=PENDULA,
+        mu=mu,
+    )
+    return simulate(problem, WHOLE).snapshots.transpose(0, 3, 1, 2)
 
 
 def fast_times(mu: float, end: float) -> np.ndarray:
@@ -84,8 +73,8 @@ def expansion_errors(constants: Constants, mu: float, amplitudes, end: float) ->
     Pendula that feel the drive with the opposite sign are the same as a drive that is shifted by
     half a period.
     """
-    times, signs = fast_times(mu, end), np.array([1.0, -1.0])
-    angles, shifted = pendula_run([constants] * 2, mu, amplitudes, times, signs)[0].swapaxes(0, 1)
+    times = fast_times(mu, end)
+    angles, shifted = (pendula_run(constants, mu, amplitudes, times, d)[0] for d in (1.0, -1.0))
     phase = elementary.turn(frequency(constants.omega, mu) * times)[:, None, None]
 
     def expected(taus) -> np.ndarray:
@@ -125,9 +114,8 @@ def check_pendula_synchrony(
     """
     a = random_amplitudes(np.random.default_rng(seed), sites, 1.0)[0]
     data, times = np.stack([a, sign * a]), fast_times(mu, end_time)
-    driven, _ = pendula_run([constants], mu, data, times)
-    free, _ = pendula_run([constants], mu, data, times, 0.0)
-    departure = np.abs(driven[:, 0, 0] - sign * driven[:, 0, 1]).max()
+    driven, free = (pendula_run(constants, mu, data, times, drive)[0] for drive in (1.0, 0.0))
+    departure = np.abs(driven[:, 0] - sign * driven[:, 1]).max()
     effect, says = np.abs(driven - free).max(), "largest effect of the drive"
     return table(
         "The invariant reduction x = y of Newton's equations (1)",
@@ -175,7 +163,7 @@ def check_inherited_energy(
     for mu in mus:
         static.append(abs(averaged_energy(constants, mu, amplitudes) - energy))
         times, omega = fast_times(mu, end_time), frequency(constants.omega, mu)
-        angles, velocities = (x[:, 0] for x in pendula_run([constants], mu, amplitudes, times))
+        angles, velocities = pendula_run(constants, mu, amplitudes, times)
         turned = 0.5 / mu * complex_of(angles, -velocities / omega)
         states = product(turned, elementary.turn(-omega * times)[:, None, None])
         energies = np.array([total_energy(stated, "dirichlet", state) for state in states])

@@ -17,16 +17,7 @@ import numpy as np
 
 from pendula.datasets.checks import columns, table, variable
 from pendula.measures.norms import power_of
-from pendula.models.bounds import (
-    extent,
-    theorem_1_bound,
-    theorem_2_bound,
-    theorem_2_constants,
-    theorem_2_gap,
-    theorem_3_bound,
-    widened_barrier,
-    widened_bound,
-)
+from pendula.models import bounds
 from pendula.models.linear_chain import curvatures
 from pendula.numerics.draws import exponential, normal, uniform
 from pendula.numerics.elementary import complex_of, exp, square_modulus
@@ -44,19 +35,19 @@ from .equations import (
 )
 
 BOUNDS = {
-    "theorem_1": lambda energy, start, sites, k: theorem_1_bound(energy, k),
-    "theorem_2_ball": lambda energy, start, sites, k: theorem_2_constants(k)[1] * np.asarray(start),
-    "theorem_2_energy": lambda energy, start, sites, k: theorem_2_bound(energy, start, k),
-    "theorem_2_widened": lambda energy, start, sites, k: widened_bound(energy, start, k),
-    "theorem_3": lambda energy, start, sites, k: theorem_3_bound(energy, sites, k),
+    "theorem_1": lambda energy, start, sites, k: bounds.theorem_1_bound(energy, k),
+    "theorem_2_ball": lambda energy, start, sites, k: bounds.theorem_2_constants(k)[1] * start,
+    "theorem_2_energy": lambda energy, start, sites, k: bounds.theorem_2_bound(energy, start, k),
+    "theorem_2_widened": lambda energy, start, sites, k: bounds.widened_bound(energy, start, k),
+    "theorem_3": lambda energy, start, sites, k: bounds.theorem_3_bound(energy, sites, k),
 }
 """What each family's theorem gives for a bound on P of data with this H and P(0), as arrays."""
 FAMILIES = tuple(BOUNDS)
 LARGEST = {
     "theorem_1": lambda k: 60.0,
-    "theorem_2_ball": lambda k: 0.999 * theorem_2_constants(k)[0],
-    "theorem_2_energy": lambda k: 2.0 * theorem_2_gap(k),
-    "theorem_2_widened": lambda k: widened_barrier(k)[0],
+    "theorem_2_ball": lambda k: 0.999 * bounds.theorem_2_constants(k)[0],
+    "theorem_2_energy": lambda k: 2.0 * bounds.theorem_2_gap(k),
+    "theorem_2_widened": lambda k: bounds.widened_barrier(k)[0],
     "theorem_3": lambda k: 60.0,
 }
 """The largest P(0) to draw for each family."""
@@ -125,12 +116,6 @@ SAME_HILL = 1e-6
 """Searches whose values differ by less end at the same data, or at their images by a symmetry."""
 
 
-def first_point(sites: int, key) -> np.ndarray:
-    """Return the start of a search: random data with A = -B, on which the drive acts."""
-    half = normal(np.random.default_rng(key), 2 * sites)
-    return np.concatenate([half, -half, [0.0]])
-
-
 def decode(points: np.ndarray, family: str, constants: Constants) -> np.ndarray:
     """Return the amplitudes (count, 2, N) that points of the search (count, 4N + 1) stand for.
 
@@ -139,19 +124,12 @@ def decode(points: np.ndarray, family: str, constants: Constants) -> np.ndarray:
     raw = points[:, :-1].reshape(len(points), 4, -1)
     shapes, limit = complex_of(raw[:, 0::2], raw[:, 1::2]), LARGEST[family](constants)
     if family == "theorem_3":
-        limit = 8.0 * raw.shape[2] * extent(constants)
+        limit = 8.0 * raw.shape[2] * bounds.extent(constants)
     powers = limit / (1.0 + exp(-np.minimum(np.maximum(points[:, -1], -20.0), 20.0)))
     return np.sqrt(powers / np.sum(raw * raw, axis=(1, 2)))[:, None, None] * shapes
 
 
-def ratios(
-    family: str,
-    constants: Constants,
-    stated: Constants,
-    boundary: str,
-    end_time,
-    points: np.ndarray,
-) -> np.ndarray:
+def ratios(family: str, constants, stated, boundary, end_time, points) -> np.ndarray:
     """Return P over its bound for each point, its largest P where a run is needed to know.
 
     `end_time` is that of runs. Outside the region values are negative.
@@ -183,14 +161,14 @@ def supremum(family: str, constants: Constants, sites: int, boundary: str) -> fl
     """
     epsilon, gamma, omega = constants
     kappa = epsilon * curvatures(sites, boundary) - omega
-    if family == "theorem_1":
-        return (omega - 2 * gamma - 4 * epsilon) / (np.abs(kappa).min() - 2 * gamma)
     least = np.abs(kappa).min()
+    if family == "theorem_1":
+        return (omega - 2 * gamma - 4 * epsilon) / (least - 2 * gamma)
     if family == "theorem_2_ball":
-        return (least + 2 * gamma) / (least - 2 * gamma) / theorem_2_constants(constants)[1]
+        return (least + 2 * gamma) / (least - 2 * gamma) / bounds.theorem_2_constants(constants)[1]
     if family == "theorem_3":
         return 1.0
-    return theorem_2_gap(constants) / (least - 2 * gamma)
+    return bounds.theorem_2_gap(constants) / (least - 2 * gamma)
 
 
 def check_worst(
@@ -216,7 +194,8 @@ def check_worst(
         questions.append((family, constants, stated, boundary))
     counts = [1 if family in RUN else starts for family, _ in QUESTIONS]
     keys = [[seed, number, i] for number, count in enumerate(counts) for i in range(count)]
-    firsts = np.array([first_point(sites, key) for key in keys])
+    halves = [normal(np.random.default_rng(key), 2 * sites) for key in keys]
+    firsts = np.array([[*half, *-half, 0.0] for half in halves])  # A = -B: the drive acts on it
     ends = np.cumsum(counts)[:-1]
 
     def objective(points: np.ndarray) -> np.ndarray:
@@ -253,7 +232,7 @@ def check_worst(
         "last_rise": ("rise over the last quarter of the generations", SAME_HILL),
         "small_data": ("its value for tiny data in the nearest mode", None),
     }
-    numbers = {name: np.array([row[name] for row in rows]) for name in about}
+    numbers = {name: [row[name] for row in rows] for name in about}
     coords = {
         "question": [f"{family}, {boundary}" for family, boundary in QUESTIONS],
         "generation": np.arange(1, generations + 1),
@@ -276,10 +255,10 @@ def attained_theorem_3(epsilon: float, gamma: float, gamma_times: float = 1.0) -
     P^2 / (8 N) - c P = H.
     """
     constants = Constants(epsilon=epsilon, gamma=gamma, omega=OMEGAS["theorem_3"])
-    amplitudes = alternating(2, np.sqrt(2.0 * extent(constants)))
+    amplitudes = alternating(2, np.sqrt(2.0 * bounds.extent(constants)))
     energy = ring_energy(constants, amplitudes)
     stated = misstated(constants, gamma_times=gamma_times)
-    return float(power_of(amplitudes) / theorem_3_bound(energy, 2, stated))
+    return float(power_of(amplitudes) / bounds.theorem_3_bound(energy, 2, stated))
 
 
 def ring_energy(constants: Constants, amplitudes: np.ndarray) -> float:
