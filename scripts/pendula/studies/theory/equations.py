@@ -5,7 +5,7 @@ check measures it instead of the paper.
 """
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -94,12 +94,7 @@ def squared_norm(l2: np.ndarray) -> np.ndarray:
 
 
 def run_powers(
-    constants: Sequence[Constants],
-    boundaries: Sequence[str],
-    amplitudes: Sequence[np.ndarray],
-    end_time: float,
-    outputs: int,
-    tolerances: Mapping[str, float] = TOLERANCES,
+    constants: Sequence, boundaries: Sequence, amplitudes, end_time, outputs, tolerances=TOLERANCES
 ) -> tuple[np.ndarray, np.ndarray]:
     """Integrate many independent problems; return P (run, 1 + output) and H at the start (run,).
 
@@ -216,14 +211,7 @@ def check_gradient(
 
 
 def check_conservation(
-    gamma: float,
-    epsilon: float,
-    omegas,
-    sites: int,
-    end_time: float,
-    seed: int,
-    omega_off: float = 0.0,
-    turn: complex = 1.0,
+    gamma, epsilon, omegas, sites: int, end_time, seed: int, omega_off=0.0, turn: complex = 1.0
 ) -> dict:
     """Follow H and the l2 norm from random data, and turn the phase, for each kind of ends.
 

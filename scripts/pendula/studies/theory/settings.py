@@ -1,7 +1,7 @@
 """What the configuration says of the checks of the theory: each check by name with its arguments.
 
-An argument has one type, whichever check it stands in; what a check does with it is told by the
-function that takes it, and why it has its value in config/theory.yaml.
+An argument has one type, whichever check it stands in. The function that takes it says what it does
+there, and config/theory.yaml why it has its value.
 """
 
 from typing import Annotated, Literal

@@ -56,15 +56,7 @@ def measured_slopes(cells, boundary: str, data: np.ndarray, end_time: float) -> 
 
 
 def check_chart(
-    omegas,
-    gammas,
-    epsilon: float,
-    sites: int,
-    boundary: str,
-    end_time: float,
-    seed: int,
-    foldings: float = np.inf,
-    omega_off: float = 0.0,
+    omegas, gammas, epsilon, sites, boundary, end_time, seed, foldings=np.inf, omega_off=0.0
 ) -> dict:
     """Measure growth rates on a grid of (Omega, gamma) and set them beside the predictions.
 

@@ -172,15 +172,7 @@ def supremum(family: str, constants: Constants, sites: int, boundary: str) -> fl
 
 
 def check_worst(
-    gamma: float,
-    epsilon: float,
-    sites: int,
-    end_time: float,
-    generations: int,
-    population: int,
-    starts: int,
-    seed: int,
-    gamma_times: float = 1.0,
+    gamma, epsilon, sites, end_time, generations, population, starts, seed, gamma_times=1.0
 ) -> dict:
     """Search data on N sites, ends at rest or joined, for the largest P over each bound.
 
