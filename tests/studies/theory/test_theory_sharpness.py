@@ -1,23 +1,28 @@
-"""What data reach of the bounds, by formulas; data of one energy; Picard's weights."""
+"""What data reach of the bounds, by formulas; data of one energy; Picard's iterates."""
 
 import numpy as np
 import pytest
 from pendula.models.bounds import theorem_3_bound
-from pendula.numerics.quadrature import integration_matrix
 from pendula.problem import Constants
-from pendula.studies.theory.equations import BOUNDARIES, right_hand_side, total_energy
+from pendula.studies.theory.equations import (
+    BOUNDARIES,
+    alternating,
+    right_hand_side,
+    total_energy,
+)
 from pendula.studies.theory.estimates import picard
+from pendula.studies.theory.inequalities import energy_excess
 from pendula.studies.theory.sharpness import least_constant, limit_constant, reached, shell_state
 from pendula.studies.theory.worst_data import supremum
 
 NEGATIVE = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 POSITIVE = Constants(epsilon=1.0, gamma=1.0, omega=8.0)
+FORMS = {"theorem_1": (POSITIVE, "theorem_1"), "theorem_2": (NEGATIVE, "theorem_2_energy")}
 
 
 @pytest.mark.parametrize("sites", [3, 11])
 def test_a_tiny_wave_reaches_what_the_linear_equations_say(sites):
-    forms = {"theorem_1": (POSITIVE, "theorem_1"), "theorem_2": (NEGATIVE, "theorem_2_energy")}
-    for form, (constants, family) in forms.items():
+    for form, (constants, family) in FORMS.items():
         expected = supremum(family, constants, sites, "dirichlet")
         assert reached(form, constants, sites) == pytest.approx(expected, rel=1e-6)
     # supremum takes C_0 at delta_0, which is twice that for tiny data
@@ -31,20 +36,19 @@ def test_long_chains_reach_the_bounds_by_the_energy_and_not_c_0_delta():
     assert least_constant(NEGATIVE) == 3.0 and limit_constant(NEGATIVE) == 5.0
 
 
+def test_the_lower_bound_in_theorem_3s_proof_is_the_energy_of_a_long_alternating_chain():
+    """The other bounds on the energy are far from it there."""
+    excess = energy_excess(POSITIVE, NEGATIVE, alternating(1001, 3.0), "dirichlet", 1.0)
+    assert excess[3] == pytest.approx(0.0, abs=3e-3)
+    assert max(*excess[:3], excess[4]) < -1.0
+
+
 def test_states_of_one_energy_have_it_and_stay_below_theorem_3():
     state = shell_state(NEGATIVE, 11, -6.5)
     energy = total_energy(NEGATIVE, "dirichlet", state)
     assert energy == pytest.approx(-6.5, abs=1e-6)
     assert np.sum(np.abs(state) ** 2) < theorem_3_bound(energy, 11, NEGATIVE)
     assert shell_state(POSITIVE, 11, -1.0) is None
-
-
-def test_picards_weights_integrate_polynomials():
-    nodes = np.array([0.1, 0.4, 0.8, 1.0])
-    weights = integration_matrix(nodes)
-    for power in range(4):
-        expected = nodes ** (power + 1) / (power + 1)
-        np.testing.assert_allclose(weights @ nodes**power, expected, atol=1e-13)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
