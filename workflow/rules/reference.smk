@@ -2,13 +2,12 @@
 # part of the full run. Costs about 25 minutes of one core, half of them for fig3_large alone.
 # The only rule that needs heyoka: `pip install heyoka==7.13.2` first. To accept what it made:
 # `cp results/reference/*.nc tests/baseline/reference/` (the same code makes the same bytes).
-# Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
-LONGEST = "fig3_large"  # as long as all others: it starts first, beside them
 
 
 rule reference:
     "The references: cases of the paper in multiprecision (half an hour; needs heyoka)"
     input:
+        # Omega = 0 is chaotic: how long does it matter that 0.1 is not a double?
         expand("<results>/reference/{name}.nc", name=[*PAPER_CASES, "fig4_small.double"]),
 
 
@@ -16,7 +15,6 @@ use rule dataset as reference_case with:
     "One case, integrated twice: {case}{numbers}.nc"
     pathvars:
         made=r"reference/<paper_case>{numbers,(\.double)?}",
-    priority: 1
     conda:
         "../envs/reference.yaml"
     params:
