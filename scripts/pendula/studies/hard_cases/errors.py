@@ -26,15 +26,12 @@ def random_data(sites: int, size: float) -> np.ndarray:
     return size * complex_normal(np.random.default_rng(sites), (2, sites))
 
 
-def of(epsilon: float = 1.0, gamma: float = 1.0, omega: float = 0.0) -> Constants:
-    """Return constants, those of Fig 4 unless given."""
-    return Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-
-
-def run(constants: Constants, data, tau: float, solver: dict, outputs=OUTPUTS) -> Trajectory:
-    """Integrate `data` (2, N) up to `tau`, between ends at rest."""
+def run(
+    solver: dict, data: np.ndarray, tau: float, outputs=OUTPUTS, epsilon=1.0, gamma=1.0, omega=0.0
+) -> Trajectory:
+    """Integrate `data` (2, N) to `tau`, ends at rest, with the constants of Fig 4 unless given."""
     problem = Problem(
-        constants=constants,
+        constants=Constants(epsilon=epsilon, gamma=gamma, omega=omega),
         half_width=data.shape[1] // 2,
         boundary="dirichlet",
         initial=data,
@@ -45,11 +42,16 @@ def run(constants: Constants, data, tau: float, solver: dict, outputs=OUTPUTS) -
     return simulate(problem)
 
 
+def fine(solver: dict) -> dict:
+    """Return the finest solver of another kind: taylor, or for taylor itself dop853."""
+    return FINE["dop853" if solver["name"] == "taylor" else "taylor"]
+
+
 def miss_of_linear_flow(solver, omega, gamma, size, sites=21, tau=10.0) -> float:
     """Compare tiny data with the exact flow of the linear terms."""
     data = random_data(sites, size)
     exact = flow(data, tau, 1.0, gamma, omega, "dirichlet")
-    return state_error(run(of(gamma=gamma, omega=omega), data, tau, solver).final, exact)
+    return state_error(run(solver, data, tau, gamma=gamma, omega=omega).final, exact)
 
 
 def miss_near_threshold(solver, omega, factor, size, sites=21, tau=40.0) -> float:
@@ -63,64 +65,58 @@ def miss_of_rotation(solver, size, omega=-4.0, sites=5, turns=1.0) -> float:
 
     `turns` is the time in units in which the largest data turn by about a radian.
     """
-    data = random_data(sites, size)
-    tau = turns / (1.0 + size * size)
+    data, tau = random_data(sites, size), turns / (1.0 + size * size)
     exact = product(data, turn(-tau * (omega + 0.5 * square_modulus(data))))
-    return state_error(run(of(epsilon=0.0, gamma=0.0, omega=omega), data, tau, solver).final, exact)
+    found = run(solver, data, tau, epsilon=0.0, gamma=0.0, omega=omega).final
+    return state_error(found, exact)
 
 
 def drift_of_norms(solver, size, omega=-4.0, sites=21, tau=5.0) -> float:
     """Return the largest change of an l2 norm at gamma = 0, relative to it."""
-    constants = of(gamma=0.0, omega=omega)
-    l2 = run(constants, random_data(sites, size), tau, solver).l2
+    l2 = run(solver, random_data(sites, size), tau, gamma=0.0, omega=omega).l2
     return float(np.abs(l2 / l2[:, :1] - 1.0).max())
 
 
 def drift_of_energy(solver, tau, omega=-4.0, half_width=1, outputs=1000) -> float:
     """Return the largest change of the energy of the paper's small data, relative to it."""
     data = place(on_sites({0: (1.0, 0.1)}), half_width)
-    energy = run(of(omega=omega), data, tau, solver, outputs).energy
+    energy = run(solver, data, tau, outputs, omega=omega).energy
     return float(np.abs(energy / energy[0] - 1.0).max())
 
 
 def motion_of_rest(solver, tau) -> float:
     """Return the largest amplitude that grows out of none."""
-    return float(modulus(run(of(), np.zeros((2, 5), complex), tau, solver).final).max())
-
-
-def fine_run(solver: dict, constants: Constants, data, tau: float, outputs=OUTPUTS) -> np.ndarray:
-    """Return the end of a run by the finest solver of another kind: taylor, for taylor dop853."""
-    fine = FINE["dop853" if solver["name"] == "taylor" else "taylor"]
-    return run(constants, data, tau, fine, outputs).final
+    return float(modulus(run(solver, np.zeros((2, 5), complex), tau).final).max())
 
 
 def miss_of_other(solver, sites, omega=-4.0, tau=5.0, size=0.3) -> float:
     """Compare with another solver at tighter tolerances."""
-    constants, data = of(omega=omega), random_data(sites, size)
-    exact = fine_run(solver, constants, data, tau)
-    return state_error(run(constants, data, tau, solver).final, exact)
+    data = random_data(sites, size)
+    found, exact = (run(one, data, tau, omega=omega).final for one in (solver, fine(solver)))
+    return state_error(found, exact)
 
 
 def miss_of_scaled(solver, power, tau=2.0, sites=5) -> float:
     """Compare s A(s^2 tau) with A, s = 2^power, where all constants are s^2 times as large."""
-    s, constants, data = 2.0**power, of(omega=-4.0), random_data(sites, 1.0)
-    exact = fine_run(solver, constants, data, tau)
-    found = run(constants.scaled(s * s), s * data, tau / (s * s), solver).final
-    return state_error(found / s, exact)
+    s, data = 2.0**power, random_data(sites, 1.0)
+    square = s * s
+    exact = run(fine(solver), data, tau, omega=-4.0).final
+    scaled = {"epsilon": square, "gamma": square, "omega": -4.0 * square}
+    return state_error(run(solver, s * data, tau / square, **scaled).final / s, exact)
 
 
 def miss_of_single_pairs(solver, sites=5, tau=5.0) -> float:
     """Compare a chain without coupling with its pairs, each a chain of its own."""
-    constants, data = of(epsilon=0.0, omega=-1.0), random_data(sites, 1.0)
-    pairs = [fine_run(solver, constants, data[:, [n]], tau) for n in range(sites)]
-    return state_error(run(constants, data, tau, solver).final, np.concatenate(pairs, axis=1))
+    data, uncoupled = random_data(sites, 1.0), {"epsilon": 0.0, "omega": -1.0}
+    pairs = [run(fine(solver), data[:, [n]], tau, **uncoupled).final for n in range(sites)]
+    return state_error(run(solver, data, tau, **uncoupled).final, np.concatenate(pairs, axis=1))
 
 
 def miss_of_short_chain(solver, half_width, tau=1.0, short=30) -> float:
     """Compare the middle of a long chain with a chain whose ends the front has not reached."""
-    start, constants = on_sites({0: (1.0, 0.1)}), of()
-    exact = fine_run(solver, constants, place(start, short), tau, outputs=1)
-    found = run(constants, place(start, half_width), tau, solver, outputs=1).final
+    start = on_sites({0: (1.0, 0.1)})
+    exact = run(fine(solver), place(start, short), tau, outputs=1).final
+    found = run(solver, place(start, half_width), tau, outputs=1).final
     return state_error(found[:, half_width - short : half_width + short + 1], exact)
 
 
@@ -128,5 +124,5 @@ def run_anyway(solver, amplitude=1.0, tau=1.0, omega=-4.0) -> float:
     """Start a run that has to be refused; zero would mean that it ended."""
     data = random_data(5, 1.0)
     data[1, 2] = amplitude
-    run(of(omega=omega), data, tau, solver)
+    run(solver, data, tau, omega=omega)
     return 0.0

@@ -41,7 +41,7 @@ def halves(matrix: np.ndarray) -> np.ndarray:
     return np.stack([own + other, own - other])
 
 
-def lack_of_structure(matrix: np.ndarray) -> float:
+def asymmetry(matrix: np.ndarray) -> float:
     """Return how far the matrix is from what `halves` and `symmetric_eigenvalues` take for granted.
 
     Exchanging A and B must not change it, and the squares of its halves must be symmetric.
@@ -94,7 +94,7 @@ def check_dispersion(points, epsilon: float, sites: int, gamma_times: float = 1.
         distance = np.repeat(np.sort(2.0 * abs(stated.gamma) - np.abs(kappa)), 2)
         contradicts = (np.abs(distance) > EDGE) & ((roots[1] > 0.0) != (distance > 0.0))
         row = {
-            "eigenvalue_error": max(missed, lack_of_structure(matrix)) / scale,
+            "eigenvalue_error": max(missed, asymmetry(matrix)) / scale,
             "first_growth": growth_bound(halves(matrix)[0]),
             "second_growth": np.sqrt(max(0.0, roots[1, -1])),
             "contradictions": int(np.sum(contradicts)),
