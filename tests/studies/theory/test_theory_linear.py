@@ -53,13 +53,6 @@ def test_no_window_is_left_above_the_widest_gamma():
     assert len(stable_windows(1.001 * widest, 1.0, 61, "dirichlet")) == 0
 
 
-def test_growth_at_the_threshold_follows_the_decay_of_the_data(numbers):
-    found = numbers("threshold", "spreading_exponent")
-    np.testing.assert_allclose(found[:, 1], [[0.9, 0.4]] * 2, atol=0.01)  # (1 + |n|)^-0.6
-    np.testing.assert_allclose(found[:, -1], [[0.5, 0.0]] * 2, atol=0.02)  # one site
-    assert (numbers("threshold", "finite_gap") > 0).all()
-
-
 def test_spreading_data_follow_the_librarys_own_chain():
     omega, end, sites = -4.0, 6.0, 201
     half = (0.5e-9 + 0.5e-9j) * decaying(sites, 0.6, omega)
