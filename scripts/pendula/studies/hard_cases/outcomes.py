@@ -1,4 +1,4 @@
-"""What the solvers made of the hard cases, as a dataset.
+"""The outcomes of the solvers on the hard cases, as a dataset.
 
 It keeps no times, in which two runs would differ.
 """
@@ -58,10 +58,7 @@ def variables(results: list[dict]) -> dict[str, Variable]:
 
 
 def hard_cases_contents(cases: list[dict]) -> Contents:
-    """Return what each solver made of `cases`, which are plain values.
-
-    A row that does not end as expected is said here and marked in it.
-    """
+    """Return the outcome of each solver on `cases`, plain values; an unexpected one is printed."""
     results = [evaluate(case, solver) for case in cases for solver in case["solvers"]]
     for row in results:
         if not row["sound"]:

@@ -42,8 +42,8 @@ CHECKS["short_chart"] = CHECKS["chart"]
 def run_checks(checks: Mapping[str, Mapping[str, Any]]) -> Iterator[xr.Dataset]:
     """Yield the numbers of each of `checks`, which have their arguments by name.
 
-    A check that does not hold does not stop the run: it is said here and in the table of claims,
-    and it turns the verdicts that rest on it.
+    A check that does not hold does not stop the run: it is reported here and in the table of
+    claims, and it changes the verdicts that rest on it.
     """
     for name, arguments in checks.items():
         check = run_check(name, arguments)

@@ -42,7 +42,7 @@ def halves(matrix: np.ndarray) -> np.ndarray:
 
 
 def asymmetry(matrix: np.ndarray) -> float:
-    """Return how far the matrix is from what `halves` and `symmetric_eigenvalues` take for granted.
+    """Return how far the matrix is from what `halves` and `symmetric_eigenvalues` require.
 
     Exchanging A and B must not change it, and the squares of its halves must be symmetric.
     """
