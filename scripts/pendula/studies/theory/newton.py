@@ -126,26 +126,23 @@ def check_pendula_synchrony(
     )
 
 
-def rotating_energy(constants: Constants, mu: float, amplitudes: np.ndarray, t) -> float:
-    """Return Newton's energy of (1) in the frame that turns with omega, at the angles of (3).
-
-    That is the sum of 1 - cos x - omega^2 x^2 / 2 over all pendula, of C (x_{n+1} - x_n)^2 / 2
-    over all bonds, those to the ends at rest among them, and of D(t) (x - y)^2 / 2.
-    """
-    omega = frequency(constants.omega, mu)
-    angles = 2.0 * mu * product(amplitudes, elementary.turn(omega * t)).real
-    bonds = np.sum(np.diff(np.pad(angles, ((0, 0), (1, 1)))) ** 2)
-    drive = 2.0 * constants.gamma * mu * mu * elementary.cos(2.0 * omega * t)
-    own = np.sum(2.0 * elementary.sin(0.5 * angles) ** 2 - 0.5 * (omega * angles) ** 2)
-    opposite = np.sum((angles[0] - angles[1]) ** 2)
-    return float(own + 0.5 * constants.epsilon * mu * mu * bonds + 0.5 * drive * opposite)
-
-
 def averaged_energy(constants: Constants, mu: float, amplitudes: np.ndarray) -> float:
-    """Return -1 / mu^4 of the mean of that energy over a turn: 32 points take a cosine's x^16."""
-    turn = 2.0 * np.pi / frequency(constants.omega, mu) * np.arange(32) / 32
-    mean = float(np.mean([rotating_energy(constants, mu, amplitudes, t) for t in turn]))
-    return -mean / (mu * mu * mu * mu)
+    """Return -1 / mu^4 of Newton's energy of (1), at the angles of (3) and averaged over a turn.
+
+    In the frame that turns with omega the energy is the sum of 1 - cos x - omega^2 x^2 / 2 over all
+    pendula, of C (x_{n+1} - x_n)^2 / 2 over all bonds, those to the ends at rest among them, and of
+    D(t) (x - y)^2 / 2. 32 points take the mean of a cosine's x^16.
+    """
+    omega, energies = frequency(constants.omega, mu), []
+    for t in 2.0 * np.pi / omega * np.arange(32) / 32:
+        angles = 2.0 * mu * product(amplitudes, elementary.turn(omega * t)).real
+        bonds = np.sum(np.diff(np.pad(angles, ((0, 0), (1, 1)))) ** 2)
+        drive = 2.0 * constants.gamma * mu * mu * elementary.cos(2.0 * omega * t)
+        own = np.sum(2.0 * elementary.sin(0.5 * angles) ** 2 - 0.5 * (omega * angles) ** 2)
+        opposite = np.sum((angles[0] - angles[1]) ** 2)
+        coupled = 0.5 * constants.epsilon * mu * mu * bonds
+        energies.append(float(own + coupled + 0.5 * drive * opposite))
+    return -float(np.mean(energies)) / (mu * mu * mu * mu)
 
 
 def check_inherited_energy(
