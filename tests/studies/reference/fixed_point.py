@@ -5,20 +5,9 @@ data on the middle site stay even. Nothing here uses the library or heyoka.
 """
 
 from fractions import Fraction
+from math import floor
 
 import numpy as np
-
-
-def fixed(x, bits):
-    """Return the fixed-point integer of a number or a decimal string."""
-    return (Fraction(x) * 2**bits).__floor__()
-
-
-def begin(pair, half_width, bits):
-    """Return Re and Im, each (2, M + 1), of data `pair` = (A_0, B_0), decimal strings."""
-    re = np.zeros((2, half_width + 1), object)
-    re[:, 0] = [fixed(x, bits) for x in pair]
-    return re, re * 0
 
 
 def product(x, y, bits):
@@ -50,25 +39,22 @@ def power_series(re, im, omega, order, bits):
     return a, b
 
 
-def advance(re, im, omega, steps_per_unit, order, bits):
-    """Return Re and Im one step of 1/steps_per_unit later."""
-    totals = []
-    for series in power_series(re, im, omega, order, bits):
-        total = series[order]
-        for coefficient in series[order - 1 :: -1]:
-            total = total // steps_per_unit + coefficient
-        totals.append(total)
-    return totals
-
-
 def integrate(pair, omega, end, *, steps_per_unit, order, half_width=14, bits=128):
     """Return complex amplitudes (2, 2M + 1) at time `end`, each rounded once to double.
 
-    To tau = 1 the sites -4..4 are those of a longer chain to 1e-22, the norms too: of small data
-    by 20 steps of order 24, of large data by 40 of order 32.
+    `pair` = (A_0, B_0) are decimal strings. To tau = 1 the sites -4..4 are those of a longer chain
+    to 1e-22, the norms too: of small data by 20 steps of order 24, of large data by 40 of order 32.
     """
-    re, im = begin(pair, half_width, bits)
+    re = np.zeros((2, half_width + 1), object)
+    re[:, 0] = [floor(Fraction(x) * 2**bits) for x in pair]
+    im = re * 0
     for _ in range(round(end * steps_per_unit)):
-        re, im = advance(re, im, omega, steps_per_unit, order, bits)
+        totals = []
+        for series in power_series(re, im, omega, order, bits):
+            total = series[order]
+            for coefficient in series[order - 1 :: -1]:
+                total = total // steps_per_unit + coefficient
+            totals.append(total)
+        re, im = totals
     half = (re / 2**bits).astype(float) + 1j * (im / 2**bits).astype(float)
     return np.concatenate([half[:, :0:-1], half], axis=1)
