@@ -30,7 +30,7 @@ from pendula.studies.breathers.fate_figures import MAPS  # noqa: E402
 from pendula.studies.breathers.fates import FATES  # noqa: E402
 from pendula.studies.breathers.nearest import NEAR  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers, slope_powers, thermal_powers  # noqa: E402
-from pendula.studies.unbounded.front import BULK, FRONT, speeds  # noqa: E402
+from pendula.studies.unbounded.measured import BULK, FRONT, speeds  # noqa: E402
 
 GIVEN = yaml.safe_load((ROOT / "config/unbounded.yaml").read_text())["unbounded"]
 QUOTED = ROOT / "tests/baseline/quoted"

@@ -19,10 +19,8 @@ from pendula.numerics.search import maximise
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
-from pendula.studies.unbounded.extremes import maximum_variables
-from pendula.studies.unbounded.front import measure_front
-from pendula.studies.unbounded.long_runs import measure_growth
-from pendula.studies.unbounded.thermal import state_of_energy, thermal_variables
+from pendula.studies.unbounded.measured import measure_front, measure_growth
+from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy, thermal_variables
 
 CHECKS = {
     "dispersion": {},  # eigenvalues, also double ones

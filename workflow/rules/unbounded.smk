@@ -62,7 +62,7 @@ use rule dataset as thermal with:
     params:
         **values_of(SETTINGS.cases["fig4_small"], "epsilon", "gamma"),
         **values_of(UNBOUNDED.thermal, "omegas", "nodes", "density_nodes"),
-        call=function("pendula.studies.unbounded.measured.solve_thermal"),
+        call=function("pendula.studies.unbounded.thermal.solve_thermal"),
         bulk_omega=SETTINGS.cases["fig4_small"].omega,
         warm_omega=SETTINGS.cases[UNBOUNDED.thermal.warm.case].omega,
         energies=UNBOUNDED.thermal.warm.energies,

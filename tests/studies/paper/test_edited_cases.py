@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from made_up_unbounded import window_map
+from accepted import dataset
 from pendula.measures.difference import PARAMETERS
 from pendula.studies.chaos.ensembles import _norms_of
 from pendula.studies.paper import figures, solvers
@@ -95,7 +95,7 @@ def test_a_true_run_is_not_drawn_on_after_its_end(make_trajectory):
 
 
 def test_the_papers_window_is_not_drawn_on_a_map_that_ends_before():
-    maps = {"fig5_left": window_map(8.0), "fig5_right": window_map()}
+    maps = {name: dataset(f"unbounded/map_{name}") for name in ("fig5_left", "fig5_right")}
     end = float(maps["fig5_left"]["end"][-1])
     data = unbounded.gather_window_map([*maps.values()], [*maps], [end, end + 1.0])
     assert np.isnan(data["paper_end"].values).tolist() == [False, True]

@@ -6,6 +6,9 @@ from pendula.problem import on_sites
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import (
+    BLOCK,
+    GUARD,
+    LEVELS,
     advance,
     begin,
     find_front,
@@ -19,13 +22,16 @@ from problems import constants_of, problem_of
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 REST = 1e-20
-BLOCK, GUARD = 64, 32
-"""Sites by which the chain grows, and how many of its last ones must be at rest."""
 
 
 def problem(case="fig3_small", half_width=None, **changes):
     chosen = {"end_time": 40.0, "output_step": 0.5, "solver": TIGHT} | changes
     return problem_of(case, half_width=half_width, **chosen)
+
+
+def amplitudes_of(sites):
+    """Return A and B of rows of real and imaginary parts."""
+    return sites[0::2] + 1j * sites[1::2]
 
 
 @pytest.mark.parametrize("half_width", [None, 30, 70, 150])
@@ -46,8 +52,7 @@ def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
     width = one.width[-1]
     right = whole.final[:, 150 : 151 + width]
     assert width == 2 * BLOCK
-    np.testing.assert_allclose(one.state[0, 1:-1] + 1j * one.state[1, 1:-1], right[0], atol=1e-10)
-    np.testing.assert_allclose(one.state[2, 1:-1] + 1j * one.state[3, 1:-1], right[1], atol=1e-10)
+    np.testing.assert_allclose(amplitudes_of(one.sites), right, atol=1e-10)
 
 
 def test_sites_are_added_by_blocks_and_never_beyond_the_chain():
@@ -68,21 +73,22 @@ def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
             state = widen(state, None, cut)
             times = np.array([2.0 * piece, 2.0 * piece + 2.0])
             advance(constants_of((1.0, 1.0, 0.0)), state, times, LOOSE)
-        sites[cut] = np.flatnonzero(site_powers(state) > 1e-6).max(), state.shape[1]
+        powers = site_powers(state[:, 1:-1])
+        sites[cut] = np.flatnonzero(powers > 1e-6).max(), state.shape[1]
     assert sites[rest][0] == sites[1e-150][0] and sites[rest][1] < sites[1e-150][1]
-    assert site_powers(state)[-8:].max() < 1e-290
+    assert powers[-8:].max() < 1e-290
 
 
 @pytest.mark.parametrize("half_width", [70, 150])
 def test_data_that_are_not_even_are_followed_on_both_sides(half_width):
     lopsided = problem(half_width=half_width, initial={-2: (1.0, 0.1), 0: (0.0, 0.5j)})
     one, whole = run_long(lopsided, REST), simulate(lopsided)
-    (chain,) = run_chains(lopsided, REST, [half_width])
+    ((_, l2, _),) = run_chains(lopsided, REST, [half_width])
     np.testing.assert_allclose(one.l2, np.hypot(*whole.l2), rtol=1e-12)
-    np.testing.assert_allclose(chain.l2, one.l2, rtol=1e-12)
+    np.testing.assert_allclose(l2, one.l2, rtol=1e-12)
     right = whole.final[:, half_width : half_width + 1 + one.width[-1]]
-    np.testing.assert_allclose(one.state[0, 1:-1] + 1j * one.state[1, 1:-1], right[0], atol=1e-10)
-    assert one.front[-1, 0] == find_front(one.state)[0] > 30.0
+    np.testing.assert_allclose(amplitudes_of(one.sites), right, atol=1e-10)
+    assert one.front[-1, 0] == find_front(one.sites)[0] > 30.0
 
 
 def test_the_chain_begins_with_a_block_beside_the_data():
@@ -95,7 +101,7 @@ def test_the_chain_begins_with_a_block_beside_the_data():
 def test_both_components_are_kept_where_a_equals_b():
     """So that all members of an ensemble have a state of the same rows."""
     one = run_long(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
-    np.testing.assert_array_equal(one.state[:2], one.state[2:])
+    np.testing.assert_array_equal(one.sites[:2], one.sites[2:])
     np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
 
 
@@ -120,3 +126,30 @@ def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_i
     state[:, -2] = 1.0
     widths = [widen(state, 2 * GUARD - 1 + more, 1e-6).shape[1] for more in (0, 1, 2 * BLOCK)]
     assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]
+
+
+@pytest.mark.parametrize("site", [-(GUARD + 1), GUARD + 1])
+def test_a_chain_that_is_not_even_is_widened_on_both_sides_where_either_end_moves(site):
+    width = 2 * GUARD
+    state = np.zeros((4, 2 * width + 3))
+    state[0, 1 + width + site] = 1.0
+    wider = widen(state, None, 1e-6, even=False)
+    assert wider.shape == (4, 2 * (width + BLOCK) + 3)
+    assert wider[0, 1 + width + BLOCK + site] == 1.0 and np.count_nonzero(wider) == 1
+
+
+def test_a_front_is_found_between_two_sites():
+    sites = np.zeros((4, 12))
+    sites[0] = 2.0 * np.exp(-np.arange(12.0))
+    exact = [round(np.log(4.0 / level) / 2.0, 3) for level in (1e-6, 1e-2, 1.0)]
+    np.testing.assert_allclose(find_front(sites), [*exact, -1.0], atol=1e-9)  # three decimals
+
+
+def test_a_front_next_to_nothing_stands_on_its_last_site():
+    sites = np.zeros((2, 10))
+    sites[0, 2:5] = 3.0  # and nothing before or behind them
+    assert find_front(sites).tolist() == [4.0] * len(LEVELS)
+    sites[0, 3:6] = 0.0, 3.0, 1e-4  # now nothing before it, and little behind it
+    assert 4.0 < find_front(sites)[0] < 5.0
+    sites[0] = 3.0
+    assert find_front(sites).tolist() == [9.0] * len(LEVELS)

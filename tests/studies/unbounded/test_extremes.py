@@ -8,8 +8,8 @@ import xarray as xr
 from metropolis import RINGS, SITES, offer_moves, offer_turns
 from pendula.datasets.netcdf import as_xarray
 from pendula.studies.unbounded import extremes
-from pendula.studies.unbounded.extremes import law_of_maxima, maximum_variables, mean_maximum
-from pendula.studies.unbounded.thermal import state_of_energy
+from pendula.studies.unbounded.extremes import law_of_maxima, mean_maximum
+from pendula.studies.unbounded.thermal import maximum_variables, state_of_energy
 from problems import constants_of
 from scipy.special import erf, i0e
 

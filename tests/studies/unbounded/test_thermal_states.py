@@ -10,7 +10,6 @@ from oracle import hamiltonian, random_chain
 from pendula.datasets.checks import rounded
 from pendula.studies.unbounded.bulk import TERMS, spectrum
 from pendula.studies.unbounded.thermal import (
-    REACH,
     correlation_length,
     density_of,
     products_of,
@@ -18,9 +17,8 @@ from pendula.studies.unbounded.thermal import (
     state_of_energy,
     terms_of,
     thermal_variables,
-    widest,
 )
-from pendula.studies.unbounded.transfer import reach_of
+from pendula.studies.unbounded.transfer import REACH, reach_of, widest
 from problems import constants_of
 from scipy.optimize import minimize_scalar
 

@@ -38,20 +38,14 @@ BLOCK, GUARD = 64, 32
 """Sites by which W grows, and how many of the last ones must be at rest: no front crosses GUARD
 sites within a piece of a few units of tau."""
 
+LEVELS = np.array([1e-6, 1e-2, 1.0, 4.0])
+"""Powers |A|^2 + |B|^2 at which the front is found: its leading edge, and where it breaks."""
 
-class Piece(NamedTuple):
-    """What a piece of a run gave: norms and energy at its outputs, the state at its end."""
+DIGITS = 3
+"""Digits that are kept of the place of the front between two sites."""
 
-    record: Record
-    state: np.ndarray  # (row, 1 + site): the sites in motion and two ghosts
-    outcome: Outcome
-
-
-def begin(initial: np.ndarray, half_width: int | None) -> np.ndarray:
-    """Return the state of data on the sites in motion; without a `half_width` there are no ends."""
-    reach = initial.shape[1] // 2
-    width = reach + BLOCK if half_width is None else min(reach + BLOCK, half_width)
-    return pack(place(initial, width), Reduction(is_even(initial), synchronised=False))
+PIECE = 2.0
+"""Units of tau between two looks at the last sites."""
 
 
 def is_even(initial: np.ndarray) -> bool:
@@ -59,9 +53,19 @@ def is_even(initial: np.ndarray) -> bool:
     return np.array_equal(initial, initial[:, ::-1])
 
 
-def site_powers(state: np.ndarray) -> np.ndarray:
-    """Return |A_n|^2 + |B_n|^2 on the sites of a state."""
-    return (state[:, 1:-1] ** 2).sum(axis=0)
+def begin(initial: np.ndarray, half_width: int | None) -> np.ndarray:
+    """Return the state of data on the sites in motion; without a `half_width` there are no ends.
+
+    A state has two ghosts, (row, 1 + site + 1).
+    """
+    reach = initial.shape[1] // 2
+    width = reach + BLOCK if half_width is None else min(reach + BLOCK, half_width)
+    return pack(place(initial, width), Reduction(is_even(initial), synchronised=False))
+
+
+def site_powers(sites: np.ndarray) -> np.ndarray:
+    """Return |A_n|^2 + |B_n|^2 on (row, site)."""
+    return (sites**2).sum(axis=0)
 
 
 def width_of(state: np.ndarray, even: bool) -> int:
@@ -69,19 +73,21 @@ def width_of(state: np.ndarray, even: bool) -> int:
     return state.shape[1] - 3 if even else (state.shape[1] - 3) // 2
 
 
-def right_half(state: np.ndarray, even: bool) -> np.ndarray:
-    """Return the sites 0..W of a state with a ghost on either side."""
-    return state if even else state[:, width_of(state, even) :]
-
-
 def widen(state: np.ndarray, half_width: int | None, rest: float, even: bool = True) -> np.ndarray:
     """Return the state with a block of sites at rest added where an end is no longer at rest."""
-    power, width = site_powers(state), width_of(state, even)
+    power, width = site_powers(state[:, 1:-1]), width_of(state, even)
     at_ends = power[-GUARD:].max() if even else max(power[:GUARD].max(), power[-GUARD:].max())
     if width == half_width or not at_ends > rest * rest * power.max():
         return state
     more = BLOCK if half_width is None else min(BLOCK, half_width - width)
     return np.pad(state[:, 1:-1], ((0, 0), (1 if even else 1 + more, 1 + more)))
+
+
+class Piece(NamedTuple):
+    """What a piece of a run gave: norms and energy at its outputs, and what the solver did."""
+
+    record: Record
+    outcome: Outcome
 
 
 def advance(
@@ -110,19 +116,27 @@ def advance(
     if outcome.status != DONE:
         reason = FAULTS[outcome.status]
         raise IntegrationError(f"stopped at tau = {outcome.time:.6g}: {reason}")
-    return Piece(record, state, outcome)
+    return Piece(record, outcome)
+
+
+def find_front(sites: np.ndarray) -> np.ndarray:
+    """Return the site where the power falls below each of LEVELS for good, -1 if none is above.
+
+    Between two sites the logarithm of the power tells. It is rounded to a thousandth of a site,
+    since its last bits differ between machines.
+    """
+    power = np.append(site_powers(sites), 0.0)  # the last site has nothing behind it
+    above = power > LEVELS[:, None]
+    site = np.where(above.any(axis=1), power.size - 1 - above[:, ::-1].argmax(axis=1), -1)
+    here, beyond = power[site], power[site + 1]
+    between = (site >= 0) & (beyond > 0.0)
+    sizes = np.where(between, [here, LEVELS, beyond], [[2.0], [2.0], [1.0]])
+    start, level, end = log(sizes)
+    parts = ((start - level) / (start - end)).tolist()
+    return site + np.array([round(part, DIGITS) for part in parts])
 
 
 # --- A run in pieces ------------------------------------------------------------------------------
-
-LEVELS = np.array([1e-6, 1e-2, 1.0, 4.0])
-"""Powers |A|^2 + |B|^2 at which the front is found: its leading edge, and where it breaks."""
-
-DIGITS = 3
-"""Digits that are kept of the place of the front between two sites."""
-
-PIECE = 2.0
-"""Units of tau between two looks at the last sites."""
 
 
 class LongRun(NamedTuple):
@@ -135,13 +149,14 @@ class LongRun(NamedTuple):
     piece_tau: np.ndarray  # (piece,)
     front: np.ndarray  # (piece, level): where the power falls below each of LEVELS, -1 if none
     width: np.ndarray  # (piece,): W, the last site integrated
-    # Of data that are not even in n, front, bulk and state are those of the sites 0..W
+    # Of data that are not even in n, front, bulk and sites are those of 0..W
     bulk: np.ndarray  # (piece, level, 5): means of P and of the terms of H behind each front
     maxima: np.ndarray  # (piece, size): of the moduli of so many neighbours in the bulk
-    state: np.ndarray  # (row, 1 + site) at the end
+    sites: np.ndarray  # (row, site) at the end
 
 
 SERIES = LongRun._fields[:-1]
+OUTPUTS = SERIES[:4]
 
 
 def run_long(
@@ -152,75 +167,31 @@ def run_long(
     Its half-width is None where the chain has no ends; `rest` is what counts as at rest ahead of
     the front (see above). A checkpoint is written after each `keep_every` pieces, and left.
     """
-    even = is_even(problem.initial)
-    description = describe_run(problem, rest)
-    count = round(problem.end_time / PIECE)
+    even, description, rooms = is_even(problem.initial), describe_run(problem, rest), {}
     kept = recall_checkpoint(keep_at, description) if keep_at else None
-    series, state = _start(problem) if kept is None else _continue(kept)
-    rooms = {}
-    for piece in range(len(series["piece_tau"]), count):
+    state = begin(problem.initial, problem.half_width) if kept is None else kept["state"]
+    series = {name: [] if kept is None else list(kept[name]) for name in SERIES}
+    for piece in range(len(series["piece_tau"]), round(problem.end_time / PIECE)):
         state = widen(state, problem.half_width, rest, even)
         times = _times(problem, piece, piece + 1)
-        done = advance(problem.constants, state, times, problem.solver, rooms, even)
-        half = right_half(done.state, even)
-        _add(series, times, done, half, first=piece == 0)
-        means = bulk_means(half, problem.constants, series["front"][-1])
-        series["bulk"].append(means)
-        series["maxima"].append(bulk_maxima(half, series["front"][-1][-1]))
+        record = advance(problem.constants, state, times, problem.solver, rooms, even).record
+        for name, values in zip(OUTPUTS, (*_norms(times, record), record.energy), strict=True):
+            series[name].extend(values[1 if piece else 0 :])  # the first ends the piece before
+        sites = _right_half(state, even)
+        front = find_front(sites)
+        at_end = {
+            "piece_tau": times[-1],
+            "front": front,
+            "width": sites.shape[1] - 1,
+            "bulk": bulk_means(sites, problem.constants, front),
+            "maxima": bulk_maxima(sites, front[-1]),
+        }
+        for name, value in at_end.items():
+            series[name].append(value)
         if keep_at and (piece + 1) % keep_every == 0:
-            keep_checkpoint(keep_at, description, {**_joined(series), "state": state})
-    return LongRun(**_joined(series), state=right_half(state, even))
-
-
-# --- One chain of many half-widths ----------------------------------------------------------------
-
-
-class Norms(NamedTuple):
-    """The norms of the pair (A, B) at every output of a run."""
-
-    tau: np.ndarray  # (time,)
-    l2: np.ndarray  # (time,)
-    linf: np.ndarray  # (time,)
-
-
-def run_chains(problem: Problem, rest: float, half_widths: list[int]) -> list[Norms]:
-    """Return the norms on the chain of `problem` for each of rising `half_widths`.
-
-    As long as nothing moves near its end, a chain does what all longer ones do. So the longest one
-    is run from the start, and each shorter one goes its own way when its sites have become too few;
-    a chain whose end the front never reached has the norms of the longest one.
-    """
-    longest, even = half_widths[-1], is_even(problem.initial)
-    state, pieces = begin(problem.initial, longest), []
-    width = width_of(state, even)
-    own = {m: (0, begin(problem.initial, m)) for m in half_widths if m < width}
-    for piece in range(round(problem.end_time / PIECE)):
-        wider = widen(state, longest, rest, even)
-        for half_width in half_widths:
-            if half_width not in own and half_width < width_of(wider, even):
-                own[half_width] = piece, state.copy()
-        state = wider
-        times = _times(problem, piece, piece + 1)
-        done = advance(problem.constants, state, times, problem.solver, even=even)
-        pieces.append(_norms(times, done))
-    found = []
-    for half_width in half_widths:
-        piece, state = own.get(half_width, (len(pieces), state))
-        found.append(
-            _joined_norms([*pieces[:piece], *_alone(problem, rest, half_width, piece, state)])
-        )
-    return found
-
-
-def _alone(problem: Problem, rest: float, half_width: int, piece: int, state: np.ndarray):
-    """Yield the norms of a chain from a piece on, the last ones at once when it cannot grow."""
-    count, even = round(problem.end_time / PIECE), is_even(problem.initial)
-    while piece < count:
-        state = widen(state, half_width, rest, even)
-        last = count if width_of(state, even) == half_width else piece + 1
-        times = _times(problem, piece, last)
-        yield _norms(times, advance(problem.constants, state, times, problem.solver, even=even))
-        piece = last
+            keep_checkpoint(keep_at, description, {**series, "state": state})
+    arrays = {name: np.array(values) for name, values in series.items()}
+    return LongRun(**arrays, sites=_right_half(state, even))
 
 
 def _times(problem: Problem, piece: int, last: int) -> np.ndarray:
@@ -229,62 +200,14 @@ def _times(problem: Problem, piece: int, last: int) -> np.ndarray:
     return problem.output_step * np.arange(piece * outputs, last * outputs + 1)
 
 
-def _norms(times: np.ndarray, done: Piece) -> Norms:
-    l2 = np.sqrt((done.record.l2**2).sum(axis=0))
-    return Norms(times, l2, done.record.linf.max(axis=0))
+def _norms(times: np.ndarray, record: Record) -> np.ndarray:
+    """Return tau, l2 and l-infinity of the pair (A, B) at every output, (3, time)."""
+    return np.array([times, np.sqrt((record.l2**2).sum(axis=0)), record.linf.max(axis=0)])
 
 
-def _joined_norms(pieces: list[Norms]) -> Norms:
-    """Return the norms of pieces in a row; each begins with the last output of the one before."""
-    return Norms(
-        *(np.concatenate([v[0][:1], *(one[1:] for one in v)]) for v in zip(*pieces, strict=True))
-    )
-
-
-# --- The front ------------------------------------------------------------------------------------
-
-
-def find_front(state: np.ndarray) -> np.ndarray:
-    """Return the site where the power falls below each of LEVELS for good, -1 if none is above.
-
-    Between two sites the logarithm of the power tells. It is rounded to a thousandth of a site,
-    since its last bits differ between machines.
-    """
-    power = np.append(site_powers(state), 0.0)  # the last site has nothing behind it
-    above = power > LEVELS[:, None]
-    site = np.where(above.any(axis=1), power.size - 1 - above[:, ::-1].argmax(axis=1), -1)
-    here, beyond = power[site], power[site + 1]
-    between = (site >= 0) & (beyond > 0.0)
-    sizes = np.where(between, [here, LEVELS, beyond], [[2.0], [2.0], [1.0]])
-    start, level, end = log(sizes)
-    parts = ((start - level) / (start - end)).tolist()
-    return site + np.array([round(part, DIGITS) for part in parts])
-
-
-def _start(problem: Problem) -> tuple[dict, np.ndarray]:
-    return {name: [] for name in SERIES}, begin(problem.initial, problem.half_width)
-
-
-def _continue(kept: dict) -> tuple[dict, np.ndarray]:
-    return {name: list(kept[name]) for name in SERIES}, kept["state"]
-
-
-def _add(series: dict, times: np.ndarray, done: Piece, half: np.ndarray, first: bool) -> None:
-    """Append a piece; its first output is the last of the piece before, `half` its sites 0..W."""
-    new = slice(0 if first else 1, None)
-    for name, values in _norms(times, done)._asdict().items():
-        series[name].extend(values[new])
-    series["energy"].extend(done.record.energy[new])
-    series["piece_tau"].append(times[-1])
-    series["front"].append(find_front(half))
-    series["width"].append(half.shape[1] - 3)
-
-
-def _joined(series: dict) -> dict[str, np.ndarray]:
-    return {name: np.array(values) for name, values in series.items()}
-
-
-# --- Checkpoints ----------------------------------------------------------------------------------
+def _right_half(state: np.ndarray, even: bool) -> np.ndarray:
+    """Return the sites 0..W of a state, (row, site)."""
+    return state[:, 1 if even else 1 + width_of(state, even) : -1]
 
 
 def describe_run(problem: Problem, rest: float) -> str:
@@ -293,7 +216,7 @@ def describe_run(problem: Problem, rest: float) -> str:
     return json.dumps({"problem": plain, "rest": rest, "code": digest_of_modules(Path(__file__))})
 
 
-def keep_checkpoint(path: str | Path, description: str, arrays: dict[str, np.ndarray]) -> None:
+def keep_checkpoint(path: str | Path, description: str, arrays: Mapping) -> None:
     """Write the arrays and the description of the run that they belong to."""
     with complete_or_absent(path) as partial, open(partial, "wb") as file:
         np.savez(file, description=description, **arrays)
@@ -310,3 +233,44 @@ def recall_checkpoint(path: str | Path, description: str) -> dict[str, np.ndarra
         if str(kept["description"]) != description:
             return None
         return {name: kept[name] for name in (*SERIES, "state")}
+
+
+# --- One chain of many half-widths ----------------------------------------------------------------
+
+
+def run_chains(problem: Problem, rest: float, half_widths: list[int]) -> list[np.ndarray]:
+    """Return tau, l2 and l-infinity, (3, time), on the chain of each of rising `half_widths`.
+
+    As long as nothing moves near its end, a chain does what all longer ones do. So the longest one
+    is run from the start, and each shorter one goes its own way when its sites have become too few;
+    a chain whose end the front never reached has the norms of the longest one.
+    """
+    count, even = round(problem.end_time / PIECE), is_even(problem.initial)
+
+    def norms(state: np.ndarray, piece: int, last: int) -> np.ndarray:
+        times = _times(problem, piece, last)
+        done = advance(problem.constants, state, times, problem.solver, even=even)
+        return _norms(times, done.record)[:, 1 if piece else 0 :]
+
+    state, shared = begin(problem.initial, half_widths[-1]), []
+    width = width_of(state, even)
+    own = {m: (0, begin(problem.initial, m)) for m in half_widths if m < width}
+    for piece in range(count):
+        wider = widen(state, half_widths[-1], rest, even)
+        for half_width in half_widths:
+            if half_width not in own and half_width < width_of(wider, even):
+                own[half_width] = piece, state.copy()
+        state = wider
+        shared.append(norms(state, piece, piece + 1))
+    found = []
+    for half_width in half_widths:
+        piece, state = own.get(half_width, (count, state))
+        parts = shared[:piece]
+        while piece < count:
+            state = widen(state, half_width, rest, even)
+            # a chain that cannot grow any more needs no further look at its end
+            last = count if width_of(state, even) == half_width else piece + 1
+            parts.append(norms(state, piece, last))
+            piece = last
+        found.append(np.concatenate(parts, axis=1))
+    return found

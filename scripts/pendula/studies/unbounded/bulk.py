@@ -7,6 +7,8 @@ front's edge carry none either, since they grow.
 If the bulk is in equilibrium, its states are distributed as exp(-beta H): energy is the only
 integral, and the front leaves none behind, which fixes beta. Nothing is fitted. The module
 `thermal` solves these states.
+
+`sites` are the rows Re A, Im A, Re B, Im B on the sites 0..W, (row, site).
 """
 
 from itertools import pairwise
@@ -16,7 +18,7 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.measures.confidence import CONFIDENCE, Limits
 from pendula.measures.spreading import fit_line
-from pendula.numerics.elementary import complex_of, log, product, square_modulus, turn
+from pendula.numerics.elementary import log, product, square_modulus, turn
 from pendula.problem import Constants
 
 TERMS = ("cubic", "detuning", "drive", "bonds")
@@ -32,71 +34,50 @@ LENGTH = 64
 POWER = "power P = |A_n|^2 + |B_n|^2 of a site, its mean"
 
 
-def energy_terms(state: np.ndarray, constants: Constants) -> np.ndarray:
+def squares_of(rows: np.ndarray) -> np.ndarray:
+    """Return |A_n|^2 and |B_n|^2, (component, site)."""
+    squares = rows * rows
+    return squares[0::2] + squares[1::2]
+
+
+def energy_terms(sites: np.ndarray, constants: Constants) -> np.ndarray:
     """Return the terms of (8) on the sites 0..W, (term, site); a bond belongs to its left site.
 
-    Beyond the last site is rest, whatever the ghost there holds.
+    Beyond the last site is rest.
     """
-    sites = state[:, 1:-1]
-    steps = np.empty_like(sites)
-    steps[:, :-1], steps[:, -1] = sites[:, 1:] - sites[:, :-1], 0.0 - sites[:, -1]
-    a, b = _of_pair(sites * sites)
-    bonds = sum(_of_pair(steps * steps))
-    drive = _drive(sites)
-    return np.array(
-        [
-            0.25 * (a * a + b * b),
-            constants.omega * (a + b),
-            -constants.gamma * drive,
-            -constants.epsilon * bonds,
-        ]
+    a, b = squares_of(sites)
+    bonds = squares_of(np.diff(sites, append=0.0)).sum(axis=0)
+    real, imaginary = sites[:2] - sites[2:]
+    drive = real * real - imaginary * imaginary  # Re (A_n - B_n)^2
+    terms = (
+        0.25 * (a * a + b * b),
+        constants.omega * (a + b),
+        -constants.gamma * drive,
+        -constants.epsilon * bonds,
     )
+    return np.array(terms)
 
 
-def _of_pair(squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return |A_n|^2 and |B_n|^2 from the squares of the rows."""
-    return squares[0] + squares[1], squares[2] + squares[3]
-
-
-def _drive(sites: np.ndarray) -> np.ndarray:
-    """Return Re (A_n - B_n)^2."""
-    real, imaginary = sites[0] - sites[2], sites[1] - sites[3]
-    return real * real - imaginary * imaginary
-
-
-def complex_pair(state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return A and B on the sites 0..W of a state with ghost columns."""
-    inner = state[:, 1:-1]
-    return complex_of(inner[0], inner[1]), complex_of(inner[2], inner[3])
-
-
-def with_ghosts(sites: np.ndarray) -> np.ndarray:
-    """Return the state with ghost columns of (row, site) as a dataset keeps it."""
-    return np.pad(sites, ((0, 0), (1, 1)))
-
-
-def bulk_of(state: np.ndarray, front: int) -> slice:
+def bulk_of(front: float) -> slice:
     """Return the sites of the bulk: well behind the front, the centre left out."""
     return slice(1, max(2, int(SHARE * front)))
 
 
-def bulk_means(state: np.ndarray, constants: Constants, fronts: np.ndarray) -> np.ndarray:
+def bulk_means(sites: np.ndarray, constants: Constants, fronts: np.ndarray) -> np.ndarray:
     """Return the means of P and of the terms of (8) over the bulk behind each front, (front, 5)."""
-    power = sum(_of_pair(state[:, 1:-1] * state[:, 1:-1]))
-    values = np.array([power, *energy_terms(state, constants)])
-    bulks = [values[:, bulk_of(state, front)] for front in fronts]
+    values = np.array([squares_of(sites).sum(axis=0), *energy_terms(sites, constants)])
+    bulks = [values[:, bulk_of(front)] for front in fronts]
     return np.array([np.add.reduce(bulk, axis=1) / bulk.shape[1] for bulk in bulks])
 
 
-def bulk_maxima(state: np.ndarray, front: float) -> np.ndarray:
+def bulk_maxima(sites: np.ndarray, front: float) -> np.ndarray:
     """Return the largest modulus |A_n| or |B_n| of blocks of sites, its mean over blocks, (size,).
 
     Blocks of NEIGHBOURS sites lie side by side on the first half of the way to the front, the
     centre left out: what the front has just passed is not yet in equilibrium. The mean is NaN
     where no block fits in.
     """
-    a, b = _of_pair(state[:, 1:-1] * state[:, 1:-1])
-    moduli = np.sqrt(np.maximum(a, b))[1 : max(1, int(OLD * front))]
+    moduli = np.sqrt(squares_of(sites).max(axis=0))[1 : max(1, int(OLD * front))]
     found = np.full(len(NEIGHBOURS), np.nan)
     for i, size in enumerate(NEIGHBOURS[: np.searchsorted(NEIGHBOURS, moduli.size, "right")]):
         blocks = moduli[: moduli.size // size * size].reshape(-1, size)
@@ -123,9 +104,15 @@ def spectrum(amplitudes: np.ndarray, length: int) -> np.ndarray:
     return square_modulus(amplitudes).mean(axis=0) / length
 
 
-def distribution(moduli: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Return the probability density of the moduli between `edges`; its integral is one."""
-    return np.histogram(moduli, edges, density=True)[0]
+def statistics_of(spectra, densities, cells: np.ndarray, along: tuple = ()) -> dict[str, Variable]:
+    """Return as variables spectra (..., wave) and densities of the modulus between `cells`."""
+    waves = 2.0 * np.pi * np.arange(LENGTH) / LENGTH
+    return {
+        "wave_number": Variable(("wave",), waves, "wave number k", "rad"),
+        "spectrum": Variable((*along, "wave"), spectra, "mean |A(k)|^2 over pieces of the chain"),
+        "modulus": Variable(("modulus",), 0.5 * (cells[1:] + cells[:-1])),
+        "density": Variable((*along, "modulus"), densities, "probability density of the modulus"),
+    }
 
 
 # --- Means over the late part of runs -------------------------------------------------------------
@@ -138,10 +125,7 @@ FIRST_OF_LINE = 0.25
 
 
 def late_means(values, run, spans: int = 1) -> np.ndarray:
-    """Return the means of values (..., piece_tau) of a run over the late part, (span, ...).
-
-    The late part may be cut into several spans.
-    """
+    """Return means of values (..., piece_tau) over spans of a run's late part, (span, ...)."""
     tau = run["piece_tau"].values
     edges = np.linspace(1.0 - LATE, 1.0, spans + 1) * tau[-1]
     late = [(tau > first) & (tau <= last) for first, last in pairwise(edges)]
@@ -172,35 +156,21 @@ def slope_powers(run, confidence: float = CONFIDENCE) -> list[Limits]:
     A pulled front of the speed v has passed v tau - delay log tau + const sites on either side, so
     l2^2 is P times twice that and a constant. NaN where no front is pulled.
     """
-    return [
-        _slope_power(run.isel(variant=variant), confidence)
-        for variant in range(run.sizes["variant"])
-    ]
-
-
-def _slope_power(run, confidence: float) -> Limits:
-    speed, delay = float(run["predicted_speed"]), float(run["predicted_delay"])
-    if not delay > 0.0:
-        return Limits(np.nan, np.nan, np.nan)
     tau = run["tau"].values
-    kept = tau >= FIRST_OF_LINE * tau[-1]
-    sites = 2.0 * (speed * tau[kept] - delay * log(tau[kept]))
-    squares = run["l2"].transpose("member", "tau").values[:, kept] ** 2
-    return fit_line(sites, squares, sites[0], confidence).slope
+    kept, found = tau >= FIRST_OF_LINE * tau[-1], []
+    for variant in range(run.sizes["variant"]):
+        one = run.isel(variant=variant)
+        speed, delay = float(one["predicted_speed"]), float(one["predicted_delay"])
+        if not delay > 0.0:
+            found.append(Limits(np.nan, np.nan, np.nan))
+            continue
+        sites = 2.0 * (speed * tau[kept] - delay * log(tau[kept]))
+        squares = one["l2"].transpose("member", "tau").values[:, kept] ** 2
+        found.append(fit_line(sites, squares, sites[0], confidence).slope)
+    return found
 
 
 def thermal_powers(thermal, omegas: np.ndarray) -> np.ndarray:
     """Return P of the thermal states of no energy at each Omega, NaN where none was solved."""
     found = thermal["power"].reindex(omega=np.atleast_1d(omegas), method="nearest", tolerance=1e-9)
     return found.values.reshape(np.shape(omegas))
-
-
-def statistics_of(spectra, densities, cells: np.ndarray, along: tuple = ()) -> dict[str, Variable]:
-    """Return as variables spectra (..., wave) and densities of the modulus between `cells`."""
-    waves = 2.0 * np.pi * np.arange(LENGTH) / LENGTH
-    return {
-        "wave_number": Variable(("wave",), waves, "wave number k", "rad"),
-        "spectrum": Variable((*along, "wave"), spectra, "mean |A(k)|^2 over pieces of the chain"),
-        "modulus": Variable(("modulus",), 0.5 * (cells[1:] + cells[:-1])),
-        "density": Variable((*along, "modulus"), densities, "probability density of the modulus"),
-    }

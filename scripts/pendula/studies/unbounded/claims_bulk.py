@@ -36,7 +36,7 @@ from .bulk import (
     thermal_powers,
 )
 from .claims import SURE, times_of
-from .front import BULK, FRONT
+from .measured import BULK, FRONT
 
 SECTION = 5
 

@@ -24,7 +24,7 @@ from pendula.measures.difference import VISIBLE
 from .bulk import LATE, late_means
 from .claims import SURE, curves_of, times_of
 from .extremes import mean_maximum
-from .front import FRONT, resolution, speeds
+from .measured import FRONT, resolution, speeds
 
 SECTION = 5
 

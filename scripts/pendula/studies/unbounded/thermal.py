@@ -11,7 +11,6 @@ of large matrices, whose last bits differ by some 4e-15: they are rounded to DEC
 in a million could come out otherwise. The rest is rounded to DIGITS: the grid gives no more.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +18,12 @@ from scipy.special import j1
 
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents
 from pendula.numerics.elementary import cos, exp, log, sin
 from pendula.problem import Constants
 
 from .bulk import LENGTH, POWER, TERMS, statistics_of
+from .extremes import law_of_maxima
 from .transfer import (
     Operator,
     applied,
@@ -33,17 +34,18 @@ from .transfer import (
     normalised,
     reach_of,
     smoothed,
+    widest,
 )
 
 HOT, COLD = 1e-3, 1e5
 """Inverse temperatures between which a state is looked for."""
 
-REACH = 25.0
-"""The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
+HALVINGS, SECANTS = 7, 12
+"""Steps to a rough beta on a coarse grid, and the most steps from there on a finer one."""
 
-DIGITS, DECIMALS = 7, 6
+DIGITS, DECIMALS, PLACES = 7, 6, 10
 LAST_DIGIT = float(f"1e-{DIGITS}")
-"""Significant digits of what is published, and the decimals of densities."""
+"""Significant digits of what is published, the decimals of densities, and of the law of maxima."""
 
 
 class NoStateError(ValueError):
@@ -61,18 +63,6 @@ class ThermalState(NamedTuple):
     vector: np.ndarray  # psi, the sum of its squares is one
 
 
-def widest(constants: Constants, beta: float) -> np.ndarray:
-    """Return a bound on the coordinates: beyond it a site has less than exp(-REACH) of the weight.
-
-    The energy of a site is above P^2 / 8 - c P with c as below, and beta times that above its least
-    value by REACH at the bound.
-    """
-    epsilon, gamma, omega = constants
-    c = 4.0 * epsilon + 2.0 * gamma - omega
-    least = 16.0 * min(c, 0.0) * min(c, 0.0)
-    return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))
-
-
 def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalState:
     """Return the thermal state with an energy per site, on `nodes` half-nodes a coordinate.
 
@@ -82,24 +72,26 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
     """
     few, some = nodes // 2, 3 * nodes // 4
 
-    def rough(beta: float) -> float:
+    def is_too_hot(beta: float) -> bool:
         grid = half_nodes(widest(constants, beta), few)
-        return _excess(constants, beta, grid, energy)[0]
+        return _excess(constants, beta, grid, energy)[0] < 0.0
 
-    try:
-        beta = _bisected(rough)
-    except NoStateError as error:
-        raise NoStateError(f"{error}: {energy:g} at Omega = {constants.omega:g}") from None
-    reach = widest(constants, beta)
-    tried = []
+    if not is_too_hot(HOT) or is_too_hot(COLD):
+        told = f"{energy:g} at Omega = {constants.omega:g}"
+        raise NoStateError(f"no thermal state between the temperatures tried has the energy {told}")
+    hot, cold = HOT, COLD
+    for _ in range(HALVINGS):
+        beta = float(np.sqrt(hot * cold))
+        hot, cold = (beta, cold) if is_too_hot(beta) else (hot, beta)
+    beta = float(np.sqrt(hot * cold))
+    reach, powers = widest(constants, beta), []
     for count, wider in ((few, 1.0), (some, 1.1), (nodes, 1.0)):
         grid = half_nodes(wider * reach, count)
         beta, operator, vector = _refined(constants, beta, grid, energy)
         reach = reach_of(operator, vector)
-        power = float(np.sum(vector * vector * operator.power))
-        tried.append(power)
-    error = abs(tried[-1] - tried[-2]) + 0.5 * LAST_DIGIT * tried[-1]
-    return ThermalState(beta, energy, power, error, operator, vector)
+        powers.append(float(np.sum(vector * vector * operator.power)))
+    error = abs(powers[-1] - powers[-2]) + 0.5 * LAST_DIGIT * powers[-1]
+    return ThermalState(beta, energy, powers[-1], error, operator, vector)
 
 
 def _excess(constants, beta, grid, energy, vector=None) -> tuple[float, Operator, np.ndarray]:
@@ -110,21 +102,11 @@ def _excess(constants, beta, grid, energy, vector=None) -> tuple[float, Operator
     return beta * (energy + quartic) - 2.0, operator, vector
 
 
-def _bisected(function: Callable[[float], float], halvings: int = 7) -> float:
-    hot, cold = HOT, COLD
-    if function(hot) > 0.0 or function(cold) < 0.0:
-        raise NoStateError("no thermal state between the temperatures tried has the energy")
-    for _ in range(halvings):
-        beta = float(np.sqrt(hot * cold))
-        hot, cold = (beta, cold) if function(beta) < 0.0 else (hot, beta)
-    return float(np.sqrt(hot * cold))
-
-
-def _refined(constants, beta, grid, energy, steps: int = 12):
+def _refined(constants, beta, grid, energy) -> tuple[float, Operator, np.ndarray]:
     """Return beta, operator and vector where the excess vanishes, by secants in log beta."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
     beta *= 1.01
-    for _ in range(steps):
+    for _ in range(SECANTS):
         before = excess
         excess, operator, vector = _excess(constants, beta, grid, energy, vector)
         if abs(excess) < 1e-8:
@@ -148,6 +130,10 @@ def terms_of(state: ThermalState) -> np.ndarray:
     return np.array([quartic, detuning, drive, state.energy - quartic - detuning - drive])
 
 
+PARITIES = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 1, 1, 0))
+"""Those of each coordinate times psi, see `transfer.EVEN`."""
+
+
 def products_of(state: ThermalState, lags: int) -> np.ndarray:
     """Return the mean product of each coordinate and itself r sites on, (coordinate, r < lags).
 
@@ -155,34 +141,26 @@ def products_of(state: ThermalState, lags: int) -> np.ndarray:
     v_k with j + k = r, times the (-1)^r of the change of signs. It is zero from where it is below
     1e-10 of the first.
     """
-    parities = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 1, 1, 0))
-    found = [_products(state, axis, parity, lags) for axis, parity in enumerate(parities)]
-    return np.array(found) * np.where(np.arange(lags) % 2, -1.0, 1.0)
-
-
-def _products(state: ThermalState, axis: int, parity: tuple, lags: int) -> np.ndarray:
     operator, psi = state.operator, state.vector
-    scale = np.sum(psi * applied(operator, psi))  # the largest eigenvalue
-    y = np.ix_(*operator.nodes)[axis]
-    vector = psi * (np.array([y, -y]) if axis == 3 else y)
-    found = np.zeros(lags)
-    for lag in range(0, lags, 2):
-        square = np.sum(vector * vector)
-        if square < 1e-10 * found[0]:
-            break
-        following = applied(operator, vector, parity) / scale
-        found[lag] = square
-        found[lag + 1 : lag + 2] = np.sum(vector * following)
-        vector = following
-    return found
+    largest = np.sum(psi * applied(operator, psi))  # eigenvalue
+    found = np.zeros((4, lags))
+    for products, parity, y in zip(found, PARITIES, np.ix_(*operator.nodes), strict=True):
+        vector = psi * (np.array([y, -y]) if parity == PARITIES[-1] else y)
+        for lag in range(0, lags, 2):
+            square = np.sum(vector * vector)
+            if square < 1e-10 * products[0]:
+                break
+            following = applied(operator, vector, parity) / largest
+            products[lag] = square
+            products[lag + 1 : lag + 2] = np.sum(vector * following)
+            vector = following
+    return found * np.where(np.arange(lags) % 2, -1.0, 1.0)
 
 
 def correlation_length(products: np.ndarray) -> float:
     """Return the sites over which the slowest of the products falls by a factor of e."""
-    ratios = []
-    for even in products[:, 0::2]:
-        last = np.flatnonzero(even).max()
-        ratios.append(even[last] / even[last - 1])
+    last = [np.flatnonzero(even).max() for even in products[:, 0::2]]
+    ratios = [even[at] / even[at - 1] for even, at in zip(products[:, 0::2], last, strict=True)]
     return float(-2.0 / log(max(ratios)))
 
 
@@ -200,28 +178,21 @@ def density_of(state: ThermalState, cells: np.ndarray, finer: int) -> np.ndarray
     The integral over k of the mean of exp(i k A) times r J_1(k r) / (2 pi k) is the probability of
     a modulus below r. The operator itself interpolates psi to the `finer` nodes that this needs.
     """
-    nodes = half_nodes(state.operator.nodes[:, -1], finer)
-    k = _wave_numbers(nodes, float(cells[-1]))
-    weights = _characteristic(nodes, _chances(state, nodes), k)
+    old = state.operator
+    nodes = half_nodes(old.nodes[:, -1], finer)
+    new = make_operator(old.constants, old.beta, nodes)
+    bonds = bonds_between(old.beta, old.constants.epsilon, nodes, old.nodes)
+    chances = normalised(new.roots * smoothed(bonds, old.roots * state.vector)) ** 2
+
+    # midpoints in k: so fine that images of A stay away, up to what the nodes resolve
+    step = np.pi / max(np.sqrt(2.0) * float(nodes.max()), float(cells[-1]))
+    last = np.pi / (2.0 * float(nodes[:, 0].max()))
+    k = step * (np.arange(int(last / step)) + 0.5)
     size = np.sqrt(k[:, None] ** 2 + k**2)
+    weights = _characteristic(nodes, chances, k)
     weights *= 4.0 * (k[1] - k[0]) * (k[1] - k[0]) / (2.0 * np.pi * size)
     below = np.array([r * np.sum(weights * j1(size * r)) for r in cells])
     return np.diff(below) / np.diff(cells)
-
-
-def _wave_numbers(nodes: np.ndarray, highest: float) -> np.ndarray:
-    """Return midpoints in k: so fine that images of A stay away, up to what the nodes resolve."""
-    far = max(np.sqrt(2.0) * float(nodes.max()), highest)
-    step, last = np.pi / far, np.pi / (2.0 * float(nodes[:, 0].max()))
-    return step * (np.arange(int(last / step)) + 0.5)
-
-
-def _chances(state: ThermalState, nodes: np.ndarray) -> np.ndarray:
-    """Return the probability of each of some nodes of a state, (2, m, m, m, m)."""
-    old = state.operator
-    new = make_operator(old.constants, old.beta, nodes)
-    bonds = bonds_between(old.beta, old.constants.epsilon, nodes, old.nodes)
-    return normalised(new.roots * smoothed(bonds, old.roots * state.vector)) ** 2
 
 
 def _characteristic(nodes: np.ndarray, chances: np.ndarray, k: np.ndarray) -> np.ndarray:
@@ -241,7 +212,34 @@ def _characteristic(nodes: np.ndarray, chances: np.ndarray, k: np.ndarray) -> np
 
 # --- The dataset ----------------------------------------------------------------------------------
 
-HIGHEST_MODULUS, CELLS = 12.0, 80
+HIGHEST_MODULUS, CELLS, BOUNDS = 12.0, 80, 60
+"""The end and the cells of a density, and the values of the bound whose law is solved."""
+
+
+def solve_thermal(
+    epsilon: float, gamma: float, omegas: list[float], bulk_omega: float, warm_omega: float,
+    energies: list[float], nodes: int, density_nodes: int,
+) -> Contents:  # fmt: skip
+    """Return the states without energy at all `omegas`, and those of `energies` at `warm_omega`.
+
+    Where there is no such state it is left out. The law of the largest modulus is that of the state
+    whose Omega is nearest to `bulk_omega`.
+    """
+    cold, warm = [], []
+    asked = [*((cold, omega, 0.0) for omega in omegas), *((warm, warm_omega, e) for e in energies)]
+    for states, omega, energy in asked:
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        try:
+            states.append(state_of_energy(constants, energy, nodes))
+        except NoStateError as error:
+            print(f"left out: {error}")
+    nearest = min(cold, key=lambda one: abs(one.operator.constants.omega - bulk_omega))
+    attributes = {
+        "title": "Thermal states of the infinite chain, by its transfer operator",
+        "epsilon": epsilon, "gamma": gamma, "warm_omega": warm_omega, "nodes": 2 * nodes,
+        "density_nodes": 2 * density_nodes,
+    }  # fmt: skip
+    return thermal_variables(cold, warm, density_nodes) | maximum_variables(nearest), attributes
 
 
 def thermal_variables(
@@ -258,57 +256,64 @@ def thermal_variables(
         for one in states
     ]
     products = [products_of(state, LENGTH) for state in states]
-    spectra = [rounded(spectrum_of(one), DIGITS - 1) for one in products]
-    lengths = [correlation_length(one) for one in products]
+    lengths = list(map(correlation_length, products))
+    length = "sites over which the slowest correlation falls by e"
+    statistics = statistics_of(list(map(spectrum_of, products)), densities, cells, (omega,))
     words = "in the thermal state of a given energy a site"
-    places = {"decimal_places": DECIMALS}
-    statistics = statistics_of(spectra, densities, cells, (omega,))
-    for name, said in (("spectrum", digits(DIGITS - 1)), ("density", places)):
-        statistics[name] = statistics[name]._replace(attributes=said)
     return {
         "omega": Variable((omega,), [one.operator.constants.omega for one in states]),
-        **_means(states, (omega,), "", "in the thermal state of no energy"),
-        "correlation_length": Variable(
-            (omega,),
-            rounded(lengths, 4),
-            "sites over which the slowest correlation falls by e",
-            attributes=digits(4),
-        ),
-        **statistics,
-        "site_energy": Variable((energy,), [one.energy for one in warm], "energy H a site"),
-        **_means(warm, (energy,), "warm_", words),
-    }
-
-
-def digits(count: int = DIGITS) -> dict[str, int]:
-    """Return the attribute of values that are rounded to so many digits."""
-    return {"significant_digits": count}
-
-
-def _means(states: list[ThermalState], along: tuple, prefix: str, words: str) -> dict:
-    powers, errors = ([getattr(one, name) for one in states] for name in ("power", "power_error"))
-    terms = [rounded(terms_of(one), DIGITS) for one in states]
-    return {
         "term": Variable(("term",), list(TERMS), "term of the energy (8)"),
-        f"{prefix}beta": Variable(
-            along,
-            rounded([one.beta for one in states], DIGITS),
-            f"inverse temperature {words}",
-            attributes=digits(),
-        ),
-        f"{prefix}power": Variable(
-            along, rounded(powers, DIGITS), f"{POWER} {words}", attributes=digits()
-        ),
-        f"{prefix}power_error": Variable(
-            along,
-            rounded(errors, 2),
-            f"error of the discretisation and rounding of that {POWER}",
-            attributes=digits(2),
-        ),
-        f"{prefix}terms": Variable(
-            (*along, "term"),
-            np.reshape(terms, (-1, len(TERMS))),
-            f"terms of H per site {words}",
-            attributes=digits(),
-        ),
+        **_means(states, omega, "", "in the thermal state of no energy"),
+        "correlation_length": _to_digits(4, Variable((omega,), lengths, length)),
+        **statistics,
+        "spectrum": _to_digits(DIGITS - 1, statistics["spectrum"]),
+        "density": statistics["density"]._replace(attributes={"decimal_places": DECIMALS}),
+        "site_energy": Variable((energy,), [one.energy for one in warm], "energy H a site"),
+        **_means(warm, energy, "warm_", words),
     }
+
+
+def _means(states: list[ThermalState], along: str, prefix: str, words: str) -> dict:
+    terms = np.reshape([terms_of(one) for one in states], (-1, len(TERMS)))
+    betas, powers, errors = (
+        [getattr(one, name) for one in states] for name in ("beta", "power", "power_error")
+    )
+    of_error = f"error of the discretisation and rounding of that {POWER}"
+    found = {
+        "beta": (DIGITS, Variable((along,), betas, f"inverse temperature {words}")),
+        "power": (DIGITS, Variable((along,), powers, f"{POWER} {words}")),
+        "power_error": (2, Variable((along,), errors, of_error)),
+        "terms": (DIGITS, Variable((along, "term"), terms, f"terms of H per site {words}")),
+    }
+    return {f"{prefix}{name}": _to_digits(*given) for name, given in found.items()}
+
+
+def _to_digits(count: int, variable: Variable) -> Variable:
+    """Return the variable rounded to so many significant digits, which it states."""
+    said = {"significant_digits": count}
+    return variable._replace(values=rounded(variable.values, count), attributes=said)
+
+
+def maximum_variables(state: ThermalState) -> dict[str, Variable]:
+    """Return the law of the largest modulus in a thermal state, at BOUNDS values of m.
+
+    The last of them is a bound on one modulus: at a given power that of one amplitude alone has
+    twice the quartic energy of `widest`, so that it ends at a 2^(1/4) of that reach.
+    """
+    constants = state.operator.constants
+    reach = float(widest(constants, state.beta)[0]) / np.sqrt(np.sqrt(2.0))
+    bounds = reach * np.arange(1, BOUNDS + 1) / BOUNDS
+    rates, overlaps = law_of_maxima(constants, state.beta, bounds)
+    chance = "the chance c exp(-r (N - 1)) that no modulus on N neighbouring sites is above it"
+    found = {
+        "bound": (bounds, "bound on the moduli |A_n| and |B_n|"),
+        "bound_rate": (rates, f"r in {chance}"),
+        "bound_overlap": (overlaps, f"c in {chance}"),
+    }
+    said = {"decimal_places": PLACES}
+    variables = {
+        name: Variable(("bound",), values.round(PLACES) + 0.0, long_name, attributes=said)
+        for name, (values, long_name) in found.items()
+    }
+    at = Variable((), constants.omega, "detuning Omega of this thermal state")
+    return {**variables, "bound_omega": at}

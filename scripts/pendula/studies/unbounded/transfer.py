@@ -26,6 +26,9 @@ from pendula.problem import Constants
 TAIL = 1e-9
 """A grid ends where the density of a coordinate falls below this part of its largest value."""
 
+REACH = 25.0
+"""The first grid ends where the weight of a site is below exp(-REACH) of its largest value."""
+
 SETTLED = 1e-9
 """The power iteration ends when the mean quartic energy changes by less than this part of it."""
 
@@ -42,6 +45,18 @@ class Operator(NamedTuple):
     power: np.ndarray  # (m, m, m, m): |y|^2
 
 
+def widest(constants: Constants, beta: float) -> np.ndarray:
+    """Return a bound on the coordinates: beyond it a site has less than exp(-REACH) of the weight.
+
+    The energy of a site is above P^2 / 8 - c P with c as below, and beta times that above its least
+    value by REACH at the bound.
+    """
+    epsilon, gamma, omega = constants
+    c = 4.0 * epsilon + 2.0 * gamma - omega
+    least = 16.0 * min(c, 0.0) * min(c, 0.0)
+    return np.full(4, np.sqrt(4.0 * c + np.sqrt(least + 8.0 * REACH / beta)))
+
+
 def half_nodes(reach: np.ndarray, count: int) -> np.ndarray:
     """Return `count` midpoints between 0 and each of `reach`, (coordinate, count)."""
     return np.multiply.outer(reach, (np.arange(count) + 0.5) / count)
@@ -55,22 +70,16 @@ def bonds_between(beta: float, epsilon: float, to: np.ndarray, nodes: np.ndarray
     return np.array([near + far, near - far])
 
 
-def site_terms(constants: Constants, nodes: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return P, the quartic energy, and the whole energy of a site after the change of signs."""
+def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Operator:
+    """Return the operator on given nodes."""
     epsilon, gamma, omega = constants
     s, t, p, q = np.ix_(*nodes)
     power = s * s + t * t + p * p + q * q
     products = np.array([s * t + p * q, s * t - p * q])
     quartic = (power * power + 4.0 * products * products) / 8.0
     whole = quartic + (omega - 4.0 * epsilon) * power - 2.0 * gamma * (t * t - q * q)
-    return power, quartic, whole
-
-
-def make_operator(constants: Constants, beta: float, nodes: np.ndarray) -> Operator:
-    """Return the operator on given nodes."""
-    power, quartic, whole = site_terms(constants, nodes)
     roots = exp(-0.5 * beta * (whole - whole.min()))
-    bonds = bonds_between(beta, constants.epsilon, nodes, nodes)
+    bonds = bonds_between(beta, epsilon, nodes, nodes)
     return Operator(constants, beta, nodes, bonds, roots, quartic, power)
 
 
