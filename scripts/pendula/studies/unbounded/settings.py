@@ -32,45 +32,25 @@ from pendula.configuration.values import (
 SPEED = 5.0
 """Sites per unit of tau and of the coupling: no front of the paper's cases is faster."""
 
-
-class Varied(Model):
-    """One parameter of a case, varied: Omega, A_0 (with B_0 = A_0 / 5), or the tolerance."""
-
-    case: Name
-    parameter: Literal["omega", "amplitude", "tolerance"]
-    values: Numbers
-
-
-class Maps(Model):
-    """Maxima over [10, T] on chains of half-width M, for each of the paper's sweeps."""
-
-    half_widths: Counts
-    end_time: Positive
-    output_step: Positive
-    rest: Positive
-    members: dict[Name, Count]
+Nodes = Annotated[Whole, Field(ge=8, le=100)]
 
 
 class Size(Model):
-    """How far everything is run, and by which solver."""
+    """How far everything is run, and by which solver.
+
+    The maps are of maxima over [10, T] on chains of half-width M, for each of the paper's sweeps.
+    """
 
     solver: Annotated[Dop853 | Taylor, Field(discriminator="name")]
     rest: Positive
     runs: dict[Name, model(end_time=Positive, members=Count)]
-    maps: Maps
-
-
-Nodes = Annotated[Whole, Field(ge=8, le=100)]
-
-
-class Thermal(Model):
-    """The thermal states that the bulk is compared with: at each Omega without energy, and warm."""
-
-    nodes: Nodes
-    density_nodes: Nodes
-    omegas: Numbers
-    # at the Omega of a case, each with an energy per site
-    warm: model(case=Name, energies=Annotated[list[Number], Field(min_length=3), Distinct])
+    maps: model(
+        half_widths=Counts,
+        end_time=Positive,
+        output_step=Positive,
+        rest=Positive,
+        members=dict[Name, Count],
+    )
 
 
 class Settings(Model):
@@ -80,8 +60,19 @@ class Settings(Model):
     perturbation: Positive
     seed: Natural
     cases: Names
-    varied: dict[Name, Varied]
-    thermal: Thermal
+    # one parameter of a case: Omega, A_0 (with B_0 = A_0 / 5), or the tolerance
+    varied: dict[
+        Name,
+        model(case=Name, parameter=Literal["omega", "amplitude", "tolerance"], values=Numbers),
+    ]
+    # the states that the bulk is compared with: at each Omega without energy, and at the Omega of
+    # the warm case each with an energy per site
+    thermal: model(
+        nodes=Nodes,
+        density_nodes=Nodes,
+        omegas=Numbers,
+        warm=model(case=Name, energies=Annotated[list[Number], Field(min_length=3), Distinct]),
+    )
     short: Size
     long: Size
     needs: Needs
@@ -92,47 +83,36 @@ class Settings(Model):
         used += [("thermal.warm.case", self.thermal.warm.case)]
         used += [("cases", case) for case in self.cases]
         absent = [fault for key, case in used for fault in settings.absent("cases", key, [case])]
-        for label, size in (("short", self.short), ("long", self.long)):
+        sizes = {"short": self.short, "long": self.long}
+        for label, size in sizes.items():
             unknown = [name for name in size.runs if name not in {*self.names, *settings.cases}]
-            absent += [
-                (f"{label}.runs.{name}", "is no ensemble of cases or varied") for name in unknown
-            ]
             missing = [name for name in self.names if name not in size.runs]
+            said = "is no ensemble of cases or varied"
+            absent += [(f"{label}.runs.{name}", said) for name in unknown]
             absent += [(f"{label}.runs.{name}", "is missing") for name in missing]
-            members = size.maps.members
-            absent += settings.absent("sweeps", f"{label}.maps.members", list(members))
+            absent += settings.absent("sweeps", f"{label}.maps.members", list(size.maps.members))
         yield from absent
-        if absent:
-            return
-        for label, size in (("short", self.short), ("long", self.long)):
+        for label, size in {} if absent else sizes.items():
             yield from self._faults_of_size(settings, label, size)
 
-    def _faults_of_size(self, settings: Configuration, label: str, size: "Size") -> Faults:
+    def _faults_of_size(self, settings: Configuration, label: str, size: Size) -> Faults:
         ends = [(f"runs.{name}", one.end_time, self.output_step) for name, one in size.runs.items()]
         ends.append(("maps", size.maps.end_time, size.maps.output_step))
         for key, end, step in ends:
             if not is_multiple(end, step):
                 text = f"{end:g} is not a whole number of output steps of {step:g}"
                 yield f"{label}.{key}.end_time", text
-        for name, one in size.runs.items():
-            if name not in self.names:
-                continue
+        for name in self.names:
+            run, case = size.runs[name], settings.problem(self.case_of(name))
             many = len(self.varied[name].values) if name in self.varied else 1
-            case = settings.problem(self.case_of(name))
-            cost = self._cost(self.problem(case, size, one.end_time))
-            key = "end_time" if cost.seconds * many > one.members else "members"
-            yield from settings.excess(f"{label}.runs.{name}.{key}", [cost], many * one.members)
-        longest = max(size.maps.half_widths)
+            cost = _cost(self.problem(case, size, run.end_time))
+            key = "end_time" if cost.seconds * many > run.members else "members"
+            yield from settings.excess(f"{label}.runs.{name}.{key}", [cost], many * run.members)
         for name, members in size.maps.members.items():
             case = settings.problem(settings.sweeps[name].case)
-            cost = self._cost(self.map_problem(case, size), longest)
+            cost = _cost(self.map_problem(case, size), max(size.maps.half_widths))
             key = "end_time" if cost.seconds > members else f"members.{name}"
             yield from settings.excess(f"{label}.maps.{key}", [cost], members)
-
-    def _cost(self, problem: dict, most: float = inf) -> Cost:
-        """Return what one run takes: the front moves at SPEED, half of its reach is the mean."""
-        reach = min(most, 0.5 * SPEED * abs(problem["epsilon"]) * problem["end_time"])
-        return estimate({**problem, "half_width": max(1.0, reach), "snapshot_every": 0})
 
     @property
     def names(self) -> list[str]:
@@ -151,8 +131,13 @@ class Settings(Model):
         base = self.problem(case, size, size.runs[name].end_time)
         if name not in self.varied:
             return [base]
+        changes = {
+            "omega": lambda value: {"omega": value},
+            "amplitude": lambda value: {"initial": {0: (value, value / 5.0)}},
+            "tolerance": lambda value: {"solver": base["solver"] | {"rtol": value, "atol": value}},
+        }
         varied = self.varied[name]
-        return [base | _change(varied.parameter, value, size) for value in varied.values]
+        return [base | changes[varied.parameter](value) for value in varied.values]
 
     def map_problem(self, case: Mapping[str, Any], size: Size) -> dict:
         """Return the case of a map over half-widths on a chain without ends."""
@@ -171,9 +156,7 @@ class Settings(Model):
         }
 
 
-def _change(parameter: str, value: float, size: Size) -> dict:
-    if parameter == "omega":
-        return {"omega": value}
-    if parameter == "amplitude":
-        return {"initial": {0: (value, value / 5.0)}}
-    return {"solver": {**size.solver.model_dump(), "rtol": value, "atol": value}}
+def _cost(problem: dict, most: float = inf) -> Cost:
+    """Return what one run takes: the front moves at SPEED, half of its reach is the mean."""
+    reach = min(most, 0.5 * SPEED * abs(problem["epsilon"]) * problem["end_time"])
+    return estimate({**problem, "half_width": max(1.0, reach), "snapshot_every": 0})
