@@ -15,16 +15,18 @@ from matplotlib.ticker import MaxNLocator, NullFormatter
 from pendula.drawing import panels, style
 
 LOOKS = {
-    "fig4_small": {"color": style.RED, "ls": "-"},
-    "fig3_large": {"color": style.BLUE, "ls": "-"},
-    "fig2_large": {"color": "#16876b", "ls": "--"},
-    "fig3_small": {"color": "#b07800", "ls": ":"},
+    "fig4_small": {"color": style.RED, "ls": "-", "lw": 1.1},
+    "fig3_large": {"color": style.BLUE, "ls": "-", "lw": 1.1},
+    "fig2_large": {"color": "#16876b", "ls": "--", "lw": 1.1},
+    "fig3_small": {"color": "#b07800", "ls": ":", "lw": 1.1},
 }
+LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
+OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
 NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
 
 
 def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
-    """Return what `long_runs.measure_growth` has made."""
+    """Return what `measured.measure_growth` has made."""
     return growth
 
 
@@ -33,91 +35,64 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     """Draw l2^2 / tau beside its law, what is left over, exponents over octaves, l-infinity."""
     figure = style.new_figure(style.DOUBLE, 4.4)
     (rate, rest), (exponents, linf) = figure.subplots(2, 2, sharex=True)
-    _draw_rates(rate, data)
-    _draw_rest(rest, data)
-    _draw_exponents(exponents, data)
-    _draw_linf(linf, data)
+    rest.axhline(0.0, **LAW)
+    exponents.axhline(0.5, color="black", lw=0.8)
+    start = float(data["span_tau"].min())
+    for i, case in enumerate(data["case"].values):
+        one, look = data.sel(case=case), LOOKS[str(case)]
+        rate.plot(
+            one["span_tau"], one["l2_rate"].sel(band="mean"), label=style.name_case(one), **look
+        )
+        _shade(rate, one["span_tau"], one["l2_rate"], look)
+        rate.plot(one["span_tau"], one["law_rate"], **LAW)
+        if np.isfinite(one["law"]):
+            _draw_rest(rest, one, look["color"])
+        exponent, error = one["l2_exponent"].values, one["l2_exponent_error"].values
+        aside = 1.0 + 0.04 * (i - 1.5)  # so that error bars stand beside each other
+        dots = {"color": look["color"], "marker": "osD^"[i], "ms": 3.5, "lw": 0, "capsize": 2}
+        exponents.errorbar(aside * one["octave_tau"], exponent, error, elinewidth=0.9, **dots)
+        late = one["tau"].where(one["tau"] >= start)
+        linf.plot(late, one["linf"].sel(band="mean"), **look)
+        _shade(linf, late, one["linf"], look)
+        linf.plot(late, one["thermal_linf"], **LAW)
+    rate.set_yscale("log")
     rate.set_xscale("log")
-    rate.set_xlim(left=0.9 * float(data["span_tau"].min()))
+    rate.set_xlim(left=0.9 * start)
     rate.xaxis.set_minor_formatter(NullFormatter())
-    for axes, letter in zip((rate, rest, exponents, linf), "abcd", strict=True):
+    linf.set_ylim(bottom=0)
+    named = {
+        rate: r"$(\ell^2)^2 / \tau$",
+        rest: r"$(\ell^2)^2$ off its law (%)",
+        exponents: r"exponent of $\tau$ in $\ell^2$",
+        linf: NORMS["linf"],
+    }
+    for (axes, label), letter in zip(named.items(), "abcd", strict=True):
+        axes.set_ylabel(label)
         axes.set_title(f"({letter})", loc="left", fontsize=8)
     for axes in (exponents, linf):
         axes.set_xlabel(r"$\tau$")
     handles, labels = rate.get_legend_handles_labels()
-    handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), _bar()]
-    labels += [LAW_NAME, OFFSET_NAME, "lowest to highest member", "95 % limits of their mean"]
+    bar = Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
+    handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), bar]
+    labels += ["thermal bulk up to the front", "law with an offset (fitted)"]
+    labels += ["lowest to highest member", "95 % limits of their mean"]
     figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 
 
-LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
-LAW_NAME = "thermal bulk up to the front"
-OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
-OFFSET_NAME = r"law with an offset (fitted)"
-
-
-def _bar() -> Line2D:
-    return Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
-
-
-def _look(case: str) -> dict:
-    return {"lw": 1.1, **LOOKS[case]}
-
-
-def _draw_rates(axes: Axes, data: xr.Dataset) -> None:
-    for case in data["case"].values:
-        one, look = data.sel(case=case), _look(str(case))
-        axes.plot(
-            one["span_tau"], one["l2_rate"].sel(band="mean"), label=style.name_case(one), **look
-        )
-        _shade(axes, one["span_tau"], one["l2_rate"], look["color"])
-        axes.plot(one["span_tau"], one["law_rate"], **LAW)
-    axes.set_yscale("log")
-    axes.set_ylabel(r"$(\ell^2)^2 / \tau$")
-
-
-def _shade(axes: Axes, tau: xr.DataArray, bands: xr.DataArray, colour: str) -> None:
+def _shade(axes: Axes, tau: xr.DataArray, bands: xr.DataArray, look: dict) -> None:
     low, high = (bands.sel(band=bound) for bound in ("lowest", "highest"))
-    axes.fill_between(tau, low, high, color=colour, alpha=0.3, lw=0)
+    axes.fill_between(tau, low, high, color=look["color"], alpha=0.3, lw=0)
 
 
-def _draw_rest(axes: Axes, data: xr.Dataset) -> None:
-    """Draw by how many per cent l2^2 differs from its law, where there is a law."""
-    axes.axhline(0.0, **LAW)
-    for case in data["case"].values:
-        one, colour = data.sel(case=case), LOOKS[str(case)]["color"]
-        if not np.isfinite(one["law"]):
-            continue
-        off = 100.0 * (one["l2_rate"] / one["law_rate"] - 1.0)
-        _shade(axes, one["span_tau"], off, colour)
-        axes.plot(one["span_tau"], 100.0 * one["offset_rate"] / one["law_rate"], **OFFSET)
-        bars = 100.0 * one["rate_limits"] / one["law_rate"]
-        dots = {"color": colour, "marker": "o", "ms": 2.5, "lw": 0, "elinewidth": 0.9}
-        axes.errorbar(one["span_tau"], off.sel(band="mean"), bars, **dots)
-    axes.set_ylabel(r"$(\ell^2)^2$ off its law (%)")
-
-
-def _draw_exponents(axes: Axes, data: xr.Dataset) -> None:
-    axes.axhline(0.5, color="black", lw=0.8)
-    for i, case in enumerate(data["case"].values):
-        one = data.sel(case=case)
-        exponent, error = one["l2_exponent"].values, one["l2_exponent_error"].values
-        aside = 1.0 + 0.04 * (i - 1.5)  # so that error bars stand beside each other
-        look = {"color": LOOKS[str(case)]["color"], "marker": "osD^"[i], "ms": 3.5, "lw": 0}
-        axes.errorbar(aside * one["octave_tau"], exponent, error, elinewidth=0.9, capsize=2, **look)
-    axes.set_ylabel(r"exponent of $\tau$ in $\ell^2$")
-
-
-def _draw_linf(axes: Axes, data: xr.Dataset) -> None:
-    for case in data["case"].values:
-        one, look = data.sel(case=case), _look(str(case))
-        late = one["tau"] >= float(data["span_tau"].min())
-        axes.plot(one["tau"].where(late), one["linf"].sel(band="mean"), **look)
-        _shade(axes, one["tau"].where(late), one["linf"], look["color"])
-        axes.plot(one["tau"].where(late), one["thermal_linf"], **LAW)
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(NORMS["linf"])
+def _draw_rest(axes: Axes, one: xr.Dataset, colour: str) -> None:
+    """Draw by how many per cent l2^2 of a case differs from its law."""
+    off = 100.0 * (one["l2_rate"] / one["law_rate"] - 1.0)
+    _shade(axes, one["span_tau"], off, {"color": colour})
+    axes.plot(one["span_tau"], 100.0 * one["offset_rate"] / one["law_rate"], **OFFSET)
+    bars = 100.0 * one["rate_limits"] / one["law_rate"]
+    dots = {"color": colour, "marker": "o", "ms": 2.5, "lw": 0, "elinewidth": 0.9}
+    axes.errorbar(one["span_tau"], off.sel(band="mean"), bars, **dots)
 
 
 def gather_window_map(
@@ -151,8 +126,7 @@ def draw_window_map(data: xr.Dataset) -> Figure:
     of one that grows a hundredfold.
     """
     figure = style.new_figure(style.DOUBLE, 4.9)
-    grid = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row")
-    grid = grid.reshape(2, -1)
+    grid = figure.subplots(2, data.sizes["sweep"], sharex=True, sharey="row").reshape(2, -1)
     letters = iter("abcdefgh")
     for (above, below), sweep in zip(grid.T, data["sweep"].values, strict=True):
         one = data.sel(sweep=sweep)
@@ -162,6 +136,9 @@ def draw_window_map(data: xr.Dataset) -> Figure:
         bar.locator = MaxNLocator(3)
         bar.set_label(r"maximal $\ell^2$")
         _draw_at_ends(below, one)
+        for axes in (above, below):
+            panels.half_width_axis(axes, [10, 100, 1000])
+            axes.set_xlim(*_log_edges(one)[[0, -1]])
     for axes in grid[1]:
         axes.set_title(f"({next(letters)})", loc="left")
     grid[0, 0].set_ylabel("end $T$ of the window $[10, T]$")
@@ -176,9 +153,9 @@ OUTLINED = [withStroke(linewidth=2.2, foreground="black")]
 
 def _draw_map(axes: Axes, one: xr.Dataset, letter: str) -> QuadMesh:
     values = one["l2"].sel(band="mean").transpose("end", "half_width")
-    ends = one["end"].values
-    edges = np.append(ends - 0.5 * (ends[1] - ends[0]), ends[-1] + 0.5 * (ends[1] - ends[0]))
-    mesh = axes.pcolormesh(_log_edges(one["half_width"].values), edges, values, cmap="viridis")
+    ends, half = one["end"].values, 0.5 * float(one["end"][1] - one["end"][0])
+    edges = np.append(ends - half, ends[-1] + half)
+    mesh = axes.pcolormesh(_log_edges(one), edges, values, cmap="viridis")
     axes.set_ylim(edges[0], edges[-1])
     look = {"color": "white", "lw": 1.1, "path_effects": OUTLINED}
     way = float(one["predicted_speed"]) * ends
@@ -190,12 +167,12 @@ def _draw_map(axes: Axes, one: xr.Dataset, letter: str) -> QuadMesh:
             "offset points", ha="right", color="white", fontsize=7, path_effects=OUTLINED,
         )  # fmt: skip
     axes.set_title(f"{letter} {style.name_case(one)}".replace(",  ", "\n"), loc="left")
-    _log_axis(axes, one)
     return mesh
 
 
-def _log_edges(widths: np.ndarray) -> np.ndarray:
+def _log_edges(one: xr.Dataset) -> np.ndarray:
     """Return the edges of cells around half-widths on a logarithmic axis."""
+    widths = one["half_width"].values
     inner = np.sqrt(widths[1:] * widths[:-1])
     return np.array([widths[0] * widths[0] / inner[0], *inner, widths[-1] * widths[-1] / inner[-1]])
 
@@ -204,15 +181,13 @@ def _draw_at_ends(axes: Axes, one: xr.Dataset) -> None:
     ends = ((float(one["paper_end"]), True), (float(one["end"][-1]), False))
     for end, fill in ends if one["paper_end"].notnull() else ends[1:]:
         maxima = one.sel(end=end, method="nearest")
-        for name in ("l2", "linf"):
-            middle = maxima[name].sel(band="mean").values
-            bounds = [maxima[name].sel(band=b).values for b in ("lowest", "highest")]
-            errors = np.abs(np.array(bounds) - middle)
+        for name in NORMS:
+            low, middle, high = maxima[name].transpose("band", ...).values
+            errors = np.abs(np.array([low, high]) - middle)
             axes.errorbar(one["half_width"], middle, errors, elinewidth=0.8, **_mark(name, fill))
         axes.axvline(float(one["predicted_speed"]) * end, **_line(fill, bool(one["pulled"])))
     axes.set_yscale("log")
     axes.set_xlabel("half-width $M$")
-    _log_axis(axes, one)
 
 
 def _mark(name: str, fill: bool) -> dict:
@@ -228,21 +203,13 @@ def _line(fill: bool, pulled: bool) -> dict:
     return {"color": "0.35" if pulled else "0.55", "lw": 0.9, "ls": dashes[fill, pulled]}
 
 
-def _log_axis(axes: Axes, one: xr.Dataset) -> None:
-    panels.half_width_axis(axes, [10, 100, 1000])
-    edges = _log_edges(one["half_width"].values)
-    axes.set_xlim(edges[0], edges[-1])
-
-
 def _legend(data: xr.Dataset) -> list[Line2D]:
     ends = [(True, "the paper's $T$"), (False, f"$T = {float(data['end'][-1]):g}$")]
     if data["paper_end"].isnull().all():
         del ends[0]
     looks = [(NORMS[name], partial(_mark, name)) for name in NORMS]
-    looks += [
-        ("front at $M$", partial(_line, pulled=True)),
-        ("waves at $M$", partial(_line, pulled=False)),
-    ]
+    looks += [("front at $M$", partial(_line, pulled=True))]
+    looks += [("waves at $M$", partial(_line, pulled=False))]
     return [
         Line2D([], [], label=f"{label}, {text}", **look(fill))
         for label, look in looks

@@ -50,20 +50,18 @@ def draw_front(data: xr.Dataset) -> Figure:
 
 
 def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
-    middle = data["omega"].values[data.sizes["omega"] // 2]
-    for omega, colour in ((middle, style.RED), (data["omega"].values[0], GREEN)):
+    omegas, tau = data["omega"].values, data["piece_tau"]
+    for omega, colour in ((omegas[len(omegas) // 2], style.RED), (omegas[0], GREEN)):
         label = rf"$\Omega = {omega:g}$"
-        axes.plot(
-            data["piece_tau"], data["front"].sel(omega=omega), color=colour, lw=1.4, label=label
-        )
+        axes.plot(tau, data["front"].sel(omega=omega), color=colour, lw=1.4, label=label)
         speed = interpolated(omega, data["line_omega"].values, data["line_speed"].values)
-        ends = np.array([0.0, float(data["piece_tau"][-1])])
+        ends = np.array([0.0, float(tau[-1])])
         axes.plot(ends, speed * ends, color="black", lw=0.7, ls="--")
     axes.lines[-1].set_label(r"$v^*\tau$")
-    shown = data["large_tau"].values <= float(data["piece_tau"][-1])
+    shown = data["large_tau"].values <= float(tau[-1])
+    large = data["large_tau"].values[shown], data["large_front"].values[shown]
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
-    bulk = data["large_front"].values
-    axes.plot(data["large_tau"].values[shown], bulk[shown], color=style.BLUE, lw=1.1, label=label)
+    axes.plot(*large, color=style.BLUE, lw=1.1, label=label)
     axes.set_xlabel(r"$\tau$")
     axes.set_ylabel("site of the front")
     _end_above(axes, 1.9 * float(data["front"].max()))
@@ -108,9 +106,8 @@ def _draw_differences(axes: Axes, data: xr.Dataset) -> None:
         limits = MILLI * data[f"{name}_error"]
         axes.errorbar(data["omega"] + aside, off, limits, label=label, **look)
         ends += [float((off - limits).min()), float((off + limits).max())]
-    low, high = min(ends), max(ends)
-    # the legend is above
-    _end_above(axes, high + 0.25 * (high - low), low - 0.05 * (high - low))
+    span = max(ends) - min(ends)
+    _end_above(axes, max(ends) + 0.25 * span, min(ends) - 0.05 * span)
     axes.set_ylabel(r"$10^3$ (speed $- v^*)$")
     axes.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1.0)
 
@@ -120,10 +117,7 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
     axes.plot(tau, data["behind"], "o", color=style.RED, ms=2.5, label="measured")
     fine = geometric(tau[0], tau[-1], 200)
     delay, rest = float(data["delay"]), float(data["front_rest"])
-    looks = (
-        ("--", rest * 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"),
-        ("-", rest, "and the next term"),
-    )
+    looks = (("--", 0.0, r"$-\frac{3}{2\lambda}\,\ln\tau$"), ("-", rest, "and the next term"))
     for dashes, next_term, label in looks:
         at, line = (-delay * log(t) - next_term / np.sqrt(t) for t in (tau[-LATE:], fine))
         line += float(data["behind"][-LATE:].mean()) - at.mean()
@@ -138,9 +132,8 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
     """Draw the mean power of the bulk over Omega beside that of the thermal state."""
     axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    axes.errorbar(
-        data["omega"], data["mean_power"], _known(data["mean_power_error"]), label="bulk", **DOTS
-    )
+    error = _known(data["mean_power_error"])
+    axes.errorbar(data["omega"], data["mean_power"], error, label="bulk", **DOTS)
     axes.set_ylim(bottom=0)
     axes.set_xlabel(r"$\Omega$")
     axes.set_ylabel("mean power $P$ of a site")
@@ -174,9 +167,8 @@ def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
         values = data["mean_terms"].values[list(data["term"].values).index(term)]
         if np.any(values):
             axes.plot(data["scaled_site"], values, color=colour, ls=dashes, lw=1.1, label=label)
-    axes.plot(
-        data["scaled_site"], data["mean_terms"].sum("term"), color="black", lw=1.1, label="sum"
-    )
+    total = data["mean_terms"].sum("term")
+    axes.plot(data["scaled_site"], total, color="black", lw=1.1, label="sum")
     _end_above(axes, 1.75 * float(data["mean_terms"].max()))
     axes.set_xlabel("site over that of the front")
     axes.set_ylabel("energy per site")
