@@ -69,12 +69,8 @@ def exponents_of(run, variant: int, octaves: int) -> np.ndarray:
 
 
 def exponent_of(run, variant: int = 0, tries: int = 1, octaves: int = OCTAVES) -> Limits:
-    """Return the exponent of tau in l2 over the last `octaves`, one of so many `tries`.
-
-    Of all tries together the limits are as sure as those of a single one (Bonferroni).
-    """
-    sure = 1.0 - (1.0 - SURE.value) / tries
-    return mean_limits(exponents_of(run, variant, octaves), sure)
+    """Return the mean of these exponents; of all `tries` the limits are as sure (Bonferroni)."""
+    return mean_limits(exponents_of(run, variant, octaves), 1.0 - (1.0 - SURE.value) / tries)
 
 
 def factors_of(run, variant: int = 0) -> np.ndarray:
@@ -93,7 +89,6 @@ def grows(power: str = "exponent_at_least", factor: str = "factor_at_least") -> 
 
 def growth_of(run, octaves: int = OCTAVES) -> dict[str, float]:
     """Return what is measured of the growth of l2 of the first variant."""
-    tau = times_of(run)
     exponent, factor = exponent_of(run, octaves=octaves), mean_limits(factors_of(run), SURE.value)
     return {
         "exponent": exponent.value,
@@ -101,33 +96,18 @@ def growth_of(run, octaves: int = OCTAVES) -> dict[str, float]:
         "exponent_at_least": exponent.low,
         "factor_at_least": factor.low,
         "members": run.sizes["member"],
-        "end": tau[-1],
+        "end": times_of(run)[-1],
     }
-
-
-def law_at_end(run, thermal) -> float:
-    """Return (2 v P tau)^(1/2) at the end: a linear front, and a thermal bulk behind it."""
-    one = run.isel(variant=0)
-    power = float(thermal["power"].sel(omega=one["omega"], method="nearest"))
-    return float(np.sqrt(2.0 * one["predicted_speed"] * power * run["tau"][-1]))
-
-
-def sites_in_motion(run) -> float:
-    """Return how many sites of the first variant the front had passed at the end."""
-    return 2.0 * np.floor(float(run["front"].isel(variant=0, piece_tau=-1).max())) + 1.0
 
 
 # --- Wrong cases ----------------------------------------------------------------------------------
 
 
 def following(law: Callable) -> Callable:
-    """Return a control that changes l2 of a run to law(tau), and keeps its members' scatter."""
-
-    def change(run):
-        scatter = run["l2"] / run["l2"].mean("member")
-        return run.assign(l2=scatter * law(run["tau"].clip(min=1.0)))
-
-    return change
+    """Return a change of l2 of a run to law(tau), which keeps the scatter of its members."""
+    return lambda run: run.assign(
+        l2=run["l2"] / run["l2"].mean("member") * law(run["tau"].clip(min=1.0))
+    )
 
 
 def noise(run):
@@ -144,39 +124,42 @@ def one_stays(run):
     return run.assign(l2=run["l2"].where(~still, level).transpose(*run["l2"].dims))
 
 
-SLOWER = (
-    ("tau^(1/4), as diffusion makes it", lambda tau: 20.0 * np.sqrt(np.sqrt(tau))),
-    ("a logarithm of tau", lambda tau: 10.0 + 10.0 * log(tau)),
-    ("a limit that is approached as tau^(-1/2)", lambda tau: 200.0 * (1.0 - 1.2 / np.sqrt(tau))),
-)
-STILL = ("fig2_large", "fig3_small")
+LAWS = {
+    "tau^(1/4), as diffusion makes it": lambda tau: 20.0 * np.sqrt(np.sqrt(tau)),
+    "a logarithm of tau": lambda tau: 10.0 + 10.0 * log(tau),
+    "a limit that is approached as tau^(-1/2)": lambda tau: 200.0 * (1.0 - 1.2 / np.sqrt(tau)),
+}
+SLOWER = {f"l2 follows {says}": following(law) for says, law in LAWS.items()}
+NOISE = {"noise in place of l2": noise}
+DIFFUSING = dict(list(SLOWER.items())[:2])
+STILL = {f"the stable run {name}": name for name in ("fig2_large", "fig3_small")}
+SPREADING = {f"the spreading run {name}": name for name in ("fig4_small", "fig3_large")}
 
 
-def in_place_of(name: str) -> tuple[Control, ...]:
-    """Return the wrong cases for a run that grows: stable runs, slower laws, noise."""
-    right = f"unbounded/{name}"
-    runs = [Control(f"the stable run {still}", {right: f"unbounded/{still}"}) for still in STILL]
-    laws = [Control(f"l2 follows {says}", {right: following(law)}) for says, law in SLOWER]
-    return (*runs, *laws, Control("noise in place of l2", {right: noise}))
+def in_place_of(name: str, *wrong: dict) -> tuple[Control, ...]:
+    """Return the controls that feed each of some wrong cases in place of a run."""
+    return tuple(Control(says, {name: one}) for cases in wrong for says, one in cases.items())
 
 
 @claim(
     "Introduction",
     "The l2 norm diverges in the unbounded chain as time goes to infinity.",
     unbounded("fig4_small", "thermal"),
-    in_place_of("fig4_small"),
+    in_place_of("fig4_small", STILL, SLOWER, NOISE),
 )
 def unbounded_in_time(run, thermal) -> Finding:
-    measured, l2 = growth_of(run), curves_of(run, "l2")
+    measured, l2, one = growth_of(run), curves_of(run, "l2"), run.isel(variant=0)
     tau = times_of(run)
     line = fit_line(tau, l2**2, tau[-1] * 0.5**OCTAVES, SURE.value)
     late = fit_line(tau, l2**2, tau[-1] * 0.5, SURE.value)
+    power = float(thermal["power"].sel(omega=one["omega"], method="nearest"))
+    law = float(np.sqrt(2.0 * one["predicted_speed"] * power * tau[-1]))  # (2 v P tau)^(1/2)
     measured |= {
         "slope_of_the_square": line.slope.value,
         "slope_error": line.slope.half,
         "slope_in_the_last_octave": late.slope.value,
-        "over_its_law": l2[:, -1].mean() / law_at_end(run, thermal),
-        "sites": sites_in_motion(run),
+        "over_its_law": l2[:, -1].mean() / law,
+        "sites": 2.0 * np.floor(float(one["front"].isel(piece_tau=-1).max())) + 1.0,
     }
     caveat = f"up to tau = {tau[-1]:.0f}: it would fall with a front that stops"
     if abs(measured["exponent"] - HALF) > measured["error"]:
@@ -192,26 +175,23 @@ def unbounded_in_time(run, thermal) -> Finding:
     (
         Control("amplitudes at Omega = -4", "amplitudes"),
         Control("at one Omega l2 has stopped to grow", one_stays),
-        *(Control(f"l2 follows {says}", following(law)) for says, law in SLOWER),
+        *in_place_of("omegas", SLOWER),
     ),
 )
 def unbounded_band(run) -> Finding:
-    tries = run.sizes["variant"]
+    tries, omegas = run.sizes["variant"], run["omega"].values
     found = [exponent_of(run, variant, tries) for variant in range(tries)]
-    grown = [factors_of(run, variant).min() for variant in range(tries)]
-    omegas = run["omega"].values
     measured = {
         "least_exponent": min(limits.value for limits in found),
         "largest_exponent": max(limits.value for limits in found),
         "exponents_at_least": min(limits.low for limits in found),
-        "least_factor": min(grown),
+        "least_factor": min(factors_of(run, variant).min() for variant in range(tries)),
         "values": tries,
     }
-    off = [omega for omega, q in zip(omegas, found, strict=True) if not q.low < HALF < q.high]
     caveat = f"at {tries} values of Omega from {omegas.min():g} to {omegas.max():g}"
+    off = [f"{at:g}" for at, q in zip(omegas, found, strict=True) if not q.low < HALF < q.high]
     if off:
-        apart = ", ".join(f"{omega:g}" for omega in off)
-        caveat += f"; at Omega = {apart} the limits do not hold the exponent 1/2"
+        caveat += f"; at Omega = {', '.join(off)} the limits do not hold the exponent 1/2"
     return judge(measured, grows("exponents_at_least", "least_factor"), caveat)
 
 
@@ -220,7 +200,7 @@ def unbounded_band(run) -> Finding:
     "For Omega < -2 gamma a large solution can grow in time on the unbounded lattice.",
     (*unbounded("fig3_large", "amplitudes"), SENSITIVITY),
     (
-        *in_place_of("fig3_large"),
+        *in_place_of("fig3_large", STILL, SLOWER, NOISE),
         Control("the run that grows at Omega = 0", {"fig3_large": "fig4_small"}),
         FAR_AS_NEAR,
     ),
@@ -259,23 +239,12 @@ def stays(run) -> Finding:
     return judge(measured, Below(CONSTANT, "growth_at_most", says=says))
 
 
-def spreading_cases(name: str) -> tuple[Control, ...]:
-    """Return the wrong cases for a run that stays: runs and laws that grow, and noise."""
-    right = f"unbounded/{name}"
-    runs = [
-        Control(f"the spreading run {other}", {right: f"unbounded/{other}"})
-        for other in ("fig4_small", "fig3_large")
-    ]
-    laws = [Control(f"l2 follows {says}", {right: following(law)}) for says, law in SLOWER[:2]]
-    return (*runs, *laws)
-
-
 @claim(
     "Section 5, Fig 5 left",
     "For Omega < -2 gamma a small solution does not grow on the unbounded lattice, in agreement"
     " with Theorem 2.",
     unbounded("fig3_small"),
-    spreading_cases("fig3_small"),
+    in_place_of("fig3_small", SPREADING, DIFFUSING),
     reading="infinite chain",
 )
 def unbounded_small(run) -> Finding:
@@ -286,7 +255,7 @@ def unbounded_small(run) -> Finding:
     "Section 5, Fig 6 left",
     "For Omega > 2 gamma + 4 epsilon a large solution does not grow on the unbounded lattice.",
     unbounded("fig2_large"),
-    spreading_cases("fig2_large"),
+    in_place_of("fig2_large", SPREADING, DIFFUSING),
 )
 def unbounded_stable(run) -> Finding:
     return stays(run)
@@ -297,11 +266,6 @@ WITHIN = Cutoff(0.5, "of the front's way v T: it met the end halfway", 1.0)
 LOWER = Cutoff(0.98, '"does not change": what is lower by more than 2 % does', 1.0)
 
 
-def no_matter_how_wide(found):
-    """Return the map with the widest chain's maxima at every half-width."""
-    return found.assign(l2=found["l2"].isel(half_width=-1).broadcast_like(found["l2"]))
-
-
 @claim(
     "Section 5, Fig 5 right",
     "Growth in M on a fixed window shows growth on the unbounded lattice.",
@@ -309,7 +273,10 @@ def no_matter_how_wide(found):
     (
         Control("small data at Omega = -4, which do not grow", "map_fig5_left"),
         Control("large data at Omega = 8, which do not grow", "map_fig6_left"),
-        Control("maxima that do not depend on M", no_matter_how_wide),
+        Control(
+            "maxima that do not depend on M",
+            lambda found: found.assign(l2=found["l2"].isel(half_width=-1) + 0.0 * found["l2"]),
+        ),
     ),
 )
 def unbounded_window(run) -> Finding:
