@@ -61,22 +61,20 @@ def told_apart(omegas: np.ndarray, ratios: list[Limits], what: str) -> str:
 
 
 def at_energy(thermal, energy: float) -> dict[str, float]:
-    """Return P and the cubic term a site of the thermal state of an energy, between solved ones."""
+    """Return P, its rise with the energy, and the cubic term, each a site, of a thermal state.
+
+    They are interpolated between the solved states.
+    """
     solved = thermal["site_energy"].values
     if solved.size < 2 or not solved[0] <= energy <= solved[-1]:
         raise UndecidableError(f"no thermal state with the energy {energy:.3g} a site was solved")
-    cubic = thermal["warm_terms"].sel(term="cubic").values
+    powers, cubic = thermal["warm_power"].values, thermal["warm_terms"].sel(term="cubic").values
+    below = max(int(np.searchsorted(solved, energy)) - 1, 0)
     return {
-        "power": float(interpolated(energy, solved, thermal["warm_power"].values)),
+        "power": float(interpolated(energy, solved, powers)),
+        "rise": float(np.diff(powers)[below] / np.diff(solved)[below]),
         "cubic": float(interpolated(energy, solved, cubic)),
     }
-
-
-def slope_at(thermal, energy: float) -> float:
-    """Return by how much P rises with the energy a site, between the solved states about it."""
-    solved, powers = thermal["site_energy"].values, thermal["warm_power"].values
-    above = int(np.clip(np.searchsorted(solved, energy), 1, len(solved) - 1))
-    return float(np.diff(powers)[above - 1] / np.diff(solved)[above - 1])
 
 
 # --- Wrong cases ----------------------------------------------------------------------------------
@@ -120,9 +118,9 @@ def with_power(warm: bool) -> Callable:
     def change(run, thermal):
         energies = run["bulk_terms"].sum("term").transpose(*run["bulk_power"].dims)
         mean = float(mean_terms(run, BULK)[0].sum(axis=1).mean())
-        power = at_energy(thermal, mean if warm else 0.0)["power"]
-        follows = slope_at(thermal, mean) * (energies - mean) if warm else 0.0 * energies
-        power = power + follows + on_every_second(run, SCATTER)
+        state = at_energy(thermal, mean if warm else 0.0)
+        follows = state["rise"] * (energies - mean) if warm else 0.0 * energies
+        power = state["power"] + follows + on_every_second(run, SCATTER)
         return run.assign(bulk_power=power.transpose(*energies.dims))
 
     return change
@@ -291,12 +289,12 @@ def bulk_with_energy(run, thermal) -> dict[str, float]:
     energy, power = mean_limits(energies, SURE.value), mean_limits(powers, SURE.value)
     cubic = mean_limits(terms[:, TERMS.index("cubic")], SURE.value)
     warm, cold = at_energy(thermal, float(energy.value)), at_energy(thermal, 0.0)
-    rise = slope_at(thermal, float(energy.value))
-    off = mean_limits(powers - warm["power"] - rise * (energies - energy.value), SURE.value)
+    off = powers - warm["power"] - warm["rise"] * (energies - energy.value)
+    off = mean_limits(off, SURE.value)
     # by how much P off its thermal state may have moved in the last quarter of the run
     now = run["bulk_terms"].sel(front_power=BULK).sum("term")
     now = now.transpose("variant", "member", "piece_tau").values[0]
-    third, last = late_means(bulk_powers(run, BULK)[0] - rise * now, run, 2)
+    third, last = late_means(bulk_powers(run, BULK)[0] - warm["rise"] * now, run, 2)
     moved = mean_limits(last - third, SURE.value)
     return {
         "energy": energy.value,

@@ -71,30 +71,6 @@ BAND = ("lowest", "mean", "highest")
 FIRST, SPANS = 10.0, 16
 """Where the comparison with the law 2 v P tau begins, and its spans, equally long in log tau."""
 
-MEAN_RATE = "l2^2 / tau, mean over a span of time"
-GROWTH = {
-    "omega": ((), ""),
-    "initial": ((), ""),
-    "tau": (("point",), ""),
-    **{name: (("band", "point"), f"{NAMES[name]}, of A and B together") for name in ("l2", "linf")},
-    "octave_tau": (("octave",), "middle of an octave of tau"),
-    "l2_exponent": (("octave",), "exponent of tau in l2"),
-    "l2_exponent_error": (
-        ("octave",), "95 % limits of the exponent of tau in l2 by Student's t, to each side",
-    ),
-    "thermal_linf": (
-        ("point",),
-        "mean of the l-infinity norm where all sites behind the front are in equilibrium",
-    ),
-    "span_tau": (("span",), "middle of a span of tau"),
-    "l2_rate": (("band", "span"), MEAN_RATE),
-    "rate_limits": (("span",), f"half of the 95 % limits of the mean {MEAN_RATE}"),
-    "law": ((), "2 v P: l2^2 / tau by linear spreading and the thermal bulk, for long times"),
-    "law_rate": (("span",), "that law with the delay of a pulled front"),
-    "offset_rate": (("span",), "b / tau, with the offset b of l2^2 fitted"),
-}  # fmt: skip
-"""Along what the numbers of a case are, and what they are."""
-
 
 def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Dataset:
     """Return series, exponents and laws of the ensembles in `runs`, by case.
@@ -103,23 +79,20 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
     `thermal` holds the mean power of the thermal states over Omega. All values are dimensionless.
     """
     first = [run.isel(variant=0) for run in runs.values()]
-    found = [_growth_of(run, thermal) for run in first]
+    found = [_growth_of(run, thermal) | _rates_of(run, thermal) for run in first]
     variables = {
         "case": Variable(("case",), list(runs)),
         "band": Variable(("band",), list(BAND), "value over the members of the ensemble"),
     }
-    for name, (along, long_name) in GROWTH.items():
-        variables[name] = Variable(("case", *along), [one[name] for one in found], long_name)
+    for name, (along, _, long_name, *_) in found[0].items():
+        values = [one[name].values for one in found]
+        variables[name] = Variable(("case", *along), values, long_name)
     shared = shared_by([run.attrs for run in first])
     return as_xarray(variables, {**shared, "title": "Growth of the norms on chains without ends"})
 
 
-def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict:
-    """Return the series of one ensemble, its last exponents, and l2^2 / tau beside its law.
-
-    In the law no constant is fitted. Where it begins is not known, so that an offset of l2^2 is
-    fitted beside it. It is NaN where the chain at rest is stable or no state was solved.
-    """
+def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
+    """Return the series of one ensemble and its last exponents."""
     tau = run["tau"].values
     norms = {name: run[name].transpose("member", "tau").values for name in ("l2", "linf")}
     times = geometric(1.0, float(tau[-1]), POINTS)
@@ -128,42 +101,72 @@ def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict:
         for name, values in norms.items()
     }
     middles, fits = local_exponents(tau, norms["l2"], OCTAVES)
-    halves = np.array([fit.half for fit in fits])
-
-    speed = float(run["predicted_speed"])
-    delay = float(run["predicted_delay"] / run["predicted_speed"])  # time lost per unit of log tau
-    known = all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
-    law, equilibrium = np.nan, np.full(len(times), np.nan)
-    if known and run["predicted_delay"] > 0.0:
-        law = 2.0 * speed * float(thermal_powers(thermal, run["omega"].values))
-    if known and abs(float(run["omega"] - thermal["bound_omega"])) <= 1e-9:
-        reached = speed * (times - delay * log(times))
+    exponents, errors = np.array([fit.value for fit in fits]), _known([fit.half for fit in fits])
+    equilibrium = np.full(len(times), np.nan)
+    if _is_of(thermal, run) and abs(float(run["omega"] - thermal["bound_omega"])) <= 1e-9:
+        reached = float(run["predicted_speed"]) * (times - _delay(run) * log(times))
         equilibrium = mean_maximum(thermal, np.maximum(1.0, reached))
+    both, octave = "of A and B together", ("octave",)
+    of_error = "95 % limits of the exponent of tau in l2 by Student's t, to each side"
+    at_rest = "mean of the l-infinity norm where all sites behind the front are in equilibrium"
+    return {
+        "omega": Variable((), float(run["omega"])),
+        "initial": Variable((), str(run.attrs["initial"])),
+        "tau": Variable(("point",), times),
+        "l2": Variable(("band", "point"), series["l2"], f"{NAMES['l2']}, {both}"),
+        "linf": Variable(("band", "point"), series["linf"], f"{NAMES['linf']}, {both}"),
+        "octave_tau": Variable(octave, middles, "middle of an octave of tau"),
+        "l2_exponent": Variable(octave, exponents, "exponent of tau in l2"),
+        "l2_exponent_error": Variable(octave, errors, of_error),
+        "thermal_linf": Variable(("point",), equilibrium, at_rest),
+    }
 
+
+def _rates_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
+    """Return l2^2 / tau over spans of time and its law, in which no constant is fitted.
+
+    Where the law begins is not known, so that an offset of l2^2 is fitted beside it. It is NaN
+    where the chain at rest is stable or no state was solved.
+    """
+    tau, law = run["tau"].values, np.nan
+    if _is_of(thermal, run) and run["predicted_delay"] > 0.0:
+        power = float(thermal_powers(thermal, run["omega"].values))
+        law = 2.0 * float(run["predicted_speed"]) * power
+    squares = run["l2"].transpose("member", "tau").values ** 2
     edges = geometric(FIRST, float(tau[-1]), SPANS + 1)
     spans = [(tau >= a) & (tau <= b) for a, b in pairwise(edges)]
-    squares = norms["l2"] ** 2
-    means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans])
-    limits = mean_limits(means.T).half
-    passed = tau - delay * log(np.maximum(tau, 1.0))
+    means = np.array([(squares[:, span] / tau[span]).mean(axis=1) for span in spans]).T
+    passed = tau - _delay(run) * log(np.maximum(tau, 1.0))
     late = tau >= FIRST_OF_LINE * tau[-1]
     offset = (squares.mean(axis=0) - law * passed)[late].mean()
+    law_rates = np.array([law * (passed[span] / tau[span]).mean() for span in spans])
+    offsets = np.array([offset * (1.0 / tau[span]).mean() for span in spans])
+    along, of = ("span",), "l2^2 / tau, mean over a span of time"
+    limits = f"half of the 95 % limits of the mean {of}"
+    at_last = "2 v P: l2^2 / tau by linear spreading and the thermal bulk, for long times"
     return {
-        "omega": float(run["omega"]),
-        "initial": str(run.attrs["initial"]),
-        "tau": times,
-        **series,
-        "octave_tau": middles,
-        "l2_exponent": np.array([fit.value for fit in fits]),
-        "l2_exponent_error": np.where(np.isfinite(halves), halves, np.nan),
-        "thermal_linf": equilibrium,
-        "span_tau": np.sqrt(edges[:-1] * edges[1:]),
-        "l2_rate": _band(means.T),
-        "rate_limits": np.where(np.isfinite(limits), limits, np.nan),
-        "law": law,
-        "law_rate": np.array([law * (passed[span] / tau[span]).mean() for span in spans]),
-        "offset_rate": np.array([offset * (1.0 / tau[span]).mean() for span in spans]),
+        "span_tau": Variable(along, np.sqrt(edges[:-1] * edges[1:]), "middle of a span of tau"),
+        "l2_rate": Variable(("band", "span"), _band(means), of),
+        "rate_limits": Variable(along, _known(mean_limits(means).half), limits),
+        "law": Variable((), law, at_last),
+        "law_rate": Variable(along, law_rates, "that law with the delay of a pulled front"),
+        "offset_rate": Variable(along, offsets, "b / tau, with the offset b of l2^2 fitted"),
     }
+
+
+def _is_of(thermal: xr.Dataset, run: xr.Dataset) -> bool:
+    """Return whether thermal states over Omega were solved for the other constants of a run."""
+    return all(thermal.attrs[name] == run.attrs[name] for name in ("epsilon", "gamma"))
+
+
+def _delay(run: xr.Dataset) -> float:
+    """Return the time that a pulled front loses per unit of log tau."""
+    return float(run["predicted_delay"] / run["predicted_speed"])
+
+
+def _known(halves) -> np.ndarray:
+    """Return limits, and NaN in place of the infinite ones of a single member."""
+    return np.where(np.isfinite(halves), halves, np.nan)
 
 
 def _band(values: np.ndarray) -> np.ndarray:
@@ -223,7 +226,6 @@ def measure_front(
     plain, plain_error = speeds(omegas)
     corrected, corrected_error = speeds(omegas, corrected=True)
     power, slopes = mean_limits(mean_powers(omegas).T), slope_powers(omegas)
-    known = np.where(np.isfinite(power.half), power.half, np.nan)  # one member has no limits
     speed_at = [linear_front(replace(constants, omega=value)).speed for value in line]
     over_omega = {
         "omega": (omega,),
@@ -233,7 +235,7 @@ def measure_front(
         "corrected_speed_error": (corrected_error, f"{RESOLVES} of that speed"),
         "predicted_speed": (omegas["predicted_speed"].values, PREDICTED_SPEED),
         "mean_power": (power.value, POWER),
-        "mean_power_error": (known, f"half of the 95 % limits of the {POWER}"),
+        "mean_power_error": (_known(power.half), f"half of the 95 % limits of the {POWER}"),
         "expected_power": (
             thermal_powers(thermal, omega), f"{POWER} in the thermal state at the same Omega"
         ),

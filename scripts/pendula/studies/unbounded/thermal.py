@@ -22,20 +22,9 @@ from pendula.datasets.trajectories import Contents
 from pendula.numerics.elementary import cos, exp, log, sin
 from pendula.problem import Constants
 
+from . import transfer
 from .bulk import LENGTH, POWER, TERMS, statistics_of
 from .extremes import law_of_maxima
-from .transfer import (
-    Operator,
-    applied,
-    bonds_between,
-    half_nodes,
-    leading,
-    make_operator,
-    normalised,
-    reach_of,
-    smoothed,
-    widest,
-)
 
 HOT, COLD = 1e-3, 1e5
 """Inverse temperatures between which a state is looked for."""
@@ -59,7 +48,7 @@ class ThermalState(NamedTuple):
     energy: float  # a site
     power: float  # <|A|^2 + |B|^2>
     power_error: float  # change from a coarser and wider grid, and the rounding
-    operator: Operator
+    operator: transfer.Operator
     vector: np.ndarray  # psi, the sum of its squares is one
 
 
@@ -73,7 +62,7 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
     few, some = nodes // 2, 3 * nodes // 4
 
     def is_too_hot(beta: float) -> bool:
-        grid = half_nodes(widest(constants, beta), few)
+        grid = transfer.half_nodes(transfer.widest(constants, beta), few)
         return _excess(constants, beta, grid, energy)[0] < 0.0
 
     if not is_too_hot(HOT) or is_too_hot(COLD):
@@ -84,25 +73,25 @@ def state_of_energy(constants: Constants, energy: float, nodes: int) -> ThermalS
         beta = float(np.sqrt(hot * cold))
         hot, cold = (beta, cold) if is_too_hot(beta) else (hot, beta)
     beta = float(np.sqrt(hot * cold))
-    reach, powers = widest(constants, beta), []
+    reach, powers = transfer.widest(constants, beta), []
     for count, wider in ((few, 1.0), (some, 1.1), (nodes, 1.0)):
-        grid = half_nodes(wider * reach, count)
+        grid = transfer.half_nodes(wider * reach, count)
         beta, operator, vector = _refined(constants, beta, grid, energy)
-        reach = reach_of(operator, vector)
+        reach = transfer.reach_of(operator, vector)
         powers.append(float(np.sum(vector * vector * operator.power)))
     error = abs(powers[-1] - powers[-2]) + 0.5 * LAST_DIGIT * powers[-1]
     return ThermalState(beta, energy, powers[-1], error, operator, vector)
 
 
-def _excess(constants, beta, grid, energy, vector=None) -> tuple[float, Operator, np.ndarray]:
+def _excess(constants, beta, grid, energy, vector=None) -> tuple:
     """Return beta (energy - that of the state at beta), which rises with beta; operator, vector."""
-    operator = make_operator(constants, beta, grid)
-    vector = leading(operator, vector)
+    operator = transfer.make_operator(constants, beta, grid)
+    vector = transfer.leading(operator, vector)
     quartic = float(np.sum(vector * vector * operator.quartic))
     return beta * (energy + quartic) - 2.0, operator, vector
 
 
-def _refined(constants, beta, grid, energy) -> tuple[float, Operator, np.ndarray]:
+def _refined(constants, beta, grid, energy) -> tuple:
     """Return beta, operator and vector where the excess vanishes, by secants in log beta."""
     old, (excess, operator, vector) = beta, _excess(constants, beta, grid, energy)
     beta *= 1.01
@@ -142,7 +131,7 @@ def products_of(state: ThermalState, lags: int) -> np.ndarray:
     1e-10 of the first.
     """
     operator, psi = state.operator, state.vector
-    largest = np.sum(psi * applied(operator, psi))  # eigenvalue
+    largest = np.sum(psi * transfer.applied(operator, psi))  # eigenvalue
     found = np.zeros((4, lags))
     for products, parity, y in zip(found, PARITIES, np.ix_(*operator.nodes), strict=True):
         vector = psi * (np.array([y, -y]) if parity == PARITIES[-1] else y)
@@ -150,7 +139,7 @@ def products_of(state: ThermalState, lags: int) -> np.ndarray:
             square = np.sum(vector * vector)
             if square < 1e-10 * products[0]:
                 break
-            following = applied(operator, vector, parity) / largest
+            following = transfer.applied(operator, vector, parity) / largest
             products[lag] = square
             products[lag + 1 : lag + 2] = np.sum(vector * following)
             vector = following
@@ -179,17 +168,16 @@ def density_of(state: ThermalState, cells: np.ndarray, finer: int) -> np.ndarray
     a modulus below r. The operator itself interpolates psi to the `finer` nodes that this needs.
     """
     old = state.operator
-    nodes = half_nodes(old.nodes[:, -1], finer)
-    new = make_operator(old.constants, old.beta, nodes)
-    bonds = bonds_between(old.beta, old.constants.epsilon, nodes, old.nodes)
-    chances = normalised(new.roots * smoothed(bonds, old.roots * state.vector)) ** 2
-
+    nodes = transfer.half_nodes(old.nodes[:, -1], finer)
+    new = transfer.make_operator(old.constants, old.beta, nodes)
+    bonds = transfer.bonds_between(old.beta, old.constants.epsilon, nodes, old.nodes)
+    psi = transfer.normalised(new.roots * transfer.smoothed(bonds, old.roots * state.vector))
     # midpoints in k: so fine that images of A stay away, up to what the nodes resolve
     step = np.pi / max(np.sqrt(2.0) * float(nodes.max()), float(cells[-1]))
     last = np.pi / (2.0 * float(nodes[:, 0].max()))
     k = step * (np.arange(int(last / step)) + 0.5)
     size = np.sqrt(k[:, None] ** 2 + k**2)
-    weights = _characteristic(nodes, chances, k)
+    weights = _characteristic(nodes, psi**2, k)
     weights *= 4.0 * (k[1] - k[0]) * (k[1] - k[0]) / (2.0 * np.pi * size)
     below = np.array([r * np.sum(weights * j1(size * r)) for r in cells])
     return np.diff(below) / np.diff(cells)
@@ -301,7 +289,7 @@ def maximum_variables(state: ThermalState) -> dict[str, Variable]:
     twice the quartic energy of `widest`, so that it ends at a 2^(1/4) of that reach.
     """
     constants = state.operator.constants
-    reach = float(widest(constants, state.beta)[0]) / np.sqrt(np.sqrt(2.0))
+    reach = float(transfer.widest(constants, state.beta)[0]) / np.sqrt(np.sqrt(2.0))
     bounds = reach * np.arange(1, BOUNDS + 1) / BOUNDS
     rates, overlaps = law_of_maxima(constants, state.beta, bounds)
     chance = "the chance c exp(-r (N - 1)) that no modulus on N neighbouring sites is above it"
