@@ -123,13 +123,12 @@ use rule decide_claims as decide_unbounded with:
         datasets=[
             "<results>/breathers/sensitivity.nc",
             *expand(
-                "<results>/unbounded/{run}.nc",
-                run=["fig2_large", "fig3_small", "fig3_large", "fig4_small"],
-            ),
-            *expand("<results>/unbounded/{run}.nc", run=["omegas", "amplitudes", "thermal"]),
-            *expand(
-                "<results>/unbounded/map_{sweep}.nc",
-                sweep=["fig5_left", "fig5_right", "fig6_left"],
+                "<results>/unbounded/{name}.nc",
+                name=[
+                    *("fig2_large", "fig3_small", "fig3_large", "fig4_small", "omegas"),
+                    *("amplitudes", "thermal", "map_fig5_left", "map_fig5_right"),
+                    "map_fig6_left",
+                ],
             ),
         ],
     pathvars:

@@ -10,10 +10,13 @@ RINGS, SITES, SETTLING, KEPT, TURNS = 64, 64, 100, 100, 4
 
 
 def sample(constants, beta, seed=1):
-    """Return means of each ring: power and energy a site, and moduli (ring, kept, site) of A."""
+    """Return of each ring its power and energy a site, moduli of A, and the largest of A and B.
+
+    Power and energy are means, (ring,); moduli are (kept, ring, site), the largest (kept, ring).
+    """
     rng = np.random.default_rng(seed)
     a, b = rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
-    step, powers, energies, moduli = 1.0, [], [], []
+    step, powers, energies, moduli, largest = 1.0, [], [], [], []
     for count in range(SETTLING + KEPT):
         taken = [offer_moves(constants, beta, a, b, parity, step, rng) for parity in (0, 1)]
         for _ in range(TURNS):
@@ -24,7 +27,9 @@ def sample(constants, beta, seed=1):
             powers.append((np.abs(a) ** 2 + np.abs(b) ** 2).mean(axis=1))
             energies.append(energy_of(constants, a, b) / SITES)
             moduli.append(np.abs(a[:, ::8]))
-    return np.mean(powers, axis=0), np.mean(energies, axis=0), np.array(moduli)
+            largest.append(np.maximum(np.abs(a), np.abs(b)).max(axis=1))
+    means = (np.mean(values, axis=0) for values in (powers, energies))
+    return *means, np.array(moduli), np.array(largest)
 
 
 def offer_moves(constants, beta, a, b, parity, step, rng):

@@ -5,7 +5,7 @@ import hashlib
 import numpy as np
 import pytest
 import xarray as xr
-from metropolis import RINGS, SITES, offer_moves, offer_turns
+from metropolis import RINGS, SITES, sample
 from pendula.datasets.netcdf import as_xarray
 from pendula.studies.unbounded import extremes
 from pendula.studies.unbounded.extremes import law_of_maxima, mean_maximum
@@ -84,27 +84,13 @@ def test_without_drive_the_chains_of_a_and_b_are_independent_ones_of_moduli():
         assert overlap * np.exp(-rate) == pytest.approx(two**2, rel=0.03)
 
 
-def sampled_maxima(constants, beta, settling=100, kept=150):
-    """Return the largest modulus of each of RINGS rings of SITES sites, (kept, ring)."""
-    rng = np.random.default_rng(3)
-    a, b = 2.0 * rng.normal(size=(2, RINGS, SITES, 2)) @ [1.0, 1.0j]
-    found = []
-    for count in range(settling + kept):
-        for parity in (0, 1):
-            offer_moves(constants, beta, a, b, parity, 1.6, rng)
-        offer_turns(constants, beta, a, b, rng)
-        if count >= settling:
-            found.append(np.maximum(np.abs(a), np.abs(b)).max(axis=1))
-    return np.array(found)
-
-
 def test_sampled_rings_have_these_maxima(fig4):
     """On a ring of many sites the probability is the power of the eigenvalues alone.
 
     Each ring is one sample: what it remembers of its earlier states enters no error.
     """
     state, law = fig4
-    maxima = sampled_maxima(state.operator.constants, state.beta)
+    maxima = sample(state.operator.constants, state.beta)[-1]
     ring = law.assign(bound_overlap=0.0 * law["bound_overlap"] + 1.0)
     mean, error = maxima.mean(), maxima.mean(axis=0).std(ddof=1) / np.sqrt(RINGS)
     assert error < 0.01

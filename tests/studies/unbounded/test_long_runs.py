@@ -16,32 +16,27 @@ REST = 1e-20
 ENSEMBLE = Ensemble(members=4, perturbation=1e-6, seed=2017)
 
 
-class StoppedError(Exception):
-    pass
+def count_pieces(monkeypatch, most=np.inf):
+    """Return a list that grows with each piece; Ctrl-C comes after so many."""
+    done, advance = [], active_sites.advance
+
+    def counted(*arguments, **more):
+        done.append(1)
+        if len(done) > most:
+            raise KeyboardInterrupt
+        return advance(*arguments, **more)
+
+    monkeypatch.setattr(active_sites, "advance", counted)
+    return done
 
 
 @pytest.fixture
 def interrupted(monkeypatch, tmp_path):
     """Return the checkpoint of a run that was killed at its 14th piece, after 10 were kept."""
-    calls, advance = [], active_sites.advance
-
-    def stop(*arguments):
-        calls.append(1)
-        if len(calls) > 13:
-            raise StoppedError
-        return advance(*arguments)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(active_sites, "advance", stop)
-        with pytest.raises(StoppedError):
-            run_long(PROBLEM, REST, tmp_path / "kept.npz", keep_every=5)
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        count_pieces(patch, 13)
+        run_long(PROBLEM, REST, tmp_path / "kept.npz", keep_every=5)
     return tmp_path / "kept.npz"
-
-
-def count_pieces(monkeypatch):
-    done, advance = [], active_sites.advance
-    monkeypatch.setattr(active_sites, "advance", lambda *a, **k: done.append(1) or advance(*a, **k))
-    return done
 
 
 def test_a_run_continued_from_a_checkpoint_has_the_bits_of_one_never_interrupted(
@@ -126,9 +121,8 @@ def test_a_map_has_the_maxima_of_each_chain_and_runs_the_longest_one_from_the_st
 def test_chains_that_share_their_first_pieces_have_the_norms_of_each_run_alone(monkeypatch):
     done = count_pieces(monkeypatch)
     tight = {"name": "dop853", "rtol": 1e-13, "atol": 1e-13}
-    problem = problem_of(
-        "fig3_small", half_width=None, end_time=40.0, output_step=0.5, solver=tight
-    )
+    changes = {"half_width": None, "end_time": 40.0, "output_step": 0.5, "solver": tight}
+    problem = problem_of("fig3_small", **changes)
     widths = [10, 64, 70, 100, 2000]
     found = run_chains(problem, REST, widths)
     assert len(done) < 20 + 10
