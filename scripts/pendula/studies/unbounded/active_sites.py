@@ -100,8 +100,8 @@ def advance(
 ) -> Piece:
     """Integrate `state` in place over `times` (outputs, both ends included) on its sites.
 
-    `rooms` keeps the solver's work arrays from one piece to the next: to ask the system for them
-    anew takes as long as a tenth of a piece. Raises IntegrationError where the solver gives up.
+    `rooms` keeps the solver's work arrays from one piece to the next: to allocate them anew takes
+    a tenth of the time of a piece. Raises IntegrationError where the solver gives up.
     """
     rooms = {} if rooms is None else rooms
     method = SOLVERS[solver["name"]]
@@ -122,8 +122,8 @@ def advance(
 def find_front(sites: np.ndarray) -> np.ndarray:
     """Return the site where the power falls below each of LEVELS for good, -1 if none is above.
 
-    Between two sites the logarithm of the power tells. It is rounded to a thousandth of a site,
-    since its last bits differ between machines.
+    Between two sites the logarithm of the power is interpolated. The place is rounded to a
+    thousandth of a site, since its last bits differ between machines.
     """
     power = np.append(site_powers(sites), 0.0)  # the last site has nothing behind it
     above = power > LEVELS[:, None]

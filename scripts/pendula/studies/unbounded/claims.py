@@ -41,9 +41,15 @@ SHORTEST = 100.0
 
 OCTAVES = 2
 OF_A_SHORT_BULK = 3
-"""Octaves of time whose exponent is asked for: more where the bulk is short, and members differ.
-At Omega = -4 the exponents of 20 members scatter by 0.41 over two octaves and by 0.32 over three.
-Of 500 draws of twelve members all then tell the mean from that of diffusion, of seven 9 in 10."""
+"""Last octaves of time over which an exponent is fitted: more where the bulk is short, and members
+differ. At Omega = -4 the exponents of 20 members scatter by 0.41 over two octaves and by 0.32 over
+three. Then all of 500 draws of twelve members distinguish the mean from the exponent of diffusion,
+and 9 in 10 draws of seven."""
+
+
+def sure(tries: int = 1) -> float:
+    """Return the confidence of each of so many limits that holds for all together (Bonferroni)."""
+    return 1.0 - (1.0 - SURE.value) / tries
 
 
 def times_of(run) -> np.ndarray:
@@ -69,8 +75,8 @@ def exponents_of(run, variant: int, octaves: int) -> np.ndarray:
 
 
 def exponent_of(run, variant: int = 0, tries: int = 1, octaves: int = OCTAVES) -> Limits:
-    """Return the mean of these exponents; of all `tries` the limits are as sure (Bonferroni)."""
-    return mean_limits(exponents_of(run, variant, octaves), 1.0 - (1.0 - SURE.value) / tries)
+    """Return the mean of these exponents over the members with its limits, one of `tries`."""
+    return mean_limits(exponents_of(run, variant, octaves), sure(tries))
 
 
 def factors_of(run, variant: int = 0) -> np.ndarray:
@@ -226,10 +232,10 @@ def unbounded_large(run, amplitudes, sensitivity) -> Finding:
 
 
 def stays(run) -> Finding:
-    """Return the finding that l2 does not grow: not even by what its limits leave open.
+    """Return the finding that l2 does not grow, not even within its limits.
 
-    Such runs are regular, so one member tells as much as all. What a line through l2^2 gains over
-    the last octaves has limits from stretches of time.
+    Such runs are regular, so one member suffices. The limits of what a line through l2^2 gains over
+    the last octaves come from stretches of time.
     """
     tau = times_of(run)
     start = tau[-1] * 0.5**OCTAVES

@@ -1,8 +1,8 @@
 """The state behind the front: it is compared with the thermal state, and nothing is fitted.
 
 Energy is the only integral, and a front that is pulled leaves none behind. So the equilibrium is
-the thermal state of no energy, which `thermal` solves to many digits; only the bulk has errors to
-speak of. They are the limits of means over the members of an ensemble, by Student's t.
+the thermal state of no energy, which `thermal` solves to many digits. Only the errors of the bulk
+count. They are the limits of means over the members of an ensemble, by Student's t.
 """
 
 from collections.abc import Callable
@@ -35,7 +35,7 @@ from .bulk import (
     slope_powers,
     thermal_powers,
 )
-from .claims import SURE, times_of
+from .claims import sure, times_of
 from .measured import BULK, FRONT
 
 SECTION = 5
@@ -156,8 +156,7 @@ STILL = tuple(
 def unbounded_equilibrium(run, thermal) -> Finding:
     times_of(run)
     omegas, powers = run["omega"].values, bulk_powers(run, FRONT)
-    sure = 1.0 - (1.0 - SURE.value) / len(omegas)  # of all Omega together (Bonferroni)
-    limits = [mean_limits(one, sure) for one in mean_powers(run, FRONT)]
+    limits = [mean_limits(one, sure(len(omegas))) for one in mean_powers(run, FRONT)]
     ratios = ratios_of(limits, thermal, omegas)
     third, last = late_means(powers, run, 2).mean(axis=2)
     change = last / third
@@ -196,11 +195,10 @@ def unbounded_equilibrium(run, thermal) -> Finding:
 )
 def unbounded_slope(run, band, thermal) -> Finding:
     times_of(run)
-    slopes, omegas = slopes_of(run, SURE.value), band["omega"].values
+    slopes, omegas = slopes_of(run, sure()), band["omega"].values
     slope, centre = slopes[0], ratios_of(slopes, thermal, run["omega"].values)[0]
-    bulk = mean_limits(mean_powers(run, FRONT)[0], SURE.value)
-    sure = 1.0 - (1.0 - SURE.value) / len(omegas)
-    ratios = ratios_of(slopes_of(band, sure), thermal, omegas)
+    bulk = mean_limits(mean_powers(run, FRONT)[0], sure())
+    ratios = ratios_of(slopes_of(band, sure(len(omegas))), thermal, omegas)
     measured = {
         "centre": centre.value,
         "centre_at_least": centre.low,
@@ -286,16 +284,16 @@ def bulk_with_energy(run, thermal) -> dict[str, float]:
     """Return the energy and P of the bulk, beside P of the thermal states."""
     terms, powers = mean_terms(run, BULK)[0], mean_powers(run, BULK)[0]
     energies = terms.sum(axis=1)
-    energy, power = mean_limits(energies, SURE.value), mean_limits(powers, SURE.value)
-    cubic = mean_limits(terms[:, TERMS.index("cubic")], SURE.value)
+    energy, power = mean_limits(energies, sure()), mean_limits(powers, sure())
+    cubic = mean_limits(terms[:, TERMS.index("cubic")], sure())
     warm, cold = at_energy(thermal, float(energy.value)), at_energy(thermal, 0.0)
     off = powers - warm["power"] - warm["rise"] * (energies - energy.value)
-    off = mean_limits(off, SURE.value)
+    off = mean_limits(off, sure())
     # by how much P off its thermal state may have moved in the last quarter of the run
     now = run["bulk_terms"].sel(front_power=BULK).sum("term")
     now = now.transpose("variant", "member", "piece_tau").values[0]
     third, last = late_means(bulk_powers(run, BULK)[0] - warm["rise"] * now, run, 2)
-    moved = mean_limits(last - third, SURE.value)
+    moved = mean_limits(last - third, sure())
     return {
         "energy": energy.value,
         "energy_error": energy.half,

@@ -24,7 +24,7 @@ from pendula.measures.confidence import mean_limits
 from pendula.measures.difference import VISIBLE
 
 from .bulk import LATE, late_means
-from .claims import SURE, curves_of, times_of
+from .claims import curves_of, sure, times_of
 from .extremes import mean_maximum
 from .measured import FRONT, resolution, speeds
 
@@ -114,7 +114,7 @@ def unbounded_maximum(run, thermal) -> Finding:
     sites. The largest modulus on N neighbouring sites of the bulk has to be that of the thermal
     state for every N, and the norm of the whole chain not above that of a chain that is all in
     equilibrium: the sites that the front has just passed are not. Lower maxima decide nothing,
-    because no theory says then what they do ahead.
+    because no theory predicts how these go on.
     """
     one, sizes = run.isel(variant=0), run["neighbours"].values
     late = times_of(run) > LATE * float(run["tau"][-1])
@@ -126,9 +126,8 @@ def unbounded_maximum(run, thermal) -> Finding:
     norms = curves_of(run, "linf")[:, late].mean(axis=1) / mean_maximum(thermal, fronts)
     if len(norms) < 2 or not np.isfinite([*found, norms]).all():
         raise UndecidableError("it takes two whole runs, and a bulk as long as the largest block")
-    tries = len(sizes)
-    blocks = mean_limits((found / expected[:, None]).T, 1.0 - (1.0 - SURE.value) / tries)
-    norm, ahead = mean_limits(norms, SURE.value), float(one["predicted_speed"]) * FAR_AHEAD
+    blocks = mean_limits((found / expected[:, None]).T, sure(len(sizes)))
+    norm, ahead = mean_limits(norms, sure()), float(one["predicted_speed"]) * FAR_AHEAD
     measured = {
         **{f"of_{n}_sites": mean for n, mean in zip(sizes, found.mean(axis=1), strict=True)},
         **{f"thermal_of_{n}_sites": mean for n, mean in zip(sizes, expected, strict=True)},
@@ -170,7 +169,7 @@ def unbounded_large_maximum(run, sensitivity) -> Finding:
     near = almost_equal(sensitivity, run.attrs["perturbation"])
     tau, linf = times_of(run), curves_of(run, "linf")
     late = linf[:, tau >= SETTLED]
-    means = mean_limits(late.mean(axis=1) / linf[:, 0], SURE.value)
+    means = mean_limits(late.mean(axis=1) / linf[:, 0], sure())
     measured = {
         "mean_over_initial": means.value,
         "mean_over_initial_at_most": means.high,
@@ -192,7 +191,7 @@ def from_amplitude(size: float) -> Callable:
 
 
 CENTRE = 8
-"""Sites about the centre, on each side, whose mean stands for the central pendulum's amplitude."""
+"""Sites about the centre, on each side, whose mean is taken as the central amplitude."""
 
 
 @claim(
@@ -225,7 +224,7 @@ def unbounded_many(run) -> Finding:
     pairs = list(zip(bulks, centres, strict=True))
     ratios = [np.sqrt(bulk.mean() / centre) for bulk, centre in pairs]
     shares = [(bulk > centre / FACTOR.value**2).mean() for bulk, centre in pairs]
-    ratio, share = mean_limits(ratios, SURE.value), mean_limits(shares, SURE.value)
+    ratio, share = mean_limits(ratios, sure()), mean_limits(shares, sure())
     measured = {
         "over_centre": ratio.value,
         "over_centre_at_least": ratio.low,

@@ -37,7 +37,7 @@ SETTLED = 1e-13
 def disc_below(bound: float) -> np.ndarray:
     """Return the nodes of one amplitude in a quadrant of the disc up to a modulus, (3, node).
 
-    The rows are the real part, the imaginary part, and the area that a node stands for.
+    The rows are the real part, the imaginary part, and the area of each node.
     """
     nodes, weights = gauss_legendre(RADII)
     radius = 0.5 * bound * (nodes + 1.0)

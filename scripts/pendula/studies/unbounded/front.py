@@ -8,7 +8,7 @@ max Re s / decay is the speed of linear spreading; there k is a saddle point, s'
 Re s = v decay (van Saarloos, Physics Reports 386 (2003) 29). Where the chain at rest is stable, no
 front is pulled, and the fastest group velocity takes its place.
 
-A pulled front comes to v from below, in a way that the saddle point tells as well (Ebert and van
+A pulled front comes to v from below, as the saddle point predicts too (Ebert and van
 Saarloos, Physica D 146 (2000) 1): its place is v tau - delay log tau - rest tau^(-1/2) and an
 offset, with delay = 3 / (2 decay), rest = 3 pi^(1/2) Re(D^(-1/2)) / decay^2 and D = -s''(k) / 2.
 """

@@ -1,6 +1,6 @@
-"""What the configuration says of the chains without ends, and the problems that follow from it.
+"""The section of the configuration on infinite chains, and the problems that follow from it.
 
-The full run does what `short` says, `snakemake unbounded` what `long` says.
+A full run makes the study of `short`, and `snakemake unbounded` that of `long`.
 """
 
 from collections.abc import Mapping
