@@ -7,13 +7,12 @@ import pytest
 from pendula.datasets import DatasetError
 from pendula.studies.unbounded import active_sites
 from pendula.studies.unbounded.active_sites import SERIES, run_chains, run_long
-from pendula.studies.unbounded.long_runs import Ensemble, maxima, member, window_map
+from pendula.studies.unbounded.long_runs import maxima, member, window_map
 from problems import problem_of
 
 LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 PROBLEM = problem_of("fig4_small", half_width=None, end_time=40.0, output_step=0.25, solver=LOOSE)
 REST = 1e-20
-ENSEMBLE = Ensemble(members=4, perturbation=1e-6, seed=2017)
 
 
 def count_pieces(monkeypatch, most=np.inf):
@@ -90,23 +89,20 @@ def test_series_are_at_every_output_once():
 
 
 def test_members_differ_by_little_and_are_the_same_every_time():
-    first, again, second = (member(PROBLEM.initial, ENSEMBLE, n) for n in (1, 1, 2))
-    np.testing.assert_array_equal(member(PROBLEM.initial, ENSEMBLE, 0), PROBLEM.initial)
+    drawn = ((1e-6, 2017, 1), (1e-6, 2017, 1), (1e-6, 2017, 2), (1e-6, 1, 1), (1e-3, 2017, 1))
+    first, again, second, other, larger = (member(PROBLEM, *one).initial for one in drawn)
+    assert member(PROBLEM, 1e-6, 2017, 0) is PROBLEM
     np.testing.assert_array_equal(first, again)
-    assert (first != second).all()
-    other = member(PROBLEM.initial, ENSEMBLE._replace(seed=1), 1)
-    assert (first != other).all()
-    larger = member(PROBLEM.initial, ENSEMBLE._replace(perturbation=1e-3), 1)
+    assert (first != second).all() and (other != first).all()
     np.testing.assert_allclose(larger - PROBLEM.initial, 1e3 * (first - PROBLEM.initial), rtol=1e-8)
     assert first[0, 0] == pytest.approx(1.0, rel=1e-5)
 
 
 def test_chaos_makes_of_members_different_runs():
-    data = [member(PROBLEM.initial, ENSEMBLE, n) for n in (0, 1)]
-    runs = [run_long(PROBLEM.changed(initial=initial), REST) for initial in data]
-    apart = np.abs(runs[0].l2 / runs[1].l2 - 1.0)
+    one, other = (run_long(member(PROBLEM, 1e-6, 2017, n), REST) for n in (0, 1))
+    apart = np.abs(one.l2 / other.l2 - 1.0)
     assert apart[:8].max() < 1e-3 < apart.max()
-    assert runs[0].front[-1, 0] == pytest.approx(runs[1].front[-1, 0], abs=0.01)
+    assert one.front[-1, 0] == pytest.approx(other.front[-1, 0], abs=0.01)
 
 
 def test_a_map_has_the_maxima_of_each_chain_and_runs_the_longest_one_from_the_start(monkeypatch):
@@ -145,8 +141,8 @@ def test_a_tolerance_of_1e_6_is_enough_for_the_sea():
     powers, fronts = {}, set()
     for tolerance in (1e-6, 1e-11):
         solver = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
-        data = [member(PROBLEM.initial, ENSEMBLE, number) for number in range(4)]
-        runs = [run_long(PROBLEM.changed(solver=solver, initial=one), REST) for one in data]
+        problems = [member(PROBLEM, 1e-6, 2017, number) for number in range(4)]
+        runs = [run_long(one.changed(solver=solver), REST) for one in problems]
         powers[tolerance] = np.array([(run.l2**2)[run.tau > 20.0].mean() for run in runs])
         fronts |= {round(run.front[-1, 0], 2) for run in runs}
     loose, tight = powers.values()

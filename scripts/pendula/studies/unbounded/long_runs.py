@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -28,35 +27,24 @@ from .front import (
 PULLED = "one: a front is pulled at that speed; zero: no wave packet is faster"
 
 
-class Ensemble(NamedTuple):
-    """How the members of an ensemble are made."""
+def member(problem: Problem, perturbation: float, seed: int, number: int) -> Problem:
+    """Return the problem of an ensemble's member; number 0 has the initial data as they are.
 
-    members: int
-    perturbation: float
-    """Relative size of the differences: chaos makes them of order one in some ten units of tau."""
-    seed: int
-
-
-def member(initial: np.ndarray, ensemble: Ensemble, number: int) -> np.ndarray:
-    """Return the initial data of an ensemble's member; number 0 has the data as they are.
-
-    All sites of a component share a factor, so that even data stay even.
+    The relative differences are `perturbation` times normal draws: chaos makes them of order one in
+    some ten units of tau. All sites of a component share a factor, so that even data stay even.
     """
     if number == 0:
-        return initial
-    draws = normal(np.random.default_rng([ensemble.seed, number]), 2)
-    factors = 1.0 + ensemble.perturbation * draws
-    return initial * factors[:, None]
+        return problem
+    draws = normal(np.random.default_rng([seed, number]), 2)
+    return problem.changed(initial=problem.initial * (1.0 + perturbation * draws)[:, None])
 
 
-def attributes(
-    title: str, name: str, problems: list[Problem], rest: float, ensemble: Ensemble
-) -> dict:
+def attributes(title: str, name: str, problems: list[Problem], rest: float, **ensemble) -> dict:
     """Return what all of `problems` have in common: of varied parameters there is no one value."""
     described = [describe_run(name, problem, problem.solver) for problem in problems]
     shared = shared_by(described, "half_width", "snapshot_every")
     ends = {"boundary": "none: sites are added as the front moves", "rest": rest}
-    return {"title": title, **shared, **ends, **ensemble._asdict()}
+    return {"title": title, **shared, **ends, **ensemble}
 
 
 # --- Series of each run ---------------------------------------------------------------------------
@@ -70,16 +58,16 @@ def spread_case(
 
     An interrupted job continues from there, and gives the same numbers to the last bit.
     """
-    runs, ensemble = [], Ensemble(members, perturbation, seed)
+    runs, ensemble = [], {"members": members, "perturbation": perturbation, "seed": seed}
     for variant, problem in enumerate(problems):
         runs.append([])
         for number in range(members):
             keep_at = Path(checkpoints, f"{name}-{variant}-{number}.npz") if checkpoints else None
-            started = problem.changed(initial=member(problem.initial, ensemble, number))
+            started = member(problem, perturbation, seed, number)
             runs[-1].append(run_long(started, rest, keep_at))
             step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
     title = f"Norms, front and final states of {name} on chains without ends"
-    return run_variables(problems, runs), attributes(title, name, problems, rest, ensemble)
+    return run_variables(problems, runs), attributes(title, name, problems, rest, **ensemble)
 
 
 def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[str, Variable]:
@@ -146,9 +134,9 @@ def map_windows(
 ) -> Contents:  # fmt: skip
     """Return the maxima of an ensemble for every T between 10 and the end of the runs."""
     ends = np.arange(START + 2.0, problem.end_time + 1.0, 2.0)
-    maps, ensemble = [], Ensemble(members, perturbation, seed)
+    maps, ensemble = [], {"members": members, "perturbation": perturbation, "seed": seed}
     for number in range(members):
-        started = problem.changed(initial=member(problem.initial, ensemble, number))
+        started = member(problem, perturbation, seed, number)
         maps.append(window_map(started, rest, half_widths, ends))
         step(f"{name}: member {number + 1} of {members} done")
     l2, linf = np.swapaxes(maps, 0, 1)
@@ -163,7 +151,7 @@ def map_windows(
         "pulled": Variable((), int(is_unstable(problem.constants)), PULLED),
     }
     title = f"Maxima of the norms over half-widths and time windows, case of {name}"
-    return variables, attributes(title, name, [problem], rest, ensemble)
+    return variables, attributes(title, name, [problem], rest, **ensemble)
 
 
 def window_map(
