@@ -29,7 +29,7 @@ TERM_LOOKS = {
 
 
 def gather_front(front: xr.Dataset) -> xr.Dataset:
-    """Return what is drawn of the front and of the bulk: all that `front.measure_front` found."""
+    """Return what `measured.measure_front` has made."""
     return front
 
 
@@ -62,8 +62,7 @@ def _draw_positions(axes: Axes, data: xr.Dataset) -> None:
     large = data["large_tau"].values[shown], data["large_front"].values[shown]
     label = rf"$\Omega = {float(data.attrs['large_omega']):g}$, large"
     axes.plot(*large, color=style.BLUE, lw=1.1, label=label)
-    axes.set_xlabel(r"$\tau$")
-    axes.set_ylabel("site of the front")
+    axes.set(xlabel=r"$\tau$", ylabel="site of the front")
     _end_above(axes, 1.9 * float(data["front"].max()))
     axes.legend(loc="upper left", handlelength=1.4)
 
@@ -132,11 +131,9 @@ def _draw_way(axes: Axes, data: xr.Dataset) -> None:
 def _draw_powers(axes: Axes, data: xr.Dataset) -> None:
     """Draw the mean power of the bulk over Omega beside that of the thermal state."""
     axes.plot(data["thermal_omega"], data["thermal_power"], **THERMAL_LOOK)
-    error = _known(data["mean_power_error"])
-    axes.errorbar(data["omega"], data["mean_power"], error, label="bulk", **DOTS)
+    axes.errorbar(data["omega"], data["mean_power"], data["mean_power_error"], label="bulk", **DOTS)
     axes.set_ylim(bottom=0)
-    axes.set_xlabel(r"$\Omega$")
-    axes.set_ylabel("mean power $P$ of a site")
+    axes.set(xlabel=r"$\Omega$", ylabel="mean power $P$ of a site")
     axes.legend(loc="upper right")
 
 
@@ -149,16 +146,11 @@ def _draw_ratios(axes: Axes, data: xr.Dataset) -> None:
     )
     for name, label, look, aside in series:
         ratio = data[name] / data["expected_power"]
-        limits = _known(data[f"{name}_error"]) / data["expected_power"]
+        limits = data[f"{name}_error"] / data["expected_power"]
+        limits = limits.where(np.isfinite(limits))  # one run shows no scatter
         axes.errorbar(data["omega"] + aside, ratio, limits, label=label, **look)
-    axes.set_xlabel(r"$\Omega$")
-    axes.set_ylabel("power over thermal power")
+    axes.set(xlabel=r"$\Omega$", ylabel="power over thermal power")
     axes.legend(loc="lower left", handlelength=1.2)
-
-
-def _known(limits: xr.DataArray) -> xr.DataArray:
-    """Return limits, or none where one run shows no scatter."""
-    return limits.where(np.isfinite(limits))
 
 
 def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
@@ -170,8 +162,7 @@ def _draw_terms(axes: Axes, data: xr.Dataset) -> None:
     total = data["mean_terms"].sum("term")
     axes.plot(data["scaled_site"], total, color="black", lw=1.1, label="sum")
     _end_above(axes, 1.75 * float(data["mean_terms"].max()))
-    axes.set_xlabel("site over that of the front")
-    axes.set_ylabel("energy per site")
+    axes.set(xlabel="site over that of the front", ylabel="energy per site")
     axes.legend(loc="upper right", ncols=2, columnspacing=1.0, handlelength=1.6)
 
 
@@ -183,8 +174,10 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
         half = slice(0, len(values) // 2 + 1)
         axes.plot(data["wave_number"][half] / np.pi, both[half], **look)
     _end_above(axes, 1.45 * float(data["spectrum"].max()), 0.0)
-    axes.set_xlabel(r"wave number $k / \pi$")
-    axes.set_ylabel(rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$")
+    axes.set(
+        xlabel=r"wave number $k / \pi$",
+        ylabel=rf"mean $|A(k)|^2$, $\Omega = {data.attrs['omega']:g}$",
+    )
     axes.legend(loc="upper left")
 
 
@@ -197,6 +190,8 @@ def _draw_distribution(axes: Axes, data: xr.Dataset) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0, 1.02 * float(data["modulus"].max()))
     _end_above(axes, 20.0 * float(measured.max()), 0.5 * float(measured.min()))
-    axes.set_xlabel("modulus $|A_n|$, $|B_n|$")
-    axes.set_ylabel(rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$")
+    axes.set(
+        xlabel="modulus $|A_n|$, $|B_n|$",
+        ylabel=rf"density of the moduli, $\Omega = {data.attrs['omega']:g}$",
+    )
     axes.legend(loc="upper right")
