@@ -2,17 +2,23 @@
 
 import numpy as np
 import pytest
-from on_pendula import pendula
+from on_pendula import load_with, pendula
+from pendula.configuration.files import ConfigurationError
+from pendula.configuration.paper import paper
 from pendula.datasets.netcdf import as_xarray
 from pendula.models.pendula import angles_of
 from pendula.numerics.elementary import modulus
+from pendula.problem import Constants
 from pendula.simulation.simulate import simulate
-from pendula.studies.pendula import envelope, film, over_the_top, phases, sea
+from pendula.studies.pendula import envelope, film, over_the_top, phases, phases_figure, sea
+from pendula.studies.pendula.followed import NOT_KNOWN
+from pendula.studies.pendula.mathieu import strings_grow
 from problems import problem_of
 from scipy.fft import dst
 from scipy.special import ellipk
 
 FAST = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
+DRAWN = ("fig3_small", 1e-6, 2, 1)
 
 
 def case(name="fig4_small", **changes):
@@ -94,6 +100,44 @@ def test_members_of_the_sea_are_reduced_over_the_window_alone():
     l2, power = data["l2_level"].values, data["site_power"].values * 61
     assert (l2**2 <= power).all() and (l2**2 > 0.8 * power).all()
     assert data["wave_power"].mean("even_wave").values * 2 * 61 == pytest.approx(power, rel=1e-9)
+
+
+def test_runs_end_where_the_drive_makes_pendula_faster_without_end():
+    """Without it this run takes some 1e10 steps to its end."""
+    strong = {"gamma": 3.0, "end_time": 50.0}
+    data = as_xarray(
+        *phases.measure_phases({"fig3_small": case("fig3_small", **strong)}, [0.3], 4, *DRAWN)
+    ).isel(case=0)
+    late = data.sel(mu=0.3)["l2"]
+    assert late.isel(tau=slice(2)).notnull().all() and late.isel(tau=slice(8, None)).isnull().all()
+    assert data.sel(mu=0.0)["l2"].notnull().all() and data.attrs["comment"] == NOT_KNOWN
+    assert data["over_theorem_1"].notnull().all()
+    assert phases_figure.gather_phases(data.expand_dims("case"))["l2"].sel(mu=0.3)[0, -1].isnull()
+    found = over_the_top.passage(envelope.at_mu(case("fig3_small", **strong), 0.3), 8)
+    assert found.time < 2.0 and np.isnan(found.angle[-1]) and found.power > 100.0
+
+
+def test_only_a_drive_that_beats_the_strings_loses_pendula():
+    """By Mathieu's equation: a <= 4 epsilon mu^2 / omega^2 is stable up to q = b_1(a)."""
+    of_paper = [Constants.of(one) for one in paper()["cases"].values()]
+    assert not any(strings_grow(one, mu) for one in of_paper for mu in (0.05, 0.15, 0.3))
+    plain = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
+    for changes in ({"gamma": 3.0}, {"epsilon": 2.0}, {"epsilon": -0.1, "gamma": 0.0}):
+        assert strings_grow(Constants(**plain | changes), 0.3)
+    free = Constants(epsilon=0.0, gamma=1.0, omega=0.0)
+    assert not strings_grow(free, np.sqrt(0.9 / 2.0)) and strings_grow(free, np.sqrt(0.91 / 2.0))
+
+
+@pytest.mark.parametrize(
+    ("topic", "change", "says"),
+    [
+        ("film", {"mu": 0.4}, r"pendula\.film\.mu: has 0\.4, .* fig3_large .*ever faster"),
+        ("phases", {"mus": [0.495]}, r"pendula\.phases\.mus: has 0\.495, .* too strong"),
+    ],
+)
+def test_a_drive_without_bounds_is_refused_where_no_run_can_follow_it(topic, change, says):
+    with pytest.raises(ConfigurationError, match=says):
+        load_with(topic, change)
 
 
 def one_pendulum(angle: float, **changes):

@@ -14,6 +14,8 @@ from pendula.numerics.elementary import modulus
 from pendula.problem import AMPLITUDES, PENDULA, Problem
 from pendula.simulation.simulate import Trajectory, simulate
 
+from .followed import until_lost
+
 LIMIT = 0.0
 """The mu that stands for the amplitude equations: they are the limit of the pendula."""
 
@@ -26,12 +28,17 @@ def at_mu(problem: Problem, mu: float) -> Problem:
 def envelopes(problem: Problem) -> tuple[Trajectory, np.ndarray]:
     """Return the run of a problem of (4) or of pendula, and |A_n|, |B_n|.
 
-    The moduli are (component, site, time).
+    The moduli are (component, site, time), NaN after the time at which a pendulum is lost.
     """
-    run = simulate(problem.changed(snapshot_every=1))
     if problem.model == AMPLITUDES:
+        run = simulate(problem.changed(snapshot_every=1))
         return run, run.modulus
-    return run, modulus(amplitudes_of(*run.snapshots, problem.constants.omega, problem.mu))
+    run = simulate(until_lost(problem.changed(snapshot_every=1)))
+    moduli = modulus(amplitudes_of(*run.snapshots, problem.constants.omega, problem.mu))
+    found = np.full((*moduli.shape[:2], problem.times.size), np.nan)
+    known = np.searchsorted(problem.times, run.tau[-1], side="right")
+    found[..., :known] = moduli[..., :known]
+    return run, found
 
 
 def states(problem: Problem) -> tuple[np.ndarray, np.ndarray]:

@@ -10,7 +10,7 @@ from pendula.models.pendula import frequency
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 
-from .over_the_top import period_of
+from .followed import period_of
 
 HALF_TURN = 127
 """Half a turn in steps of the film: no picture shows smaller ones, and a step fits into a byte."""

@@ -1,5 +1,6 @@
 """Runs of the pendula, and of the amplitudes behind an expansion, at times of the study's own."""
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -7,19 +8,23 @@ import numpy as np
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
 from pendula.models.expansion import Expansion, angle, corrected_start, rates
+from pendula.models.pendula import frequency
 from pendula.numerics import elementary
 from pendula.numerics.elementary import product
 from pendula.problem import Problem
 from pendula.simd import largest_magnitude
 from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import Reduction, aligned, pack
+from pendula.simulation.lattice import Reduction, aligned, find_reduction, pack
 from pendula.simulation.models import MODELS, make_chain
 from pendula.simulation.simulate import IntegrationError
+
+from .mathieu import strings_grow
 
 TOLERANCE = 1e-12
 """Of the amplitudes, relative and absolute: far below what the expansion leaves at any mu."""
 LOST = 16.0 * np.pi
 """An angle in rad, of eight turns: no expansion about the pendula at rest follows it."""
+NOT_KNOWN = "NaN: not known, since the drive makes pendula over the top faster without end"
 PIECE = 168
 """Times between two looks at the angles."""
 
@@ -99,12 +104,39 @@ def misses(
     return record.misses
 
 
-def angles_at(problem: Problem, times: np.ndarray, reduction: Reduction) -> np.ndarray:
+def until_lost(problem: Problem) -> Problem:
+    """Return a problem of the pendula, ended where one of them is LOST to a drive without bounds.
+
+    Where the drive makes the strings grow, pendula over the top turn exponentially faster, and the
+    number of steps grows alike: in ten units of tau it may become 1e10. Where a pendulum is lost
+    before the first output, the problem has outputs at shorter steps.
+    """
+    if not strings_grow(problem.constants, problem.mu):
+        return problem
+    each = ceil(2.0 * problem.output_step / period_of(problem))
+    looks = problem.changed(output_step=problem.output_step / each)
+    times = MODELS[problem.model].times(looks)
+    angles = angles_at(looks, times, find_reduction(problem.amplitudes), piece=1)
+    known = np.isfinite(angles[:, 0, 0]).sum() - 1
+    if known < each:
+        return looks.changed(end_time=float(looks.times[known]))
+    return problem.changed(end_time=float(problem.times[known // each]))
+
+
+def period_of(problem: Problem) -> float:
+    """Return the period 2 pi / omega of the pendula in units of tau."""
+    mu = problem.mu
+    return np.pi * mu * mu / frequency(problem.constants.omega, mu)
+
+
+def angles_at(
+    problem: Problem, times: np.ndarray, reduction: Reduction, piece: int = PIECE
+) -> np.ndarray:
     """Return the angles (time, component, site) of what `reduction` leaves, at the times t.
 
     `problem` is one of the pendula, and `times` begin with 0. Pendula that have gone over the top
     may be driven faster and faster, which takes ever more steps. So the run ends where an angle is
-    beyond LOST, and all angles are infinite from then on.
+    beyond LOST after so many times as `piece` says, and all angles are infinite from then on.
     """
     model = MODELS[problem.model]
     method, y = model.solvers[problem.solver["name"]], model.start(problem, reduction)
@@ -114,8 +146,8 @@ def angles_at(problem: Problem, times: np.ndarray, reduction: Reduction) -> np.n
     angles = np.full((times.size, y.shape[0] // 2, y.shape[1] - 2), np.inf)
 
     def follow(stop: np.ndarray) -> None:
-        for first in range(0, times.size - 1, PIECE):
-            part = times[first : first + PIECE + 1]
+        for first in range(0, times.size - 1, piece):
+            part = times[first : first + piece + 1]
             record = model.record(*angles.shape[1:], part.size, 1)
             outcome = method.run(system, y, part, controls, work, record, stop)
             if outcome.status != DONE:

@@ -116,6 +116,24 @@ def band_threshold(lowest, highest) -> np.ndarray:
     return np.where(above, np.nan, np.where(within, 0.0, found))
 
 
+def strings_grow(constants, mu: float) -> bool:
+    """Return whether the drive makes waves of the strings grow where no gravity holds the pendula.
+
+    The mean force of gravity on pendula that turn over and over is zero. Without it the difference
+    of the two pendula of a pair obeys Mathieu's equation, with 0 < a <= 4 epsilon mu^2 / omega^2
+    and q = 2 |gamma| mu^2 / omega^2. `constants` are those of (4).
+    """
+    highest = 4.0 * constants.epsilon * mu * mu / squared_frequency(constants.omega, mu)
+    drive = strength(constants, mu)
+    return bool(highest < 0.0 or drive > band_threshold(-1.0, highest - 1.0))
+
+
+def strength(constants, mu: float) -> float:
+    """Return q of the drive, 2 |gamma| mu^2 / omega^2."""
+    square = squared_frequency(constants.omega, mu) / (mu * mu)
+    return float(2.0 * abs(constants.gamma) / square)
+
+
 # --- Growth within the first tongue --------------------------------------------------------------
 
 

@@ -19,12 +19,12 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.confidence import Limits, event_rate, median_limits, share_limits
-from pendula.models.pendula import frequency
 from pendula.problem import Problem
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
 
 from .envelope import at_mu
+from .followed import NOT_KNOWN, period_of, until_lost
 
 TOP = np.pi
 
@@ -33,14 +33,8 @@ class Passage(NamedTuple):
     """What one run of the pendula is reduced to."""
 
     time: float  # when the first pendulum goes over the top; infinite if none does
-    angle: np.ndarray  # (time,): the largest angle so far at each whole unit of tau, rad
-    power: float  # largest sum of (x / 2 mu)^2 over all pendula: no more than P of the envelopes
-
-
-def period_of(problem: Problem) -> float:
-    """Return the period 2 pi / omega of the pendula in units of tau."""
-    mu = problem.mu
-    return np.pi * mu * mu / frequency(problem.constants.omega, mu)
+    angle: np.ndarray  # (time,): the largest so far at each whole unit of tau, rad; NaN if unknown
+    power: float  # largest known sum of (x / 2 mu)^2 over all pendula: at most P of the envelopes
 
 
 def with_outputs(problem: Problem, per_period: int) -> Problem:
@@ -50,12 +44,13 @@ def with_outputs(problem: Problem, per_period: int) -> Problem:
 
 
 def passage(problem: Problem, per_period: int) -> Passage:
-    """Follow one run to its end."""
-    run = simulate(with_outputs(problem, per_period))
+    """Follow one run to its end, or until a pendulum is lost."""
+    run = simulate(until_lost(with_outputs(problem, per_period)))
     largest = run.linf.max(axis=0)
     beyond = np.flatnonzero(largest > TOP)
     whole = np.arange(1, int(problem.end_time) + 1)
     so_far = np.maximum.accumulate(largest)[np.searchsorted(run.tau, whole) - 1]
+    so_far = np.where(whole <= run.tau[-1], so_far, np.nan)
     angles = (run.l2 * run.l2).sum(axis=0).max()
     power = float(angles) / (4.0 * problem.mu * problem.mu)
     return Passage(float(run.tau[beyond[0]]) if beyond.size else np.inf, so_far, power)
@@ -81,15 +76,16 @@ def measure_over_the_top(
     times = np.array([[one.time for one in row] for row in runs])
     tau = np.arange(1.0, int(problem.end_time) + 1.0)
     _, shared = describe_cases({"sea": problem})
+    angles = np.array([[one.angle for one in row] for row in runs])
     over, title = ("mu",), "When pendula go over the top, and how far they turn then"
     about = {"perturbation": size, "members": members, "seed": seed, "settled": settled}
+    about |= {"comment": NOT_KNOWN} if np.isnan(angles).any() else {}
     return {
         "mu": Variable(over, list(mus)),
         "tau": Variable(("tau",), tau),
         "passage_time": Variable((*over, "member"), times,
                                  "time of the first passage over the top, infinite if later"),
-        "angle_so_far": Variable((*over, "member", "tau"),
-                                  np.array([[one.angle for one in row] for row in runs]),
+        "angle_so_far": Variable((*over, "member", "tau"), angles,
                                   "largest angle of any pendulum so far", "rad"),
         "angle_power": Variable((*over, "member"),
                                   [[one.power for one in row] for row in runs],

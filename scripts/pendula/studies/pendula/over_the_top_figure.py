@@ -42,7 +42,7 @@ def gather_over_the_top(sea: xr.Dataset, over_the_top: xr.Dataset, thermal: xr.D
                 for name in ("spectrum", "density")
             },
             "wave_number": thermal["wave_number"],
-            "turns": turns.mean("member").assign_attrs(
+            "turns": turns.mean("member", skipna=False).assign_attrs(
                 long_name="largest angle of any pendulum so far in turns, mean over the members",
                 units="1",
             ),

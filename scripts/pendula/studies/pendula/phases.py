@@ -16,6 +16,7 @@ from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 
 from .envelope import LIMIT, at_mu, envelopes, norms_of
+from .followed import NOT_KNOWN
 
 ENVELOPE = "of the amplitudes got back from angles and velocities"
 
@@ -26,9 +27,10 @@ def measure_phases(
 ) -> Contents:  # fmt: skip
     """Return norms of the envelopes of all cases at mu = 0, which is (4), and at each of `mus`.
 
-    All cases end at one time; the sites are those of the longest chain. The larger envelope of each
-    pair is kept at every `look_every`-th output. So many members of one case are held to Theorem 1
-    at the largest of `mus`: the data of each are changed by `size`, relatively.
+    All cases end at one time, and norms are NaN once a pendulum is lost (followed.until_lost). The
+    sites are those of the longest chain. The larger envelope of each pair is kept at every
+    `look_every`-th output. So many members of one case are held to Theorem 1 at the largest of
+    `mus`: the data of each are changed by `size`, relatively.
     """
     every = [LIMIT, *mus]
     found = [[envelopes(at_mu(one, mu)) for mu in every] for one in problems.values()]
@@ -55,15 +57,16 @@ def measure_phases(
         **_members(draw_members(problems[case], size, members, seed), max(mus)),
     }  # fmt: skip
     about = {"perturbed_case": case, "perturbation": size, "members": members, "seed": seed}
+    about |= {"comment": NOT_KNOWN} if np.isnan(norms).any() else {}
     title = f"The cases of the paper as pendula: norms {ENVELOPE}; mu = 0 stands for (4)"
     return variables, {**shared, **about, "title": title}
 
 
 def over_theorem_1(problem: Problem, mu: float) -> float:
-    """Return the largest P of the envelopes at mu, over what Theorem 1 allows by the data."""
+    """Return the largest known P of the envelopes at mu, over what Theorem 1 allows by the data."""
     energy = simulate(problem.changed(end_time=problem.output_step)).energy[0]
     l2, _ = norms_of(envelopes(at_mu(problem, mu))[1])
-    return float((l2 * l2).sum(axis=0).max() / theorem_1_bound(energy, problem.constants))
+    return float(np.nanmax((l2 * l2).sum(axis=0)) / theorem_1_bound(energy, problem.constants))
 
 
 def _members(drawn: Sequence[Problem], mu: float) -> dict[str, Variable]:

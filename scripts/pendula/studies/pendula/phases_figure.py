@@ -30,7 +30,7 @@ APART = 3
 
 def gather_phases(phases: xr.Dataset) -> xr.Dataset:
     """Return norms of the pair, and the larger modulus on each site over time."""
-    l2 = np.sqrt((phases["l2"] ** 2).sum("component"))
+    l2 = np.sqrt((phases["l2"] ** 2).sum("component", skipna=False))
     linf = phases["linf"].max("component")
     norms = {
         name: one.assign_attrs(long_name=f"{NAMES[name]}, of A and B together", units="1")

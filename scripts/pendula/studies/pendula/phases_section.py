@@ -15,6 +15,7 @@ from .thermal_beside import thermal_beside
 
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 FILM = "pendula/film"
+NOT_KNOWN = "not known"
 
 
 def phases(results: Results) -> dict[str, Any]:
@@ -23,6 +24,7 @@ def phases(results: Results) -> dict[str, Any]:
     return {
         "head": ["case", *(_name(mu) for mu in mus)],
         "rows": _norms(results),
+        "lost": any("comment" in results[name].attrs for name in (PHASES, TOP)),
         "least_mu": results.quote(PHASES, min(mu for mu in mus if mu)),
         "border": not results.apart("trajectories/fig3_large"),
         "sea": _sea(results),
@@ -44,7 +46,10 @@ def _norms(results: Results) -> list[list]:
     for case in data["case"].values:
         one = data.sel(case=case)
         pairs = zip(l2.sel(case=case).values, linf.sel(case=case).values, strict=True)
-        cells = [results.say(PHASES, f"{number(a)}, {number(b)}") for a, b in pairs]
+        cells = [
+            results.say(PHASES, NOT_KNOWN if np.isnan(a) else f"{number(a)}, {number(b)}")
+            for a, b in pairs
+        ]
         rows.append([case_in_words(float(one["omega"]), str(one["initial"].values)), *cells])
     return rows
 
@@ -79,7 +84,7 @@ def _passages(results: Results) -> dict[str, Any]:
             results.say(TOP, f"{share[0]} ({share[1]} to {share[2]})"),
             results.say(TOP, _median(float(one["passage_median"]))),
             results.say(TOP, _rate(one)),
-            results.quote(TOP, float(one["angle_so_far"].mean("member")) / (2.0 * np.pi)),
+            results.say(TOP, _turns(one)),
         ])  # fmt: skip
     return {
         "head": [
@@ -99,6 +104,11 @@ def _passages(results: Results) -> dict[str, Any]:
 
 def _median(tau: float) -> str:
     return number(tau) if np.isfinite(tau) else "not by then"
+
+
+def _turns(one) -> str:
+    turns = float(one["angle_so_far"].mean("member", skipna=False)) / (2.0 * np.pi)
+    return NOT_KNOWN if np.isnan(turns) else number(turns)
 
 
 def _rate(one) -> str:

@@ -1,7 +1,7 @@
 """What the configuration says of the paper's phases in the real pendula."""
 
 from collections.abc import Iterable
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -20,11 +20,19 @@ from pendula.configuration.values import (
     Window,
     model,
 )
+from pendula.problem import Constants
+
+from .mathieu import strength, strings_grow
+
+STRONGEST = 10.0
+"""The largest q of Mathieu's equation: the drive makes pendula e^11 times faster in a period."""
 
 
 class Followed(Model):
     """What all topics share: a tolerance, and the runs that they make of cases."""
 
+    may_lose: ClassVar[bool] = False
+    """Whether a run may end where a pendulum is lost (see followed.until_lost)."""
     tolerance: Tolerance
 
     def unfit(
@@ -37,16 +45,29 @@ class Followed(Model):
             yield from absent
             return
         solver = {"name": "taylor", "rtol": self.tolerance, "atol": self.tolerance}
-        runs = [
-            {**settings.problem(name, snapshot_step=None), "solver": solver, "model": "pendula",
-             "mu": mu, **changes}
+        runs = {
+            (name, mu): {**settings.problem(name, snapshot_step=None), "solver": solver,
+                         "model": "pendula", "mu": mu, **changes}
             for name in cases for mu in mus
-        ]  # fmt: skip
-        for run in runs:
-            if 1.0 + run["mu"] ** 2 * run["omega"] <= 0.0:
-                yield key, f"has {run['mu']:g}, and 1 + mu^2 Omega must be positive"
+        }  # fmt: skip
+        for (name, mu), run in runs.items():
+            if why := self._endless(Constants.of(run), mu):
+                yield key, f"has {mu:g}, and {why.format(case=name)}"
                 return
-        yield from settings.excess(key, [estimate(run) for run in runs], times)
+        yield from settings.excess(key, [estimate(run) for run in runs.values()], times)
+
+    def _endless(self, constants: Constants, mu: float) -> str:
+        """Return why no run of the pendula at mu may end, or nothing."""
+        if 1.0 + mu * mu * constants.omega <= 0.0:
+            return "1 + mu^2 Omega must be positive"
+        if strength(constants, mu) > STRONGEST:
+            return "the drive of {case} there is too strong: take a smaller gamma or mu"
+        if not self.may_lose and strings_grow(constants, mu):
+            return (
+                "pendula of {case} that swing over the top are driven ever faster there: "
+                "take a smaller gamma, epsilon or mu"
+            )
+        return ""
 
 
 class Drawn(Model):
@@ -61,6 +82,7 @@ class Drawn(Model):
 class Phases(Followed):
     """The paper's cases as pendula."""
 
+    may_lose = True
     mus: Positives
     output_step: Positive
     look_every: Count
@@ -104,6 +126,7 @@ class Sea(Ensemble):
 class OverTheTop(Ensemble):
     """When the first pendulum turns over."""
 
+    may_lose = True
     per_period: Annotated[Whole, Field(ge=4)]
     settled: Positive
     end_time: Annotated[Positive, Field(ge=1)]
