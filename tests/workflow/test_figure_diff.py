@@ -27,7 +27,7 @@ def test_comparing_failing_and_accepting_by_name(accepted):
     for _ in range(2):
         result = snakemake(clone, finished, "figure_diff", *MINE)
         assert result.returncode == 0, said(result)
-        assert " identical; see results/figure_diff/index.html" in said(result)
+        assert f" identical; see {results}/figure_diff/index.html" in said(result)
 
     flipped = ["checks/growth.nc", "claims/theory.json", "figures/fig5.png", "report.html"]
     for name in flipped:

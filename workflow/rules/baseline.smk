@@ -54,7 +54,7 @@ def tell_faults():
     from pendula.datasets.json_files import load_json  # here, since few runs compare
 
     verdict = load_json(VERDICT)
-    print(*verdict["lines"], sep="\n", end=f"; see {PAGE}\n", file=sys.stderr)
+    print(*verdict["lines"], sep="\n", end=f"; see {from_outside(PAGE)}\n", file=sys.stderr)
     if verdict["faults"]:
         sys.exit(1)
 

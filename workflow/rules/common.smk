@@ -19,7 +19,6 @@ def stop(reason):
     raise SystemExit(1)
 
 
-RESULTS = Path("results").absolute()
 for folder in filter(os.path.exists, (".", ".snakemake")):
     if not os.access(folder, os.W_OK):
         stop(
@@ -119,8 +118,13 @@ def what_failed(logs):
             Path(path).read_text(encoding="utf-8", errors="replace") if os.path.exists(path) else ""
         )
         reasons = re.findall(r"(?ms)^failed: (.*?)\nTraceback", said) or ["it ended without a word"]
-        told += [f"{reason}\n  (more in {path})" for reason in reasons]
+        told += [f"{reason}\n  (more in {from_outside(path)})" for reason in reasons]
     return "\n".join(told)
+
+
+def from_outside(path):
+    """Return a path as it is for the user, who may have called Snakemake with --directory."""
+    return os.path.join(workflow.overwrite_workdir or "", path)
 
 
 # --- Names of files -------------------------------------------------------------------------------
