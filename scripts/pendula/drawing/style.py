@@ -13,6 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
+from matplotlib.layout_engine import PlaceHolderLayoutEngine
 
 from pendula.configuration.paper import in_short
 from pendula.datasets import complete_or_absent
@@ -187,7 +188,10 @@ def save(
     about = {"title": f"What the figure {Path(netcdf).stem} shows"}
     if differs:
         about["comment"] = f"the configuration differs in {', '.join(differs)}"
-        figure.supxlabel(fill(f"Not the paper's: {in_short(differs)}", NOTE), fontsize=6.5)
+        # without a layout engine, nothing makes room: half of the space below the panels is free
+        whole = not isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine)
+        note = fill(f"Not the paper's: {in_short(differs)}", NOTE if whole else NOTE * 2 // 5)
+        figure.supxlabel(note, x=0.5 if whole else 0.22, fontsize=6.5)
     with (
         complete_or_absent(png) as new_png,
         complete_or_absent(pdf) as new_pdf,

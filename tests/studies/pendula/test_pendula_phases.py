@@ -6,6 +6,7 @@ from on_pendula import load_with, pendula
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.paper import paper
 from pendula.datasets.netcdf import as_xarray
+from pendula.drawing import style
 from pendula.models.pendula import angles_of
 from pendula.numerics.elementary import modulus
 from pendula.problem import Constants
@@ -115,6 +116,18 @@ def test_runs_end_where_the_drive_makes_pendula_faster_without_end():
     assert phases_figure.gather_phases(data.expand_dims("case"))["l2"].sel(mu=0.3)[0, -1].isnull()
     found = over_the_top.passage(envelope.at_mu(case("fig3_small", **strong), 0.3), 8)
     assert found.time < 2.0 and np.isnan(found.angle[-1]) and found.power > 100.0
+
+
+def test_the_note_on_edited_cases_covers_no_panel(tmp_path):
+    problems = {"fig3_small": case("fig3_small")}
+    data = phases_figure.gather_phases(
+        as_xarray(*phases.measure_phases(problems, [0.3], 4, *DRAWN))
+    )
+    figure = phases_figure.draw_phases(data)
+    files = [tmp_path / f"a.{kind}" for kind in ("png", "pdf", "nc", "json")]
+    style.save(figure, data, *files, 8 * ["fig2_small.end_time (4 in place of 50)"])
+    note = next(one for one in figure.texts if one.get_text().startswith("Not the paper's"))
+    assert not any(one.get_tightbbox().overlaps(note.get_window_extent()) for one in figure.axes)
 
 
 def test_only_a_drive_that_beats_the_strings_loses_pendula():
