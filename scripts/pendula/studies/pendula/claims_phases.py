@@ -54,7 +54,7 @@ def late_levels(phases, norm: str = "l2"):
 def known(levels):
     """Return levels none of which is NaN, as where pendula are lost to the drive."""
     if levels.isnull().any():
-        raise UndecidableError("the drive makes pendula over the top faster without end")
+        raise UndecidableError("the drive makes pendula over the top ever faster")
     return levels
 
 

@@ -24,7 +24,7 @@ TOLERANCE = 1e-12
 """Of the amplitudes, relative and absolute: far below what the expansion leaves at any mu."""
 LOST = 16.0 * np.pi
 """An angle in rad, of eight turns: no expansion about the pendula at rest follows it."""
-NOT_KNOWN = "NaN: not known, since the drive makes pendula over the top faster without end"
+NOT_KNOWN = "NaN is not known: the drive makes pendula over the top ever faster"
 PIECE = 168
 """Times between two looks at the angles."""
 
