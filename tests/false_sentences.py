@@ -96,7 +96,8 @@ def _same(key: str, about: dict, of_paper: dict) -> bool:
 def false_sentences(folder_of_run: Path | str) -> list[str]:
     """Return what is false of all that a run says; `folder_of_run` holds its `results`."""
     run = Run(Path(folder_of_run))
-    return [one for check in (ledger, controls, notice, sentences, labels, figures, tables)
+    checks = (ledger, controls, notice, sentences, not_known, labels, figures, tables)
+    return [one for check in checks
             for one in check(run)]  # fmt: skip
 
 
@@ -288,6 +289,14 @@ def sentences(run: Run):
         for said in re.finditer(pattern, run.page):
             if is_false(run, said):
                 yield f"the report says: {said[0]}"
+
+
+def not_known(run: Run):
+    """The page says what is not known of the pendula where numbers are NaN, and only there."""
+    names = {"phases": "l2", "over_the_top": "angle_so_far"}
+    lost = any(run.data(f"pendula/{name}")[key].isnull().any() for name, key in names.items())
+    if lost != ("so that no run can follow them for long" in run.page):
+        yield f"the report does not say that numbers of pendula are {'not ' * lost}known"
 
 
 def labels(run: Run):

@@ -112,6 +112,7 @@ PLANTED = [
     ((run_with("fig2_small", omega=7.0),), "norms against time, Ω = 8"),
     ((said("the claims that they belong to are not decided"),),
      "the claims that they belong to"),
+    ((said("so that no run can follow them for long"),), "that numbers of pendula are known"),
     ((said("At Ω = 3, (A₀, B₀) = (1, 0.1) nothing moves."),), "names Ω = 3"),
     ((run_with("fig2_small", boundary="periodic"),), "does not begin with fig2_small.boundary"),
     ((run_with("fig2_small", boundary="periodic"),), "of fig2 do not say that fig2_small.boundary"),
