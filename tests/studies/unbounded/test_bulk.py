@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from made_up_unbounded import POWER, TERMS, exact, spread, thermal
 from oracle import hamiltonian, random_chain
+from pendula.ledger.criterion import UndecidableError
 from pendula.studies.unbounded.active_sites import run_long
 from pendula.studies.unbounded.bulk import (
     LENGTH,
@@ -22,7 +23,7 @@ from pendula.studies.unbounded.bulk import (
     statistics_of,
     thermal_powers,
 )
-from pendula.studies.unbounded.claims_bulk import unbounded_warm
+from pendula.studies.unbounded.claims_bulk import at_energy, unbounded_warm
 from problems import constants_of, problem_of
 
 NUMBERS = (1.2, 0.7, -3.0)
@@ -111,6 +112,15 @@ def test_thermal_powers_are_unknown_where_none_was_solved():
     found = thermal_powers(thermal(), np.array([2.0, 3.0]))
     assert found[0] == POWER and np.isnan(found[1])
     assert thermal_powers(thermal(), np.array(5.0)) == POWER
+
+
+def test_a_thermal_state_of_an_energy_lies_between_the_solved_ones():
+    states = thermal().assign(warm_power=("site_energy", [16.0, 17.0, 20.0]))
+    for energy, power, rise in ((0, 16.0, 0.5), (1, 16.5, 0.5), (3, 18.5, 1.5), (4, 20.0, 1.5)):
+        found = at_energy(states, energy)
+        assert (found["power"], found["rise"]) == pytest.approx((power, rise))
+    with pytest.raises(UndecidableError):
+        at_energy(states, 4.5)
 
 
 def test_the_error_of_the_energy_widens_the_limits_of_p():

@@ -185,9 +185,12 @@ def unbounded_large_maximum(run, sensitivity) -> Finding:
 
 def from_amplitude(size: float) -> Callable:
     """Return a change: of the runs over amplitudes, which are given second, those nearest to it."""
-    return lambda _, amplitudes: amplitudes.isel(
-        variant=[int(np.abs(amplitudes["central_modulus"].values - size).argmin())]
-    )
+
+    def change(_, runs):
+        nearest = int(np.abs(runs["central_modulus"].values - size).argmin())
+        return runs.isel(variant=[nearest])
+
+    return change
 
 
 CENTRE = 8
