@@ -26,5 +26,5 @@ class ExecutorSettings(ExecutorSettingsBase):
     modules: str = field(default="", metadata={"help": HELP})
 
     def __post_init__(self):
-        """Let the imports begin while Snakemake reads the workflow."""
+        """Mind Ctrl-C while Snakemake reads the workflow; the imports begin with the first job."""
         self.forks = Forks(self.modules.split())

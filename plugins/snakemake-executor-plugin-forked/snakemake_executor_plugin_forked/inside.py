@@ -32,10 +32,9 @@ class Executor(snakemake.executors.local.Executor):
     told = False
 
     def __post_init__(self):
-        """Have the process ready for jobs."""
+        """Have Python scripts run by forks."""
         super().__post_init__()
         self.forks = self.executor_settings.forks
-        self.forks.get_ready()
         forked = type("Forked", (ForkedScript,), {"executor": self})
         self.script = with_names(script, PythonScript=forked)
 
@@ -47,6 +46,7 @@ class Executor(snakemake.executors.local.Executor):
         """
         if self.forks.interrupted:
             raise SystemExit(INTERRUPTED)  # it is lost if Snakemake hears Ctrl-C while it logs
+        self.forks.start()
         scheduler = self.workflow.scheduler
         limiter = scheduler.job_rate_limiter
         if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:
@@ -100,18 +100,18 @@ class ForkedScript(PythonScript):
             pid, job = forks.fork(fname, self.resources.get("tmpdir"))
             with job, benchmarked(self.bench_record is not None and pid, self.bench_record):
                 job.shutdown(1)  # so that it begins
-                status = int(forks.hear(job))
-            says = f"it {in_words(status)}" if status < 0 else ""
+                if (status := int(forks.hear(job))) < 0:
+                    raise ChildProcessError(f"it {in_words(status)}")
         except ChildProcessError as error:
-            status, says = 1, error
+            status = 1
+            if not forks.interrupted:
+                logger.error(f"forked: rule {self.rulename} failed: {error}")
         except RefusedError as error:
             if not self.executor.told:
                 self.executor.told = True
                 why = f"rule {self.rulename} starts a Python of its own, since {error}"
                 logger.info(f"forked: {why}. Others may too, which is told once.")
             return super().execute_script(fname, edit)
-        if says and not forks.interrupted:
-            logger.error(f"forked: rule {self.rulename} failed: {says}")
         if status:
             raise SystemExit(status)
 

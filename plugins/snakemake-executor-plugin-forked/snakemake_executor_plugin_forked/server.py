@@ -26,11 +26,11 @@ GRACE = 3
 
 
 class Server:
-    """Imports, forks, and tells Snakemake how jobs ended, until Snakemake ends."""
+    """Imports, forks, and reports how jobs ended, until Snakemake ends."""
 
     def __init__(self, control: socket.socket, modules: list[str]):
         """Listen at `control`, and import `modules` meanwhile."""
-        self.control, self.modules, self.told = control, modules, False
+        self.control, self.modules = control, modules
         self.jobs: dict[int, socket.socket] = {}
         signal.signal(signal.SIGCHLD, self.bury)
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # a job hears it in its script
@@ -38,16 +38,14 @@ class Server:
     def serve(self) -> dict[str, str | dict]:
         """Return in each child what it shall do; end with all jobs when Snakemake has ended."""
         while True:
-            if not select.select([self.control], [], [], 0)[0] and self.prepare():
+            if self.modules and not select.select([self.control], [], [], 0)[0]:
+                self.prepare(self.modules.pop(0))
                 continue
             message, streams, _, _ = socket.recv_fds(self.control, LETTER, 1)
             if not message:
                 break
-            given = json.loads(message)
-            if not streams:
-                self.look_in(**given)
-            elif self.fork(socket.socket(fileno=streams[0])):
-                return given
+            if self.fork(socket.socket(fileno=streams[0])):
+                return json.loads(message)
         for pid in list(self.jobs):
             os.kill(pid, signal.SIGINT)
         end = time.monotonic() + GRACE
@@ -55,32 +53,15 @@ class Server:
             time.sleep(0.01)
         os.killpg(0, signal.SIGKILL)
 
-    def prepare(self) -> bool:
-        """Import the next module, and return whether this may be done again at once."""
-        if not self.modules:
-            return False
-        name = self.modules.pop(0)
+    def prepare(self, name: str) -> None:
+        """Import a module, and put those of a package before all that are still to come."""
         try:
             module = importlib.import_module(name.removesuffix(".*"))
             if name.endswith(".*"):
                 inside = pkgutil.iter_modules(module.__path__, f"{module.__name__}.")
                 self.modules[:0] = [found.name + ".*" * found.ispkg for found in inside]
         except Exception as error:
-            if isinstance(error, ModuleNotFoundError) and not self.told:
-                self.modules.insert(0, name)  # the workflow may yet say where it is
-                return False
             print(f"forked: cannot import {name}: {error!r}", file=sys.stderr, flush=True)
-        return True
-
-    def look_in(self, folder: str, mask: int, path: str) -> None:
-        """Work in this folder, and import from the folders of a PYTHONPATH that was not there."""
-        os.chdir(folder)
-        os.umask(mask)
-        if path and "PYTHONPATH" not in os.environ:
-            os.environ["PYTHONPATH"] = path
-            sys.path[:0] = map(os.path.abspath, path.split(os.pathsep))
-            importlib.invalidate_caches()
-        self.told = True
 
     def fork(self, asked: socket.socket) -> bool:
         """Fork a job unless this is not safe, and return whether this is the child."""
