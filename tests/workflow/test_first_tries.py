@@ -31,8 +31,9 @@ def test_cores_and_the_executor_change_no_byte(drawn, tmp_path, options):
     assert "1 of 1 steps" in result.stderr and bytes_of(folder) == bytes_of(drawn)
 
 
-def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path):
-    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), "fig1"]
+@pytest.mark.parametrize("name", ["Snakefile", "workflow/Snakefile"])
+def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path, name):
+    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / name), "fig1"]
     result = run_ready(command, tmp_path)
     assert "Drawing results/figures/fig1.png" in result.stdout + result.stderr
     assert [path.name for path in tmp_path.iterdir()] == [".snakemake"]
