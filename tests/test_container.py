@@ -25,7 +25,7 @@ def test_it_installs_the_pins_and_nothing_else():
 def test_it_starts_snakemake_with_results_in_the_mounted_folder():
     (words,) = re.findall(r"^ENTRYPOINT (\[.*\])$", RECIPE, re.MULTILINE)
     assert json.loads(words)[1:] == ["-m", "snakemake", "--directory", "/out"]
-    assert '-v "$PWD/out:/out"' in (ROOT / "docs/container.md").read_text()
+    assert '-v "$PWD/out:/out"' in (ROOT / "docs/cluster.md").read_text()
 
 
 def test_no_results_and_no_history_go_into_it():

@@ -165,7 +165,7 @@ def test_a_run_and_the_tests_begin_with_the_same_command():
     """CI gives the command of the tests as it is printed, so that the other needs no play."""
     run, tests = (block for block in PRINTED["README.md"] if block.mark.endswith(" command"))
     more = run.text.replace("environment.txt", "environment.txt -r tests/requirements.txt")
-    assert more.replace("&& snakemake", "&& pytest") == tests.text != run.text
+    assert more.replace("&& snakemake", "&& python -m pytest") == tests.text != run.text
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What users of Snakemake try first, as the table in docs/cluster.md tells it."""
+"""What users of Snakemake try first, as the table in docs/reproduce.md tells it."""
 
 import re
 import shutil
