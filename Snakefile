@@ -95,6 +95,7 @@ rule all:
         "<results>/tables/hard_cases.md",
         "<results>/report.html",
         "<results>/live.html",
+        *expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
     message:
         "All datasets, figures and tables are there, and the report tells of them: results/report.html"
 
@@ -132,6 +133,7 @@ rule chaos:
 
 include: "workflow/rules/ledger.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/article.smk"
 include: "workflow/rules/archive.smk"
 include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"

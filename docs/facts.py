@@ -1,24 +1,20 @@
 """What the README and docs/ quote beside the sections of the report, as text.
 
-These are the counts of the ledger, the long studies, which no full run makes, proofs rounded
-upward, and what was measured of speed and of the tests. A function stands for a topic: a template
+These are the counts of the ledger, a long study, proofs rounded upward, and what was measured of
+speed and of the tests. A function stands for a topic: a template
 says `{{ long.exponent }}`. No number is typed here.
 """
 
 import json
-from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from pendula.article.values import UPWARD, counts, upward
 from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
-from pendula.ledger.claim import Origin
-from pendula.ledger.criterion import Verdict
-from pendula.ledger.tables import tally
 from pendula.report.words import number, percent, with_error
-from pendula.studies.breathers.section import share_with_limits
 
 from benchmarks import reproduction
 
@@ -36,10 +32,8 @@ class Baseline(dict):
 def topics(baseline: Baseline) -> dict[str, dict]:
     """Return the facts of every topic."""
     return {
-        "ledger": ledger(load_json(BASELINE / "claims.json")["rows"]),
-        "long": long(baseline["quoted/unbounded"], baseline["quoted/cut_front"]),
-        "fates": fates(baseline["quoted/breathers"]),
-        "passages": passages(baseline["quoted/pendula"]),
+        "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
+        "long": {"exponent": exponent(baseline["quoted/unbounded"])},
         "proved": proved(baseline),
         "speeds": speeds(baseline),
         "full_run": full_run(_kept("reproduction")),
@@ -51,110 +45,10 @@ def _kept(name: str) -> dict:
     return json.loads((BASELINE / f"quoted/{name}.json").read_text(encoding="utf-8"))
 
 
-def ledger(rows: list[dict]) -> dict[str, str]:
-    """Return how many claims there are of each origin and verdict, and how many controls."""
-    counts = {origin: Counter(tally(rows).get(origin, {})) for origin in Origin}
-    of_paper = counts[Origin.PAPER]
-    return {
-        "papers": str(of_paper.total()),
-        "confirmed": str(of_paper[Verdict.CONFIRMED]),
-        "caveat": str(of_paper[Verdict.CAVEAT]),
-        "missed": str(of_paper[Verdict.NOT_REPRODUCED]),
-        "open": str(of_paper[Verdict.UNDECIDED]),
-        "questions": str(counts[Origin.OPEN].total()),
-        "own": str(counts[Origin.OWN].total()),
-        "resting": str(sum(bool(row["rests_on"]) for row in rows)),
-        "controls": str(sum(len(row["controls"]) for row in rows)),
-        "failing": str(sum(not one["passes"] for row in rows for one in row["controls"])),
-    }
-
-
-def long(study: xr.Dataset, cut: xr.Dataset) -> dict[str, str]:
-    """Return the growth of norms on the infinite chain; `cut` is of the run with a cut edge."""
-    bulk, large = (study.sel(case=case) for case in ("fig4_small", "fig3_large"))
-    ratio = study["omega_bulk_power"] / study["omega_thermal_power"]
-    off = abs(study["omega_bulk_power"] - study["omega_thermal_power"])
-    apart = study["varied_omega"].where(off > study["omega_bulk_power_error"], drop=True)
-    exponents = study["omega_exponent"]
-    return {
-        "end": number(bulk["end"], 4),
-        "members": str(int(bulk["members"])),
-        "sites": f"{int(bulk['sites']):,}",
-        **{name: _with_error(bulk, name)
-           for name in ("exponent", "speed", "bulk_power", "slope_power")},
-        "predicted": number(bulk["predicted_speed"], 5),
-        "thermal_power": number(study["omega_thermal_power"].sel(varied_omega=0.0), 5),
-        "omegas": str(study.sizes["varied_omega"]),
-        "omega_end": number(study["omega_end"]),
-        "exponents": f"{number(exponents.min(), 2)} to {number(exponents.max(), 2)}",
-        "apart": ", ".join(map(number, apart.values)) or "none of them",
-        "furthest": percent(abs(ratio - 1.0).max()),
-        "large_end": number(large["end"], 4),
-        "large_exponent": _with_error(large, "exponent"),
-        "small_growth": _with_error(study.sel(case="fig3_small"), "growth"),
-        "cut": number(cut.attrs["cut"]),
-        "cut_lag": number(cut["lag"][-1], 2),
-        "cut_end": number(cut["end"][-1], 4),
-        "stable_growth": _with_error(study.sel(case="fig2_large"), "growth"),
-    }  # fmt: skip
-
-
-def _with_error(data: xr.Dataset, name: str) -> str:
-    return with_error(float(data[name]), float(data[f"{name}_error"]))
-
-
-PERIODIC = ("periodic_share", "periodic_if_less", "periodic_if_more", "alone", "near")
-PLANES = {"amplitudes": "real A_0 and B_0", "phases": "A_0 and the phase of B_0"}
-
-
-def fates(study: xr.Dataset) -> dict:
-    """Return shares of fates, and of runs that spread, from the long study of breathers."""
-    shares = [(number(size), percent(study["share"].sel(size=size)))
-              for size in study["size"].values]  # fmt: skip
-    return {
-        "end": number(study.attrs["end_time"]),
-        "members": number(study.attrs["members"]),
-        "points": number(study.attrs["points"]),
-        "spread": ", ".join(f"{share} at {size}" for size, share in shares),
-        "rows": [
-            [number(omega), PLANES[str(plane)], *(
-                share_with_limits(study.sel(plane=plane, omega=omega, fate_name=fate))
-                for fate in ("disperses", "stays", "moves", "spreads"))]
-            for plane in study["plane"].values for omega in study["omega"].values
-        ],
-        "periodic": [
-            [number(omega), *(percent(one[name]) for name in PERIODIC)]
-            for omega in study["omega"].values for one in [study.sel(omega=omega)]
-            if np.isfinite(one["near"])
-        ],
-    }  # fmt: skip
-
-
-def passages(study: xr.Dataset) -> dict:
-    """Return which pendula go over the top in the long study, and how the angles grow then."""
-    return {
-        "end": number(study.attrs["end_time"]),
-        "members": number(study.attrs["members"]),
-        "rows": [_passage(study.sel(mu=mu)) for mu in study["mu"].values],
-    }
-
-
-def _passage(one: xr.Dataset) -> list[str]:
-    median = float(one["passage_median"])
-    return [
-        number(one["mu"], 4),
-        _with_limits(one, "passed", percent),
-        number(median) if np.isfinite(median) else "later",
-        _with_limits(one, "passage_rate", lambda rate: number(rate, 2)),
-        number(one["turns"]),
-    ]
-
-
-def _with_limits(one: xr.Dataset, name: str, write) -> str:
-    """Return a number with its confidence limits; a dash where it is not known."""
-    values = [float(one[f"{name}{end}"]) for end in ("", "_low", "_high")]
-    value, low, high = map(write, values)
-    return "-" if np.isnan(values[0]) else f"{value} ({low} to {high})"
+def exponent(study: xr.Dataset) -> str:
+    """Return the exponent with which the norm grows on the infinite chain."""
+    one = study.sel(case="fig4_small")
+    return with_error(float(one["exponent"]), float(one["exponent_error"]))
 
 
 def proved(baseline: Baseline) -> dict:
@@ -174,29 +68,21 @@ def proved(baseline: Baseline) -> dict:
             for case, one in curves.items() if case in framed
         ],
         "count": str(len(curves)),
-        "largest": _upward(max(one["bound"].max() for one in curves.values())),
+        "largest": upward(max(one["bound"].max() for one in curves.values())),
         "until": number(min(float(one["tau"][-1]) for one in curves.values())),
         "contained": number(int(whole.sum())),
-        "in_lines": _upward(share.where(whole & np.isfinite(share)).max()),
+        "in_lines": upward(share.where(whole & np.isfinite(share)).max()),
         "short_sites": number(len(short["initial"][0])),
         "short_steps": number(len(short["steps"])),
         "short_end": number(float(Fraction(short["end_time"]))),
-        "short_bound": _upward(short["steps"][-1]["bound"] / 2 ** short["bound_bits"]),
+        "short_bound": upward(short["steps"][-1]["bound"] / 2 ** short["bound_bits"]),
         "states": str(breathers.sizes["proof"]),
-        "radius": _upward(breathers["radius"].max()),
+        "radius": upward(breathers["radius"].max()),
         "unique": number(float(breathers["unique_radius"].min()) / UPWARD, 2),
         "stable": str(int((breathers["stable"] == 1).sum())),
         "unstable": str(int((breathers["stable"] == 0).sum())),
-        "constants_off": _upward(baseline["certified/constants"]["stored_error"].max()),
+        "constants_off": upward(baseline["certified/constants"]["stored_error"].max()),
     }  # fmt: skip
-
-
-UPWARD = 1.05
-"""By so much a bound grows before two of its digits are printed: they are then no smaller."""
-
-
-def _upward(bound) -> str:
-    return number(UPWARD * float(bound), 2)
 
 
 def _curve(case: str, curve: xr.Dataset) -> list[str]:
@@ -205,7 +91,7 @@ def _curve(case: str, curve: xr.Dataset) -> list[str]:
     return [
         f"`{case}`",
         number(float(curve["tau"][-1])),
-        _upward(last["bound"]),
+        upward(last["bound"]),
         f"{part['bound_part'].item()}: {number(part['bound_parts'], 2)}",
         number(float(curve["reference_distance"].max()), 2),
     ]

@@ -16,15 +16,29 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
 
 import facts  # noqa: E402
 import study_errors  # noqa: E402
+from pendula.article import write  # noqa: E402
+from pendula.report.results import Results  # noqa: E402
 
 SOURCE = ROOT / "docs/source"
+ARTICLE = ROOT / "docs/article.md"
 
 
 def pages() -> dict[Path, Path]:
     """Return the template of each page that has one."""
     names = sorted(path.name.removesuffix(".j2") for path in SOURCE.glob("*.md.j2"))
     folder = {"README.md": ROOT}
-    return {folder.get(name, ROOT / "docs") / name: SOURCE / f"{name}.j2" for name in names}
+    found = {folder.get(name, ROOT / "docs") / name: SOURCE / f"{name}.j2" for name in names}
+    return found | {ARTICLE: write.HERE / "article.md.j2"}
+
+
+class Accepted(Results):
+    """The accepted results, as the article reads those of a run."""
+
+    def __init__(self):
+        super().__init__((), "")
+
+    def path(self, link: str) -> Path:
+        return facts.BASELINE / link.removeprefix(f"{write.KEPT}/")
 
 
 def said() -> dict[str, dict]:
@@ -68,7 +82,8 @@ def render(values: dict[str, dict]) -> dict[Path, str]:
     return {
         page: environment.get_template(template.name).render(**values)
         for page, template in pages().items()
-    }
+        if page != ARTICLE
+    } | {ARTICLE: write.markdown(Accepted())}
 
 
 if __name__ == "__main__":

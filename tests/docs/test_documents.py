@@ -26,20 +26,25 @@ LEFT_OUT = [
     r"`[^`\n]*(\n[^`\n]+)?`",  # names of files, cases and commands
     r"\]\([^)]*\)",  # where a link leads
     r"\{\{.*?\}\}",  # facts
+    # formulas; an inline one has no number of more digits but what the paper prints
+    r"\$\$.*?\$\$|\$(?:[^$\d]|\d(?![\d.])|0\.1\)|10\^\{-6\})+\$",
+    r"^## References.*",
     r"\{%.*?%\}",
     r"<!--.*?-->",
 ]
 NAMES = [
-    r"Figs? \d( to \d| and \d)*",
+    r"Fig(s|ure)?\s\d(( to|,| and)\s\d)*",
+    r"\[\d\]",  # a reference
     r"^\| \d(, with \S+)? \|",  # the number of a figure in the table of figures
     r"Lemma \d",
-    r"Theorems? \d( to \d)?",
+    r"Theorems?\s\d(\s(to|and)\s\d)?|Section \d",
     r"\bl2²?\b",  # a norm
     r"ode45|DOP853|BM6",
     r"x86-64|AVX2|AVX-512|netCDF-4|HDF5",
     r"95 %\s+confidence interval",  # the level of all of them
     r"Python 3\.11",  # the least version, which pyproject.toml says as well
-    r"381 \(2017\) 3884|arXiv 1708\.06134",  # where the paper stands
+    r"381 \(2017\) 3884|381,\n3884.3892 \(2017\)|arXiv[ :]1708\.06134",  # where the paper stands
+    r"10\.1016/j\.physleta\.2017\.10\.021",
     r"BSD 3-Clause",
 ]
 DEFINITIONS = [

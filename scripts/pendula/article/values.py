@@ -1,0 +1,169 @@
+"""The numbers that the article quotes, by name, each read from a dataset and linked to it."""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from pendula.ledger.claim import Origin
+from pendula.ledger.criterion import Verdict
+from pendula.ledger.section import Ledger, load
+from pendula.ledger.tables import tally
+from pendula.measures.confidence import CONFIDENCE
+from pendula.report.results import Results
+from pendula.report.words import Quote, number, percent, span
+
+KEPT = "../tests/baseline"
+"""Where committed datasets lie, seen from the article."""
+QUOTED = f"{KEPT}/quoted/"
+LONG = f"{QUOTED}unbounded"
+FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
+"""The cases whose proofs are committed; a full run proves the others."""
+OF_FIGURES = re.compile(r"Figs? (\d)(?:(?:,| and| to) (\d))?")
+SHOWN = (Verdict.CONFIRMED, Verdict.CAVEAT, Verdict.NOT_REPRODUCED, Verdict.UNDECIDED)
+UPWARD = 1.05
+"""By so much a bound grows before two of its digits are printed: they are then no smaller."""
+
+
+class Numbers:
+    """Numbers of a run: `of` datasets, or measured for claims (`n`), also in per cent."""
+
+    def __init__(self, results: Results):
+        self.results, self.ledger = results, Ledger(results)
+
+    def read(self, name: str, variable: str, **labels) -> xr.DataArray:
+        """Return a variable or an attribute where its coordinates have these labels."""
+        data = self.results[name].sel(labels)
+        return data[variable] if variable in data.variables else xr.DataArray(data.attrs[variable])
+
+    def of(self, name: str, variable: str, digits: int = 3, **labels) -> Quote:
+        """Return a number, with the error that the dataset has for it; a time may never come."""
+        value = float(self.read(name, variable, **labels))
+        if f"{variable}_error" in self.results[name]:
+            error = float(self.read(name, f"{variable}_error", **labels))
+            return self.results.quote_error(name, value, error)
+        return self.results.say(name, "never" if value == np.inf else number(value, digits))
+
+    def share(self, name: str, variable: str, digits: int = 2, **labels) -> Quote:
+        """Return a fraction in per cent."""
+        return self.results.say(name, percent(self.read(name, variable, **labels), digits))
+
+    def n(self, claim: str, key: str, digits: int = 3) -> Quote:
+        """Return a number that decides a claim."""
+        return self.ledger.quote(claim, key, digits)
+
+    def share_of(self, claim: str, key: str, digits: int = 2) -> str:
+        """Return the same in per cent."""
+        return percent(self.ledger.value(claim, key), digits)
+
+    def verdicts(self, figure: int) -> list[int]:
+        """Return how many of the paper's claims on a figure have each of the verdicts SHOWN."""
+        found = Counter(
+            row["verdict"]
+            for row in load(self.results)
+            if row["origin"] == Origin.PAPER and figure in figures_of(row["place"])
+        )
+        return [found[verdict] for verdict in SHOWN]  # fmt: skip
+
+
+def figures_of(place: str) -> set[int]:
+    """Return the figures that the place of a claim names, such as "Section 5, Figs 2 to 4"."""
+    pairs = ((int(first), int(last or first)) for first, last in OF_FIGURES.findall(place))
+    return set(chain.from_iterable(range(first, last + 1) if "to" in place else (first, last)
+                                   for first, last in pairs))  # fmt: skip
+
+
+def gather(results: Results) -> dict[str, Any]:
+    """Return all that the template names: functions of `Numbers`, and numbers made of several."""
+    numbers = Numbers(results)
+    functions = ("of", "share", "n", "share_of", "verdicts", "ledger")
+    compared, study = results["checks/solvers"].sel(span="whole"), results[LONG]
+    ratio = abs(study["omega_bulk_power"] / study["omega_thermal_power"] - 1.0)
+    return {
+        **{name: getattr(numbers, name) for name in functions},
+        "counts": counts(load(results)),
+        "kept": QUOTED,
+        "confidence": percent(CONFIDENCE),
+        "cases": results.quote("checks/solvers", compared.sizes["case"]),
+        "apart": results.quote(
+            "checks/solvers", int(np.isfinite(compared["divergence_time"][:, 0]).sum())
+        ),
+        "allowed": number((compared["allowed_drift"] / compared["stated_drift"]).max()),
+        "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
+        "cells": sum(results[f"checks/{one}"]["measured"].size for one in ("chart", "short_chart")),
+        "exponents": results.say(LONG, span(study["omega_exponent"].values, 2)),
+        "omegas": results.quote(LONG, study.sizes["varied_omega"]),
+        "furthest": results.say(LONG, percent(ratio.max())),
+        "largest_bound": largest_bound(results),
+        "radius": upward(results["certified/breathers"]["radius"].max()),
+        "passages": list(passages(results)),
+        "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
+        "full_run": full_run(results),
+    }
+
+
+def counts(rows: list[dict]) -> dict[str, str]:
+    """Return how many claims of the paper have each verdict, and how many controls there are."""
+    of_paper = Counter(tally(rows).get(Origin.PAPER, {}))
+    found = {
+        "papers": of_paper.total(),
+        "held": of_paper[Verdict.CONFIRMED] + of_paper[Verdict.CAVEAT],
+        "caveat": of_paper[Verdict.CAVEAT],
+        "missed": of_paper[Verdict.NOT_REPRODUCED],
+        "open": of_paper[Verdict.UNDECIDED],
+        "resting": sum(bool(row["rests_on"]) for row in rows),
+        "controls": sum(len(row["controls"]) for row in rows),
+        "failing": sum(not one["passes"] for row in rows for one in row["controls"]),
+    }
+    return {name: str(count) for name, count in found.items()}
+
+
+def regular_error(results: Results, solver: str) -> Quote:
+    """Return the largest error of a solver's norms in the cases that are not chaotic."""
+    regular = results["checks/lyapunov"]["chaotic"] == 0
+    errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
+    return results.quote("checks/trust", float(errors.max()), 2)
+
+
+def largest_bound(results: Results) -> str:
+    """Return the largest proven distance of a computed curve from the true one, rounded upward."""
+    proofs = [f"{KEPT}/proofs/{case}" for case in FRAMED]
+    proofs += [f"certified/{case}" for case in ("fig2_small", "fig3_small")]
+    return upward(max(results[name]["bound"].max() for name in proofs))
+
+
+def upward(bound: float) -> str:
+    """Return two digits of a bound that are no smaller than it."""
+    return number(UPWARD * float(bound), 2)
+
+
+def passages(results: Results) -> Iterator[list]:
+    """Yield for each mu of the long study how many pendula went over the top, and how fast."""
+    name = f"{QUOTED}pendula"
+
+    def with_limits(one: xr.Dataset, variable: str, write: Callable[[float], str]) -> Quote:
+        value, low, high = (float(one[f"{variable}{end}"]) for end in ("", "_low", "_high"))
+        told = f"{write(value)} ({write(low)} to {write(high)})"
+        return results.say(name, "-" if np.isnan(value) else told)
+
+    for mu in results[name]["mu"].values:
+        one = results[name].sel(mu=mu)
+        median = float(one["passage_median"])
+        yield [
+            results.quote(name, mu, 4),
+            with_limits(one, "passed", percent),
+            results.say(name, number(median) if np.isfinite(median) else "later"),
+            with_limits(one, "passage_rate", lambda rate: number(rate, 2)),
+        ]
+
+
+def full_run(results: Results) -> dict[str, str]:
+    """Return the wall times of whole runs in seconds, as measured once, and on how many cores."""
+    kept = json.loads(results.path(f"{QUOTED}reproduction.json").read_text(encoding="utf-8"))
+    times = {name: f"{one['wall']:.0f}" for name, one in kept["runs"].items()}
+    return times | {"cores": str(kept["machine"]["cores"])}
