@@ -37,6 +37,9 @@ class Accepted(Results):
     def __init__(self):
         super().__init__((), "")
 
+    def __contains__(self, name: str) -> bool:
+        return self.path(f"{name}.nc").exists()
+
     def path(self, link: str) -> Path:
         return facts.BASELINE / link.removeprefix(f"{write.KEPT}/")
 

@@ -3,7 +3,7 @@
 import json
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import chain
 from typing import Any
 
@@ -36,30 +36,40 @@ class Numbers:
     def __init__(self, results: Results):
         self.results, self.ledger = results, Ledger(results)
 
-    def read(self, name: str, variable: str, **labels) -> xr.DataArray:
-        """Return a variable or an attribute where its coordinates have these labels."""
-        data = self.results[name].sel(labels)
-        return data[variable] if variable in data.variables else xr.DataArray(data.attrs[variable])
+    def labels(self, name: str, coordinate: str) -> list:
+        """Return the labels of a coordinate."""
+        return list(self.results[name][coordinate].values)
 
     def of(self, name: str, variable: str, digits: int = 3, **labels) -> Quote:
-        """Return a number, with the error that the dataset has for it; a time may never come."""
-        value = float(self.read(name, variable, **labels))
-        if f"{variable}_error" in self.results[name]:
-            error = float(self.read(name, f"{variable}_error", **labels))
+        """Return a number with what the dataset has of its error; a time may never come."""
+        data = self.results[name].sel(labels)
+        if f"{variable}_error" in data:
+            value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
             return self.results.quote_error(name, value, error)
-        return self.results.say(name, "never" if value == np.inf else number(value, digits))
+        return self._say(name, data, variable, lambda one: number(one, digits))
 
-    def share(self, name: str, variable: str, digits: int = 2, **labels) -> Quote:
+    def share(self, name: str, variable: str, **labels) -> Quote:
         """Return a fraction in per cent."""
-        return self.results.say(name, percent(self.read(name, variable, **labels), digits))
+        return self._say(name, self.results[name].sel(labels), variable, percent)
+
+    def _say(
+        self, name: str, data: xr.Dataset, variable: str, write: Callable[[float], str]
+    ) -> Quote:
+        """Return a number with its confidence interval, if this has a width."""
+        given = data[variable] if variable in data.variables else data.attrs[variable]
+        ends = [write(float(data[end]))
+                for end in (f"{variable}_low", f"{variable}_high") if end in data]  # fmt: skip
+        told = write(float(given))
+        interval = f" ({' to '.join(ends)})" if set(ends) - {told} else ""
+        return self.results.say(name, told + interval)
 
     def n(self, claim: str, key: str, digits: int = 3) -> Quote:
         """Return a number that decides a claim."""
         return self.ledger.quote(claim, key, digits)
 
-    def share_of(self, claim: str, key: str, digits: int = 2) -> str:
+    def share_of(self, claim: str, key: str) -> Quote:
         """Return the same in per cent."""
-        return percent(self.ledger.value(claim, key), digits)
+        return self.n(claim, key)._replace(text=percent(self.ledger.value(claim, key)))
 
     def verdicts(self, figure: int) -> list[int]:
         """Return how many of the paper's claims on a figure have each of the verdicts SHOWN."""
@@ -81,7 +91,7 @@ def figures_of(place: str) -> set[int]:
 def gather(results: Results) -> dict[str, Any]:
     """Return all that the template names: functions of `Numbers`, and numbers made of several."""
     numbers = Numbers(results)
-    functions = ("of", "share", "n", "share_of", "verdicts", "ledger")
+    functions = ("labels", "of", "share", "n", "share_of", "verdicts")
     compared, study = results["checks/solvers"].sel(span="whole"), results[LONG]
     ratio = abs(study["omega_bulk_power"] / study["omega_thermal_power"] - 1.0)
     return {
@@ -101,7 +111,6 @@ def gather(results: Results) -> dict[str, Any]:
         "furthest": results.say(LONG, percent(ratio.max())),
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
-        "passages": list(passages(results)),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),
         "full_run": full_run(results),
     }
@@ -140,26 +149,6 @@ def largest_bound(results: Results) -> str:
 def upward(bound: float) -> str:
     """Return two digits of a bound that are no smaller than it."""
     return number(UPWARD * float(bound), 2)
-
-
-def passages(results: Results) -> Iterator[list]:
-    """Yield for each mu of the long study how many pendula went over the top, and how fast."""
-    name = f"{QUOTED}pendula"
-
-    def with_limits(one: xr.Dataset, variable: str, write: Callable[[float], str]) -> Quote:
-        value, low, high = (float(one[f"{variable}{end}"]) for end in ("", "_low", "_high"))
-        told = f"{write(value)} ({write(low)} to {write(high)})"
-        return results.say(name, "-" if np.isnan(value) else told)
-
-    for mu in results[name]["mu"].values:
-        one = results[name].sel(mu=mu)
-        median = float(one["passage_median"])
-        yield [
-            results.quote(name, mu, 4),
-            with_limits(one, "passed", percent),
-            results.say(name, number(median) if np.isfinite(median) else "later"),
-            with_limits(one, "passage_rate", lambda rate: number(rate, 2)),
-        ]
 
 
 def full_run(results: Results) -> dict[str, str]:

@@ -24,6 +24,8 @@ from .values import KEPT, gather
 
 HERE = Path(__file__).parent
 MARKDOWN = "markdown-auto_identifiers-smart"
+VECTORS = "/figures/{}.pdf"
+"""Where the figures lie for the PDF."""
 TITLE = "[Re] Coupled pendula chains under parametric PT-symmetric driving force"
 MARKS = {
     "holds": (Verdict.CONFIRMED, Verdict.CAVEAT),
@@ -64,7 +66,7 @@ def page(results: Results) -> str:
 
 def typeset(results: Results) -> bytes:
     """Return the article as PDF; equal articles have equal bytes."""
-    text = _converted(source(results, "/figures/{}.pdf"), "typst", "article.typ")
+    text = _converted(source(results, VECTORS), "typst", "article.typ")
     return typst.compile(text.encode(), root=_folder(results), ignore_system_fonts=True)
 
 

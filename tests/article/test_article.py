@@ -1,0 +1,91 @@
+"""The article: its PDF, its page, its metadata, and the notice in its place on other runs."""
+
+import re
+
+import numpy as np
+import pytest
+import yaml
+from facts import BASELINE
+from held_digits import blurred, unlike
+from pendula.article import write
+from pendula.ledger.section import load
+from render import Accepted
+
+
+@pytest.fixture(scope="module")
+def page() -> str:
+    """Return the page of the accepted results."""
+    return write.page(Accepted())
+
+
+def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants(monkeypatch):
+    monkeypatch.setattr(write, "VECTORS", "/figures/{}.png")  # the baseline has no others
+    one, other = (write.typeset(Accepted()) for _ in range(2))
+    assert one == other and b"CreationDate" not in one
+    assert 6 <= int(re.search(rb"/Count (\d+)", one)[1]) <= 8
+
+
+def test_the_page_asks_no_network_and_its_formulas_are_set(page):
+    assert "default-src &#39;none&#39;" in page
+    assert set(re.findall(r'src="([^,"]*)', page)) == {"data:image/png;base64"}
+    assert page.count("<math") > 50 and "$" not in re.sub(r'src="[^"]*"', "", page)
+    told = re.sub(r"<[^>]*>", " ", page)
+    assert not re.findall(r"\b(?:nan|inf|None|Undefined)\b", told)
+
+
+def test_each_linked_number_leads_to_its_dataset(page):
+    links = re.findall(r'href="([^"]*\.nc)" class="n"', page)
+    assert len(links) > 80
+    assert all((BASELINE / link.removeprefix(f"{write.KEPT}/")).exists() for link in links)
+
+
+def test_the_metadata_have_what_the_journal_asks_for():
+    found = yaml.safe_load(write.describe(Accepted()))
+    required = (
+        "title authors affiliations keywords code data replication abstract bibliography type"
+    )
+    required += " domain language review contributors dates article journal"
+    assert list(found) == required.split()
+    assert found["title"].startswith("[Re] ") and len(found["abstract"].split()) > 100
+    assert all({"name", "orcid", "email", "affiliations"} == one.keys() for one in found["authors"])
+    assert {key for one in found["replication"] for key in one} == {"cite", "bib", "url", "doi"}
+
+
+def test_a_run_of_other_cases_has_a_notice():
+    other = Accepted()
+    other.differs = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
+    text = write.markdown(other)
+    assert "fig2_small.omega (1 in place of 8)" in text and "## Introduction" not in text
+
+
+@pytest.mark.parametrize(
+    ("claim", "verdict"),
+    [
+        ("theorem_1", "not reproduced"),
+        ("transition_amplitude", "confirmed"),
+        ("fig6_caption", "confirmed"),
+        ("balance", "not reproduced"),  # of which the article says nothing while it holds
+        ("lemma_1_for_the_pendula", "confirmed"),
+    ],
+)
+def test_another_verdict_gives_a_notice(monkeypatch, claim, verdict):
+    rows = load(Accepted())
+    changed = [row | {"verdict": verdict} if row["name"] == claim else row for row in rows]
+    monkeypatch.setattr(write, "load", lambda _: changed)
+    text = write.markdown(Accepted())
+    assert text.count(f"is: {verdict}.") == 1 and "## Introduction" not in text
+
+
+class Blurred(Accepted):
+    """The accepted results with every number moved by half of the last digit that is held."""
+
+    def __getitem__(self, name):
+        if name not in self._read:
+            self._read[name] = blurred(super().__getitem__(name), np.random.default_rng(len(name)))
+        return self._read[name]
+
+
+def test_it_prints_no_digit_that_its_datasets_do_not_hold():
+    one, other = (write.markdown(results()).splitlines() for results in (Accepted, Blurred))
+    assert len(one) > 300
+    assert [pair for pair in zip(one, other, strict=True) if unlike(*pair)] == []
