@@ -134,7 +134,7 @@ class _Comparison:
             known = kept if is_kept(name) else None
             return compare_datasets.compare(name, new, accepted, known, self.chaos)
         same = hashes.of_bytes(compare_shown.comparable(name, new.read_bytes())) == accepted
-        if name.endswith(PICTURES):
+        if name.startswith(FIGURES) and name.endswith(PICTURES):
             return compare_shown.compare_picture(new, same, self._beside(name, ".json"))
         if name.startswith(FIGURES):
             return compare_shown.compare_description(kept, new, self._beside(name, ".nc"))
