@@ -13,6 +13,7 @@ import typst
 import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from pendula.configuration.paper import in_short
 from pendula.datasets import complete_or_absent
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
@@ -92,7 +93,7 @@ def source(
     `quoted` writes a number, which may link to its dataset.
     """
     if results.differs:
-        return _notice([f"The configuration differs in {one}." for one in results.differs.values()])
+        return _notice([f"{in_short(list(results.differs.values()))}."])
 
     def figure(name: str, width: int, caller: Callable[[], str]) -> str:
         place = pictures.format(name)
