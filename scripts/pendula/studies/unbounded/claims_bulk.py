@@ -265,16 +265,14 @@ def unbounded_warm(run, thermal) -> Finding:
         return undecided(
             measured,
             f"{end} P = {power:.2f} is not yet the {warm:.2f} of the thermal state, and the last "
-            f"quarter of the run may have moved it by {moved:.2f}; docs/findings.md tells of "
-            "longer runs",
+            f"quarter of the run may have moved it by {moved:.2f}",
         )
     error = measured["power_error"]
     agrees = "agrees with" if abs(power - cold) <= error else "differs also from"
     fails = (
         f"energy is left behind, but {end} the bulk is not yet thermal at it: P = {power:.2f} +- "
         f"{error:.2f} {agrees} the state of no energy ({cold:.2f}) and is off that of its energy "
-        f"({warm:.2f}) by more than its limits; the long study (docs/findings.md) says what longer "
-        "runs show"
+        f"({warm:.2f}) by more than its limits"
     )
     has_energy = measured["energy_at_least"] > 0.0 and measured["states_apart"] > 0.0
     return judge(measured, AllOf(*with_energy.criteria, told), fails=fails if has_energy else "")
