@@ -28,6 +28,7 @@ def test_equal_articles_have_equal_bytes_and_the_pages_that_a_journal_wants(monk
 def test_the_page_asks_no_network_and_its_formulas_are_set(page):
     assert "default-src &#39;none&#39;" in page
     assert set(re.findall(r'src="([^,"]*)', page)) == {"data:image/png;base64"}
+    assert "<ol" not in page  # a line that begins with a number and a full stop is no list
     assert page.count("<math") > 50 and "$" not in re.sub(r'src="[^"]*"', "", page)
     told = re.sub(r"<[^>]*>", " ", page)
     assert not re.findall(r"\b(?:nan|inf|None|Undefined)\b", told)

@@ -115,5 +115,5 @@ def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone)
     change(clone / "scripts/pendula/studies/theory/checks.py")
     assert set(planned(clone, full_run)) == (CHECK_RULES - {"check_observed"}) | FIGURE_RULES | {
         "enclose_constants",  # beside what the checks have stored
-        *("decide_theory", "decide_figures", "claims", "report", "all"),
+        *("decide_theory", "decide_figures", "claims", "report", "article", "all"),
     }

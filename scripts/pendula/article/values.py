@@ -25,7 +25,8 @@ LONG = f"{QUOTED}unbounded"
 FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
 """The cases whose proofs are committed; a full run proves the others."""
 OF_FIGURES = re.compile(r"Figs? (\d)(?:(?:,| and| to) (\d))?")
-SHOWN = (Verdict.CONFIRMED, Verdict.CAVEAT, Verdict.NOT_REPRODUCED, Verdict.UNDECIDED)
+VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
+            Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "open"}  # fmt: skip
 UPWARD = 1.05
 """By so much a bound grows before two of its digits are printed: they are then no smaller."""
 
@@ -71,14 +72,15 @@ class Numbers:
         """Return the same in per cent."""
         return self.n(claim, key)._replace(text=percent(self.ledger.value(claim, key)))
 
-    def verdicts(self, figure: int) -> list[int]:
-        """Return how many of the paper's claims on a figure have each of the verdicts SHOWN."""
+    def verdicts(self, figure: int) -> str:
+        """Return how many of the paper's claims on a figure have each verdict."""
         found = Counter(
             row["verdict"]
             for row in load(self.results)
             if row["origin"] == Origin.PAPER and figure in figures_of(row["place"])
         )
-        return [found[verdict] for verdict in SHOWN]  # fmt: skip
+        told = [f"{found[one]} {words}" for one, words in VERDICTS.items() if found[one]]
+        return ", ".join(told) or "none"  # fmt: skip
 
 
 def figures_of(place: str) -> set[int]:

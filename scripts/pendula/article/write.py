@@ -4,6 +4,7 @@ Its source, article.md.j2, is Markdown with formulas in TeX. Pandoc turns it int
 and into the language of Typst, which sets the PDF with the fonts that come with it.
 """
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import load
 from pendula.report.results import Results
-from pendula.report.words import Quote
+from pendula.report.words import FIRM, Quote
 
 from .values import KEPT, gather
 
@@ -110,6 +111,8 @@ def source(
     )  # fmt: skip
     template = environment.get_template("article.md.j2")
     text = template.render(title=TITLE, figure=figure, **marks, **gather(results))
+    text = re.sub(r"\$\s=\s", f"${FIRM}={FIRM}", text)
+    text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # else a list would begin there
     wrong = list(_untrue(marked, load(results)))
     return _notice(wrong) if wrong else text
 
