@@ -129,7 +129,7 @@ def counts(rows: list[dict]) -> dict[str, str]:
         "open": of_paper[Verdict.UNDECIDED],
         "resting": sum(bool(row["rests_on"]) for row in rows),
         "controls": sum(len(row["controls"]) for row in rows),
-        "failing": sum(not one["passes"] for row in rows for one in row["controls"]),
+        "failed": sum(one["passes"] for row in rows for one in row["controls"]),
     }
     return {name: str(count) for name, count in found.items()}
 
