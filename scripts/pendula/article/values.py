@@ -4,7 +4,6 @@ import json
 import re
 from collections import Counter
 from collections.abc import Callable
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,6 @@ QUOTED = f"{KEPT}/quoted/"
 LONG = f"{QUOTED}unbounded"
 FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
 """The cases whose proofs are committed; a full run proves the others."""
-OF_FIGURES = re.compile(r"Figs? (\d)(?:(?:,| and| to) (\d))?")
 VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
             Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "open"}  # fmt: skip
 UPWARD = 1.05
@@ -74,20 +72,15 @@ class Numbers:
 
     def verdicts(self, figure: int) -> str:
         """Return how many of the paper's claims on a figure have each verdict."""
-        found = Counter(
-            row["verdict"]
-            for row in load(self.results)
-            if row["origin"] == Origin.PAPER and figure in figures_of(row["place"])
-        )
+        of_paper = (row for row in load(self.results) if row["origin"] == Origin.PAPER)
+        found = Counter(row["verdict"] for row in of_paper if figure in figures_of(row["place"]))
         told = [f"{found[one]} {words}" for one, words in VERDICTS.items() if found[one]]
-        return ", ".join(told) or "none"  # fmt: skip
+        return ", ".join(told) or "none"
 
 
 def figures_of(place: str) -> set[int]:
-    """Return the figures that the place of a claim names, such as "Section 5, Figs 2 to 4"."""
-    pairs = ((int(first), int(last or first)) for first, last in OF_FIGURES.findall(place))
-    return set(chain.from_iterable(range(first, last + 1) if "to" in place else (first, last)
-                                   for first, last in pairs))  # fmt: skip
+    """Return the figures that the place of a claim names, such as "Section 5, Figs 2 and 3"."""
+    return set(map(int, re.findall(r"\d", " ".join(re.findall(r"Figs? ([\d, and]+)", place)))))
 
 
 def gather(results: Results) -> dict[str, Any]:

@@ -140,10 +140,5 @@ def _folder(results: Results) -> Path:
 
 def _converted(text: str, kind: str, template: str, *options: str) -> str:
     """Return Markdown in another language, in the template of this folder."""
-    options = [
-        "--wrap=none",
-        f"--template={HERE / template}",
-        f"--variable=title:{TITLE}",
-        *options,
-    ]
-    return pypandoc.convert_text(text, kind, MARKDOWN, options)
+    layout = ("--wrap=none", f"--template={HERE / template}", f"--variable=title:{TITLE}")
+    return pypandoc.convert_text(text, kind, MARKDOWN, [*layout, *options])
