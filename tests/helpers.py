@@ -39,8 +39,7 @@ MY_BASELINE = "my_baseline"
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),
-    *("tests/baseline/reference", "tests/baseline/proofs", "tests/baseline/speed"),
-    "tests/baseline/quoted/breathers.nc",
+    *(f"tests/baseline/{part}" for part in ("reference", "proofs", "speed", "quoted")),
 )
 """What of the project a run needs."""
 
