@@ -1,8 +1,8 @@
 """What the README and docs/ quote beside the sections of the report, as text.
 
 These are the counts of the ledger, a long study, proofs rounded upward, and what was measured of
-speed and of the tests. A function stands for a topic: a template
-says `{{ long.exponent }}`. No number is typed here.
+speed and of the tests. A function stands for a topic: a template says `{{ long.exponent }}`. No
+number is typed here.
 """
 
 import json

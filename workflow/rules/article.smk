@@ -19,7 +19,8 @@ use rule job as article with:
         committed=committed(
             kept=[
                 *expand(
-                    "tests/baseline/quoted/{study}.nc", study=["unbounded", "breathers", "pendula"]
+                    "tests/baseline/quoted/{study}.nc",
+                    study=["unbounded", "cut_front", "breathers", "pendula"],
                 ),
                 "tests/baseline/quoted/reproduction.json",
                 "tests/baseline/speed/work_precision.nc",
