@@ -111,7 +111,7 @@ def source(
     )  # fmt: skip
     template = environment.get_template("article.md.j2")
     text = template.render(title=TITLE, figure=figure, **marks, **gather(results))
-    text = re.sub(r"\$\s=\s", f"${FIRM}={FIRM}", text)
+    text = re.sub(r"\$\s=\s+", f"${FIRM}={FIRM}", text)
     text = re.sub(r"(?m)^(\s*\d+)\. ", r"\1\\. ", text)  # else a list would begin there
     wrong = list(_untrue(marked, load(results)))
     return _notice(wrong) if wrong else text
