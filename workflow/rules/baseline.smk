@@ -19,7 +19,7 @@ def everything():
         *expand("results/claims/{part}.json", part=PARTS_OF_LEDGER),
         *expand("results/tables/claims_{part}.md", part=PARTS_OF_LEDGER),
     }
-    kinds = (".nc", ".json", ".md", ".html", ".png", ".pdf")
+    kinds = (".nc", ".json", ".md", ".html", ".png", ".pdf", ".yaml")
     return sorted(path for path in made if path.endswith(kinds))
 
 
