@@ -1,4 +1,4 @@
-"""What the README and docs/ quote beside the sections of the report, as text.
+"""What the README and docs/ quote, as text.
 
 These are the counts of the ledger, a long study, proofs rounded upward, and what was measured of
 speed and of the tests. A function stands for a topic: a template says `{{ long.exponent }}`. No
@@ -14,6 +14,8 @@ import xarray as xr
 from pendula.article.values import UPWARD, counts, upward
 from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
+from pendula.report.results import Results, link_to
+from pendula.report.sections import Measured, gather_speed
 from pendula.report.words import number, percent, with_error
 
 from benchmarks import reproduction
@@ -35,6 +37,8 @@ def topics(baseline: Baseline) -> dict[str, dict]:
         "ledger": counts(load_json(BASELINE / "claims.json")["rows"]),
         "long": {"exponent": exponent(baseline["quoted/unbounded"])},
         "proved": proved(baseline),
+        "hard_cases": hard_cases(baseline["checks/hard_cases"]),
+        "speed": speed(),
         "speeds": speeds(baseline),
         "full_run": full_run(_kept("reproduction")),
         "mutation": mutation(_kept("mutation")),
@@ -81,6 +85,9 @@ def proved(baseline: Baseline) -> dict:
         "unique": number(float(breathers["unique_radius"].min()) / UPWARD, 2),
         "stable": str(int((breathers["stable"] == 1).sum())),
         "unstable": str(int((breathers["stable"] == 0).sum())),
+        "chain_sites": number(2 * breathers.attrs["chain_half_width"] + 1),
+        "bits": number(breathers.attrs["bits"]),
+        "constants": str(baseline["certified/constants"].sizes["constant"]),
         "constants_off": upward(baseline["certified/constants"]["stored_error"].max()),
     }  # fmt: skip
 
@@ -95,6 +102,21 @@ def _curve(case: str, curve: xr.Dataset) -> list[str]:
         f"{part['bound_part'].item()}: {number(part['bound_parts'], 2)}",
         number(float(curve["reference_distance"].max()), 2),
     ]
+
+
+def hard_cases(data: xr.Dataset) -> dict[str, str]:
+    """Return how many runs there are, are rejected, and did not end as required."""
+    counts = {"runs": data.sizes["row"], "refused": (data["refusal"] != "").sum(),
+              "unexpected": (data["sound"] == 0).sum()}  # fmt: skip
+    return {name: str(int(count)) for name, count in counts.items()}
+
+
+def speed() -> dict:
+    """Return what the report says of speed, from the measurements that the project keeps."""
+    path = str(BASELINE / "speed/work_precision.nc")
+    found = gather_speed(Results([path], ""), Measured(link_to(path, ""), "", [], False))
+    rows = {name: [list(map(str, row)) for row in found[name].rows] for name in ("least", "peers")}
+    return rows | {"fastest": found["fastest"].striptags(), "head": found["least"].head}
 
 
 def speeds(baseline: Baseline) -> dict:

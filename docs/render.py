@@ -1,11 +1,9 @@
 """Write the README and the pages of docs/ that quote results, from their templates.
 
-Run as `python docs/render.py` from anywhere. A template takes most of its numbers from what the
-sections of the report say of the accepted results (tests/baseline/quoted/sections.json), and the
-rest from facts.py and study_errors.py. A test fails where a page is not what its template gives.
+Run as `python docs/render.py` from anywhere. A template takes its numbers from facts.py and
+study_errors.py. A test fails where a page is not what its template gives.
 """
 
-import json
 import sys
 from pathlib import Path
 
@@ -44,36 +42,11 @@ class Accepted(Results):
         return facts.BASELINE / link.removeprefix(f"{write.KEPT}/")
 
 
-def said() -> dict[str, dict]:
-    """Return what each section of the report says of the accepted results."""
-    told = json.loads((facts.BASELINE / "quoted/sections.json").read_text(encoding="utf-8"))
-    return {section: _nested(texts) for section, texts in told.items()}
-
-
-def _nested(texts: dict[str, str]) -> dict:
-    """Return texts by places such as ".rows.0.2" as dictionaries in each other, and lists."""
-    found: dict = {}
-    for place, text in texts.items():
-        *path, last = place.removeprefix(".").split(".")
-        inside = found
-        for name in path:
-            inside = inside.setdefault(name, {})
-        inside[last] = text
-    return _with_lists(found)
-
-
-def _with_lists(found):
-    if not isinstance(found, dict):
-        return found
-    inner = {name: _with_lists(one) for name, one in found.items()}
-    return list(inner.values()) if all(map(str.isdecimal, inner)) else inner
-
-
 def known(baseline: facts.Baseline) -> dict[str, dict]:
     """Return all that a template can name."""
     reached = study_errors.errors(baseline)
     needed = {study: study_errors.given(study)["needs"] for study in reached}
-    return said() | facts.topics(baseline) | {"studies": facts.needs(needed, reached)}
+    return facts.topics(baseline) | {"studies": facts.needs(needed, reached)}
 
 
 def render(values: dict[str, dict]) -> dict[Path, str]:

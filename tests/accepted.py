@@ -10,16 +10,15 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 import yaml
-from pendula import studies
 from pendula.configuration.files import gather
 from pendula.configuration.messages import STUDIES, load
 from pendula.datasets.netcdf import read
 from pendula.ledger.changes import exchange, keep, put, scale, shift
 from pendula.ledger.section import Ledger
-from pendula.report.page import Picture, render
-from pendula.report.results import Results, Section
+from pendula.report.document import all_sections, write
+from pendula.report.page import Picture
+from pendula.report.results import Results, Section, Table
 from pendula.report.sections import Measured, gather_speed
-from pendula.report.words import Quote
 
 ROOT = Path(__file__).parents[1]
 BASELINE = ROOT / "tests/baseline"
@@ -149,38 +148,34 @@ def settings(*over: str) -> dict:
 SPEED = Measured("speed/work_precision.nc", "speed/work_precision.md", [], False)
 
 
-def sections() -> dict[str, tuple]:
-    """Return the sections of all studies, and that on speed, by name, each with its template."""
+def sections() -> dict[str, Section]:
+    """Return the sections of all studies, and that on speed, by name; the ledger has own files."""
     speed = Section("speed", "Speed", lambda results, _: gather_speed(results, SPEED))
-    return {"speed": (speed, "sections.html.j2")} | {
-        section.name: (section, f"{study}/section.html.j2")
-        for study, module in studies.modules("section").items()
-        for section in module.SECTIONS
-    }
+    return {one.name: one for one in (speed, *all_sections()) if one.name != "claims"}
 
 
 def facts(name: str, results: Results) -> dict[str, str]:
-    """Return the texts that a section puts into its template, by their places."""
-    section, _ = sections()[name]
-    return texts(section.gather(results, Ledger(results)))
+    """Return the texts of a section of the report, by their places."""
+    return texts(sections()[name].gather(results, Ledger(results)))
 
 
-def texts(found, place: str = "") -> dict[str, str]:
-    """Return the texts of nested facts by their places; pictures and films are left out."""
-    if isinstance(found, str | Quote):
-        return {} if place.endswith("frames") else {place: str(found)}
-    if isinstance(found, dict | list | tuple) and not isinstance(found, Picture):
-        items = found.items() if isinstance(found, dict) else enumerate(found)
-        return {at: text for key, one in items for at, text in texts(one, f"{place}.{key}").items()}
-    return {}
+def texts(found: Mapping, place: str = "") -> dict[str, str]:
+    """Return the texts of a section's parts by their places, each row of a table as one text."""
+    said = {}
+    for name, part in found.items():
+        if isinstance(part, Mapping):
+            said |= texts(part, f"{place}{name}.")
+        elif isinstance(part, Table):
+            rows = {"title": [part.title], "head": part.head} | dict(enumerate(part.rows))
+            said |= {f"{place}{name}.{key}": " | ".join(map(str, row)) for key, row in rows.items()}
+        else:
+            said[f"{place}{name}"] = str(getattr(part, "caption", part))
+    return {at: re.sub(r"<[/a-z][^>]*>", "", text) for at, text in said.items()}
 
 
 def page_of(name: str, results: Results) -> str:
     """Return all words of a page of the report that has this section alone."""
-    section, template = sections()[name]
-    found = section.gather(results, Ledger(results))
-    shown = {"name": name, "title": section.title, "template": template, "found": found}
-    html = render("report.html.j2", sections=[shown], differs=[])
+    html = write(results, [sections()[name]])
     told = re.sub(r"<(style|script)>.*?</\1>|<[^>]*>", " ", html, flags=re.DOTALL)
     return " ".join(told.split())
 

@@ -101,7 +101,7 @@ def test_a_wrong_change_turns_the_verdict(row):
 
 @pytest.mark.parametrize("name", sections())
 def test_a_section_says_what_is_accepted(name):
-    """Each text that its template is given; tests/accepted.py says how to accept other ones."""
+    """Each text and row of a table; tests/accepted.py says how to accept other ones."""
     accepted, told = json.loads(FACTS.read_text())[name], facts(name, Report())
     assert told.keys() == accepted.keys()
     assert {at: pair for at in told if unlike(*(pair := (accepted[at], told[at])))} == {}

@@ -110,8 +110,7 @@ def test_a_page_rests_on_the_templates_beside_its_modules():
 def test_parts_are_found_by_the_list_of_studies():
     found = {path.relative_to(STUDIES_FOLDER).as_posix() for path in files_of_part("section")}
     told = {one for one in STUDIES if (STUDIES_FOLDER / one / "section.py").exists()}
-    parts = {f"paper/section_{part}.py" for part in ("breathers", "solvers")}
-    assert found == {f"{study}/section.py" for study in told} | parts
+    assert found == {f"{study}/section.py" for study in told} | {"paper/section_solvers.py"}
     names = [path.name for path in files_of_part("chaos/claims")]
     assert names == ["claims.py", "claims_own.py", "claims_swept.py"]
 

@@ -20,10 +20,6 @@ def run(report, script: str):
     return report.execute_script(f"return {script}")
 
 
-def shown(report) -> int:
-    return run(report, "document.querySelectorAll('.claim:not([hidden])').length")
-
-
 def test_no_errors_and_no_request_but_the_page(report, address):
     assert report.get_log("browser") == []
     events = [json.loads(entry["message"])["message"] for entry in report.get_log("performance")]
@@ -50,44 +46,39 @@ def test_every_picture_loads(report):
     assert len(widths) >= 20 and min(widths) > 0
 
 
-def test_the_filter_hides_and_counts(report):
-    rows = run(report, "document.querySelectorAll('.claim').length")
-    verdicts = run(report, "[...document.querySelectorAll('.claim')].map((c) => c.dataset.verdict)")
-    assert shown(report) == rows == len(verdicts)
-    ticks = report.find_elements("css selector", "form.filter input[type=checkbox]")
-    for tick in ticks:
-        if tick.get_attribute("value") != "not reproduced":
-            tick.click()
-    assert shown(report) == verdicts.count("not reproduced")
-    told = report.find_element("css selector", "form.filter output").text
-    assert told == f"{verdicts.count('not reproduced')} of {rows} claims shown"
-    for tick in ticks:
-        if not tick.is_selected():
-            tick.click()
-    report.find_element("css selector", "form.filter input[type=search]").send_keys("theorem 3")
-    assert 0 < shown(report) < rows
+def open_all(report) -> None:
+    """Unfold all folded parts."""
+    run(report, "document.querySelectorAll('details').forEach((one) => { one.open = true })")
 
 
-def test_a_link_to_a_hidden_claim_shows_it(report):
-    report.find_element("css selector", "form.filter input[value='not reproduced']").click()
-    link = report.find_element("css selector", "#errata a[href^='#claim_']")
-    name = link.get_attribute("hash")[1:]
-    assert run(report, f"document.getElementById('{name}').hidden")
-    report.execute_script("arguments[0].click()", link)
-    for _ in range(50):
-        if not run(report, f"document.getElementById('{name}').hidden"):
-            return
-    raise AssertionError("the claim stays hidden")
+def test_a_link_to_a_folded_claim_unfolds_it(report):
+    folded = "document.querySelector('details .claim')"
+    run(report, f"location.hash = {folded}.id")
+    wait_for(lambda: run(report, f"{folded}.checkVisibility()"))
+
+
+def test_a_tap_on_a_picture_shows_it_in_full_size_and_another_closes_it(report):
+    resize(report, 390)
+    width = "document.querySelector('#figure_fig2 img').clientWidth"
+    small, natural = run(report, width), run(report, width.replace("client", "natural"))
+    assert small < 390 < natural
+    for query, expected in {"a:has(img)": natural, "a.close": small}.items():
+        link = report.find_element("css selector", f"#figure_fig2 {query}")
+        report.execute_script("arguments[0].click()", link)
+        wait_for(lambda expected=expected: abs(run(report, width) - expected) <= 2)
+        assert run(report, "document.documentElement.scrollWidth") <= 390
 
 
 @pytest.mark.parametrize("width", [1280, 600, 390, 320])
 def test_the_page_does_not_scroll_sideways(report, width):
     resize(report, width)
+    open_all(report)
     assert run(report, "document.documentElement.scrollWidth") <= width
     assert run(report, "document.documentElement.clientWidth") == width
 
 
-def test_the_chain_and_the_pendula_play_and_stop(report):
+def test_the_pendula_play_and_stop(report):
+    open_all(report)
     players = report.find_elements("css selector", ".player")
     assert len(players) > 1
     for place, player in enumerate(players):
@@ -113,7 +104,8 @@ def test_nothing_moves_by_itself(report):
 
 
 def test_who_wants_less_motion_gets_steps(report):
-    """They get a step a second, and others twenty: so the player asks for its timer."""
+    """They get a step a second, and others twenty, by the timer of the player."""
+    open_all(report)
     run(report, "window.setInterval = (step, wait) => { window.asked = wait; return 1; }")
     play = report.find_element("css selector", ".player button")
     play.click()
@@ -126,14 +118,12 @@ def test_who_wants_less_motion_gets_steps(report):
     report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
 
-def test_it_prints_with_the_still_picture_and_all_claims(report):
-    report.find_element("css selector", "form.filter input[value='confirmed']").click()
+def test_it_prints_with_the_still_picture(report):
+    open_all(report)
     report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-    for query, display in {"svg.still": "block", "canvas": "none", "nav": "none"}.items():
+    for query, display in {"svg.still": "block", "canvas": "none"}.items():
         seen = run(report, f"getComputedStyle(document.querySelector('{query}')).display")
         assert seen == display, query
-    hidden = "[...document.querySelectorAll('.claim')].filter((c) => !c.offsetHeight).length"
-    assert run(report, hidden) == 0
     printed = report.execute_cdp_cmd("Page.printToPDF", {"paperWidth": 8.27, "paperHeight": 11.69})
     report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
     pdf = base64.b64decode(printed["data"])
@@ -146,6 +136,6 @@ def test_without_scripts_the_still_picture_stands_alone(report):
     report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
     displays = {
         query: run(report, f"getComputedStyle(document.querySelector('{query}')).display")
-        for query in (".player svg.still", ".player canvas", ".player .controls", "form.filter")
+        for query in (".player svg.still", ".player canvas", ".player .controls")
     }
-    assert list(displays.values()) == ["block", "none", "none", "none"]
+    assert list(displays.values()) == ["block", "none", "none"]

@@ -10,6 +10,7 @@ from pendula.models.pendula import leading_angles
 from pendula.own_cases import section
 from pendula.own_cases.pendula import check_sweep
 from pendula.problem import Problem
+from pendula.report.page import Picture
 from pendula.simulation import simulate as simulation
 from pendula.simulation.models import MODELS
 from simulate_own import as_the_workflow_writes
@@ -95,9 +96,7 @@ def test_its_page_says_what_has_a_meaning(case, said, tmp_path, monkeypatch):
     run = as_the_workflow_writes(case, "mine", folder / "mine.nc")
     found = {"trajectories/mine.nc": run, "own/cases/mine.checks.nc": check(case, simulate(case))}
     monkeypatch.setattr(section, "read", lambda path: found[path.relative_to(tmp_path).as_posix()])
-    monkeypatch.setattr(
-        section, "picture", lambda path, alt, link: section.Picture("", 1, 1, alt, link)
-    )
+    monkeypatch.setattr(section, "picture", lambda path, alt, link: Picture("", 1, 1, alt, link))
     page = section.write(["mine"], {}, tmp_path)
     assert said in page and "Newton&#39;s equations (1)" in page and "x = y = 0" in page
     assert "Lemma 1" not in page and "The energy H" not in page

@@ -13,6 +13,7 @@ from pendula.report.words import (
     plainly,
     span,
     symbols,
+    told,
     with_error,
     write_markdown,
 )
@@ -49,7 +50,14 @@ def test_measured_numbers_keep_their_zeros():
 def test_an_error_sets_the_digits_of_its_number():
     assert plain(with_error(0.50809, 0.00345)) == "0.508 ± 0.003"
     assert plain(with_error(0.50809, 0.00138)) == "0.5081 ± 0.0014"
+    assert plain(with_error(-7.78631e-4, 5e-9)) == "(−7.78631 ± 0.00005) × 10⁻⁴"
+    assert plain(with_error(5e-4, 7e-4)) == "(5 ± 7) × 10⁻⁴"
     assert with_error(2.5, np.nan) == "2.5"
+
+
+def test_a_text_of_html_takes_numbers_as_links():
+    text = told("{n} &lt; <b>{m}</b>", n=Quote("1", "a.nc"), m="<2>")
+    assert text == '<a class="n" href="a.nc">1</a> &lt; <b>&lt;2&gt;</b>'
 
 
 def test_spans_and_parts():

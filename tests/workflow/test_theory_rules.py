@@ -70,6 +70,9 @@ def test_the_table_shows_every_claim_and_every_tolerance(full_run):
     assert all(f"| {claim.place} |" in text for claim in all_claims())
     assert all(f"| {name} |" in text for name in ("gradient", "worst", "chart"))
     assert "| NO |" not in text.partition("# The checks")[2]
+    rows = [line.replace("\\|", "") for line in text.splitlines() if line.startswith("|")]
+    assert {row.count("|") for row in rows} == {5, 7, 6}  # claims, controls, checks
+    assert max(map(len, text.splitlines())) < 1000
 
 
 @pytest.mark.parametrize("part", PARTS)

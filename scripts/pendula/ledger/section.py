@@ -1,16 +1,29 @@
-"""The ledger of claims: every row with its verdict, and how many there are of each."""
+"""The ledger in the report: claims that are not confirmed in full, and all others folded."""
 
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
 
 from pendula.datasets.json_files import load_json
-from pendula.report.results import Results
-from pendula.report.words import Quote, number, plainly, symbols
+from pendula.report.results import Results, Table
+from pendula.report.words import Quote, number, plainly, symbols, told
 
 from .claim import Origin, controls_of, cutoff_lines
 from .criterion import Verdict
-from .tables import tally
+from .tables import as_sentence, files_of, tally
 
 LEDGER = "claims.json"
+CONFIRMED = (Verdict.CONFIRMED, Verdict.CAVEAT)
+FOLDED = (Verdict.NOT_APPLICABLE, Verdict.CAVEAT, Verdict.CONFIRMED)
+
+
+class Claims(NamedTuple):
+    """Rows of the ledger as a list."""
+
+    title: str
+    claims: Sequence[Mapping[str, Any]]
+    folded: bool = True
 
 
 def load(results: Results) -> list[dict]:
@@ -18,57 +31,80 @@ def load(results: Results) -> list[dict]:
     return load_json(results.path(LEDGER))["rows"]
 
 
-def gather(results: Results) -> dict[str, Any]:
-    """Return the rows as the page shows them, and the counts of verdicts by origin."""
+def summary(results: Results) -> Markup:
+    """Return in a sentence how many claims of the paper have each verdict."""
+    counts = tally(load(results)).get(Origin.PAPER, {})
+    total = results.say(LEDGER, str(sum(counts.values())))
+    parts = [told("{n} {verdict}", n=results.say(LEDGER, str(n)), verdict=as_sentence(one, n))
+             for one, n in counts.items()]  # fmt: skip
+    return told("Of {total} claims of the paper, {parts}.", total=total,
+                parts=Markup(", ").join(parts))  # fmt: skip
+
+
+def gather(results: Results, ledger: "Ledger") -> dict[str, Any]:
+    """Return the claims by verdict, the cut-offs and the controls."""
     rows = load(results)
+    others = [row for row in rows if row["verdict"] not in FOLDED]
     fed = controls_of(rows)
-    inapplicable = sum(row["verdict"] == Verdict.NOT_APPLICABLE for row in rows)
-    return {
-        "rows": [_shown(row, results) for row in rows],
-        "total": results.say(LEDGER, str(len(rows))),
-        "counts": [
-            (
-                origin,
-                results.say(LEDGER, str(sum(counts.values()))),
-                [(verdict, results.say(LEDGER, str(n))) for verdict, n in counts.items()],
-            )
-            for origin, counts in tally(rows).items()
-        ],
-        "verdicts": [str(v) for v in Verdict if any(row["verdict"] == v for row in rows)],
-        "resting": results.say(LEDGER, str(sum(bool(row["rests_on"]) for row in rows))),
-        "controls": results.say(LEDGER, str(len(fed))),
-        "failing": results.say(LEDGER, str(sum(one["passes"] is False for one in fed))),
-        "unasked": results.say(LEDGER, str(sum(one["passes"] is None for one in fed))),
-        "inapplicable": results.say(LEDGER, str(inapplicable)),
-        "cutoffs": [[plainly_said(cell) for cell in line] for line in cutoff_lines(rows)],
-        "fed": [[plainly_said(one[key]) for key in FED] for one in fed],
-    }
+    asked = [one["passes"] for one in fed if one["passes"] is not None]
+    wrong = results.say(LEDGER, str(asked.count(False)))
+    cutoffs, head = cutoff_lines(rows), ("cut-off", "origin", "claims decided by it",
+                                         "claims whose verdict changes")  # fmt: skip
+    found = {"counts": counts_by_origin(results, rows)}
+    title = "Claims that are not reproduced, do not carry over, or cannot be decided"
+    found["others"] = _claims(title, others, results, folded=False)
+    for verdict in FOLDED:
+        own = [row for row in rows if row["verdict"] == verdict]
+        found[verdict] = _claims(f"{len(own)} claims {verdict}", own, results)
+    return found | {
+        "cutoffs": Table(
+            f"{len(cutoffs)} cut-offs where the paper gives a word and no number, each moved by a "
+            "third either way", head, [list(map(_cell, line)) for line in cutoffs], folded=True,
+        ),
+        "failing": told("{n} of these controls came out wrong", n=wrong) + (
+            " (the functions that fail them decide nothing)." if False in asked else "."),
+        "fed": Table(
+            f"{len(asked)} controls: wrong cases that a function must not confirm, and its verdict",
+            ("claim", "case", "required", "verdict", "reason"),
+            [[_cell(one[key]) for key in FED] for one in fed], folded=True,
+        ),
+    }  # fmt: skip
 
 
 FED = ("claim", "fed", "must", "verdict", "because")
 
 
-def plainly_said(cell: float | str) -> str:
-    """Return a cell of a table as the page shows it."""
-    return symbols(cell) if isinstance(cell, str) else number(cell)
+def counts_by_origin(results: Results, rows: list[dict]) -> Table:
+    """Return a table: how many claims of each origin have each verdict."""
+    verdicts = [one for one in Verdict if any(row["verdict"] == one for row in rows)]
+    return Table(
+        "Verdicts, computed from the datasets", ("claims", *verdicts),
+        [[origin, *(results.say(LEDGER, str(counts.get(one, 0))) for one in verdicts)]
+         for origin, counts in tally(rows).items()],
+    )  # fmt: skip
 
 
-def _shown(row: dict, results: Results) -> dict:
-    measured = ", ".join(f"{plainly(key)} = {_value(v)}" for key, v in row["measured"].items())
-    return {
-        "name": row["name"],
-        "place": row["place"],
-        "says": symbols(row["says"]),
-        "verdict": row["verdict"],
-        "measured": measured,
-        "criterion": symbols(row["criterion"]),
-        "because": symbols(row["because"]),
-        "data": [results.say(name, name) for name in row["decided_by"]],
-    }
+def _cell(value: float | str, digits: int = 3) -> str:
+    return symbols(value) if isinstance(value, str) else number(value, digits)
 
 
-def _value(value: float | str) -> str:
-    return value if isinstance(value, str) else number(value, 4)
+def _claims(title: str, rows: list[dict], results: Results, folded: bool = True) -> Claims:
+    measured = [", ".join(f"{plainly(key)} = {_cell(value, 4)}"
+                          for key, value in row["measured"].items()) for row in rows]  # fmt: skip
+    return Claims(title, [
+        {**{key: row[key] for key in ("name", "place", "verdict")},
+         **{key: symbols(row[key]) for key in ("says", "criterion")},
+         "because": symbols(row["because"][:1].upper() + row["because"][1:]), "measured": values,
+         "badge": badge(row["verdict"]),
+         "data": [results.say(name, one) for name, one in files_of(row).items()]}
+        for row, values in zip(rows, measured, strict=True)
+    ], folded)  # fmt: skip
+
+
+def badge(verdict: str, text: str = "") -> Markup:
+    """Return a verdict in its colour, or a text in the colour of this verdict."""
+    return told('<span class="badge {name}">{text}</span>', name=verdict.replace(" ", "_"),
+                text=text or verdict)  # fmt: skip
 
 
 class Ledger:
@@ -81,26 +117,18 @@ class Ledger:
 
     def value(self, claim: str, key: str) -> float:
         """Return a measured number, NaN if the claim was not decided or is not applicable."""
-        return float(self._rows[claim]["measured"].get(key, "nan").__str__().replace("none", "nan"))
+        return float(str(self._rows[claim]["measured"].get(key, "nan")).replace("none", "nan"))
 
     def quote(self, claim: str, key: str, digits: int = 3) -> Quote:
         """Return a measured number as the page shows it."""
         source = self._rows[claim]["decided_by"][0]
         return self._results.quote(source, self.value(claim, key), digits)
 
-    def verdict(self, claim: str) -> str:
-        """Return the verdict on a claim."""
-        return self._rows[claim]["verdict"]
-
     def holds(self, claim: str) -> bool:
         """Return whether a claim is confirmed, with a caveat or without."""
-        return self.verdict(claim) in (Verdict.CONFIRMED, Verdict.CAVEAT)
+        return self._rows[claim]["verdict"] in CONFIRMED
 
-    def counts(self, place: str) -> list[tuple[str, int]]:
-        """Return how many of the paper's claims on a place such as "Fig 5" have each verdict."""
-        rows = [row for row in self._all if place in row["place"]]
-        return list(tally(rows).get(Origin.PAPER, {}).items())
-
-    def because(self, claim: str) -> str:
-        """Return the reason of the verdict, in words."""
-        return symbols(self._rows[claim]["because"])
+    def on(self, place: str) -> list[dict]:
+        """Return the rows of the paper's claims on a place such as "Fig 5"."""
+        rows = (row for row in self._all if place in row["place"])
+        return [row for row in rows if row["origin"] == Origin.PAPER]

@@ -4,6 +4,7 @@ A sentence may be decided for a single run, for ensembles and for the infinite c
 of several studies. They make one row, which holds where all of them hold.
 """
 
+import textwrap
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
@@ -97,32 +98,55 @@ def counted(rows: list[dict]) -> list[str]:
     ]
 
 
+def as_sentence(verdict: str, count: int) -> str:
+    """Return a verdict with its verb, such as "are confirmed"."""
+    if verdict == Verdict.NOT_CARRIED:
+        return verdict if count == 1 else verdict.replace("does", "do")
+    if verdict == Verdict.UNDECIDED:
+        return verdict
+    return f"{'is' if count == 1 else 'are'} {verdict}"
+
+
 def claims_section(rows: list[dict]) -> list[str]:
-    """Return the claims with their verdicts and what these rest on."""
+    """Return a table of the claims with their verdicts, and below what decides each of them."""
     counts = "\n".join(f"- {line}" for line in counted(rows))
-    head = ("where", "claim", "verdict", "measured", "criterion", "because", "data")
-    cells = [
-        (
-            *(row[key] for key in ("place", "says", "verdict")),
-            ", ".join(f"{key} = {shown(value)}" for key, value in row["measured"].items()),
-            *(row[key] for key in ("criterion", "because")),
-            ", ".join(row["decided_by"]),
-        )
-        for row in rows
-    ]
-    made = "`snakemake results/<data>.nc` makes the data of a row, by each name in its last column."
-    return ["# What the paper says, and what the numbers say", counts, made, markdown(head, cells)]
+    cells = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
+    table = markdown(("name", "where", "claim", "verdict"), cells)
+    title = "# What the paper says, and what the numbers say"
+    return [title, counts, table, "# What decides each claim", *map(_grounds, rows)]
 
 
-def shown(value: float | str) -> str:
-    """Return a measured number with four digits."""
-    return value if isinstance(value, str) else f"{value:.4g}"
+def _grounds(row: dict) -> str:
+    """Return reason, numbers and criterion of a claim, and the command that makes its data."""
+    measured = [f"{k} = {v if isinstance(v, str) else f'{v:.4g}'}"
+                for k, v in row["measured"].items()]  # fmt: skip
+    lines = {
+        "reason": row["because"],
+        "measured": ", ".join(measured),
+        "criterion": row["criterion"],
+        "data": f"`snakemake {' '.join(files_of(row).values())}`",
+    }
+    items = [_item(f"{name}: {text}") for name, text in lines.items() if text]
+    return "\n".join([f"## {row['name']}: {row['verdict']}", "", *items])
+
+
+def files_of(row: dict) -> dict[str, str]:
+    """Return the dataset files that decide a claim, by name; `snakemake <file>` makes each."""
+    return {name: f"results/{name}.nc" for name in row["decided_by"]}
+
+
+def _item(text: str) -> str:
+    return textwrap.fill(f"- {text}", 100, subsequent_indent="  ", break_long_words=False,
+                         break_on_hyphens=False)  # fmt: skip
 
 
 def cutoffs_section(rows: list[dict]) -> list[str]:
     """Return every cut-off with its origin, the claims that read it, and those that rest on it."""
-    head = ("cut-off", "where it comes from", "decides", "rest on it")
-    return ["# The cut-offs, each moved by a third either way", markdown(head, cutoff_lines(rows))]
+    lines = [
+        _item(f"{value} ({origin}) decides {decides}{f'; it turns {rest}' if rest else ''}")
+        for value, origin, decides, rest in cutoff_lines(rows)
+    ]
+    return ["# The cut-offs, each moved by a third either way", "\n".join(lines)]
 
 
 def controls_section(controls: list[dict]) -> list[str]:

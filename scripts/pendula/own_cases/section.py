@@ -14,7 +14,8 @@ from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
 from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, read_initial
-from pendula.report.page import Picture, picture, render
+from pendula.report.page import picture, render
+from pendula.report.results import Figure, Table
 from pendula.report.sections import versions
 from pendula.report.words import (
     MINUS,
@@ -23,6 +24,8 @@ from pendula.report.words import (
     Quote,
     number,
     percent,
+    symbols,
+    told,
     with_error,
 )
 
@@ -32,13 +35,14 @@ SLACK = 1e-6
 STEEPEST = 1.01
 """Growth of P that is steeper than its bound by more than this is seen in the digits shown."""
 WEAKEST = 1e-6
-"""A drive that lets P grow by less over a whole run cannot be told from rounding."""
+"""A drive that lets P grow by less over a whole run cannot be distinguished from rounding."""
 EIGHT = 8.0
 """Outputs in a period of the pendula that show how they swing."""
 FEW = 8
-"""The data of more sites do not fit into the table."""
+"""The initial conditions of more sites do not fit into the table."""
 EQUATIONS = "Newton's equations (1) of the pendula"
 _SIGNS = {"mu": "μ", "omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
+TOO_LARGE = "broken: the errors of the run are too large"
 
 
 def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
@@ -52,193 +56,211 @@ def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: lis
 
 def write(cases: list[str], sweeps: dict[str, str], folder: Path) -> str:
     """Return the page on `cases`, and on `sweeps` with their cases; `folder` holds the files."""
-    return render("section.html.j2", Path(__file__).parent, **gather(cases, sweeps, folder))
+    sections = {f"case {name}": _case(name, folder) for name in cases}
+    sections |= {f"sweep {name}": _sweep(name, case, folder) for name, case in sweeps.items()}
+    made_with = {"pendula": __version__, **versions()}
+    return render("section.html.j2", Path(__file__).parent, sections=sections, versions=made_with)
 
 
-def gather(cases: list[str], sweeps: dict[str, str], folder: Path) -> dict[str, Any]:
-    """Return what the page shows: `cases` by name, `sweeps` with the case that each repeats.
-
-    Links are seen from `folder`, where the page will lie.
-    """
-    shown = [_case(case, folder) for case in cases]
-    trusted = {case["name"]: case["divergence_time"] for case in shown}
-    return {
-        "cases": shown,
-        "sweeps": [_sweep(name, case, folder, trusted) for name, case in sweeps.items()],
-        "versions": {"pendula": __version__, **versions()},
-    }
+# --- Cases ----------------------------------------------------------------------------------------
 
 
 def _case(name: str, folder: Path) -> dict[str, Any]:
-    """Return what the page shows of the case: numbers as quotes, and what they decide."""
-    run, link = read(folder / f"trajectories/{name}.nc"), f"own/cases/{name}.checks.nc"
-    checks = read(folder / link)
+    """Return what the page shows of the case: parameters, figures, answers and numbers."""
+    link, source = f"own/cases/{name}.checks.nc", f"trajectories/{name}.nc"
+    run, checks = read(folder / source), read(folder / link)
+    of_pendula = _is_of_pendula(run.attrs)
+    answers = (_of_pendula if of_pendula else _of_amplitudes)(checks, bool(run["linf"].any()))
+    what = ("angles x (red) and y" if of_pendula else "A (red) and B") + " (blue)"
+    caption = (
+        f"Norms of {what} against τ, ℓ∞ left and ℓ² right. Where the case runs by another method "
+        "differ visibly, a dashed line marks it and the other run is shown below."
+    )
+    if of_pendula and checks.attrs["output_step"] > _period(checks.attrs) / EIGHT:
+        caption += (
+            " There are fewer than eight outputs in a period of the pendula: use the upper edge of "
+            "the curves, or give a shorter output_step."
+        )
+    moduli = (
+        "Amplitudes √(x² + (dx/dt / ω)²) of the angles over sites and time, x<sub>n</sub> left and "
+        "y<sub>n</sub> right." if of_pendula
+        else "Moduli over sites and time, |A<sub>n</sub>| left and |B<sub>n</sub>| right."
+    )  # fmt: skip
     return {
-        "name": name,
-        "run": f"trajectories/{name}.nc",
-        "checks": link,
-        "parameters": parameters(run.attrs),
-        "norms": _picture_of_norms(name, run, folder),
-        "spacetime": _picture_of_moduli(name, run, folder),
-        "second": solver(checks.attrs, "second"),
-        "refusals": {
-            key: str(checks.attrs.get(f"{key}_refusal", "")) for key in ("second", "sensitivity")
-        },
-        "level": percent(VISIBLE),
-        "divergence_time": float(checks["divergence_time"]),
-        "parts": bool(np.isfinite(checks["divergence_time"])),
-        "pendula": _is_of_pendula(run.attrs),
-        "said": _said(checks, link),
-        **(_decided_of_pendula(run, checks) if _is_of_pendula(run.attrs) else _decided(checks)),
-    }
+        "parameters": Table(f"The case, from {source}", ("parameter", "value"),
+                            parameters(run.attrs)),
+        "norms": _figure(f"own/cases/{name}.png", caption, name, folder),
+        "moduli": _figure(f"own/cases/{name}.spacetime.png", moduli, name, folder),
+        "answers": Table("What the checks say", ("question", "answer"), answers),
+        "numbers": Table(f"Their numbers, from {link}", ("quantity", "value"),
+                         [[symbols(text), quote] for text, quote in quotes(checks, link)]),
+    }  # fmt: skip
+
+
+def _figure(link: str, caption: str, name: str, folder: Path) -> Figure:
+    return Figure(picture(folder / link, f"{name}: {caption.partition('. ')[0]}", link),
+                  told(caption))  # fmt: skip
 
 
 def _is_of_pendula(attributes: Mapping[str, Any]) -> bool:
     return attributes.get("model") == PENDULA
 
 
-def _decided_of_pendula(run, checks) -> dict[str, Any]:
-    period = np.pi * checks.attrs["mu"] ** 2 / frequency(checks.attrs["omega"], checks.attrs["mu"])
-    return {
-        "at_rest": not bool(run["linf"].any()),
-        "over": bool(np.isfinite(checks["over_the_top"])),
-        "followed": bool(np.isfinite(checks["expansion_error"])),
-        "too_rare": bool(checks.attrs["output_step"] > period / EIGHT),
-    }
+def _period(attributes: Mapping[str, Any]) -> float:
+    """Return the period of the pendula in units of tau."""
+    mu = attributes["mu"]
+    return np.pi * mu**2 / frequency(attributes["omega"], mu)
 
 
-def _said(checks, link: str) -> dict[str, Quote]:
-    said = quotes(checks, link)
-    if "exponent" in checks:
-        rate = with_error(float(checks["exponent"]), float(checks["exponent_error"]))
-        said["exponent"] = Quote(rate, link)
-    return said | {
-        key: Quote(number(checks.attrs[key]), link)
-        for key in ("end_time", "gamma", "epsilon", "half_width")
-    } | {"sites": Quote(number(2 * checks.attrs["half_width"] + 1, 8), link)}  # fmt: skip
+def _trust(checks) -> list[str]:
+    """Return a row: until when the run agrees with one by another method."""
+    question = f"agrees with {solver(checks.attrs, 'second')}"
+    if reason := checks.attrs.get("second_refusal"):
+        return [question, f"unknown: that run was rejected, {reason}"]
+    level, parted = percent(VISIBLE), float(checks["divergence_time"])
+    if not np.isfinite(parted):
+        worst = number(checks["largest_difference"])
+        return [question, f"to the end, to {worst} of full scale"]
+    if _is_of_pendula(checks.attrs):
+        then = "each may show another motion of the same kind from there on"
+    elif checks.get("chaotic", 0):
+        then = "from there on it is one of many solutions of the same kind: use its statistics"
+    else:
+        then = "the motion is not chaotic, and a smaller tolerance or step moves this time on"
+    return [question, f"to τ = {number(parted, 4)}, within {level} of full scale; {then}"]
 
 
-def _decided(checks) -> dict[str, Any]:
+def _of_pendula(checks, moves: bool) -> list[list[str]]:
+    """Return questions and answers on a case of the pendula."""
+    if not moves:
+        return [["motion", "the chain is at rest and stays so"]]
+    over = float(checks["over_the_top"])
+    top = "none" if not np.isfinite(over) else (
+        f"at τ = {number(over)} a pendulum has gone over the top; from there on the expansion (3) "
+        "and the amplitude equations (4) do not apply"
+    )  # fmt: skip
+    missed = float(checks["expansion_error"])
+    expansion = "could not be followed" if not np.isfinite(missed) else (
+        f"misses the angles at the end by up to {number(missed)} rad, where they swing to "
+        f"{number(checks['expansion_swing'])} rad"
+    )  # fmt: skip
+    return [_trust(checks), ["passages over the top", top], ["the expansion (3)", expansion]]
+
+
+def _of_amplitudes(checks, moves: bool) -> list[list[str]]:
+    """Return questions and answers on a case of the amplitude equations."""
+    decided, stable = _decided(checks), {True: "unstable", False: "no growing mode"}
+    rows = [
+        ["Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]],
+        ["Lemma 1, this chain at rest", stable[bool(checks["finite_rate"] > 0)]],
+    ]
+    if checks.attrs["epsilon"] < 0:
+        rows.append(["ε < 0", "the statements are on the equivalent chain with −ε and Ω − 4ε, of "
+                     "which every other site has the opposite sign"])  # fmt: skip
+    if not moves:
+        return [["motion", "the chain is at rest and stays so"], *rows]
+    growth = "holds"
+    if not decided["growth_holds"]:
+        growth = TOO_LARGE
+    elif decided["too_steep"]:
+        growth = "holds from the start on, but not between outputs: the errors of the run are large"
+    region = str(checks["region"].values)
+    covered = "only Theorem 3 covers them" if region == "none" else f"{region} covers them"
+    bound = "the smallest bound holds" if decided["bound_holds"] else f"the bound is {TOO_LARGE}"
+    balance = "followed" if decided["balanced"] else "could not be followed by the second method"
+    return [
+        _trust(checks),
+        ["chaotic", _chaos(checks)],
+        *rows,
+        ["Lemma 2, growth of P" + ("" if decided["driven"] else " (not driven)"), growth],
+        ["Lemma 2, balance of P", balance],
+        ["Theorems 1 to 3, these initial conditions", f"{covered}; {bound}"],
+    ]
+
+
+def _chaos(checks) -> str:
+    """Return whether small changes grow exponentially."""
+    if reason := checks.attrs.get("sensitivity_refusal"):
+        return f"unknown: {reason}"
+    rate = with_error(float(checks["exponent"]), float(checks["exponent_error"]))
+    if not checks["chaotic"]:
+        return f"no; small changes grow at {rate} per unit of τ in the second half of the run"
+    lost = float(checks["divergence_rounding"])
+    then = "" if not np.isfinite(lost) else (
+        f"; rounding errors reach {percent(VISIBLE)} at τ = {number(lost)}"
+    )  # fmt: skip
+    return f"yes; small changes grow at {rate} per unit of τ in the second half of the run{then}"
+
+
+def _decided(checks) -> dict[str, bool]:
+    """Return which statements hold of a case of the amplitude equations."""
     driven = 4.0 * abs(checks.attrs["gamma"]) * checks.attrs["end_time"] > WEAKEST
     error = np.nan_to_num(float(checks["largest_difference"]))
     limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
     return {
-        "at_rest": float(checks["start"]) == 0.0,
-        "chaotic": bool(checks.get("chaotic", 0)),
-        "lost": bool(np.isfinite(checks.get("divergence_rounding", np.nan))),
-        "region": str(checks["region"].values),
         "driven": driven,
         "growth_holds": bool(checks["from_start"] <= limit),
         "too_steep": bool(driven and checks["steepest"] > STEEPEST),
         "bound_holds": bool(checks["ratio"] <= limit),
-        "infinite_grows": bool(checks["infinite_rate"] > 0),
-        "finite_grows": bool(checks["finite_rate"] > 0),
         "balanced": bool(np.isfinite(checks["balance_error"])),
-        "other_sign": float(checks.attrs["epsilon"]) < 0,
     }
 
 
-def _picture_of_norms(name: str, run, folder: Path) -> Picture:
-    parts = []
-    for norm, word in (("linf", "l-infinity"), ("l2", "l2")):
-        for component in run["component"].values:
-            curve = run[norm].sel(component=component)
-            first, top, last = (number(x) for x in (curve[0], curve.max(), curve[-1]))
-            when = number(curve["tau"][int(np.argmax(curve.values))])
-            parts.append(
-                f"{word} of {component} starts at {first}, has its largest value {top} at {when} "
-                f"and ends at {last}"
-            )
-    end = number(run["tau"][-1])
-    alt = f"Norms of {name} against tau from 0 to {end}: {'; '.join(parts)}."
-    link = f"own/cases/{name}.png"
-    return picture(folder / link, alt, link)
+def quotes(dataset, link: str) -> list[tuple[str, Quote]]:
+    """Return every single known number of a dataset with its long name, linked to it."""
+    return [
+        (variable.attrs["long_name"], Quote(number(variable), link))
+        for variable in dataset.data_vars.values()
+        if variable.ndim == 0
+        and np.issubdtype(variable.dtype, np.number)
+        and not np.isnan(variable)
+    ]
 
 
-def _picture_of_moduli(name: str, run, folder: Path) -> Picture:
-    modulus, sites = run["modulus"].max("component"), run["site"].values
-    site, when = (int(i) for i in np.unravel_index(int(np.argmax(modulus.values)), modulus.shape))
-    link = f"own/cases/{name}.spacetime.png"
-    alt = (
-        f"Moduli of {' and '.join(run['component'].values)} of {name} over sites "
-        f"{sites[0]} to {sites[-1]} and tau from 0 to {number(run['tau'][-1])}: the largest, "
-        f"{number(modulus.max())}, on site {sites[site]} at "
-        f"{number(run['snapshot_tau'][when])}."
-    )
-    return picture(folder / link, alt, link)
+# --- Sweeps ---------------------------------------------------------------------------------------
 
 
-def _sweep(name: str, case: str, folder: Path, trusted: dict[str, float]) -> dict[str, Any]:
-    """Return what the page shows of the sweep.
-
-    `trusted` holds the divergence time of two runs of each case, NaN if it is not known.
-    """
-    link, drawn_link = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
-    swept, drawn, checks = (read(folder / at) for at in (f"sweeps/{name}.nc", drawn_link, link))
-    panel = drawn.isel(panel=0)
-    read_as = list(zip(panel["statistic"].values, panel["window"].values, strict=True))
-    windows = [(STATISTICS[how], window) for how, window in read_as]
+def _sweep(name: str, case: str, folder: Path) -> dict[str, Any]:
+    """Return what the page shows of the sweep over half-widths of a case."""
+    link, drawn = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
+    swept, checks = read(folder / f"sweeps/{name}.nc"), read(folder / link)
+    panel = read(folder / drawn).isel(panel=0)
     of_pendula = _is_of_pendula(swept.attrs)
-    return {
-        "pendula": of_pendula,
-        **(_went_over if of_pendula else _beside_bounds)(checks, link),
-        "name": name,
-        "case": case,
-        "is_own": case in trusted,
-        "divergence_time": trusted.get(case, np.nan),
-        "parts": bool(trusted.get(case, np.nan) < swept.attrs["end_time"]),
-        "data": f"sweeps/{name}.nc",
-        "checks": link,
-        "parameters": parameters(swept.attrs),
-        "picture": _picture_of_sweep(name, panel, windows, folder),
-        "windows": windows,
-        "columns": [
-            "M",
-            *(f"{word} {how} {window}" for word in NORMS.values() for how, window in read_as),
-            "largest angle" if of_pendula else "P over bound",
-        ],
-        "rows": _rows(panel, checks, drawn_link, link),
-    }
-
-
-def _beside_bounds(checks, link: str) -> dict[str, Any]:
-    ratio = checks["swept_ratio"]
-    return {"excess": Quote(number(ratio), link), "bound_holds": bool(ratio <= 1.0 + 1e-6)}
-
-
-def _went_over(checks, link: str) -> dict[str, Any]:
-    count = checks["swept_over"]
-    return {"over": Quote(number(count), link), "any_over": bool(count > 0)}
-
-
-def _rows(panel, checks, drawn_link: str, link: str) -> list[list]:
+    read_as = [f"{STATISTICS[how]} {window}" for how, window in
+               zip(panel["statistic"].values, panel["window"].values, strict=True)]  # fmt: skip
+    marks = "; ".join(f"{mark}: {how}" for mark, how in zip(("full", "hollow"), read_as,
+                                                            strict=False))  # fmt: skip
+    caption = (
+        f"Norms of the pair {'(x, y), in rad,' if of_pendula else '(A, B)'} against the half-width "
+        f"M, ℓ∞ left and ℓ² right. Marks: {marks}."
+    )
     rows = []
     for width in panel["half_width"].values:
-        at = panel.sel(half_width=width)
-        if "swept_angle" in checks:
-            last = checks["swept_angle"].sel(half_width=width)
-        else:
-            bound = checks.isel(sweep=0).sel(half_width=width)
-            last = bound["swept_observed"] / bound["best"]
+        at, own = panel.sel(half_width=width), checks.sel(half_width=width)
         values = [value for norm in NORMS for value in at[norm].values]
-        quoted = (Quote(number(v), drawn_link) for v in values)
-        rows.append([exact(width), *quoted, Quote(number(last), link)])
-    return rows
+        last = (own["swept_angle"] if of_pendula
+                else (own["swept_observed"] / own["best"]).squeeze())  # fmt: skip
+        rows.append([exact(width), *(Quote(number(v), drawn) for v in values),
+                     Quote(number(last), link)])  # fmt: skip
+    if of_pendula:
+        answer = ("chains on which a pendulum goes over the top", Quote(
+            number(checks["swept_over"]), link))  # fmt: skip
+    else:
+        holds = bool(checks["swept_ratio"] <= 1.0 + SLACK)
+        answer = ("Theorems 1 to 3", "hold" if holds else TOO_LARGE)
+    head = ["M", *(f"{norm} {how}" for norm in NORMS.values() for how in read_as),
+            "largest angle in rad" if of_pendula else "largest P over its bound"]  # fmt: skip
+    return {
+        "parameters": Table(f"The sweep over the case {case}, from sweeps/{name}.nc",
+                            ("parameter", "value"), parameters(swept.attrs)),
+        "picture": _figure(f"own/sweeps/{name}.png", caption, name, folder),
+        "answers": Table("What the checks say", ("question", "answer"), [answer]),
+        "numbers": Table(f"Norms by half-width; after two runs of the case differ, those of "
+                         f"samples, from {drawn}", head, rows),
+    }  # fmt: skip
 
 
-def _picture_of_sweep(name: str, panel, windows: list[tuple[str, str]], folder: Path) -> Picture:
-    widths = panel["half_width"].values
-    parts = [
-        f"the {how} of {norm} on {window} goes from {number(values[0])} to {number(values[-1])}"
-        for norm in NORMS
-        for (how, window), values in zip(windows, panel[norm].values, strict=True)
-    ]
-    link = f"own/sweeps/{name}.png"
-    alt = (
-        f"Norms of {name} against the half-width, {exact(widths[0])} to {exact(widths[-1])}: "
-        f"{'; '.join(parts)}."
-    )
-    return picture(folder / link, alt, link)
+# --- Parameters -----------------------------------------------------------------------------------
 
 
 def exact(value: Any) -> str:
@@ -254,22 +276,16 @@ def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     rows += [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
     at_rest = "x = y" if _is_of_pendula(attributes) else "A = B"
     rows.append(("ends of the chain", ends_of(attributes["boundary"]).words.format(at_rest)))
-    rows += data(attributes)
-    rows.append(("end time τ, output step", f"{exact(attributes['end_time'])}, "
-                 f"{exact(attributes['output_step'])}"))  # fmt: skip
-    rows.append(("solver", solver(attributes, "solver")))
-    return rows
-
-
-def data(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return the sites that are not at rest at the start, each with its amplitudes, if few."""
     sites = read_initial(attributes["initial"])
     if len(sites) > FEW:
-        return [("A, B at the start", f"on {len(sites)} sites, as the dataset's attributes say")]
-    return [
-        (f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
-        for site, pair in sites.items()
-    ]
+        rows.append(("A, B at the start", f"on {len(sites)} sites, in the dataset's attributes"))
+    else:
+        rows += [(f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
+                 for site, pair in sites.items()]  # fmt: skip
+    times = (exact(attributes["end_time"]), exact(attributes["output_step"]))
+    rows.append(("end time τ, output step", ", ".join(times)))
+    rows.append(("solver", solver(attributes, "solver")))
+    return rows
 
 
 def solver(attributes: Mapping[str, Any], key: str) -> str:
@@ -285,12 +301,3 @@ def solver(attributes: Mapping[str, Any], key: str) -> str:
     }
     said = ", ".join(f"{at.replace('_', ' ')} {exact(value)}" for at, value in controls.items())
     return f"{SOLVER_NAMES.get(name, name)} ({said})" if said else SOLVER_NAMES.get(name, name)
-
-
-def quotes(dataset, link: str) -> dict[str, Quote]:
-    """Return every single number of a dataset, linked to it."""
-    return {
-        name: Quote(number(variable), link)
-        for name, variable in dataset.data_vars.items()
-        if variable.ndim == 0 and np.issubdtype(variable.dtype, np.number)
-    }

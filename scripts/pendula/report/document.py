@@ -1,4 +1,4 @@
-"""The report of a run: the sections of all studies, then those of the ledger and of the run."""
+"""The report of a run: the figures, the claims, and the sections of all studies below them."""
 
 import json
 from pathlib import Path
@@ -36,33 +36,25 @@ def write_report(
     data, table, *drawn = (link_to(path, html) for path in speed)
     measured = Measured(data, table, drawn, speed_is_fresh)
     provenance = gather_provenance(made_by, references, settings, Path(html).parent / "logs")
-    with complete_or_absent(html) as partial:
-        Path(partial).write_text(write(results, measured, provenance), "utf-8")
-
-
-def write(results: Results, measured: Measured, provenance: dict) -> str:
-    """Return the report as HTML.
-
-    `measured` says where speed was measured, `provenance` what `gather_provenance` returns.
-    """
-    ledger = Ledger(results)
-    of_studies = [
-        (section, f"{study}/section.html.j2")
-        for study, module in studies.modules("section").items()
-        for section in module.SECTIONS
-    ]
-    own = (
-        Section("claims", "What the paper says", lambda *_: claims.gather(results)),
-        Section("speed", "Speed against error", lambda *_: gather_speed(results, measured)),
+    own = [
+        Section("speed", "Speed", lambda *_: gather_speed(results, measured)),
         Section("provenance", "How it was run", lambda *_: provenance),
-    )
-    sections = [
-        {
-            "name": section.name,
-            "title": section.title,
-            "template": template,
-            "found": section.gather(results, ledger),
-        }
-        for section, template in [*of_studies, *((one, "sections.html.j2") for one in own)]
     ]
-    return render("report.html.j2", sections=sections, differs=list(results.differs.values()))
+    with complete_or_absent(html) as partial:
+        Path(partial).write_text(write(results, [*all_sections(), *own]), "utf-8")
+
+
+def all_sections() -> list[Section]:
+    """Return the sections of the studies with the claims behind those that are not folded."""
+    of_studies = [one for module in studies.modules("section").values() for one in module.SECTIONS]
+    ledger = Section("claims", "Claims", claims.gather, opened=True)
+    return sorted([*of_studies, ledger], key=lambda section: not section.opened)
+
+
+def write(results: Results, sections: list[Section]) -> str:
+    """Return the report with these sections as HTML."""
+    ledger = Ledger(results)
+    shown = [{**section._asdict(), "parts": section.gather(results, ledger)}
+             for section in sections]  # fmt: skip
+    return render("report.html.j2", sections=shown, verdict=claims.summary(results),
+                  differs=list(results.differs.values()))  # fmt: skip

@@ -1,10 +1,12 @@
-"""The files of a run by name, with links to them, and what a section of the report is."""
+"""The files of a run by name, with links to them, and the parts of a section of the report."""
 
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from markupsafe import Markup
 
 from pendula.configuration.paper import Differences, reason
 from pendula.datasets.netcdf import read
@@ -60,8 +62,13 @@ class Results:
                 f"the report needs {link}: add it to the inputs of the rule `report`"
             ) from None
 
+    def figure(self, name: str, caption: str) -> "Figure":
+        """Return a figure such as "fig5"; its description is the first sentence of the caption."""
+        alt = re.sub(r"<[^>]*>", "", caption).partition(". ")[0].rstrip(".")
+        return Figure(self.picture(name, Markup(alt).unescape()), Markup(caption))
+
     def picture(self, name: str, alt: str) -> Picture:
-        """Return a figure such as "fig5", described in words."""
+        """Return the picture of a figure, described in words."""
         link = f"figures/{name}.png"
         return picture(self.path(link), alt, link)
 
@@ -92,15 +99,47 @@ def link_to(path: str, page: str) -> str:
     return Path(path).relative_to(Path(page).parent).as_posix()
 
 
+class Table(NamedTuple):
+    """A table with a caption; each cell is a text or a quote. A table without rows is not shown."""
+
+    title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence]
+    folded: bool = False
+
+
+class Figure(NamedTuple):
+    """A picture with its caption, which is HTML."""
+
+    picture: Picture
+    caption: Markup
+
+
+class Film(NamedTuple):
+    """A film of the pendula; `rows` is its last picture: two rows of lines with their ends.
+
+    `frames` holds a byte for each angle, 127 for half a turn, time after time, in base 64; `step`
+    is the time between two of its `pictures`.
+    """
+
+    frames: str
+    pictures: int
+    sites: int
+    step: float
+    per_period: int
+    rows: Sequence[Sequence[Mapping]]
+    caption: Markup
+
+
 class Section(NamedTuple):
     """A part of the report under a heading of its own.
 
-    `gather` takes the results and the ledger. The template beside the module that declares the
-    section (section.html.j2) writes what it returns, by a macro of this `name`. A second macro,
-    `<name>_summary`, writes lines at the top of the page, and `<name>_opening` what follows them;
-    a section may do without either.
+    `gather` takes the results and the ledger, and returns parts by name: tables, figures, films, a
+    text as a paragraph, or again parts by name, whose name is then their heading. A section is
+    folded unless it is `opened`.
     """
 
     name: str
     title: str
-    gather: Callable[[Results, Any], Any]
+    gather: Callable[[Results, Any], Mapping[str, Any]]
+    opened: bool = False

@@ -19,8 +19,8 @@ from pendula.datasets.registry import SOLVER_NAMES
 from pendula.sources import TOOK, describe_machine
 
 from .page import picture
-from .results import ReportError, Results
-from .words import case_of, number
+from .results import Figure, ReportError, Results, Table
+from .words import case_of, number, told
 
 
 class Measured(NamedTuple):
@@ -33,7 +33,7 @@ class Measured(NamedTuple):
 
 
 def gather_speed(results: Results, measured: Measured) -> dict[str, Any]:
-    """Return the peers' times over ours and our solvers' least times at the error asked for."""
+    """Return our solvers' least times at the required error, and the peers' times over ours."""
     source = measured.data.removesuffix(".nc")
     data = results[source]
     if "best_seconds" not in data:
@@ -41,33 +41,45 @@ def gather_speed(results: Results, measured: Measured) -> dict[str, Any]:
     best = 1e3 * data["best_seconds"].dropna("solver", how="all").dropna("case", how="all")
     winners = [str(name) for name in best.idxmin("solver").values]
     fastest = max(dict.fromkeys(winners), key=winners.count)
-    alt = _alt(best)
+    caption = told(
+        "Time against error above; below, the time of other solvers over that of the fastest "
+        "solver here, at equal error."
+    )
     return {
-        "fresh": measured.fresh,
-        **_peers(results, source),
-        "head": ["case", "error", *(SOLVER_NAMES[str(name)] for name in best["solver"].values)],
-        "rows": [_row(results, source, best.sel(case=case)) for case in best["case"].values],
-        "fastest": SOLVER_NAMES[fastest],
-        "wins": results.quote(source, winners.count(fastest)),
-        "cases": results.quote(source, len(winners)),
-        "pictures": [picture(results.path(link), alt, link) for link in measured.pictures],
-        "table": measured.table,
-    }
+        "fastest": told(
+            "{solver} is the fastest solver here in {wins} of {cases} cases.",
+            solver=SOLVER_NAMES[fastest],
+            wins=results.quote(source, winners.count(fastest)),
+            cases=results.quote(source, len(winners)),
+        ),
+        "least": Table(
+            "Least time in ms at the required error, "
+            + ("measured by snakemake speed" if measured.fresh else "as measured and kept by "
+               "the project; snakemake speed measures it on your machine"),
+            ["case", "error", *(SOLVER_NAMES[str(name)] for name in best["solver"].values)],
+            [_row(results, source, best.sel(case=case)) for case in best["case"].values],
+        ),
+        "peers": Table(
+            "Times of other solvers over that of the fastest here, at equal error",
+            ["solver", "geometric mean", "cases"], _peers(results, source),
+        ),
+        **{
+            link: Figure(picture(results.path(link), f"Time against error: {link}", link), caption)
+            for link in measured.pictures
+        },
+    }  # fmt: skip
 
 
-def _peers(results: Results, source: str) -> dict[str, list]:
-    """Return the mean ratio of each peer that reached the error, and the names of the others."""
+def _peers(results: Results, source: str) -> list[list]:
+    """Return the mean ratio of each peer, and in how many cases it reached the error."""
     data = results[source]
     titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
-    reached, absent = [], []
-    for peer in data["peer"].values if "peer" in data.dims else []:
-        own = data.sel(peer=peer)
-        if count := int(own["reached_cases"]):
-            mean = f"{number(float(own['mean_ratio']))} ({count} cases)"
-            reached.append([str(titles[peer]), results.say(source, mean)])
-        else:
-            absent.append(str(titles[peer]))
-    return {"peers": reached, "absent": absent}
+    own = [data.sel(peer=peer) for peer in data["peer"].values] if "peer" in data.dims else []
+    return [
+        [str(titles[str(one["peer"].values)]), results.quote(source, float(one["mean_ratio"])),
+         results.quote(source, int(one["reached_cases"]))]
+        for one in sorted(own, key=lambda one: not one["reached_cases"])
+    ]  # fmt: skip
 
 
 def _row(results: Results, source: str, times: xr.DataArray) -> list:
@@ -77,15 +89,6 @@ def _row(results: Results, source: str, times: xr.DataArray) -> list:
     case = str(times["case"].values)
     target = float(results[source]["target"].sel(case=case))
     return [case_of(results[source].sel(case=case)), number(target), *cells]
-
-
-def _alt(times: xr.DataArray) -> str:
-    least = times.min("case")
-    told = "; ".join(
-        f"{SOLVER_NAMES[str(name)]} {number(float(least.sel(solver=name)))}"
-        for name in times["solver"].values
-    )
-    return f"Time against error, a line a solver. Least times in ms at the error asked for: {told}."
 
 
 # --- How the report was run -----------------------------------------------------------------------
@@ -109,18 +112,26 @@ def gather_provenance(
     files = {f"reference {Path(path).stem}": Path(path).read_bytes() for path in references}
     features = binding.get_host_cpu_features()  # the instructions that compiled kernels can use
     found = (name for name, there in features.items() if there and name.startswith(VECTORS))
-    return {
-        "versions": list(versions().items()),
-        "features": ", ".join(sorted(found)),
-        "system": platform.system(),
-        "hashes": [
-            *((name, digest[:SHOWN]) for name, digest in sorted(made_by.items())),
-            *((name, _digest(content)) for name, content in files.items()),
-        ],
-        "settings": _digest(settings.encode()),
-        "times": [(name, f"{seconds:.1f}") for name, seconds in times],
-        "total": f"{sum(seconds for _, seconds in times):.0f}",
+    machine = {"system": platform.system(), "vector instructions": ", ".join(sorted(found))}
+    hashes = {
+        "configuration of the paper's cases and sweeps": _digest(settings.encode()),
+        **{name: digest[:SHOWN] for name, digest in sorted(made_by.items())},
+        **{name: _digest(content) for name, content in files.items()},
     }
+    total = sum(seconds for _, seconds in times)
+    return {
+        "versions": Table("Processor and versions", ("what", "which"),
+                          [*(versions() | machine).items()]),
+        "hashes": Table(
+            "Beginnings of SHA-256: functions that jobs called, with all that they rest on, and "
+            "references", ("what", "hash"), [*hashes.items()], folded=True,
+        ),
+        "times": Table(
+            f"Wall times of the jobs: {total:.0f} s in all, start-up included; several ran side by "
+            "side", ("job", "s"), [(name, f"{seconds:.1f}") for name, seconds in times],
+            folded=True,
+        ),
+    }  # fmt: skip
 
 
 def versions() -> dict[str, str]:

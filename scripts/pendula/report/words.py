@@ -54,6 +54,11 @@ class Quote(NamedTuple):
         return self.text
 
 
+def told(text: str, /, **values) -> Markup:
+    """Return a text of HTML with values in place of their names; quotes in it are links."""
+    return Markup(text).format(**values)
+
+
 def number(value: float, digits: int = 3) -> str:
     """Return a number to so many digits, small and large ones with a raised power of ten."""
     value = float(value)
@@ -75,16 +80,23 @@ def raised(exponent: str) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """Return a number and its standard error, to the first digit of the error (two after a 1)."""
+    """Return a number and its standard error, to the first digit of the error (two after a 1).
+
+    Small numbers with small errors have a common power of ten.
+    """
     if not (np.isfinite(error) and error > 0):
         return number(value)
+    if max(abs(value), error) < SMALL:
+        power = int(np.floor(np.log10(max(abs(value), error))))
+        scaled = with_error(value / 10.0**power, error / 10.0**power)
+        return f"({scaled}){FIRM}{TIMES}{FIRM}10{raised(str(power))}"
     first = int(np.floor(np.log10(error)))
     places = max(0, -first + (error < 2.0 * 10.0**first))
     return f"{value:.{places}f}{FIRM}±{FIRM}{error:.{places}f}".replace("-", MINUS)
 
 
 def horizon_in_words(time: float, until: float, end: float, digits: int = 4) -> str:
-    """Return when a run leaves its reference: a number, never, not as far as known, or unknown.
+    """Return when a run leaves its reference: a number, never, or why that is not known.
 
     Both are known up to `until`, which is NaN where the case has no reference; the run ends at
     `end`.

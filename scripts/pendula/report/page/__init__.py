@@ -1,23 +1,22 @@
 """Pages of HTML that hold their style, script and pictures, and ask no network."""
 
 import base64
-import struct
+import io
 from pathlib import Path
 from typing import NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
+from PIL import Image
 
 HERE = Path(__file__).parent
-STUDIES = HERE.parents[1] / "studies"
-"""Where the templates of the studies lie: the name of one is `paper/section.html.j2`, say."""
 
 ASSETS = ("style.css", "script.js")
-SIGNATURE = b"\x89PNG\r\n\x1a\n"
-END = b"\0\0\0\0IEND\xaeB`\x82"
+COLOURS = 256
+"""A page shows a picture in so many colours, with a third of the bytes that its file has."""
 
 
-def render(template: str, folder: Path = STUDIES, **values) -> str:
+def render(template: str, folder: Path = HERE, **values) -> str:
     """Return the page of a template, which extends base.html.j2, filled with values.
 
     The template lies in `folder` or in this package. Text is escaped; a value that the template
@@ -48,19 +47,26 @@ class Picture(NamedTuple):
     alt: str
     link: str
 
+    @property
+    def name(self) -> str:
+        """A name for its place on the page, such as fig5 for figures/fig5.png."""
+        return self.link.removeprefix("figures/").removesuffix(".png").replace("/", "-")
+
 
 def picture(path: str | Path, alt: str, link: str) -> Picture:
-    """Return the PNG at `path` as an address that holds its bytes, with its size in pixels."""
+    """Return the PNG at `path` as an address that holds its pixels in COLOURS colours."""
+    shown = io.BytesIO()
     try:
-        png = Path(path).read_bytes()
+        with Image.open(path) as image:
+            few = image.convert("RGB").quantize(
+                COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE
+            )
     except FileNotFoundError:
         raise PictureError(f"{path} is missing: run snakemake to make it") from None
-    if not (png.startswith(SIGNATURE) and png.endswith(END)):
-        raise PictureError(f"{path} is no whole PNG: delete it and run snakemake to make it again")
-    width, height = struct.unpack(">II", png[16:24])
-    return Picture(address_of(png), width, height, alt, link)
-
-
-def address_of(png: bytes) -> str:
-    """Return the address that holds a PNG itself, for a page that asks no network."""
-    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
+    except (OSError, SyntaxError):  # Pillow raises either for a damaged file
+        raise PictureError(
+            f"{path} is not a complete PNG: delete it and run snakemake to make it again"
+        ) from None
+    few.save(shown, "PNG")
+    address = f"data:image/png;base64,{base64.b64encode(shown.getvalue()).decode()}"
+    return Picture(address, *few.size, alt, link)

@@ -7,56 +7,37 @@ import numpy as np
 import xarray as xr
 
 from pendula.ledger.section import Ledger
-from pendula.report.page import Picture
-from pendula.report.results import Results, Section
-from pendula.report.words import number, percent, span, symbols
+from pendula.report.results import Figure, Results, Section, Table
+from pendula.report.words import number, percent, span, symbols, told
 
-from .fate_contents import LONGEST, TIMES
-from .nearest import HALF_PERIODS, NEAR, WAVES
+from .fate_contents import TIMES
+from .nearest import HALF_PERIODS, NEAR
 
 STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
 GROWTH, SENSITIVITY, MAP = "breathers/growth", "breathers/sensitivity", "breathers/fates"
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the families as tables, and what runs show, in words."""
+    """Return the families, what runs from nearby initial conditions do, and fates on one pair."""
     return {
-        "steady_head": ["family", *(f"Ω = {omega:g}" for omega in _omegas(results))],
-        "steady": [_steady_row(results, str(name)) for name in results[STEADY]["family"].values],
-        "large": results.quote(SENSITIVITY, float(results[SENSITIVITY].attrs["omega"])),
-        "all_spread": ledger.holds("detuning_decides"),
-        "forbidden": results.quote(STEADY, _forbidden(results)),
-        "born": [_birth(results, i) for i in range(results[STEADY].sizes["born_family"])],
-        "thresholds": [
-            _threshold(results, str(name)) for name in results[STEADY]["stable_family"].values
-        ],
-        "families": [_family(results, float(omega), str(family))
-                     for omega in results[PERIODIC]["omega"].values
-                     for family in results[PERIODIC]["family"].values],
-        "families_head": ["Ω", "family", "P at the lowest frequency", "least P",
-                          "least P within a period", "unstable at"],
-        "collisions_head": ["Ω", "family", "λ", "perturbation", "multiplier over half a period",
-                            "signatures"],
-        "collisions": list(_collisions(results)),
-        "edge": results.say(PERIODIC, _span(results[PERIODIC]["highest_wave"].values)),
-        "within": _within(results),
-        "lower_free": results.say(PERIODIC, _lower_free(results)),
-        "frequencies": results.say(PERIODIC, _span(results[PERIODIC]["frequency"].values)),
-        "growth": _growth(results),
-        "sensitivity": _sensitivity(results),
-        "fates": _fates(results),
-        "pictures": _pictures(results),
+        "steady": _steady(results),
+        "families": _families(results),
+        "collisions": Table(
+            "Collisions of Floquet multipliers, at which a periodic breather becomes unstable",
+            ["Ω", "family", "λ", "perturbation", "multiplier over half a period",
+             "Krein signatures"], list(_collisions(results)),
+        ),
+        "breathers": _law(results),
+        "shares": _shares_that_spread(results),
+        "sensitivity": results.figure("sensitivity", told(
+            "Share of runs that spread, with confidence intervals, and the largest norm of runs "
+            "from {scanned} initial amplitudes. Of these, from A₀ = {range}, {spread} spread.",
+            scanned=results.quote(SENSITIVITY, results[SENSITIVITY].sizes["initial"]),
+            range=results.say(SENSITIVITY, _span(results[SENSITIVITY]["initial"].values)),
+            spread=results.quote(SENSITIVITY, int(results[SENSITIVITY]["spread"].sum())),
+        )),
+        "What becomes of initial conditions on one pair": _fates(results),
     }  # fmt: skip
-
-
-def _forbidden(results: Results) -> float:
-    """Return the Omega from which on the form of `steady` is definite."""
-    about = results[STEADY].attrs
-    return 4.0 * float(about["epsilon"]) + 2.0 * float(about["gamma"])
-
-
-def _omegas(results: Results) -> list[float]:
-    return [float(omega) for omega in results[STEADY]["omega"].values]
 
 
 def _span(values: np.ndarray) -> str:
@@ -64,42 +45,49 @@ def _span(values: np.ndarray) -> str:
     return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
-def _steady_row(results: Results, family: str) -> list:
-    """Return the rates of growth of a family; "stable" where none is positive."""
-    rates = results[STEADY]["growth"].sel(family=family).values
-    cells = ["none" if np.isnan(r) else number(float(r)) if r else "stable" for r in rates]
-    return [symbols(family), *(results.say(STEADY, cell) for cell in cells)]
+def _steady(results: Results) -> Table:
+    """Return how fast the worst perturbation of each family grows, and the Omegas it changes at."""
+    data = results[STEADY]
+    omegas = data["omega"].values
+    born = dict(zip(data["born_family"].values, data["pitchfork"].values, strict=True))
+    stable = {name: data["stable_below"].sel(stable_family=name).values[-1]
+              for name in data["stable_family"].values}  # fmt: skip
+    rows = []
+    for name in data["family"].values:
+        rates = data["growth"].sel(family=name).values
+        cells = ["none" if np.isnan(r) else number(float(r)) if r else "stable" for r in rates]
+        cells += [number(float(one[name]), 6) if name in one else "" for one in (born, stable)]
+        rows.append([symbols(str(name)), *(results.say(STEADY, cell) for cell in cells)])
+    return Table(
+        "Steady breathers, with constant amplitudes in the rotating frame: growth rate of the "
+        "worst perturbation per unit of τ (none: no such state was found)",
+        ["family", *(f"Ω = {number(omega)}" for omega in omegas), "branches off at Ω",
+         "stable below Ω"], rows,
+    )  # fmt: skip
 
 
-def _birth(results: Results, index: int) -> dict[str, Any]:
-    one = results[STEADY].isel(born_family=index)
-    return {
-        "family": str(one["born_family"].item()),
-        "omega": results.quote(STEADY, float(one["pitchfork"]), 6),
-    }
-
-
-def _threshold(results: Results, family: str) -> dict[str, Any]:
-    below = results[STEADY]["stable_below"].sel(stable_family=family).values
-    return {"family": symbols(family), "omega": results.quote(STEADY, float(below[-1]), 4)}
-
-
-def _family(results: Results, omega: float, family: str) -> list:
-    one = results[PERIODIC].sel(omega=omega, family=family)
-    power, frequency = one["power"].sum("component", skipna=False).values, one["frequency"].values
-    found = np.flatnonzero(np.isfinite(power))
-    if not found.size:
-        return [number(omega), symbols(family), *["none"] * 4]
-    lowest = found[frequency[found].argmin()]
-    unstable = frequency[one["growth"].values > 0]
-    said = "no frequency" if not unstable.size else f"λ of {_span(unstable)}"
-    return [
-        number(omega),
-        symbols(family),
-        results.quote(PERIODIC, float(power[lowest])),
-        *(results.quote(PERIODIC, float(least)) for least in one["least_power"].values),
-        results.say(PERIODIC, said),
-    ]
+def _families(results: Results) -> Table:
+    """Return P and stability of each family of periodic breathers."""
+    data, rows = results[PERIODIC], []
+    for omega, family in ((o, f) for o in data["omega"].values for f in data["family"].values):
+        one = data.sel(omega=omega, family=family)
+        frequency, power = one["frequency"].values, one["power"].sum("component", skipna=False)
+        found = np.flatnonzero(np.isfinite(power.values))
+        cells = ["none"] * 4
+        if found.size:
+            unstable = frequency[one["growth"].values > 0]
+            lowest = found[frequency[found].argmin()]
+            values = (float(power[lowest]), *map(float, one["least_power"].values))
+            said = f"λ of {_span(unstable)}" if unstable.size else "no frequency"
+            cells = [*(results.quote(PERIODIC, one) for one in values), results.say(PERIODIC, said)]
+        rows.append([number(float(omega)), symbols(str(family)), *cells])
+    return Table(
+        f"Periodic breathers at frequencies λ from {_span(data['frequency'].values)}, above the "
+        f"highest linear wave at {_span(data['highest_wave'].values)}; P is the sum of |A|² + |B|² "
+        "over the chain when A and B are real. Least values are over all frequencies",
+        ["Ω", "family", "P at the lowest λ", "least P", "least P within a period", "unstable at"],
+        rows,
+    )  # fmt: skip
 
 
 def _collisions(results: Results) -> Iterator[list]:
@@ -110,9 +98,7 @@ def _collisions(results: Results) -> Iterator[list]:
         one = data.isel(dict(zip(met.dims, at, strict=True)))
         real, imaginary = one["collision_multiplier"].values
         signs = ("+" if sign > 0 else "−" for sign in one["collision_signature"].values)
-        value = (
-            number(real, 4) if not imaginary else f"{number(real, 4)} ± {number(imaginary, 4)} i"
-        )
+        value = number(real, 4) + (f" ± {number(imaginary, 4)} i" if imaginary else "")
         yield [
             number(float(one["omega"])),
             symbols(str(one["family"].item())),
@@ -123,113 +109,93 @@ def _collisions(results: Results) -> Iterator[list]:
         ]
 
 
-def _within(results: Results) -> str:
-    """Return how fast breathers grow whose frequency is that of a wave, on two chains."""
-    data = results[PERIODIC]
-    rates = data[["growth", "growth_half"]].where(data["frequency"] <= data["highest_wave"])
-    said = [
-        f"at λ = {number(float(frequency))} a perturbation of {symbols(str(family))} grows at the"
-        f" rate {number(float(one['growth']))}, and on half of the chain at"
-        f" {number(float(one['growth_half']))}, per unit of τ"
-        for family in data["family"].values
-        for frequency in data["frequency"].values
-        for one in [rates.sel(family=family, frequency=frequency).max("omega")]
-        if np.isfinite(one["growth"])
-    ]
-    return results.say(PERIODIC, "; ".join(said)) if said else ""
-
-
-def _lower_free(results: Results) -> str:
-    """Return the intervals of frequencies below the waves none of whose multiples meets a band."""
-    low, high = (results[PERIODIC][f"free_{end}"].values for end in ("low", "high"))
-    ends = sorted(
-        {(a, b) for a, b in zip(low.ravel(), high.ravel(), strict=True) if np.isfinite(b)}
-    )
-    return "; ".join(f"{number(a, 4)} to {number(b, 4)}" for a, b in ends) or "none"
-
-
-def _growth(results: Results) -> dict[str, Any]:
+def _law(results: Results) -> Figure:
+    """Return the figure of the families, with what the drive adds to a localised motion."""
     growth = results[GROWTH]
-    law = float(growth["predicted_gain"].max())
-    strong = growth.sel(gamma=growth["gamma"].max())
-    passed = float(strong["time"].where(strong["gained"] > law).min())
-    return {
-        "start": results.quote(GROWTH, growth.attrs["start_frequency"]),
-        "drives": results.say(GROWTH, span(growth["gamma"].values, 2)),
-        "law": results.quote(GROWTH, law),
-        "strongest": results.quote(GROWTH, float(strong["gamma"])),
-        "passed": np.isfinite(passed) and results.quote_time(GROWTH, passed),
-    }
+    return results.figure("breathers", told(
+        "P of periodic breathers against their frequency; a hollow mark is an unstable one, stars "
+        "and crosses mark collisions of Floquet multipliers. Last panel: a localised motion whose "
+        "frequency λ = {start} lies among the linear waves gains P from the drive until λ has left "
+        "the band; by the law of weak drives it gains {law}, and γ is {drives}.",
+        start=results.quote(GROWTH, growth.attrs["start_frequency"]),
+        law=results.quote(GROWTH, float(growth["predicted_gain"].max())),
+        drives=results.say(GROWTH, span(growth["gamma"].values, 2)),
+    ))  # fmt: skip
 
 
-def _sensitivity(results: Results) -> dict[str, Any]:
+def _shares_that_spread(results: Results) -> Table:
+    """Return the share of runs that spread, by the size of the perturbation."""
     data = results[SENSITIVITY]
-    rows = [
-        [
-            number(float(size)),
-            *(
-                results.say(SENSITIVITY, percent(float(data[f"share{end}"].sel(size=size))))
-                for end in ("", "_low", "_high")
-            ),
-        ]
-        for size in data["size"].values
-    ]
-    return {
-        "rows": rows,
-        "head": ["relative change of the data", "share that spreads", "lower limit", "upper limit"],
-        "members": results.quote(SENSITIVITY, float(data.attrs["members"])),
-        "scanned": results.quote(SENSITIVITY, data.sizes["initial"]),
-        "spread": results.quote(SENSITIVITY, int(data["spread"].sum())),
-        "range": results.say(SENSITIVITY, _span(data["initial"].values)),
-        "paper": not results.apart("breathers/sensitivity"),
-    }
-
-
-def _fates(results: Results) -> dict[str, Any]:
-    """Return shares of area, which of what stays is periodic, and runs on other terms."""
-    data = results[MAP]
-    omegas = [float(omega) for omega in data["omega"].values]
-    stay = data["checked_fate"] == list(data["fate_name"].values).index("stays")
-    stay_on = stay.isel(conditions=0) & stay.sel(conditions=LONGEST)
-    return {
-        "head": ["Ω", "data", *map(str, data["fate_name"].values)],
-        "planes": {
-            plane: [_shares(results, plane, omega) for omega in omegas]
-            for plane in map(str, data["plane"].values)
-        },
-        "ratio": results.quote(MAP, float(data.attrs["ratio"])),
-        "end": results.quote(MAP, float(data.attrs["end_time"])),
-        "periodic": [one for omega in omegas if (one := _periodic(results, omega))],
-        "half_periods": results.quote(MAP, HALF_PERIODS),
-        "waves": results.quote(MAP, WAVES),
-        "within": results.quote(MAP, NEAR),
-        "stay": results.quote(MAP, int(stay.isel(conditions=0).sum())),
-        "stay_on": results.quote(MAP, int(stay_on.sum())),
-        "longest": results.quote(MAP, TIMES * float(data.attrs["end_time"])),
-        "fine": bool((data["common"] > 0).all()),
-        "common": results.quote(MAP, int(data["common"].sum()), 6),
-        "agreed": results.quote(MAP, int(data["agreed"].sum()), 6),
-        "checked": [_checked(results, str(one)) for one in data["conditions"].values[1:]],
-        "checked_points": results.quote(MAP, data["checked_fate"][0].size),
-        "cases": [_case(results, str(case)) for case in data["case"].values],
-        "of_paper": not results.apart(MAP),
-    }  # fmt: skip
+    ends = ("", "_low", "_high")
+    return Table(
+        f"Runs that spread over the chain at Ω = {number(float(data.attrs['omega']))}, of "
+        f"{number(float(data.attrs['members']))} with random relative changes of the initial "
+        "condition, with confidence interval; snakemake sensitivity makes many more",
+        ["relative change", "share that spreads", "lower end", "upper end"],
+        [[number(float(size)),
+          *(results.say(SENSITIVITY, percent(float(data[f"share{end}"].sel(size=size))))
+            for end in ends)]
+         for size in data["size"].values],
+    )  # fmt: skip
 
 
 AXES = {"amplitudes": ("a0", "b0"), "phases": ("turned_a0", "phase")}
+PLANES = {"amplitudes": "real A₀ and B₀", "phases": "A₀ and the phase of B₀"}
+
+
+def _fates(results: Results) -> dict[str, Any]:
+    """Return shares of area, what is periodic of that which stays, and runs done differently."""
+    data = results[MAP]
+    names = [str(name) for name in data["fate_name"].values]
+    fates, omegas = data["checked_fate"], [float(omega) for omega in data["omega"].values]
+    planes = [str(plane) for plane in data["plane"].values]
+    changed = [[one, results.quote(MAP, int((fates.sel(conditions=one) != fates[0]).sum()))]
+               for one in map(str, data["conditions"].values[1:])]  # fmt: skip
+    end = number(float(data.attrs["end_time"]))
+    return {
+        "shares": Table(
+            f"Fates by τ = {end}, as shares of the area of initial conditions, with confidence "
+            "intervals; where neighbours on the grid have the same fate, the area between counts "
+            "as known. A run stays if the three pairs at the "
+            "centre hold most of P and moves if three others do; else it disperses if P is no "
+            "larger than linear waves make it, and spreads if it is larger",
+            ["Ω", "initial conditions", "how many", *names],
+            [_shares(results, plane, omega) for plane in planes for omega in omegas],
+        ),
+        "periodic": Table(
+            f"Which motions that stay are periodic, followed over {number(HALF_PERIODS)} half "
+            "periods, and their distance from the breathers of the same frequency",
+            ["Ω", "periodic", f"of these within {number(NEAR)}", "median distance"],
+            [row for omega in omegas if (row := _periodic(results, omega))],
+        ),
+        "fates": results.figure("fates", told(
+            "What becomes of initial conditions (A₀, B₀) on one pair, above by real amplitudes, "
+            "below by A₀ and the phase of B₀. A circle marks the initial conditions of Figs 2 to "
+            "4, in the colour of their own fate. The maps are those of <code>snakemake "
+            "fates</code>, if they are of this configuration; {agreed} of {common} common initial "
+            "conditions have the same fate in the coarse maps of this run.",
+            common=results.quote(MAP, int(data["common"].sum()), 6),
+            agreed=results.quote(MAP, int(data["agreed"].sum()), 6),
+        )),
+        "changed": Table(
+            f"Of {fates[0].size} initial conditions run again, how many have another fate; the "
+            f"longest runs end at τ = {number(TIMES * float(data.attrs['end_time']))}",
+            ["run with", "another fate"], changed,
+        ),
+    }  # fmt: skip
 
 
 def _shares(results: Results, plane: str, omega: float) -> list:
-    """Return a row: how many data there are, and the share of each fate with its limits."""
+    """Return a row: how many initial conditions there are, and the share of each fate."""
     data = results[MAP].sel(plane=plane, omega=omega)
     count = int(np.prod([data.sizes[axis] for axis in AXES[plane]]))
     fates = (data.isel(fate_name=i) for i in range(data.sizes["fate_name"]))
     shares = (results.say(MAP, share_with_limits(one)) for one in fates)
-    return [number(omega), results.quote(MAP, count, 6), *shares]
+    return [number(omega), PLANES[plane], results.quote(MAP, count, 6), *shares]
 
 
 def share_with_limits(one: xr.Dataset) -> str:
-    """Return the share of an area and its limits in per cent, such as 14.2 % (14 to 14.4)."""
+    """Return the share of an area and its interval in per cent, such as 14.2 % (14 to 14.4)."""
     names = ("area", "area_low", "area_high")
     value, low, high = (_in_per_cent(float(one[name])) for name in names)
     return f"{value} % ({low} to {high})"
@@ -242,10 +208,10 @@ def _in_per_cent(share: float) -> str:
     return nearly if 0 < rest < 0.1 else number(100.0 * share, 3)
 
 
-def _periodic(results: Results, omega: float) -> dict[str, Any] | None:
-    """Return the share of what stays on the first map that is periodic, and how near to families.
+def _periodic(results: Results, omega: float) -> list:
+    """Return a row on what stays on the first map, empty if nothing does.
 
-    A = B is left out as in the shares: it has families of its own. Returns None if nothing stays.
+    A = B is left out as in the shares: it has families of its own.
     """
     data = results[MAP]
     here = data[["fate", "periodic", "family_distance"]].sel(omega=omega)
@@ -253,51 +219,13 @@ def _periodic(results: Results, omega: float) -> dict[str, Any] | None:
     stays = here["fate"] == list(data["fate_name"].values).index("stays")
     known = here["family_distance"].values[np.isfinite(here["family_distance"].values)]
     if not stays.any():
-        return None
-    return {
-        "omega": results.quote(MAP, omega),
-        "share": results.say(MAP, percent(float((here["periodic"] == 1).sum() / stays.sum()))),
-        "near": known.size and results.say(MAP, percent(float((known <= NEAR).mean()))),
-        "median": known.size and results.quote(MAP, float(np.median(known)), 2),
-    }
+        return []
+    return [
+        number(omega),
+        results.say(MAP, percent(float((here["periodic"] == 1).sum() / stays.sum()))),
+        results.say(MAP, percent(float((known <= NEAR).mean()))) if known.size else "unknown",
+        results.quote(MAP, float(np.median(known)), 2) if known.size else "unknown",
+    ]
 
 
-def _checked(results: Results, conditions: str) -> dict[str, Any]:
-    fates = results[MAP]["checked_fate"]
-    changed = (fates.sel(conditions=conditions) != fates.isel(conditions=0)).sum()
-    return {"terms": conditions, "changed": results.quote(MAP, int(changed))}
-
-
-def _case(results: Results, case: str) -> dict[str, Any]:
-    one = results[MAP].sel(case=case)
-    off = one["case_distance"].values
-    found = {
-        "case": case,
-        "fate": results.say(MAP, str(results[MAP]["fate_name"].values[int(one["case_fate"])])),
-    }
-    if np.isfinite(off).any():
-        found["frequency"] = results.quote(MAP, float(one["case_breather_frequency"]), 4)
-        found["family"] = symbols(str(results[MAP]["family"].values[np.nanargmin(off)]))
-        found["distance"] = results.quote(MAP, float(np.nanmin(off)), 2)
-    return found
-
-
-def _pictures(results: Results) -> dict[str, Picture]:
-    power = results[PERIODIC]["power"].sum("component", skipna=False)
-    spread = results[MAP]["area"].sel(plane="amplitudes", fate_name="spreads")
-    said = "; ".join(
-        f"Ω = {float(omega):g}: {percent(float(spread.sel(omega=omega)))} spread"
-        for omega in spread["omega"].values
-    )
-    described = {
-        "breathers": f"P against the frequency for {power.sizes['family']} families, and what a "
-        "localised motion gains from the drive beside the law of weak drives.",
-        "sensitivity": "The share of runs that spread against the size of a random change of the "
-        "data, and the largest norm against the initial amplitude.",
-        "fates": "What becomes of data on one pair, by their amplitudes, and by the phase between "
-        f"them: they disperse, stay, move or spread. By this run's coarse map, {said}.",
-    }
-    return {name: results.picture(name, alt) for name, alt in described.items()}
-
-
-SECTIONS = (Section("breathers", "Breathers, and why some data spread", gather),)
+SECTIONS = (Section("breathers", "Breathers, and which initial conditions spread", gather),)

@@ -1,4 +1,4 @@
-"""The report's part on proofs: how far computed curves can be from the true ones."""
+"""The report's part on proofs: how far computed curves, states and constants can be off."""
 
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
@@ -6,38 +6,47 @@ from typing import Any
 import numpy as np
 
 from pendula.ledger.section import Ledger
-from pendula.report.page import Picture
-from pendula.report.results import Results, Section
-from pendula.report.words import case_in_words, case_of, number, symbols
+from pendula.report.results import Results, Section, Table
+from pendula.report.words import NORMS, case_in_words, case_of, number, symbols
 
 from .states import Verdict
 
 LINES = "certified/lines"
 BREATHERS, CONSTANTS = "certified/breathers", "certified/constants"
-NORMS = {"linf": "ℓ∞", "l2": "ℓ2"}
+VERDICTS = {Verdict.STABLE: "stable", Verdict.UNSTABLE: "unstable", Verdict.UNDECIDED: "open"}
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return what is proved, topic by topic."""
+    """Return what is proved of curves, printed lines, breathers and constants."""
+    proved, constants = results[BREATHERS], results[CONSTANTS]
+    cases = results.settings["certified"]["curves"]["cases"]
+    names = [name for name in (f"certified/{case}" for case in cases) if name in results]
     return {
-        "curves": _curves(results),
+        "curves": Table(
+            "Proven distance of computed curves to the true ones",
+            ["case", "until τ =", "proven bound", "largest distance to the reference"],
+            [_curve(results, name) for name in names],
+        ),
+        "certified_curves": results.figure("certified_curves", (
+            "The proven bound of the distance to the true solution, and its parts. The dotted line "
+            "is the largest distance of a norm to the multiprecision reference up to each time."
+        )),
         "lines": _lines(results),
-        "breathers": _breathers(results),
-        "constants": _constants(results),
-    }
-
-
-def _curves(results: Results) -> dict[str, Any]:
-    names = [
-        f"certified/{case}"
-        for case in results.settings["certified"]["curves"]["cases"]
-        if f"certified/{case}" in results
-    ]
-    return {
-        "head": ["case", "until τ =", "proven bound", "largest distance to the reference"],
-        "rows": [_curve(results, name) for name in names],
-        "picture": _picture(results, names),
-    }
+        "breathers": Table(
+            "Steady breathers as theorems for the infinite chain, in arithmetic of "
+            f"{int(proved.attrs['bits'])} bits with all rounding bounded; the spectrum is enclosed "
+            f"on a chain of {2 * int(proved.attrs['chain_half_width']) + 1} pairs",
+            ["family", "Ω", "ε", "a true state within", "no other within", "on the finite chain",
+             "growth per unit of τ, at least"],
+            [_breather(results, i) for i in range(proved.sizes["proof"])],
+        ),
+        "constants": Table(
+            "Constants of Lemma 1 and of Theorems 1 to 3, enclosed",
+            ["constants", "largest distance of a stored one, relative where it exceeds one"],
+            [[results.quote(CONSTANTS, constants.sizes["constant"]),
+              results.quote(CONSTANTS, float(constants["stored_error"].max()))]],
+        ),
+    }  # fmt: skip
 
 
 def _curve(results: Results, name: str) -> list:
@@ -50,59 +59,21 @@ def _curve(results: Results, name: str) -> list:
     ]
 
 
-def _picture(results: Results, names: list[str]) -> Picture:
-    said = "; ".join(
-        f"{case_in_words(one.attrs['omega'], one.attrs['initial'])}: at the end at most "
-        f"{number(_cut(one['bound'][-1], ROUND_CEILING))}"
-        for one in map(results.__getitem__, names)
-    )
-    alt = f"Proven bounds of the distance to the true solution, and their parts. {said}."
-    return results.picture("certified_curves", alt)
-
-
-def _lines(results: Results) -> dict[str, Any]:
+def _lines(results: Results) -> Table:
     """Return until when each printed line contains the true curve, proved and measured."""
     lines = results[LINES]
     curves = [(norm, one) for norm in lines["norm"].values for one in lines["component"].values]
-    return {
-        "head": ["case", *(f"{NORMS[str(norm)]} of {one}" for norm, one in curves)],
-        "rows": [
-            [case_of(case), *(_until(results, case.sel(norm=n, component=c)) for n, c in curves)]
-            for case in (lines.sel(case=name) for name in lines["case"].values)
-        ],
-    }
-
-
-def _until(results: Results, curve) -> Any:
-    proved, measured = (float(curve[f"{how}_until"]) for how in ("contained", "measured"))
-    words = [f"{number(proved, 4)} proved" if np.isfinite(proved) else "nothing proved"]
-    words += [f"{number(measured, 4)} measured"] if np.isfinite(measured) else ["none measured"]
-    return results.say(LINES, ", ".join(words))
-
-
-VERDICTS = {Verdict.STABLE: "stable", Verdict.UNSTABLE: "unstable", Verdict.UNDECIDED: "open"}
-
-
-def _breathers(results: Results) -> dict[str, Any]:
-    proved = results[BREATHERS]
-    return {
-        "head": [
-            "family",
-            "Ω",
-            "ε",
-            "a true state within",
-            "no other within",
-            "on the finite chain",
-            "growth per unit of τ, at least",
-        ],
-        "rows": [_breather(results, i) for i in range(proved.sizes["proof"])],
-        "sites": results.quote(BREATHERS, 2 * int(proved.attrs["chain_half_width"]) + 1),
-        "bits": results.quote(BREATHERS, int(proved.attrs["bits"])),
-        "refused": [
-            results.quote(BREATHERS, float(omega))
-            for omega in proved["tested_omega"].values[np.isinf(proved["wrong_radius"].values)]
-        ],
-    }
+    rows = []
+    for case in (lines.sel(case=name) for name in lines["case"].values):
+        both = ([float(case[f"{how}_until"].sel(norm=norm, component=one))
+                 for how in ("contained", "measured")] for norm, one in curves)  # fmt: skip
+        said = (", ".join([f"{number(proved, 4)} proved" if np.isfinite(proved) else "not proved",
+                           f"{number(seen, 4)} measured" if np.isfinite(seen) else "not measured"])
+                for proved, seen in both)  # fmt: skip
+        rows.append([case_of(case), *(results.say(LINES, text) for text in said)])
+    head = ["case", *(f"{NORMS[str(norm)]} of {one}" for norm, one in curves)]
+    title = "τ up to which the printed lines of Figs 2 to 4 contain the true curves"
+    return Table(title, head, rows)
 
 
 def _breather(results: Results, index: int) -> list:
@@ -128,12 +99,4 @@ def _cut(value, way: str) -> float:
     return float(Context(3, way).create_decimal(float(value)))
 
 
-def _constants(results: Results) -> dict[str, Any]:
-    constants = results[CONSTANTS]
-    return {
-        "count": results.quote(CONSTANTS, constants.sizes["constant"]),
-        "error": results.quote(CONSTANTS, float(constants["stored_error"].max())),
-    }
-
-
-SECTIONS = (Section("certified", "Numbers with a proof", gather),)
+SECTIONS = (Section("certified", "Proven bounds", gather),)

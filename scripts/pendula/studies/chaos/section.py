@@ -1,4 +1,4 @@
-"""The report's part on chaos: growth of small changes, evenness, ensembles, until when to trust."""
+"""The report's part on chaos: growth rates, until when to trust a run, perturbed ensembles."""
 
 from typing import Any
 
@@ -8,168 +8,159 @@ from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
 from pendula.measures.growth import MANY
 from pendula.numerics.elementary import exp
-from pendula.problem import is_even
-from pendula.report.page import Picture
-from pendula.report.results import Results, Section
-from pendula.report.words import (
-    case_of,
-    horizons_in_words,
-    number,
-    percent,
-    span,
-    with_error,
-)
+from pendula.report.results import Results, Section, Table
+from pendula.report.words import case_of, horizons_in_words, number, percent, told
 
-LYAPUNOV, TRUST = "checks/lyapunov", "checks/trust"
+LYAPUNOV, TRUST, SYMMETRY = "checks/lyapunov", "checks/trust", "checks/symmetry"
 PRINTED = "truth/fig4_small"
 """The reference from the data as the paper prints them: it is of this case, whatever is run."""
 ENSEMBLES, MEMBERS, LIVES = "checks/ensemble_runs", "checks/members", "checks/lifetimes"
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return a row for each case, what each solver leaves, and the ensembles in words."""
-    growth, trust = results[LYAPUNOV], results[TRUST]
-    rates = growth["exponent"].max("parity")
-    chaotic = [str(case) for case in growth["case"].values[growth["chaotic"].values == 1]]
-    solvers = [str(solver) for solver in trust["solver"].values]
-    bands = [ensemble_of(results, case) for case in results[ENSEMBLES]["case"].values]
+    """Return rates and horizons by case, ensembles, and lives of the localised motion."""
     return {
-        "as_paper": not any(path.startswith("solvers.ode45.") for path in results.differs),
-        "cases": results.quote(LYAPUNOV, growth.sizes["case"]),
-        "chaotic": [case_of(growth.sel(case=case)) for case in chaotic],
-        "count": results.quote(LYAPUNOV, len(chaotic)),
-        "rates": results.say(LYAPUNOV, span(rates.sel(case=chaotic), 2) if chaotic else "none"),
-        "limit": number(float(exp(MANY))),
-        "visible": percent(float(trust["size"].sel(level="visible"))),
-        "ends": results.say(TRUST, _from_to(trust["run_end"])),
-        "proved": {
-            "count": results.quote(TRUST, int(trust["proved_until"].count())),
-            "until": results.say(TRUST, _from_to(trust["proved_until"])),
-        },
-        "head": ["case", "rate of even changes", "rate of odd changes",
-                 *(f"{SOLVER_NAMES[name]} leaves at τ" for name in solvers), "uneven from τ"],
-        "rows": [_row(results, str(case), solvers) for case in growth["case"].values],
-        "lost": {name: lost_by(results, name) for name in solvers},
-        "ensembles": bands,
-        "even": all(band["even"] for band in bands),
-        "all_even": all(is_even(str(data)) for data in growth["initial"].values),
-        "widths": [widths_of(results, case) for case in results[ENSEMBLES]["case"].values],
-        "lives": lives_of(results),
-        "decimal": not_a_tenth(results),
-        "pictures": _pictures(results),
-        "members": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["members"]),
-        "size": results.quote(ENSEMBLES, results[ENSEMBLES].attrs["perturbation"]),
+        "rates": _rates(results),
+        "trust_horizons": _trust_horizons(results),
+        "lyapunov": results.figure("lyapunov", (
+            "How fast small changes grow, even and odd in n at first; all exponents of short "
+            "chains, with their confidence intervals (the lower half has the opposite signs); the "
+            "divergence times of runs, predicted and measured."
+        )),
+        "symmetry": results.figure("symmetry", (
+            "How symmetric solutions lose their symmetry: by rounding alone, where neighbours are "
+            "summed from right to left, and from odd perturbations. Initial conditions without the "
+            "symmetry have an odd part from the start."
+        )),
+        "ensembles": results.figure("ensembles", told(
+            "{members} runs from initial conditions perturbed by {size}, against τ. Below, the "
+            "swept maxima of Figs 5 and 6.",
+            members=results.quote(ENSEMBLES, results[ENSEMBLES].attrs["members"]),
+            size=results.quote(ENSEMBLES, results[ENSEMBLES].attrs["perturbation"]),
+        )),
+        "bands": Table(
+            "Bands of the perturbed ensembles in the later half; symmetric runs have wider bands "
+            "than others, by the root of two where the halves of a chain are independent",
+            ["case", "runs in the band", "width / mean", "mean of ℓ²", "time that the run of the "
+             "figure is in it", "width, symmetric / other runs", "its confidence interval"],
+            [_band(results, str(name)) for name in results[ENSEMBLES]["case"].values],
+        ),
+        "How long a large amplitude stays localised": _lives(results),
     }  # fmt: skip
 
 
-def _from_to(times) -> str:
-    """Return the first and the last of the times that are known, once where they agree."""
-    ends = {float(edge(times)) for edge in (np.nanmin, np.nanmax)} if times.count() else {}
-    return " to ".join(number(end, 4) for end in sorted(ends)) or "none"
-
-
-def _row(results: Results, case: str, solvers: list[str]) -> list:
-    growth = results[LYAPUNOV].sel(case=case)
-    even, odd = (
-        results.quote_error(LYAPUNOV, float(growth["exponent"].sel(parity=parity)),
-                            float(growth["exponent_error"].sel(parity=parity)))
-        for parity in ("even", "odd")
+def _rates(results: Results) -> Table:
+    """Return by case how fast changes grow, and when each solver leaves the reference."""
+    growth, trust = results[LYAPUNOV], results[TRUST]
+    visible = percent(float(trust["size"].sel(level="visible")))
+    solvers, rows = [str(solver) for solver in trust["solver"].values], []
+    for name in map(str, growth["case"].values):
+        case, known = growth.sel(case=name), trust.sel(case=name, level=["visible"])
+        rates = (results.quote_error(LYAPUNOV, *(float(case[key].sel(parity=parity))
+                                     for key in ("exponent", "exponent_error")))
+                 for parity in ("even", "odd"))  # fmt: skip
+        lost = (horizons_in_words(known.sel(solver=solver))[0] for solver in solvers)
+        uneven = float(results[SYMMETRY]["rounded_time"].sel(case=name))
+        proved = float(trust["proved_until"].sel(case=name))
+        rows.append([
+            case_of(case), results.say(LYAPUNOV, "yes" if case["chaotic"] == 1 else "no"), *rates,
+            *(results.say(TRUST, words) for words in lost),
+            results.quote(TRUST, proved, 4), results.quote_time(SYMMETRY, uneven),
+        ])  # fmt: skip
+    head = ["case", "chaotic", "rate of even changes", "rate of odd changes",
+            *(f"{SOLVER_NAMES[name]} leaves at τ" for name in solvers), "proved to τ",
+            "visibly not symmetric from τ"]  # fmt: skip
+    return Table(
+        "Growth rates of small changes, per unit of τ; times at which a norm by a solver is off "
+        f"its reference, verified in multiprecision, by {visible} of full scale; and the time from "
+        "which rounding alone makes a symmetric solution visibly not symmetric. A case counts as "
+        "chaotic where a small change grows, relative to the solution, by a factor of more than "
+        f"{number(float(exp(MANY)))} in the second half of the run, by more than its error",
+        head, rows,
     )  # fmt: skip
-    known = results[TRUST].sel(case=case, level=["visible"])
-    lost = [results.say(TRUST, *horizons_in_words(known.sel(solver=s))) for s in solvers]
-    uneven = float(results["checks/symmetry"]["rounded_time"].sel(case=case))
-    return [case_of(growth), even, odd, *lost, results.quote_time("checks/symmetry", uneven)]
 
 
-def lost_by(results: Results, solver: str) -> dict[str, Any]:
-    """Return in how many cases a solver leaves the reference, and when; in how many it is kept.
-
-    A run that goes on after its reference is kept to the end of that alone, `ended`; of a case
-    without a reference nothing is known.
-    """
-    judged = results[TRUST].sel(solver=solver, level="visible")
-    horizons, until = judged["horizon"].values, judged["known_until"].values
-    known, ends = horizons[np.isfinite(horizons)], judged["run_end"].values
-    counts = {
-        "count": len(known),
-        "kept": int((np.isinf(horizons) & (until >= ends)).sum()),
-        "ended": int((np.isinf(horizons) & (until < ends)).sum()),
-        "unknown": int(np.isnan(until).sum()),
-    }
-    return {
-        "solver": SOLVER_NAMES[solver],
-        "any": len(known) > 0,
-        **{name: results.quote(TRUST, count) for name, count in counts.items()},
-        "times": results.say(TRUST, span(known, 4) if len(known) else "no time"),
-    }
+def _trust_horizons(results: Results):
+    """Return the figure of errors, and when the double next to a tenth becomes visible."""
+    trust = results[TRUST]
+    digits, seen = trust["decimal_horizon"].values
+    return results.figure("trust_horizons", told(
+        "Errors of the norms of each solver against τ. A mark on the dashed line shows when a "
+        "solver leaves its reference; otherwise it stands at the end of the curve, and a case "
+        "without a reference has an empty panel. The proven bound is how far a curve of "
+        "polynomials can be from the true solution. At Ω = {omega} the solution that starts from "
+        "the double next to the printed tenth is off by {size} of full scale at τ = {first} and by "
+        "{visible} at τ = {seen}.",
+        omega=number(float(results[PRINTED].attrs["omega"])),
+        size=number(float(trust["decimal_size"][0])),
+        first=results.quote_time(TRUST, float(digits)),
+        visible=percent(float(trust["size"].sel(level="visible"))),
+        seen=results.quote_time(TRUST, float(seen)),
+    ))  # fmt: skip
 
 
-def not_a_tenth(results: Results) -> dict[str, Any]:
-    """Return when the reference from the double next to 0.1 leaves the one from a tenth."""
-    digits, seen = results[TRUST]["decimal_horizon"].values
-    return {
-        "omega": number(float(results[PRINTED].attrs["omega"])),
-        "digits": number(float(results[TRUST]["decimal_size"][0])),
-        "first": results.quote_time(TRUST, float(digits)),
-        "seen": results.quote_time(TRUST, float(seen)),
-    }
+def _band(results: Results, name: str) -> list:
+    """Return how wide the band of an ensemble is, and how long the run of the figure is in it."""
+    case, widths = results[ENSEMBLES].sel(case=name), results[MEMBERS].sel(case=name)
+    inside = float(case["run_inside"])
+    ends = (number(float(widths[f"width_ratio_{end}"])) for end in ("low", "high"))
+    return [
+        case_of(case),
+        *(
+            results.say(ENSEMBLES, percent(float(case[key])))
+            for key in ("band_share", "band_width")
+        ),
+        results.quote(ENSEMBLES, float(case["band_middle"])),
+        results.say(ENSEMBLES, percent(inside) if np.isfinite(inside) else "unknown"),
+        results.quote(MEMBERS, float(widths["width_ratio"])),
+        results.say(MEMBERS, " to ".join(ends)),
+    ]
 
 
-def ensemble_of(results: Results, name: str) -> dict[str, Any]:
-    """Return how wide the band of an ensemble is, and how long the paper's run is inside it."""
-    case = results[ENSEMBLES].sel(case=name)
-    return {
-        "case": case_of(case),
-        "even": is_even(str(case["initial"].values)),
-        "of_paper": not results.apart(f"trajectories/{name}"),
-        "share": results.say(ENSEMBLES, percent(float(case["band_share"]))),
-        "width": results.say(ENSEMBLES, percent(float(case["band_width"]))),
-        "middle": results.quote(ENSEMBLES, float(case["band_middle"])),
-        "inside": results.say(ENSEMBLES, percent(float(case["run_inside"]))),
-        "told": bool(np.isfinite(float(case["run_inside"]))),
-    }
-
-
-def widths_of(results: Results, name: str) -> dict[str, Any]:
-    """Return by how much the band of even runs is wider than that of uneven ones."""
-    case = results[MEMBERS].sel(case=name)
-    low, high = (float(case[f"width_ratio_{end}"]) for end in ("low", "high"))
-    return {
-        "case": case_of(case),
-        "ratio": results.quote(MEMBERS, float(case["width_ratio"])),
-        "limits": results.say(MEMBERS, span([low, high], 3)),
-    }
-
-
-def lives_of(results: Results) -> dict[str, Any]:
+def _lives(results: Results) -> dict[str, Any]:
     """Return how long each initial amplitude stays localised, and what other tolerances find."""
     lives = results[LIVES]
-    end = float(lives["tau"].max())
+    end, members = float(lives["tau"].max()), number(lives.attrs["members"])
+    settled = number(lives.attrs["settled"])
     return {
-        "members": results.quote(LIVES, lives.attrs["members"]),
-        "settled": results.quote(LIVES, lives.attrs["settled"]),
-        "end": results.quote(LIVES, end),
-        "head": ["initial amplitude", "median life, τ", "its limits", "still localised at the end",
-                 "first transition, τ", "transitions per unit of τ", "their limits",
-                 "chance under a constant rate"],
-        "rows": [_life(results, float(a0), end) for a0 in lives["start_amplitude"].values],
-        "amplitude": results.quote(LIVES, float(lives["compared_amplitude"])),
-        "choices_head": ["tolerance", "ensemble", "transitions per unit of τ", "their limits",
-                         "largest error of the energy", "right-hand sides"],
-        "choices": [_choice(results, k) for k in range(lives.sizes["choice"])],
+        "lives": Table(
+            f"Lives of the localised motion, {members} runs each to τ = {number(end)}: they end "
+            "when the central pair holds no more than its even share of P. A rate counts the "
+            f"transitions after τ = {settled}; its chance is that of Kolmogorov's test for a "
+            "constant rate",
+            ["A₀", "median, τ", "confidence interval", "localised at the end",
+             "first transition, τ", "transitions per unit of τ", "confidence interval",
+             "chance of a constant rate"],
+            [_life(results, float(a0), end) for a0 in lives["start_amplitude"].values],
+        ),
+        "lifetimes": results.figure("lifetimes", told(
+            "Share of the runs that are still localised against τ, with confidence intervals, and "
+            "how long the transition takes: medians, and means of the runs that are localised at "
+            "τ = {settled}. A triangle is a lower bound.", settled=settled,
+        )),
+        "choices": Table(
+            f"The runs from A₀ = {number(float(lives['compared_amplitude']))} with several "
+            "tolerances, and from initial conditions that are not symmetric",
+            ["tolerance", "ensemble", "transitions per unit of τ", "confidence interval",
+             "largest error of the energy", "right-hand sides"],
+            [_choice(results, k) for k in range(lives.sizes["choice"])],
+        ),
     }  # fmt: skip
 
 
 def _life(results: Results, a0: float, end: float) -> list:
     one = results[LIVES].sel(start_amplitude=a0)
-    left = results.say(LIVES, percent(float(one["surviving"][-1])))
-    times = [float(one[f"median{part}"]) for part in ("", "_low", "_high")]
+    times = (float(one[f"median{part}"]) for part in ("", "_low", "_high"))
     median, low, high = (_time(tau, end) for tau in times)
-    limits = low if low == high else f"{low} to {high}"
-    told = [results.say(LIVES, text) for text in (median, limits)]
-    first = results.say(LIVES, _time(float(one["life"].min()), end))
+    said = (
+        median,
+        low if low == high else f"{low} to {high}",
+        percent(float(one["surviving"][-1])),
+        _time(float(one["life"].min()), end),
+    )
     chance = results.quote(LIVES, float(one["rate_chance"]), 2) if one["rate"] > 0 else "none"
-    return [number(a0), *told, left, first, *_rate(results, one, "rate"), chance]
+    return [number(a0), *(results.say(LIVES, text) for text in said),
+            *_rate(results, one, "rate"), chance]  # fmt: skip
 
 
 def _time(tau: float, end: float) -> str:
@@ -183,46 +174,16 @@ def _choice(results: Results, k: int) -> list:
     one = results[LIVES].isel(choice=k)
     names = ("choice_tolerance", "choice_drift", "choice_work")
     tolerance, drift, work = (results.quote(LIVES, float(one[name])) for name in names)
-    kind = f"{one['choice_kind'].item()} in n"
-    return [tolerance, kind, *_rate(results, one, "choice_rate"), drift, work]
+    symmetric = "symmetric" if one["choice_kind"].item() == "even" else "not symmetric"
+    return [tolerance, symmetric, *_rate(results, one, "choice_rate"), drift, work]
 
 
 def _rate(results: Results, one, name: str) -> list:
-    """Return a rate and its limits, or none where no run outlasted the settled time."""
+    """Return a rate and its interval, or none where no run outlasted the settled time."""
     if not np.isfinite(float(one[name])):
         return ["none", "none"]
-    limits = (number(float(one[f"{name}_{end}"]), 2) for end in ("low", "high"))
-    return [results.quote(LIVES, float(one[name]), 2), results.say(LIVES, " to ".join(limits))]
+    ends = (number(float(one[f"{name}_{end}"]), 2) for end in ("low", "high"))
+    return [results.quote(LIVES, float(one[name]), 2), results.say(LIVES, " to ".join(ends))]
 
 
-def _pictures(results: Results) -> dict[str, Picture]:
-    """Return the five pictures by name."""
-    lives = results[LIVES]
-    amplitudes = span(lives["start_amplitude"].values, 3)
-    growth, trust = results[LYAPUNOV].sel(parity="even"), results[TRUST]
-    lost = [lost_by(results, str(name)) for name in trust["solver"].values]
-    rates = [
-        f"{case_of(case)}: {with_error(float(case['exponent']), float(case['exponent_error']))}"
-        for case in (growth.sel(case=name) for name in growth["case"].values)
-    ]
-    uneven = results["checks/symmetry"]["rounded_time"].values
-    bands = [ensemble_of(results, name) for name in results[ENSEMBLES]["case"].values]
-    described = {
-        "trust_horizons": "Errors of the norms against τ. "
-        + "; ".join(f"{one['solver']} leaves {one['count']} cases"
-                    + (f", at τ = {one['times']}" if one["any"] else "") for one in lost)
-        + f". Proven bounds of {trust['proved_until'].count().item()} cases, to τ = "
-        + _from_to(trust["proved_until"]),
-        "lyapunov": f"Growth of small changes. Rates: {'; '.join(rates)}",
-        "symmetry": "The odd part of even solutions against τ. By rounding alone it becomes "
-        f"visible in {np.isfinite(uneven).sum()} of {len(uneven)} cases",
-        "lifetimes": f"Share of runs that are still localised against τ, and median lives, for A_0 "
-        f"of {amplitudes}. {int((lives['surviving'][:, -1] > 0).sum())} of "
-        f"{lives.sizes['start_amplitude']} amplitudes have runs that stay localised to the end",
-        "ensembles": "Bands of runs from almost equal data. "
-        + "; ".join(f"{band['case']}: {band['share']} within {band['width']}" for band in bands),
-    }  # fmt: skip
-    return {name: results.picture(name, f"{alt}.") for name, alt in described.items()}
-
-
-SECTIONS = (Section("chaos", "What can be trusted", gather),)
+SECTIONS = (Section("chaos", "Chaos, and until when a run can be trusted", gather),)

@@ -1,61 +1,58 @@
-"""The hard cases: digits with their error, or a refusal in words."""
-
-from collections import Counter
-from typing import Any
+"""The hard cases in the report: results with their error, or a rejection with its reason."""
 
 import numpy as np
 
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
-from pendula.report.results import Results, Section
+from pendula.report.results import Results, Section, Table
 from pendula.report.words import number, symbols
 
 SOURCE = "checks/hard_cases"
 
 
-def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return the outcomes by solver, and every row."""
+def gather(results: Results, ledger: Ledger) -> dict[str, Table]:
+    """Return the outcomes by solver, and every run."""
     data = results[SOURCE]
-    names = [str(solver).partition(":")[0] for solver in data["solver"].values]
-    refused = data["refusal"].values != ""
-    unsound = data["sound"].values == 0
+    names = np.array([str(solver).partition(":")[0] for solver in data["solver"].values])
+    of_solver = {SOLVER_NAMES.get(name, name): names == name for name in dict.fromkeys(names)}
+    everything = {"all": np.ones(len(names), dtype=bool)}
     return {
-        "runs": results.quote(SOURCE, data.sizes["row"], 6),
-        "cases": results.quote(SOURCE, len(set(data["case"].values)), 6),
-        "refused": results.quote(SOURCE, int(refused.sum()), 6),
-        "unexpected": results.quote(SOURCE, int(unsound.sum()), 6),
-        "sound": not unsound.any(),
-        "by_solver": _by_solver(results, names, refused, unsound),
-        "rows": [_row(results, row) for row in range(data.sizes["row"])],
-    }
+        "by_solver": Table(
+            f"Thresholds, tiny and huge initial conditions, long times and impossible tolerances: "
+            f"{len(set(data['case'].values))} cases",
+            ["solver", "runs", "rejected with a reason", "largest error / allowed error",
+             "not as required"],
+            [_outcomes(results, name, own) for name, own in (of_solver | everything).items()],
+        ),
+        "runs": Table(
+            "Every run", ["case", "solver", "outcome", "reference", "as required"],
+            [_row(results, row) for row in range(data.sizes["row"])], folded=True,
+        ),
+    }  # fmt: skip
 
 
-def _by_solver(results: Results, names: list[str], refused, unsound) -> list[list]:
-    data = results[SOURCE]
+def _outcomes(results: Results, name: str, own: np.ndarray) -> list:
+    """Return a row of the table on the runs that the mask `own` selects."""
+    data = results[SOURCE].isel(row=np.flatnonzero(own))
+    rejected = data["refusal"].values != ""
     share = (data["error"] / data["limit"]).values
-    rows = []
-    for solver in Counter(names):
-        own = np.array(names) == solver
-        ended = share[own & ~refused & np.isfinite(share)]
-        rows.append(
-            [
-                SOLVER_NAMES.get(solver, solver),
-                results.quote(SOURCE, own.sum(), 6),
-                results.quote(SOURCE, (own & refused).sum(), 6),
-                results.quote(SOURCE, ended.max() if ended.size else np.nan, 2),
-                results.quote(SOURCE, (own & unsound).sum(), 6),
-            ]
-        )
-    return rows
+    ended = share[~rejected & np.isfinite(share)]
+    return [
+        name,
+        results.quote(SOURCE, data.sizes["row"], 6),
+        results.quote(SOURCE, int(rejected.sum()), 6),
+        results.quote(SOURCE, ended.max() if ended.size else np.nan, 2),
+        results.quote(SOURCE, int((data["sound"] == 0).sum()), 6),
+    ]
 
 
 def _row(results: Results, index: int) -> list:
     row = results[SOURCE].isel(row=index)
     refusal = str(row["refusal"].values)
-    said = f"refused: {refusal}" if refusal else f"error {number(float(row['error']), 2)}"
-    cells = (str(row[name].values) for name in ("case", "solver"))
-    return [*map(symbols, cells), symbols(said), symbols(str(row["reference"].values)),
-            "yes" if int(row["sound"]) else "no"]  # fmt: skip
+    outcome = f"rejected: {refusal}" if refusal else f"error {number(float(row['error']), 2)}"
+    texts = [str(row["case"].values), str(row["solver"].values), outcome,
+             str(row["reference"].values)]  # fmt: skip
+    return [*map(symbols, texts), "yes" if int(row["sound"]) else "no"]
 
 
 SECTIONS = (Section("hard_cases", "Hard cases", gather),)

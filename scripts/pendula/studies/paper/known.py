@@ -1,7 +1,7 @@
-"""What is known of a run beside its reference, and whether small changes of it grow."""
+"""What is known of a run beside its reference."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -9,27 +9,14 @@ from pendula.measures.difference import difference, divergence_time, is_of_same_
 from pendula.report.results import Results
 from pendula.report.words import horizon_in_words
 
-TRUST, GROWTH = "checks/trust", "checks/lyapunov"
-
-KNOWN = ("off", "agrees", "ended", "unknown")
-"""What is known of a run beside its reference: it leaves it; it agrees to its own end, or to that
-of the reference, which ends before; there is no reference of this case."""
+TRUST = "checks/trust"
 
 
-class Known(NamedTuple):
-    """Which of KNOWN a run is, when it leaves its reference, and until when both are known.
+def trusted(results: Results, case: str) -> tuple[str, str]:
+    """Return in words when a run leaves its reference, and the dataset that has this time.
 
-    `source` is the dataset that tells it.
+    A run by other controls than its solver's in checks/trust was not judged there, and is here.
     """
-
-    state: str
-    words: str
-    until: float
-    source: str
-
-
-def trusted(results: Results, case: str) -> Known:
-    """Return what is known of a run; one by other controls than its solver's was not judged yet."""
     source = f"trajectories/{case}"
     run, trust = results[source], results[TRUST].sel(case=case)
     solver = run.attrs["solver"]
@@ -37,15 +24,10 @@ def trusted(results: Results, case: str) -> Known:
         results[f"{source}.{solver}"].attrs
     ) == controls_of(run.attrs):
         judged, source = trust.sel(solver=solver, level="visible"), TRUST
-        time, until, end = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
+        times = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
     else:
-        time, until, end = _judged(run, results[f"truth/{case}"])
-    words = horizon_in_words(time, until, end)
-    if np.isnan(until):
-        return Known("unknown", words, until, source)
-    if np.isfinite(time):
-        return Known("off", words, until, source)
-    return Known("agrees" if until >= end else "ended", words, until, source)
+        times = _judged(run, results[f"truth/{case}"])
+    return horizon_in_words(*times), source
 
 
 def _judged(run, reference) -> tuple[float, float, float]:
@@ -60,12 +42,3 @@ def _judged(run, reference) -> tuple[float, float, float]:
 def controls_of(attributes: Mapping) -> dict[str, Any]:
     """Return the solver and its controls, from the attributes of a run."""
     return {key: value for key, value in attributes.items() if key.startswith("solver")}
-
-
-def is_chaotic(results: Results, case: str) -> bool:
-    """Return whether a case counts as chaotic; of one whose small changes are unknown, it does not.
-
-    What a run of a regular case misses of its reference is the error of its solver.
-    """
-    growth = results[GROWTH]
-    return case in growth["case"].values and bool(growth["chaotic"].sel(case=case) == 1)

@@ -1,16 +1,17 @@
 """The report's part on the paper's figures: norms against time, and against the half-width."""
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.claim import CHANGE, CONSTANT
-from pendula.ledger.section import Ledger
+from pendula.ledger.criterion import Verdict
+from pendula.ledger.section import CONFIRMED, Ledger, badge
 from pendula.measures.levels import levelling
-from pendula.problem import is_even, name_window
-from pendula.report.results import Results, Section
+from pendula.problem import name_window
+from pendula.report.results import Results, Section, Table
 from pendula.report.words import (
     FIRM,
     NORMS,
@@ -20,174 +21,147 @@ from pendula.report.words import (
     number,
     percent,
     span,
+    told,
 )
 
-from .known import KNOWN, TRUST, is_chaotic, trusted
-from .motion import SIZES, gather_motion
-from .section_breathers import beside_breathers
+from .known import TRUST, trusted
 from .section_solvers import gather_solvers
 
+OF_TIME = {which: [f"fig{which}_{size}" for size in ("small", "large")] for which in (2, 3, 4)}
+OF_WIDTH = {which: [f"fig{which}_{side}" for side in ("left", "right")] for which in (5, 6)}
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
-SWEPT = ("fig5_left", "fig5_right", "fig6_left", "fig6_right")
-
-SAMPLES = "checks/ensemble_runs"
-ENSEMBLES = "checks/ensembles"
+SAMPLES, ENSEMBLES = "checks/ensemble_runs", "checks/ensembles"
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return Figs 1 to 6, each with its picture and what its datasets say in numbers."""
-    alt = "A drawing of a chain of pendula pairs on strings, coupled along the chain and across "
+    """Return a table of Figs 1 to 6 with their verdicts, and each with its numbers."""
+    shown = {
+        **{which: f"norms against time, Ω = {_omegas(results, 'trajectories', names)}"
+           for which, names in OF_TIME.items()},
+        **{which: f"norms against half-width, Ω = {_omegas(results, 'sweeps', names)}"
+           for which, names in OF_WIDTH.items()},
+    }  # fmt: skip
+    chain = "A drawing of the chain: pairs of pendula on strings, coupled along and across"
     return {
-        "chain": results.picture("fig1", f"{alt}each pair."),
-        "norms": [_norms(results, which) | beside_breathers(results, which) for which in (2, 3, 4)],
-        "sweeps": [_sweeps(results, which) | beside_breathers(results, which) for which in (5, 6)],
-        **half_widths(results, SWEPT),
-        "verdicts": {which: ledger.counts(f"Fig {which}") for which in range(1, 7)},
-        "cases": results.quote(TRUST, results[TRUST].sizes["case"]),
-        "visible": _visible(results),
-        "ensemble": {
-            "runs": results.quote(ENSEMBLES, int(results[ENSEMBLES].attrs["members"])),
-            "share": results.say(SAMPLES, percent(float(results[SAMPLES]["band_share"]))),
-        },
+        "overview": Table(
+            "Each figure with its verdict, and the claims of the paper on it",
+            ("figure", "verdict", "claims"),
+            [_verdict(which, shown.get(which, "the chain"), ledger) for which in range(1, 7)],
+        ),
+        "Fig 1: the chain": {"fig1": results.figure("fig1", f"{chain}.")},
+        **{f"Fig {which}: {shown[which]}": _norms(results, which) for which in OF_TIME},
+        **{f"Fig {which}: {shown[which]}": _sweeps(results, which) for which in OF_WIDTH},
     }
 
 
-def _visible(results: Results) -> str:
-    return percent(float(results[TRUST]["size"].sel(level="visible")))
+def _omegas(results: Results, folder: str, names: list[str]) -> str:
+    return " and ".join(
+        dict.fromkeys(number(results[f"{folder}/{name}"].attrs["omega"]) for name in names)
+    )
+
+
+def _verdict(which: int, shown: str, ledger: Ledger) -> list:
+    """Return a row: a figure, what it shows, and the verdicts on the claims about it."""
+    rows = ledger.on(f"Fig {which}")
+    name = told('<a href="#figure_fig{n}">Fig {n}</a>, {shown}', n=which, shown=shown)
+    verdicts = {verdict: [row["name"] for row in rows if row["verdict"] == verdict]
+                for verdict in Verdict}  # fmt: skip
+    counts = Markup(", ").join(
+        told('<a href="#claim_{first}">{n} {verdict}</a>', first=of[0], n=len(of), verdict=one)
+        for one, of in verdicts.items() if of
+    )  # fmt: skip
+    sound = sum(len(verdicts[one]) for one in CONFIRMED)
+    if not rows:
+        return [name, "a drawing", "none"]
+    if verdicts[Verdict.NOT_APPLICABLE]:
+        kind, text = Verdict.NOT_APPLICABLE, "not of the paper's cases"
+    elif not sound:
+        kind, text = Verdict.NOT_REPRODUCED, "not reproduced"
+    elif sound < len(rows):
+        kind, text = Verdict.CAVEAT, f"reproduced, except for {len(rows) - sound} of the claims"
+    elif verdicts[Verdict.CAVEAT]:
+        kind, text = Verdict.CAVEAT, "reproduced with a caveat"
+    else:
+        kind, text = Verdict.CONFIRMED, "reproduced"
+    return [name, badge(kind, text), counts]
 
 
 def _norms(results: Results, which: int) -> dict[str, Any]:
-    names = [f"fig{which}_{size}" for size in SIZES]
-    panels = [_panel(results, name) for name in names]
-    runs = [f"trajectories/{name}" for name in names]
-    last = max(runs, key=lambda run: float(results[run]["tau"][-1]))
-    end = float(results[last]["tau"][-1])
-    told = "; ".join(panel["alt"] for panel in panels)
-    alt = f"Norms of A and B against τ, 0 to {number(end)}. {told}."
-    known = {state: [p for p in panels if p["known"] == state] for state in KNOWN}
+    visible = percent(float(results[TRUST]["size"].sel(level="visible")))
+    caption = f"Norms of A (red) and of B (blue) against τ for Fig {which}, drawn as Fig 2."
+    long_caption = told(
+        "Norms of A (red) and of B (blue) against τ, ℓ∞ left and ℓ² right. A dashed line marks the "
+        "time from which the run is off its reference, which is verified in multiprecision, by "
+        "{visible} of full scale. The strips below it show the run, the reference, and the band of "
+        "{share} of the runs of a perturbed ensemble with their median. Without a dashed line the "
+        "two agree as long as both are known.",
+        visible=visible,
+        share=results.say(SAMPLES, percent(float(results[SAMPLES]["band_share"]))),
+    )
+    head = ["case", "ℓ² of the pair", "its mean, second half", f"off by {visible} at τ",
+            "bounded by", "largest P over that bound", "steps"]  # fmt: skip
     return {
-        "number": which,
-        "picture": results.picture(f"fig{which}", alt),
-        "omegas": omegas(results, runs),
-        "end": results.quote(last, end),
-        "rows": [panel["row"] for panel in panels],
-        "divergences": [(panel["case"], panel["time"]) for panel in known["off"]],
-        "chaotic": any(panel["chaotic"] for panel in known["off"]),
-        "regular": [panel["case"] for panel in known["off"] if not panel["chaotic"]],
-        "bands": any(panel["band"] for panel in known["off"]),
-        "even": all(panel["even"] for panel in known["off"]),
-        "agree": [panel["case"] for panel in known["agrees"]],
-        "all_agree": len(known["agrees"]) == len(panels),
-        "ended": [(panel["case"], panel["until"], panel["end"]) for panel in known["ended"]],
-        "unknown": [panel["case"] for panel in known["unknown"]],
-    }
+        "figure": results.figure(f"fig{which}", long_caption if which == 2 else caption),
+        "numbers": Table(f"Fig {which}; P is the square of ℓ²", head,
+                         [_run(results, name) for name in OF_TIME[which]]),
+    }  # fmt: skip
 
 
-def omegas(results: Results, runs: list[str]) -> list:
-    """Return each detuning of some trajectories once, linked to the first that has it."""
-    found = {}
-    for run in runs:
-        found.setdefault(float(results[run].attrs["omega"]), run)
-    return [results.quote(run, omega) for omega, run in found.items()]
-
-
-def _panel(results: Results, name: str) -> dict[str, Any]:
-    run = f"trajectories/{name}"
-    data = results[run]
+def _run(results: Results, name: str) -> list:
+    """Return the row of a run: its norm, when it leaves its reference, and its bound."""
+    run, (known, judged) = f"trajectories/{name}", trusted(results, name)
+    data, bound = results[run], results["checks/cases"].sel(case=name)
     l2 = np.sqrt((data["l2"].values ** 2).sum(axis=0))
-    late = l2[len(l2) // 2 :]
-    case = case_in_words(data.attrs["omega"], data.attrs["initial"])
-    off, time, until, source = trusted(results, name)
-    row = [
-        case,
+    region = str(bound["region"].values)
+    return [
+        case_in_words(data.attrs["omega"], data.attrs["initial"]),
         results.say(run, span(l2)),
-        results.say(run, measured(late.mean())),
-        results.say(source, time),
-        *_bound(results, name),
+        results.say(run, measured(l2[len(l2) // 2 :].mean())),
+        results.say(judged, known),
+        results.say("checks/cases", "Theorem 3 only" if region == "none" else region.capitalize()),
+        results.quote("checks/cases", float(bound["ratio"])),
         results.quote(run, data.attrs["steps"], 6),
     ]
-    peak = number(float(data["linf"].max()))
-    alt = f"{case}: l2 of the pair between {number(l2.min())} and {number(l2.max())}, largest "
-    return {
-        "row": row,
-        "alt": f"{alt}amplitude {peak}",
-        "case": case,
-        "known": off,
-        "chaotic": is_chaotic(results, name),
-        "time": results.say(source, time),
-        "until": results.quote(source, until),
-        "end": results.quote(run, float(data["tau"][-1])),
-        "band": name in results[ENSEMBLES]["case"].values,
-        "even": is_even(data.attrs["initial"]),
-    }
-
-
-def _bound(results: Results, case: str) -> list:
-    source = "checks/cases"
-    found = results[source].sel(case=case)
-    region = str(found["region"].values)
-    covered = "Theorem 3 only" if region == "none" else region.capitalize()
-    return [results.say(source, covered), results.quote(source, float(found["ratio"]))]
 
 
 def _sweeps(results: Results, which: int) -> dict[str, Any]:
-    names = [f"fig{which}_{side}" for side in ("left", "right")]
-    readings = [(statistic, norm) for norm in DRAWN[which] for statistic in STATISTICS]
-    found = [_curve(results, name, *reading) for name in names for reading in readings]
-    told = "; ".join(curve["alt"] for curve in found if curve["norm"] == "l2" and curve["by_text"])
-    widths = half_widths(results, names)
-    alt = f"Norms of the pair against the half-width M, {widths['least']} to {widths['longest']}. "
+    caption = f"Norms of the pair against the half-width M for Fig {which}, drawn as Fig 5."
+    long_caption = (
+        "Norms of the pair against the half-width M. Filled marks are maxima, of which the paper's "
+        "text speaks, and hollow marks averages, as in its caption. Bars are the mean and the "
+        "standard deviation of a perturbed ensemble of a chaotic case. Equal marks on chains "
+        "whose ends the front does not reach are one sample."
+    )
+    rows = [_curve(results, name, statistic, norm)
+            for name in OF_WIDTH[which] for norm in DRAWN[which]
+            for statistic in STATISTICS]  # fmt: skip
+    head = ["case", "norm", "smallest M", "largest", "largest M", "change", "level"]
     return {
-        "number": which,
-        "picture": results.picture(f"fig{which}", f"{alt}{told}."),
-        **widths,
-        "rows": [curve["row"] for curve in found],
+        "figure": results.figure(f"fig{which}", long_caption if which == 5 else caption),
+        "numbers": Table(f"Fig {which}", head, rows),
         "samples": _samples(results, which),
-        "l2": [curve for curve in found if curve["norm"] == "l2"],
     }
 
 
-def half_widths(results: Results, names: Iterable[str]) -> dict[str, Any]:
-    """Return how many half-widths some sweeps have, and the least and the longest of all."""
-    swept = {f"sweeps/{name}": results[f"sweeps/{name}"]["half_width"].values for name in names}
-    counts = sorted({len(widths) for widths in swept.values()})
-    longest = max(swept, key=lambda source: swept[source].max())
-    return {
-        "widths": results.say(longest, " or ".join(map(str, counts))),
-        "least": str(min(widths.min() for widths in swept.values())),
-        "longest": results.quote(longest, int(swept[longest].max()), 6),
-    }
-
-
-def _curve(results: Results, name: str, statistic: str, norm: str) -> dict[str, Any]:
-    """Return one curve of a sweep: the text speaks of the maximum, the caption of the average."""
+def _curve(results: Results, name: str, statistic: str, norm: str) -> list:
+    """Return a row on one curve of a sweep."""
     source = f"sweeps/{name}"
     sweep = results[source].sortby("half_width")
     window = name_window(results.settings["sweeps"][name]["drawn"][statistic])
     at = {"quantity": "pair", "statistic": statistic, "window": window}
     widths, values = sweep["half_width"].values, sweep[norm].sel(at).values
-    case = case_in_words(sweep.attrs["omega"], sweep.attrs["initial"])
-    level, way = levelled(levelling(widths, values)), shape(widths, values)
-    told = f"{STATISTICS[statistic]} on {window.replace(' ', FIRM)}"
-    row = [
-        f"{case}: {NORMS[norm]}, {told}",
-        *(results.say(source, measured(value)) for value in (values[0], values.max(), values[-1])),
-        results.say(source, f"{way}, {percent(values[-1] / values[0] - 1.0)}"),
-        results.say(source, level),
+    said = (
+        *(measured(value) for value in (values[0], values.max(), values[-1])),
+        f"{shape(widths, values)}, {percent(values[-1] / values[0] - 1.0)}",
+        levelled(levelling(widths, values)),
+    )
+    return [
+        case_in_words(sweep.attrs["omega"], sweep.attrs["initial"]),
+        f"{NORMS[norm]}, {STATISTICS[statistic]} on {window.replace(' ', FIRM)}",
+        *(results.say(source, text) for text in said),
     ]
-    return {
-        "row": row,
-        "alt": f"{case}: {told} goes from {measured(values[0])} to {measured(values[-1])}",
-        "norm": norm,
-        "by_text": statistic == "max",
-        "case": case,
-        "told": told,
-        "shape": results.say(source, way),
-        "grows": values.max() > (1.0 + CHANGE.value) * values[0],
-        "level": results.say(source, level),
-    }
 
 
 def shape(widths: np.ndarray, values: np.ndarray) -> str:
@@ -197,7 +171,7 @@ def shape(widths: np.ndarray, values: np.ndarray) -> str:
         return f"rises to {measured(values[peak])} at M = {widths[peak]} and falls again"
     change = values[-1] / values[0] - 1.0
     if abs(change) < CONSTANT.value:
-        return "stays as it is"
+        return "constant"
     return "grows" if change > 0 else "falls"
 
 
@@ -208,36 +182,68 @@ def levelled(level: float) -> str:
     return f"level from M{FIRM}={FIRM}{number(level)}"
 
 
-def _samples(results: Results, which: int) -> list[dict[str, Any]]:
-    """Return what runs from almost equal data give on their longest chain, of chaotic sweeps."""
-    data = results[SAMPLES]
-    names = [str(name) for name in data["sweep"].values if str(name).startswith(f"fig{which}_")]
-    known = {name: data.sel(sweep=name).dropna("half_width", subset=["l2_mean"]) for name in names}
-    return [
-        _sample(results, name, shared.isel(half_width=-1))
-        for name, shared in known.items()
-        if shared.sizes["half_width"]
-    ]
+def _samples(results: Results, which: int) -> Table:
+    """Return what perturbed ensembles give on their longest chain, beside the run of the figure."""
+    data, rows = results[SAMPLES], []
+    for name in map(str, data["sweep"].values):
+        known = data.sel(sweep=name).dropna("half_width", subset=["l2_mean"])
+        if not (name in OF_WIDTH[which] and known.sizes["half_width"]):
+            continue
+        last = known.isel(half_width=-1)
+        members = int(results[ENSEMBLES]["swept_members"].sel(sweep=name))
+        rows.append([
+            case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
+            results.quote(SAMPLES, int(last["half_width"]), 6),
+            results.quote(ENSEMBLES, members),
+            results.say(SAMPLES, measured(float(last["l2_mean"]))),
+            results.quote(SAMPLES, float(last["l2_deviation"]), 2),
+            SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
+            results.say(SAMPLES, measured(float(last["swept_run"]))),
+            results.quote(SAMPLES, float(last["deviations"]), 2),
+        ])  # fmt: skip
+    head = ["case", "M", "runs", "mean of ℓ²", "standard deviation", "solver of the figure",
+            "its ℓ²", "off the mean, standard deviations"]  # fmt: skip
+    return Table("Perturbed ensembles on the longest chain that has one", head, rows)
 
 
-def _sample(results: Results, name: str, last) -> dict[str, Any]:
-    off, members = float(last["deviations"]), results[ENSEMBLES]["swept_members"].sel(sweep=name)
+# --- Space-time pictures --------------------------------------------------------------------------
+
+MOVING = 0.5
+"""Part of the largest modulus above which the table counts a site as moving."""
+
+
+def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
+    """Return the moduli over sites and time beside Figs 2 to 4."""
+    visible = percent(float(results[TRUST]["size"].sel(level="visible")))
+    caption = (
+        "Moduli of A and B over sites and time, for the cases of Fig {which}. From the white "
+        "dashed line on the run is off its reference by {visible}; a case without a reference has "
+        "no line."
+    )
+    rows = []
+    for source in (f"trajectories/{name}" for names in OF_TIME.values() for name in names):
+        run = results[source]
+        last = run["modulus"].isel(snapshot=-1).max("component").values
+        numbers = (int((last > MOVING * last.max()).sum()), len(last))
+        rows.append([
+            case_in_words(run.attrs["omega"], run.attrs["initial"]),
+            *(results.quote(source, count, 6) for count in numbers),
+            results.say(source, measured(float(last.max()))),
+        ])  # fmt: skip
+    head = ["case", "sites that move at over half the largest modulus", "of", "largest modulus"]
     return {
-        "case": case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
-        "chaotic": is_chaotic(results, results.settings["sweeps"][name]["case"]),
-        "solver": SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
-        "width": results.quote(SAMPLES, int(last["half_width"]), 6),
-        "runs": results.quote(ENSEMBLES, int(members)),
-        "mean": results.say(SAMPLES, measured(float(last["l2_mean"]))),
-        "deviation": results.quote(SAMPLES, float(last["l2_deviation"]), 2),
-        "run": results.say(SAMPLES, measured(float(last["swept_run"]))),
-        "off": results.quote(SAMPLES, abs(off), 2),
-        "below": off < 0,
+        **{
+            f"fig{which}_spacetime": results.figure(
+                f"fig{which}_spacetime", told(caption, which=which, visible=visible)
+            )
+            for which in OF_TIME
+        },
+        "moving": Table("The chain at the end of each run", head, rows),
     }
 
 
 SECTIONS = (
-    Section("figures", "The figures", gather_figures),
-    Section("motion", "The chain in motion", gather_motion),
+    Section("figures", "The figures of the paper", gather_figures, opened=True),
+    Section("motion", "Where the chain moves", gather_motion),
     Section("solvers", "The paper's solvers", gather_solvers),
 )
