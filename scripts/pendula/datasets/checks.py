@@ -96,4 +96,4 @@ def describe(name: str, check: dict) -> str:
         for variable, (worst, limit) in deciding(check).items()
         if not worst <= limit
     ]
-    return "\n".join(faults) or f"check {name}: every number is within its tolerance"
+    return "\n".join(faults) or f"{name} holds"

@@ -124,10 +124,6 @@ class Ledger:
         source = self._rows[claim]["decided_by"][0]
         return self._results.quote(source, self.value(claim, key), digits)
 
-    def holds(self, claim: str) -> bool:
-        """Return whether a claim is confirmed, with a caveat or without."""
-        return self._rows[claim]["verdict"] in CONFIRMED
-
     def on(self, place: str) -> list[dict]:
         """Return the rows of the paper's claims on a place such as "Fig 5"."""
         rows = (row for row in self._all if place in row["place"])

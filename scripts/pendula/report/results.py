@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from markupsafe import Markup
 
-from pendula.configuration.paper import Differences, reason
+from pendula.configuration.paper import Differences
 from pendula.datasets.netcdf import read
 from pendula.sources import SCRIPTS
 
@@ -48,10 +48,6 @@ class Results:
 
     def __contains__(self, name: str) -> bool:
         return f"{name}.nc" in self._paths
-
-    def apart(self, *names: str, on: tuple[str, ...] = ()) -> str:
-        """Return why datasets are not about the paper's cases; an empty text where they are."""
-        return reason(self.differs, names, on)
 
     def path(self, link: str) -> Path:
         """Return where the file is to which the page links."""

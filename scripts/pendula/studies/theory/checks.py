@@ -48,7 +48,7 @@ def run_checks(checks: Mapping[str, Mapping[str, Any]]) -> Iterator[xr.Dataset]:
     for name, arguments in checks.items():
         check = run_check(name, arguments)
         if not name.startswith(WRONG_FOLDER):  # controls are wrong statements, which do not hold
-            print(describe(name, check))
+            print(f"Check of the theory: {describe(name, check)}")
         yield xr.Dataset.from_dict(check)
 
 
