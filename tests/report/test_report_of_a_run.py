@@ -93,7 +93,7 @@ def test_every_link_leads_to_a_file_of_the_run_or_to_a_part_of_the_page(tags, fu
 def visible(html: str) -> str:
     """Return the words of a page that stand outside of folded parts."""
     text = re.sub(r"<(style|script|svg)\b.*?</\1>", " ", html, flags=re.DOTALL)
-    innermost = r"<details>((?!<details>).)*?</details>"
+    innermost = r"<details\b[^>]*>((?!<details).)*?</details>"
     while re.search(innermost, text, re.DOTALL):
         text = re.sub(innermost, " ", text, flags=re.DOTALL)
     return re.sub(r"<[^>]*>", " ", text)

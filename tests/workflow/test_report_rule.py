@@ -35,11 +35,11 @@ def test_two_runs_give_the_same_page_but_for_the_times(finished, clone):
     assert without_times(page_of(finished)) == without_times(before) != before
 
 
-def test_a_template_and_measurements_of_this_machine_rerun_the_report_alone(finished, clone):
+def test_a_template_and_measurements_of_this_machine_rerun_pages_alone(finished, clone):
     """No measurement of speed is started."""
     path = clone / "scripts/pendula/report/page/templates/report.html.j2"
     path.write_text(path.read_text() + "\n")
-    assert set(planned(clone, finished)) == {"report", "all"}
+    assert set(planned(clone, finished)) == {"report", "live", "all"}
     path.write_text(path.read_text()[:-1])
     put_measurements(clone, finished)
     assert set(planned(clone, finished)) == {"report", "all"}

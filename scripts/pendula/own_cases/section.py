@@ -163,7 +163,9 @@ def _of_amplitudes(checks, moves: bool) -> list[list[str]]:
     elif decided["too_steep"]:
         growth = "holds from the start on, but not between outputs: the errors of the run are large"
     region = str(checks["region"].values)
-    covered = "only Theorem 3 covers them" if region == "none" else f"{region} covers them"
+    covered = (
+        "only Theorem 3 covers them" if region == "none" else f"{region.capitalize()} covers them"
+    )
     bound = "the smallest bound holds" if decided["bound_holds"] else f"the bound is {TOO_LARGE}"
     balance = "followed" if decided["balanced"] else "could not be followed by the second method"
     return [

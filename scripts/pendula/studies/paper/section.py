@@ -76,7 +76,7 @@ def _verdict(which: int, shown: str, ledger: Ledger) -> list:
     if not rows:
         return [name, "a drawing", "none"]
     if verdicts[Verdict.NOT_APPLICABLE]:
-        kind, text = Verdict.NOT_APPLICABLE, "not of the paper's cases"
+        kind, text = Verdict.NOT_APPLICABLE, "not applicable"
     elif not sound:
         kind, text = Verdict.NOT_REPRODUCED, "not reproduced"
     elif sound < len(rows):
