@@ -64,13 +64,10 @@ def test_numbers_of_the_ledger_link_to_what_decides_them(of_rows):
     assert np.isnan([ledger.value(unknown["name"], name) for name in "xy"]).all()
 
 
-def test_times_without_peers_are_shown():
+def test_times_without_peers_are_shown_and_a_dataset_without_times_is_rejected():
     data = dataset("speed/work_precision").drop_dims("peer")
     found = sections.gather_speed(Report({"speed/work_precision": data}), MEASURED)
     assert found["peers"].rows == [] and "Taylor" in found["fastest"]
-
-
-def test_a_dataset_without_times_is_rejected():
     with pytest.raises(ReportError, match=r"work_precision\.nc holds no times"):
         sections.gather_speed(Report({"speed/work_precision": xr.Dataset()}), MEASURED)
 

@@ -83,9 +83,9 @@ def tables(rows: list[dict], checks: Iterable[list]) -> list[str]:
 
 
 def in_short(rows: list[dict]) -> str:
-    """Return how many rows have each verdict, and how many controls came out as they must."""
+    """Return how many rows have each verdict, and how many controls came out as required."""
     asked = [one["passes"] for one in controls_of(rows) if one["passes"] is not None]
-    controls = f"{sum(asked)} of {len(asked)} controls came out as they must"
+    controls = f"{sum(asked)} of {len(asked)} controls came out as required"
     return "\n".join([*counted(rows), controls])
 
 
@@ -150,16 +150,16 @@ def cutoffs_section(rows: list[dict]) -> list[str]:
 
 
 def controls_section(controls: list[dict]) -> list[str]:
-    """Return what every deciding function said of the wrong cases that it was fed."""
+    """Return the verdict of every deciding function on its wrong cases."""
     keys = ("claim", "fed", "must", "verdict", "because")
     words = {True: "yes", False: "NO", None: "not asked"}
     lines = [(*(one[key] for key in keys), words[one["passes"]]) for one in controls]
-    head = ("claim", "its function was fed", "must", "verdict", "because", "as it must")
+    head = ("claim", "wrong case", "required", "verdict", "reason", "as required")
     return ["# The controls", markdown(head, lines)]
 
 
 def check_lines(checks: Mapping[str, dict]) -> dict[str, list[list[str]]]:
-    """Return by check a line for every number that it is held to, with its tolerance."""
+    """Return by check a line for every number that has a tolerance."""
     lines: dict[str, list[list[str]]] = {}
     for name, check in checks.items():
         faults, own = broken(check), name.removeprefix("checks/")
@@ -172,6 +172,6 @@ def check_lines(checks: Mapping[str, dict]) -> dict[str, list[list[str]]]:
 
 
 def checks_section(lines: Iterable[list]) -> list[str]:
-    """Return every number that a check is held to, beside its tolerance."""
+    """Return every number of a check that has a tolerance, beside it."""
     head = ("check", "quantity", "largest", "tolerance", "holds")
     return ["# The checks", markdown(head, lines)]

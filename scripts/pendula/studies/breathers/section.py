@@ -33,16 +33,11 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
             "Share of runs that spread, with confidence intervals, and the largest norm of runs "
             "from {scanned} initial amplitudes. Of these, from A₀ = {range}, {spread} spread.",
             scanned=results.quote(SENSITIVITY, results[SENSITIVITY].sizes["initial"]),
-            range=results.say(SENSITIVITY, _span(results[SENSITIVITY]["initial"].values)),
+            range=results.say(SENSITIVITY, span(results[SENSITIVITY]["initial"].values)),
             spread=results.quote(SENSITIVITY, int(results[SENSITIVITY]["spread"].sum())),
         )),
         "What becomes of initial conditions on one pair": _fates(results),
     }  # fmt: skip
-
-
-def _span(values: np.ndarray) -> str:
-    ends = number(float(values.min())), number(float(values.max()))
-    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def _steady(results: Results) -> Table:
@@ -78,12 +73,12 @@ def _families(results: Results) -> Table:
             unstable = frequency[one["growth"].values > 0]
             lowest = found[frequency[found].argmin()]
             values = (float(power[lowest]), *map(float, one["least_power"].values))
-            said = f"λ of {_span(unstable)}" if unstable.size else "no frequency"
+            said = f"λ of {span(unstable)}" if unstable.size else "no frequency"
             cells = [*(results.quote(PERIODIC, one) for one in values), results.say(PERIODIC, said)]
         rows.append([number(float(omega)), symbols(str(family)), *cells])
     return Table(
-        f"Periodic breathers at frequencies λ from {_span(data['frequency'].values)}, above the "
-        f"highest linear wave at {_span(data['highest_wave'].values)}; P is the sum of |A|² + |B|² "
+        f"Periodic breathers at frequencies λ from {span(data['frequency'].values)}, above the "
+        f"highest linear wave at {span(data['highest_wave'].values)}; P is the sum of |A|² + |B|² "
         "over the chain when A and B are real. Least values are over all frequencies",
         ["Ω", "family", "P at the lowest λ", "least P", "least P within a period", "unstable at"],
         rows,
