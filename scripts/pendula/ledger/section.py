@@ -61,13 +61,13 @@ def gather(results: Results, ledger: "Ledger") -> dict[str, Any]:
             f"{len(cutoffs)} cut-offs where the paper gives a word and no number, each moved by a "
             "third either way", head, [list(map(_cell, line)) for line in cutoffs], folded=True,
         ),
-        "failing": told("{n} of these controls came out wrong", n=wrong) + (
-            " (the functions that fail them decide nothing)." if False in asked else "."),
         "fed": Table(
             f"{len(asked)} controls: wrong cases that a function must not confirm, and its verdict",
             ("claim", "case", "required", "verdict", "reason"),
             [[_cell(one[key]) for key in FED] for one in fed], folded=True,
         ),
+        "failing": told("{n} of these controls came out wrong", n=wrong) + (
+            " (the functions that fail them decide nothing)." if False in asked else "."),
     }  # fmt: skip
 
 
