@@ -46,7 +46,7 @@ use rule dataset as growth_by_drive with:
         made="breathers/growth",
     params:
         **values_of(BREATHERS.growth),
-        call=function("pendula.studies.breathers.contents.growth_contents"),
+        call=function("pendula.studies.breathers.driven_growth.growth_contents"),
         epsilon=BREATHERS.epsilon,
 
 
@@ -58,7 +58,7 @@ use rule dataset as measure_sensitivity with:
         made="<size>breathers/sensitivity",
     params:
         **values_of(BREATHERS.sensitivity, "sizes", "seed"),
-        call=function("pendula.studies.breathers.contents.sensitivity_contents"),
+        call=function("pendula.studies.breathers.sensitivity.sensitivity_contents"),
         name=BREATHERS.sensitivity.case,
         problem=run_of(**values_of(BREATHERS.sensitivity, "case", "tolerance", "end_time")),
         given=sized(BREATHERS.sensitivity, "members", "scan"),

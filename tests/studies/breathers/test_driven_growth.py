@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from pendula.problem import Constants
-from pendula.studies.breathers.contents import growth_contents
 from pendula.studies.breathers.driven_growth import (
     free_breathers,
     gained,
+    growth_contents,
     own_radiation,
     predicted,
     rate,

@@ -7,25 +7,24 @@ from pendula.datasets.netcdf import as_xarray
 from pendula.measures.confidence import share_limits
 from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
-from pendula.studies.breathers.fate_contents import Grid, fates_contents
+from pendula.studies.breathers.fate_contents import map_fates
 from pendula.studies.breathers.fates import (
     DISPERSES,
     MOVES,
     SPREADS,
     STAYS,
-    at_the_end,
     ends,
     fate_of,
-    folded_power,
     largest_linear_gain,
     map_of_amplitudes,
     map_of_phases,
     on_one_pair,
     place_of,
+    power_by_distance,
     shares_of_area,
 )
 from pendula.studies.breathers.nearest import Families
-from pendula.studies.breathers.sensitivity import has_spread, largest_l2, scan, shares
+from pendula.studies.breathers.sensitivity import has_spread, scan_amplitudes, shares
 
 NONE = Families(["A only"], np.empty(0), np.empty((2, 1, 0)))
 """No breathers to compare with."""
@@ -39,10 +38,11 @@ def pair_problem(omega, a, b, end_time=30.0):
     )  # fmt: skip
 
 
-def moduli(power: dict[int, float], half_width=3) -> np.ndarray:
-    found = np.zeros((2, 2 * half_width + 1))
+def state_of(power: dict[int, float], half_width: int) -> np.ndarray:
+    """Return a state with this P on some sites."""
+    found = np.zeros((2, 2 * half_width + 1), complex)
     for site, value in power.items():
-        found[0, half_width + site] = value**0.5
+        found[0, half_width + site] = 1j * value**0.5
     return found
 
 
@@ -60,36 +60,30 @@ def moduli(power: dict[int, float], half_width=3) -> np.ndarray:
     ],
 )
 def test_what_the_end_of_a_run_shows(power, expected):
-    assert fate_of(moduli(power, 8), 10.0, 3.0) == expected
-
-
-def test_on_a_short_chain_nothing_is_away_from_the_centre():
-    assert place_of(moduli({0: 1, 1: 9}, 1)) == 0
-    assert place_of(moduli({0: 0}, 0) + 1.0) == 0
-
-
-@pytest.mark.parametrize("half_width", [0, 1, 2])
-def test_a_chain_at_rest_holds_nothing_anywhere(half_width):
-    with np.errstate(invalid="ignore"):
-        assert place_of(moduli({}, half_width)) is None
+    assert fate_of(pair_problem(-4.0, 3.0, 1.0), state_of(power, 8)) == expected
 
 
 @pytest.mark.parametrize(
-    ("power", "place"),
+    ("power", "half_width", "place"),
     [
-        ({1: 1, 2: 8, 3: 1, 0: 1}, 2),  # the five at the centre hold more, and are no place
-        ({4: 1, 5: 8, 6: 1, 0: 1}, 5),
-        ({0: 4, 1: 2, 6: 2, 7: 1, 8: 2}, 0),
-        ({0: 4, 6: 2, 7: 2, 8: 2}, 7),
-        ({0: 5, 6: 2, 7: 1, 8: 2}, None),  # exactly half is no majority
+        ({1: 1, 2: 8, 3: 1, 0: 1}, 8, 2),  # the five at the centre hold more, and are no place
+        ({4: 1, 5: 8, 6: 1, 0: 1}, 8, 5),
+        ({0: 4, 1: 2, 6: 2, 7: 1, 8: 2}, 8, 0),
+        ({0: 4, 6: 2, 7: 2, 8: 2}, 8, 7),
+        ({0: 5, 6: 2, 7: 1, 8: 2}, 8, None),  # exactly half is no majority
+        ({0: 1, 1: 9}, 1, 0),  # on a short chain nothing is away from the centre
+        ({0: 1}, 0, 0),
+        ({}, 0, None), ({}, 1, None), ({}, 2, None),  # at rest
     ],
-)
-def test_the_place_is_that_of_the_middle_of_three_pairs(power, place):
-    assert place_of(moduli(power, 8)) == place
+)  # fmt: skip
+def test_the_place_is_that_of_the_middle_of_three_pairs(power, half_width, place):
+    with np.errstate(invalid="ignore"):
+        assert place_of(power_by_distance(state_of(power, half_width))) == place
 
 
 def test_pairs_are_counted_with_their_mirror_images():
-    assert folded_power(moduli({-2: 1, 2: 2, 0: 5, -1: 3})).tolist() == pytest.approx([5, 3, 3, 0])
+    power = power_by_distance(state_of({-2: 1, 2: 2, 0: 5, -1: 3}, 3))
+    assert power.tolist() == pytest.approx([5, 3, 3, 0])
 
 
 @pytest.mark.parametrize(
@@ -120,7 +114,9 @@ def test_linear_waves_stay_below_their_bound_and_come_near_it():
      (0.0, 5.0, 1.0, SPREADS), (0.0, 1.0, 1.0, DISPERSES)],
 )  # fmt: skip
 def test_known_fates(omega, a, b, expected):
-    assert ends([pair_problem(omega, a, b, 70.0)], NONE).fate == [expected]
+    problem = pair_problem(omega, a, b, 70.0)
+    assert ends([problem], NONE).fate == [expected]
+    assert has_spread(problem, simulate(problem)) is (expected == SPREADS)
 
 
 def test_two_solitons_that_run_apart_move():
@@ -134,8 +130,8 @@ def test_two_solitons_that_run_apart_move():
         pair_problem(8.0, 1.0, 1.0, end).changed(initial=np.array([even, even]))
         for end in (1e-3, 20.0)
     )
-    assert place_of(at_the_end(simulate(starts))) == 5
-    assert place_of(at_the_end(simulate(run))) > 15
+    assert place_of(power_by_distance(simulate(starts).final)) == 5
+    assert place_of(power_by_distance(simulate(run).final)) > 15
     assert ends([run], NONE).fate == [MOVES]
 
 
@@ -144,8 +140,7 @@ def test_exchanging_the_components_changes_no_fate():
     assert np.array_equal(one.final, other.final[::-1])
     found = map_of_amplitudes(pair_problem(-4.0, 1.0, 1.0), np.array([1.0, 3.0, 5.0]), NONE).fate
     assert np.array_equal(found, found.T)
-    assert found[0, 0] == DISPERSES
-    assert found[2, 2] == STAYS
+    assert (found[0, 0], found[2, 2]) == (DISPERSES, STAYS)
 
 
 def test_a_map_of_phases_turns_b_alone():
@@ -172,6 +167,9 @@ def test_no_choice_of_a_run_decides_fates_where_motion_is_regular(change):
     assert sorted(set(changed)) == [DISPERSES, STAYS, SPREADS]
 
 
+# --- Shares of an area, and maps beside a finer one -----------------------------------------------
+
+
 def test_a_disc_has_its_area_within_the_limits():
     """The centre lies anywhere between the points, so that the grid is one of many."""
     rng, points = np.random.default_rng(3), 40
@@ -189,36 +187,6 @@ def test_a_disc_has_its_area_within_the_limits():
     assert np.std(missed) < 0.5 * found.half[STAYS]  # and wide enough
 
 
-def maps(points, fine=None, **changes):
-    """Return maps at Omega = -4 and 8 of so many real amplitudes, and of six phases."""
-    cells = [5.0 * (np.arange(one) + 0.5) / one for one in (points, 2)]
-    phases = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
-    problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0).changed(**changes) for omega in (-4, 8)}
-    families = xr.Dataset(coords={"family": ["A only"], "omega": []})
-    grid = Grid(*cells, phases, 0.2, 1)
-    return as_xarray(*fates_contents(problems, grid, {"one": problems[8]}, families, fine))
-
-
-def test_a_map_is_compared_with_a_finer_one_where_they_have_data_in_common():
-    """Nine amplitudes have three among them, the middles of wider cells, and none of six."""
-    fine = maps(9)
-    counted = maps(3, fine)
-    assert counted["common"].values.tolist() == [[9, 9], [6, 6]]
-    assert (counted["agreed"] == counted["common"]).all()
-    assert (maps(6, fine)["common"].sel(plane="amplitudes") == 0).all()
-
-
-def test_a_wrong_map_is_noticed():
-    fine = maps(9)
-    exchanged = fine.assign_coords(omega=[8.0, -4.0]).sortby("omega")
-    other = fine.assign(fate=fine["fate"].copy(data=3 - fine["fate"].values))
-    for wrong in (exchanged, other):
-        found = maps(3, wrong)
-        assert (found["agreed"] < found["common"]).sel(plane="amplitudes").any()
-    assert (maps(3, fine, end_time=9.0, output_step=9.0)["common"] == 0).all()
-    assert (maps(3, fine, half_width=29)["common"] == 0).all()
-
-
 def test_scattered_fates_have_the_limits_of_independent_draws():
     drawn = np.random.default_rng(5).choice([STAYS, SPREADS], size=(60, 60), p=[0.7, 0.3])
     found, exact = shares_of_area(drawn), share_limits(int((drawn == SPREADS).sum()), 3600)
@@ -231,34 +199,56 @@ def test_a_mirrored_map_counts_each_point_once_and_no_diagonal():
     drawn = np.where(np.tri(40, dtype=bool), drawn, drawn.T)
     np.fill_diagonal(drawn, DISPERSES)
     found, twice = shares_of_area(drawn, mirrored=True), shares_of_area(drawn)
-    assert found.value[DISPERSES] == 0.0
     below = drawn[np.tril_indices(40, -1)]
+    assert found.value[DISPERSES] == 0.0
     assert found.value[SPREADS] == pytest.approx((below == SPREADS).mean())
     assert found.half[SPREADS] == pytest.approx(twice.half[SPREADS] * 2**0.5, rel=0.1)
-    nothing = share_limits(0, 40 * 39 // 2)
-    assert found.high[MOVES] == pytest.approx(nothing.high, rel=1e-5)
+    assert found.high[MOVES] == pytest.approx(share_limits(0, len(below)).high, rel=1e-5)
 
 
-def test_a_run_spreads_where_nobody_holds_most_of_a_grown_p():
-    sea, breather, waves = (
-        pair_problem(0.0, 1.0, 0.1, 50.0), pair_problem(8.0, 5.0, 1.0), pair_problem(8.0, 1.0, 0.1)
-    )  # fmt: skip
-    assert has_spread(sea, simulate(sea))
-    kept = simulate(breather)
-    assert not has_spread(breather, kept)
-    assert not has_spread(waves, simulate(waves))  # it disperses
-    assert place_of(at_the_end(simulate(waves))) is None
-    assert largest_l2(kept) ** 2 == pytest.approx((kept.l2**2).sum(axis=0).max())
+def maps(points, fine=None, **changes):
+    """Return maps at Omega = -4 and 8 of so many real amplitudes, and of as many phases."""
+    cells = [5.0 * (np.arange(one) + 0.5) / one for one in (points, 2)]
+    phases = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
+    problems = {omega: pair_problem(omega, 1.0, 1.0, 10.0).changed(**changes) for omega in (-4, 8)}
+    families = xr.Dataset(coords={"family": ["A only"], "omega": []})
+    grid = *cells, phases, 0.2, points // 2
+    return as_xarray(*map_fates(families, problems, {"one": problems[8]}, *grid, fine))
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return maps(9)
+
+
+def test_a_map_is_compared_with_a_finer_one_where_they_have_data_in_common(fine):
+    """Nine amplitudes have three among them, the middles of wider cells, and none of six."""
+    counted = maps(3, fine)
+    assert counted["common"].values.tolist() == [[9, 9], [6, 6]]
+    assert (counted["agreed"] == counted["common"]).all()
+    assert (maps(6, fine)["common"].sel(plane="amplitudes") == 0).all()
+
+
+def test_a_wrong_map_is_noticed(fine):
+    exchanged = fine.assign_coords(omega=[8.0, -4.0]).sortby("omega")
+    other = fine.assign(fate=fine["fate"].copy(data=3 - fine["fate"].values))
+    for wrong in (exchanged, other):
+        found = maps(3, wrong)
+        assert (found["agreed"] < found["common"]).sel(plane="amplitudes").any()
+    for change in ({"end_time": 9.0, "output_step": 9.0}, {"half_width": 29}):
+        assert (maps(3, fine, **change)["common"] == 0).all()
+
+
+# --- Ensembles ------------------------------------------------------------------------------------
 
 
 def test_shares_have_exact_limits_and_draws_of_their_own():
     none = shares(pair_problem(8.0, 5.0, 1.0, 5.0), [1e-3, 1e-1], 5, seed=1)
-    assert none.value.tolist() == [0.0, 0.0]
+    assert none.value.tolist() == none.low.tolist() == [0.0, 0.0]
     assert none.high == pytest.approx(1.0 - 0.025**0.2, abs=1e-6)
-    assert none.low.tolist() == [0.0, 0.0]
 
 
 def test_a_scan_starts_from_each_amplitude():
-    largest, spread = scan(pair_problem(8.0, 5.0, 1.0, 1e-3), np.array([1.0, 5.0]))
+    largest, spread = scan_amplitudes(pair_problem(8.0, 5.0, 1.0, 1e-3), np.array([1.0, 5.0]))
     assert largest == pytest.approx(np.sqrt(1.04) * np.array([1.0, 5.0]), rel=1e-2)
     assert not spread.any()

@@ -1,4 +1,4 @@
-"""The datasets of the study: what each variable holds, rounded where LAPACK decides last bits."""
+"""The dataset of steady states, and how the study rounds values whose last bits LAPACK decides."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,19 +6,30 @@ import numpy as np
 
 from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable
-from pendula.datasets.registry import NAMES
-from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
+from pendula.datasets.trajectories import COMPONENTS, Contents
 from pendula.ends import DIRICHLET
 from pendula.models.amplitudes import Chain, energy
 from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
-from pendula.problem import Constants, Problem, output_times
+from pendula.problem import Constants
 
-from . import branches, driven_growth, sensitivity, steady
+from . import branches, steady
 
 PARTS = Variable(("part",), ["re", "im"])
 DIGITS, GROWTH_DIGITS = 10, 7
 """Significant digits of states and of rates: rates come from roots of eigenvalues."""
+BESIDE = 0.05
+"""How far from the turning point of the daughter the pitchfork is looked for, in units of gamma."""
+
+
+def kept(
+    dimensions: tuple[str, ...], values, words: str, digits: int | None = DIGITS
+) -> Variable:  # fmt: skip
+    """Return a variable rounded to so many significant digits, or as it is if they are None."""
+    if digits is None:
+        return Variable(dimensions, values, words)
+    about = {"significant_digits": digits}
+    return Variable(dimensions, rounded(values, digits), words, attributes=about)
 
 
 def energy_of(constants: Constants, state: np.ndarray) -> float:
@@ -27,14 +38,6 @@ def energy_of(constants: Constants, state: np.ndarray) -> float:
     y[::2, 1:-1], y[1::2, 1:-1] = state.real, state.imag
     chain = Chain(constants.epsilon, constants.gamma, constants.omega, MIRROR, DIRICHLET)
     return float(energy(chain, y))
-
-
-def kept(dimensions: tuple[str, ...], values, words: str, digits: int = DIGITS) -> Variable:
-    about = {"significant_digits": digits}
-    return Variable(dimensions, rounded(values, digits), words, attributes=about)
-
-
-# --- Steady states --------------------------------------------------------------------------------
 
 
 def steady_contents(
@@ -46,24 +49,25 @@ def steady_contents(
     interval of Omega `between` which its stability changes, and the distance `to` which this is
     found.
     """
-    half_width //= 2
+    halves = half_width // 2, 2 * (half_width // 2)
     shape = (len(FAMILIES), len(omegas))
     amplitude = np.full((2, 2, *shape), np.nan)
-    power, energies, rates, doubled = (np.full(shape, np.nan) for _ in range(4))
+    power, energies = np.full((2, *shape), np.nan)
+    rates = np.full((2, *shape), np.nan)  # on each of the two chains
     for i, family in enumerate(FAMILIES):
         for j, omega in enumerate(omegas):
             if pair(family, gamma, omega) is None:
                 continue
             state = None
-            for half, found in ((half_width, rates), (2 * half_width, doubled)):
+            for k, half in enumerate(halves):
                 chain = steady.Chain(epsilon, gamma, omega, half)
                 state = steady.near_to(state, chain, family)
-                found[i, j] = steady.fastest_growth(chain, family, state)
+                rates[k, i, j] = steady.fastest_growth(chain, family, state)
             turned = state * (1j if family.imaginary else 1.0)
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
             power[i, j] = steady.power(state).sum()
             energies[i, j] = energy_of(Constants(epsilon=epsilon, gamma=gamma, omega=omega), turned)
-    over = ("family", "omega")
+    over, rate = ("family", "omega"), "largest rate of growth of a perturbation"
     variables = {
         "part": PARTS,
         "component": COMPONENTS,
@@ -72,149 +76,52 @@ def steady_contents(
         "amplitude": kept(("part", "component", *over), amplitude, "amplitude on a site, site 0"),
         "power": kept(over, power, "power P, the sum of |A|^2 + |B|^2"),
         "energy": kept(over, energies, "conserved energy H of equation (8)"),
-        "growth": kept(over, doubled, "largest rate of growth of a perturbation", GROWTH_DIGITS),
-        "growth_half": kept(
-            over,
-            rates,
-            "largest rate of growth of a perturbation on half of the half-width",
-            GROWTH_DIGITS,
-        ),
-        **_births(epsilon, gamma, half_width),
-        **_thresholds(epsilon, gamma, half_width, stability),
+        "growth": kept(over, rates[1], rate, GROWTH_DIGITS),
+        "growth_half": kept(over, rates[0], f"{rate} on half of the half-width", GROWTH_DIGITS),
+        **_births(epsilon, gamma, halves[0]),
+        **_thresholds(epsilon, gamma, halves, stability),
     }
-    about = {"epsilon": epsilon, "gamma": gamma, "half_width": 2 * half_width}
+    about = {"epsilon": epsilon, "gamma": gamma, "half_width": halves[1]}
     about["residual"] = steady.TOLERANCE
     return variables, {"title": "Steady states localised at one pair", **about}
 
 
-BESIDE = 0.05
-"""How far from the turning point of the daughter the pitchfork is looked for, in units of gamma."""
-
-
 def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable]:
     """Return the Omega of the two pitchforks, by the eigenvalue, and by the arc of the daughter."""
-    found, arcs, names = [], [], []
+    names, pitchforks, turning_points = [], [], []
     for daughter, parent in ((FAMILIES[2], FAMILIES[1]), (FAMILIES[4], FAMILIES[3])):
-        highest = -gamma if parent.kind == "equal" else -3.0 * gamma
+        highest = -gamma if parent.kind == "equal" else -3.0 * gamma  # where epsilon = 0
         chain = steady.Chain(epsilon, gamma, highest - gamma, half_width)
-        s, state = daughter.drive(gamma), steady.continued(chain, daughter)
-        points = branches.follow(chain, s, state, 1.0, stop=highest - gamma)
-        arcs.append(branches.turning_point(points))
-        near = arcs[-1] - BESIDE * gamma, arcs[-1] + BESIDE * gamma
-        found.append(branches.pitchfork(chain, parent, *near))
+        state = steady.continued(chain, daughter)
+        points = branches.follow(chain, daughter.drive(gamma), state, 1.0, stop=highest - gamma)
+        top = branches.turning_point(points)
+        near = top - BESIDE * gamma, top + BESIDE * gamma
         names.append(daughter.name)
+        pitchforks.append(branches.pitchfork(chain, parent, *near))
+        turning_points.append(top)
+    over = ("born_family",)
     return {
-        "born_family": Variable(("born_family",), names, "family born in a pitchfork"),
-        "pitchfork": kept(("born_family",), found, "Omega of the pitchfork", 8),
+        "born_family": Variable(over, names, "family born in a pitchfork"),
+        "pitchfork": kept(over, pitchforks, "Omega of the pitchfork", 8),
         "turning_point": kept(
-            ("born_family",), arcs, "Omega where the family turns, from its arc", 6
+            over, turning_points, "Omega where the family turns, from its arc", 6
         ),
-    }
+    }  # fmt: skip
 
 
-def _thresholds(epsilon, gamma, half_width, stability) -> dict[str, Variable]:
-    """Return the Omega below which families are stable, on the chain and on twice as long a one."""
+def _thresholds(
+    epsilon: float, gamma: float, halves: tuple[int, int], stability: Mapping
+) -> dict[str, Variable]:  # fmt: skip
+    """Return the Omega below which families are stable, on chains of both half-widths."""
     named = {family.name: family for family in FAMILIES}
-    chains = [steady.Chain(epsilon, gamma, 0.0, half) for half in (half_width, 2 * half_width)]
+    chains = [steady.Chain(epsilon, gamma, 0.0, half) for half in halves]
     found = [
         branches.thresholds(chains, named[name], *ends, stability["to"])
         for name, ends in stability["between"].items()
     ]
+    over = ("stable_family", "chain_half_width")
     return {
-        "stable_family": Variable(
-            ("stable_family",), list(stability["between"]), "family that can be stable"
-        ),
-        "chain_half_width": Variable(
-            ("chain_half_width",), [half_width, 2 * half_width], "half-width"
-        ),
-        "stable_below": kept(
-            ("stable_family", "chain_half_width"),
-            found,
-            "Omega below which a family is stable",
-            6,
-        ),
+        over[0]: Variable(over[:1], list(stability["between"]), "family that can be stable"),
+        over[1]: Variable(over[1:], list(halves), "half-width"),
+        "stable_below": kept(over, found, "Omega below which a family is stable", 6),
     }
-
-
-# --- Sensitivity and growth -----------------------------------------------------------------------
-
-
-def sensitivity_contents(
-    name: str, problem: Problem, sizes: Sequence[float], members: int, seed: int,
-    scan: Sequence[float],
-) -> Contents:  # fmt: skip
-    """Return the share that spreads by the size of a change, and what each amplitude leads to."""
-    amplitudes = np.array(scan)
-    share = sensitivity.shares(problem, sizes, members, seed)
-    largest, spread = sensitivity.scan(problem, amplitudes)
-    said = "share of runs that spread"
-    variables = {
-        "size": Variable(
-            ("size",), np.array(sizes), "size of a random change of the data, relative"
-        ),
-        "share": Variable(("size",), share.value, said),
-        "share_low": Variable(("size",), share.low, f"{said}, lower confidence limit"),
-        "share_high": Variable(("size",), share.high, f"{said}, upper confidence limit"),
-        "initial": Variable(("initial",), amplitudes, f"{NAMES['initial']}, given by A_0 alone"),
-        "largest_l2": Variable(("initial",), largest, "largest l2 norm of A and B together"),
-        "spread": Variable(
-            ("initial",), spread.astype(np.int8), "1 if the run has spread at its end"
-        ),
-    }
-    described = describe_run(name, problem, problem.solver)
-    about = {"members": members, "seed": seed}
-    a, b = problem.initial[:, problem.initial.shape[1] // 2].real
-    if a:
-        about["ratio"] = float(b / a)
-    return variables, {"title": f"Which data close to those of {name} spread", **described, **about}
-
-
-def growth_contents(
-    epsilon: float, omega: float, end_times: Mapping[float, float], frequencies: Sequence[float],
-    start: float, half_widths: Mapping[str, int], outputs: int, tolerance: float,
-) -> Contents:  # fmt: skip
-    """Return what a free breather gains from each drive, by runs and by the law of weak drives.
-
-    The law is summed over breathers at `frequencies` up to the edge of the band of waves.
-    `end_times` is by gamma; `half_widths` those of the `profile` and the `chain`.
-    """
-    free = Constants(epsilon=epsilon, gamma=1.0, omega=omega)
-    edge = driven_growth.edge(free)
-    inside = [frequency for frequency in frequencies if frequency < edge]
-    family = driven_growth.free_breathers(free, [*inside, edge], half_widths["profile"])
-    first = int(np.argmin([abs(one.frequency - start) for one in family]))
-    times, found, predicted = [], [], []
-    for gamma, end in end_times.items():
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-        tau = output_times(end, end / outputs)
-        times.append(tau)
-        found.append(
-            driven_growth.gained(constants, family[first], half_widths["chain"], tau, tolerance)
-        )
-        law = driven_growth.predicted(constants, family, first, tau)
-        predicted.append(law - law[0])
-    grid, over = ("gamma", "output"), ("frequency",)
-    variables = {
-        "gamma": Variable(("gamma",), np.array(list(end_times))),
-        "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
-        "gained": Variable(grid, np.array(found), "sum of |B|^2, which the breather gains as well"),
-        "predicted_gain": kept(grid, predicted, "the same by the law of weak drives", 9),
-        "frequency": Variable(
-            over, [one.frequency for one in family], "frequency lambda of the breather"
-        ),
-        "free_power": kept(over, [one.power for one in family], "P of the breather without drive"),
-        "predicted_rate": kept(
-            over,
-            [driven_growth.rate(free, one) for one in family],
-            "rate of growth of P by the law, over gamma^2",
-            9,
-        ),
-        "own_rate": kept(
-            over,
-            [driven_growth.own_radiation(free, one) for one in family],
-            "rate at which A radiates its own image, over gamma^2",
-            9,
-        ),
-    }
-    about = {"epsilon": epsilon, "omega": omega, "start_frequency": start, "tolerance": tolerance}
-    return variables, {"title": "How the drive feeds a localised motion", **about}

@@ -22,14 +22,18 @@ The breather grows, lambda rises with P_A, and this ends where lambda leaves the
 rate is that of `own_radiation`, less than a hundredth of (G).
 """
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from pendula.datasets.netcdf import Variable
+from pendula.datasets.trajectories import Contents
 from pendula.numerics.elementary import complex_of, interpolated
-from pendula.problem import Constants, Problem
+from pendula.problem import Constants, Problem, output_times
 from pendula.simulation.simulate import simulate
 
+from .contents import kept
 from .periodic import shoot, single_site
 from .steady import power, second_difference
 
@@ -52,13 +56,12 @@ def free_breathers(constants: Constants, frequencies, half_width: int) -> list[F
     A and B do not feel each other there, so that A is that of A = B, which is found sooner.
     """
     free = Constants(epsilon=constants.epsilon, gamma=0.0, omega=constants.omega)
-    found, data = [], None
-    for frequency in sorted(frequencies, reverse=True):
-        if data is None:
-            data = single_site(free, frequency, "A = B", half_width)
+    falling = sorted(frequencies, reverse=True)
+    found, data = [], single_site(free, falling[0], "A = B", half_width)
+    for frequency in falling:
         data = shoot(free, frequency, data).data
-        kept = np.round(data, DECIMALS)
-        found.append(FreeBreather(frequency, kept[0], float(power(kept)[0])))
+        portable = np.round(data, DECIMALS)
+        found.append(FreeBreather(frequency, portable[0], float(power(portable)[0])))
     return found[::-1]
 
 
@@ -131,11 +134,47 @@ def gained(
     a = breather.profile
     data = np.zeros((2, 2 * a.size - 1), complex)
     data[0] = np.concatenate([a[:0:-1], a])
-    run = simulate(
-        Problem(
-            constants=constants, half_width=half_width, boundary="dirichlet", initial=data,
-            end_time=float(times[-1]), output_step=float(times[1]),
-            solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
-        )
-    )  # fmt: skip
+    run = simulate(Problem(
+        constants=constants, half_width=half_width, boundary="dirichlet", initial=data,
+        end_time=float(times[-1]), output_step=float(times[1]),
+        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
+    ))  # fmt: skip
     return run.l2[1] ** 2
+
+
+def growth_contents(
+    epsilon: float, omega: float, end_times: Mapping[float, float], frequencies: Sequence[float],
+    start: float, half_widths: Mapping[str, int], outputs: int, tolerance: float,
+) -> Contents:  # fmt: skip
+    """Return what a free breather gains from each drive, by runs and by the law of weak drives.
+
+    The law is summed over breathers at `frequencies` up to the edge of the band of waves.
+    `end_times` is by gamma; `half_widths` those of the `profile` and the `chain`.
+    """
+    free = Constants(epsilon=epsilon, gamma=1.0, omega=omega)
+    inside = [frequency for frequency in frequencies if frequency < edge(free)]
+    family = free_breathers(free, [*inside, edge(free)], half_widths["profile"])
+    first = int(np.argmin([abs(one.frequency - start) for one in family]))
+    times, runs, laws = [], [], []
+    for gamma, end in end_times.items():
+        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
+        times.append(output_times(end, end / outputs))
+        runs.append(gained(constants, family[first], half_widths["chain"], times[-1], tolerance))
+        law = predicted(constants, family, first, times[-1])
+        laws.append(law - law[0])
+    grid, over = ("gamma", "output"), ("frequency",)
+    rates, own = ([of(free, one) for one in family] for of in (rate, own_radiation))
+    variables = {
+        "gamma": Variable(("gamma",), np.array(list(end_times))),
+        "time": Variable(grid, np.array(times), "slow time of the run with this gamma"),
+        "gained": Variable(grid, np.array(runs), "sum of |B|^2, which the breather gains as well"),
+        "predicted_gain": kept(grid, laws, "the same by the law of weak drives", 9),
+        "frequency": Variable(
+            over, [one.frequency for one in family], "frequency lambda of the breather"
+        ),
+        "free_power": kept(over, [one.power for one in family], "P of the breather without drive"),
+        "predicted_rate": kept(over, rates, "rate of growth of P by the law, over gamma^2", 9),
+        "own_rate": kept(over, own, "rate at which A radiates its own image, over gamma^2", 9),
+    }
+    about = {"epsilon": epsilon, "omega": omega, "start_frequency": start, "tolerance": tolerance}
+    return variables, {"title": "How the drive feeds a localised motion", **about}

@@ -1,16 +1,15 @@
 """The dataset of fates: two maps, shares of area, the paper's data, and runs on other terms."""
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import Variable, as_xarray
 from pendula.datasets.trajectories import Contents, describe_run
 from pendula.problem import Problem
 
+from .contents import kept
 from .fates import FATES, End, ends, map_of_amplitudes, map_of_phases, on_one_pair, shares_of_area
 from .nearest import Families
 
@@ -19,196 +18,8 @@ DIGITS = 6
 PLANES = ("amplitudes", "phases")
 PERIODIC = ("unknown", "no", "yes")
 """What the numbers from -1 on of a variable `periodic` stand for."""
-
-
-class Grid(NamedTuple):
-    """The data of both maps."""
-
-    amplitudes: np.ndarray  # A_0 and B_0 of the first map
-    turned: np.ndarray  # A_0 of the second map
-    phases: np.ndarray  # those of B_0 there
-    ratio: float  # |B_0| / |A_0| there
-    checked: int  # every so many amplitudes of the first map are run on other terms too
-
-
-def map_fates(
-    periodic: xr.Dataset, problems: Mapping[float, Problem], case_problems: Mapping[str, Problem],
-    fine: xr.Dataset | None = None, **grid,
-) -> Contents:  # fmt: skip
-    """Return `fates_contents` of a grid of plain values, those of a `Grid`."""
-    arrays = {name: np.array(grid.pop(name)) for name in ("amplitudes", "turned", "phases")}
-    return fates_contents(problems, Grid(**arrays, **grid), case_problems, periodic, fine)
-
-
-def fates_contents(
-    problems: Mapping[float, Problem], grid: Grid, cases: Mapping[str, Problem],
-    periodic: xr.Dataset, fine: xr.Dataset | None = None,
-) -> Contents:  # fmt: skip
-    """Return the fate of the data at each detuning, beside the families of periodic breathers.
-
-    `problems` are by detuning, `cases` those of the paper, with data of their own. With `fine`, the
-    maps of another run, it is counted at how many common data both runs find the same.
-    """
-    families = {omega: Families.of(periodic, omega) for omega in problems}
-    first = [
-        map_of_amplitudes(one, grid.amplitudes, families[omega]) for omega, one in problems.items()
-    ]
-    second = [
-        map_of_phases(one, grid.turned, grid.phases, grid.ratio, families[omega])
-        for omega, one in problems.items()
-    ]
-    variables = {
-        "omega": Variable(("omega",), np.array(list(problems))),
-        "a0": Variable(("a0",), grid.amplitudes, "initial amplitude A_0 of the centre"),
-        "b0": Variable(("b0",), grid.amplitudes, "initial amplitude B_0 of the centre"),
-        "turned_a0": Variable(
-            ("turned_a0",), grid.turned, "initial amplitude A_0 of the centre, B_0 turned in phase"
-        ),
-        "phase": Variable(("phase",), grid.phases, "initial phase of B_0 beside A_0", "rad"),
-        **_map("", ("a0", "b0"), first, periodic),
-        **_map("turned_", ("turned_a0", "phase"), second, periodic),
-        **_shares(first, second),
-        **_of_cases(cases, periodic),
-        **_checked(problems, grid, first, families),
-    }
-    (one, *_) = problems.values()
-    described = describe_run("pairs", one, one.solver)
-    about = {
-        key: value for key, value in described.items() if key not in ("omega", "initial", "case")
-    }
-    about |= {"ratio": grid.ratio, "title": "What becomes of data on one pair"}
-    if fine is not None:
-        variables |= _beside(as_xarray(variables, about), fine)
-    return variables, about
-
-
-def _flags(names, first: int = 0) -> dict:
-    """Return the attributes of a variable of numbers that stand for names, as CF has them."""
-    words = " ".join(str(name).replace(" ", "") for name in names)
-    values = np.arange(first, first + len(names), dtype=np.int8)
-    return {"flag_values": values, "flag_meanings": words}
-
-
-def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Dataset) -> dict:
-    """Return what one map shows at each detuning, under names that begin with `start`."""
-    about = " (B_0 turned in phase)" if start else ""
-    along = ("omega", *over)
-    families = _flags(["none", *periodic["family"].values])
-    fate = np.array([one.fate for one in found], dtype=np.int8)
-    return {
-        f"{start}fate": Variable(
-            along, fate, f"fate of the data{about}", attributes=_flags(FATES)
-        ),
-        f"{start}held": _kept(
-            along, [one.held for one in found], f"share of P on the three central pairs{about}"
-        ),
-        f"{start}unreturned": _kept(
-            along, [one.unreturned for one in found],
-            f"P that does not return after half periods, over the most that waves explain{about}",
-        ),
-        f"{start}periodic": Variable(
-            along, np.array([one.periodic for one in found]),
-            f"whether what stays is periodic, a breather{about}",
-            attributes=_flags(PERIODIC, first=-1),
-        ),
-        f"{start}breather_frequency": _kept(
-            along, [one.frequency for one in found], f"frequency of the final breather{about}"
-        ),
-        f"{start}breather_family": Variable(
-            along, np.array([one.family for one in found], dtype=np.int8),
-            f"family whose symmetry the final breather has{about}", attributes=families,
-        ),
-        f"{start}family_distance": _kept(
-            along, [one.distance for one in found],
-            f"relative distance of the final breather from this family{about}",
-        ),
-    }  # fmt: skip
-
-
-def _kept(dimensions: tuple[str, ...], values, words: str) -> Variable:
-    about = {"significant_digits": DIGITS}
-    return Variable(dimensions, rounded(values, DIGITS), words, attributes=about)
-
-
-def _shares(first: list[End], second: list[End]) -> dict[str, Variable]:
-    """Return the share of each fate in the area of each map."""
-    found = np.array(
-        [
-            [shares_of_area(one.fate, mirrored=plane == "amplitudes") for one in maps]
-            for plane, maps in zip(PLANES, (first, second), strict=True)
-        ]
-    )  # (plane, omega, limit, fate)
-    along, words = ("plane", "omega", "fate_name"), "share of the area of data with this fate"
-    return {
-        "plane": Variable(("plane",), list(PLANES), "what varies over a map of fates"),
-        "fate_name": Variable(("fate_name",), list(FATES), "fate"),
-        "area": Variable(along, found[:, :, 0], words),
-        "area_low": Variable(along, found[:, :, 1], f"{words}, lower confidence limit"),
-        "area_high": Variable(along, found[:, :, 2], f"{words}, upper confidence limit"),
-    }
-
-
 TERMS = ("boundary", "end_time", "epsilon", "gamma", "half_width", "ratio", "solver", "solver_rtol")
 """What two maps must have in common to be compared."""
-
-
-def _beside(coarse: xr.Dataset, fine: xr.Dataset) -> dict[str, Variable]:
-    """Return how many data both maps have on each plane, and of how many they find the same.
-
-    None are common to maps of other terms.
-    """
-    alike = all(coarse.attrs[name] == fine.attrs.get(name) for name in TERMS)
-    counts = np.zeros((2, len(PLANES), coarse.sizes["omega"]), dtype=int)
-    for i, start in enumerate(("", "turned_") if alike else ()):
-        names = [f"{start}fate", f"{start}periodic"]
-        here = coarse[names].to_array()
-        there = fine[names].reindex_like(here, method="nearest", tolerance=1e-9).to_array()
-        common, same = there.notnull().all("variable"), (here == there).all("variable")
-        for j, both in enumerate((common, common & same)):
-            counts[j, i] = both.sum([name for name in both.dims if name != "omega"])
-    along = ("plane", "omega")
-    return {
-        "common": Variable(along, counts[0], "data of this map on the committed fine one too"),
-        "agreed": Variable(along, counts[1], "data of these of which both maps find the same"),
-    }
-
-
-def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, Variable]:
-    """Return what becomes of the paper's data."""
-    found = [ends([one], Families.of(periodic, one.constants.omega)) for one in cases.values()]
-    centres = [one.initial[:, one.initial.shape[1] // 2] for one in cases.values()]
-    along = ("case",)
-    return {
-        "case": Variable(along, list(cases)),
-        "case_omega": Variable(
-            along, [one.constants.omega for one in cases.values()], "detuning Omega of the case"
-        ),
-        "case_a0": Variable(along, [a.real for a, _ in centres], "A_0 of the case"),
-        "case_b0": Variable(along, [b.real for _, b in centres], "B_0 of the case"),
-        "case_fate": Variable(
-            along, np.array([int(one.fate[0]) for one in found], dtype=np.int8),
-            "fate of the data of the case", attributes=_flags(FATES),
-        ),
-        "case_periodic": Variable(
-            along, np.array([one.periodic[0] for one in found]),
-            "whether the case, if it stays, is periodic, a breather",
-            attributes=_flags(PERIODIC, first=-1),
-        ),
-        "case_breather_frequency": _kept(
-            along, [one.frequency[0] for one in found],
-            "frequency of the final breather of the case",
-        ),
-        "family": Variable(
-            ("family",), [str(name) for name in periodic["family"].values],
-            "family of periodic breathers",
-        ),
-        "case_distance": _kept(
-            (*along, "family"), [one.distances[0] for one in found],
-            "relative distance of the final breather of the case from each family",
-        ),
-    }  # fmt: skip
-
-
 LONGEST, TIMES = "ten times the time", 10.0
 """The name of the longest runs, and how many times the end time of the maps they last."""
 OTHERWISE = {
@@ -226,35 +37,186 @@ OTHERWISE = {
 """How some data are run once more, to see what of their fates the choice of a run decides."""
 
 
+def map_fates(
+    periodic: xr.Dataset, problems: Mapping[float, Problem], case_problems: Mapping[str, Problem],
+    amplitudes: Iterable[float], turned: Iterable[float], phases: Iterable[float], ratio: float,
+    checked: int, fine: xr.Dataset | None = None,
+) -> Contents:  # fmt: skip
+    """Return the fate of the data at each detuning, beside the families of periodic breathers.
+
+    `problems` are by detuning, `case_problems` those of the paper, with data of their own. The
+    first map is over `amplitudes`, those of A_0 and of B_0, the second one over A_0 from `turned`
+    and the phase of B_0, with |B_0| = `ratio` A_0; of the first one every `checked` amplitudes are
+    run on other terms too. With `fine`, the maps of another run, it is counted at how many common
+    data both runs find the same.
+    """
+    amplitudes, turned, phases = (np.array(one) for one in (amplitudes, turned, phases))
+    families = {omega: Families.of(periodic, omega) for omega in problems}
+    first, second = [], []
+    for omega, one in problems.items():
+        first.append(map_of_amplitudes(one, amplitudes, families[omega]))
+        second.append(map_of_phases(one, turned, phases, ratio, families[omega]))
+    variables = {
+        "omega": Variable(("omega",), np.array(list(problems))),
+        "a0": Variable(("a0",), amplitudes, "initial amplitude A_0 of the centre"),
+        "b0": Variable(("b0",), amplitudes, "initial amplitude B_0 of the centre"),
+        "turned_a0": Variable(
+            ("turned_a0",), turned, "initial amplitude A_0 of the centre, B_0 turned in phase"
+        ),
+        "phase": Variable(("phase",), phases, "initial phase of B_0 beside A_0", "rad"),
+        **_map("", ("a0", "b0"), first, periodic),
+        **_map("turned_", ("turned_a0", "phase"), second, periodic),
+        **_shares(first, second),
+        **_of_cases(case_problems, periodic),
+        **_checked(problems, amplitudes, checked, first, families),
+    }
+    (one, *_) = problems.values()
+    about = describe_run("pairs", one, one.solver)
+    about = {key: value for key, value in about.items() if key not in ("omega", "initial", "case")}
+    about |= {"ratio": ratio, "title": "What becomes of data on one pair"}
+    if fine is not None:
+        variables |= _beside(as_xarray(variables, about), fine)
+    return variables, about
+
+
+def _flagged(dimensions: tuple[str, ...], values, words: str, names, first: int = 0) -> Variable:
+    """Return a variable of numbers from `first` on that stand for names, as CF has them."""
+    meanings = " ".join(str(name).replace(" ", "") for name in names)
+    numbers = np.arange(first, first + len(names), dtype=np.int8)
+    about = {"flag_values": numbers, "flag_meanings": meanings}
+    return Variable(dimensions, np.array(values, dtype=np.int8), words, attributes=about)
+
+
+def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Dataset) -> dict:
+    """Return what one map shows at each detuning, under names that begin with `start`."""
+    about = " (B_0 turned in phase)" if start else ""
+    along, families = ("omega", *over), ["none", *periodic["family"].values]
+    variables = {
+        "fate": _flagged(along, [one.fate for one in found], "fate of the data", FATES),
+        "held": kept(
+            along, [one.held for one in found], "share of P on the three central pairs", DIGITS
+        ),
+        "unreturned": kept(
+            along, [one.unreturned for one in found],
+            "P that does not return after half periods, over the most that waves explain", DIGITS,
+        ),
+        "periodic": _flagged(
+            along, [one.periodic for one in found],
+            "whether what stays is periodic, a breather", PERIODIC, -1,
+        ),
+        "breather_frequency": kept(
+            along, [one.frequency for one in found], "frequency of the final breather", DIGITS
+        ),
+        "breather_family": _flagged(
+            along, [one.family for one in found],
+            "family whose symmetry the final breather has", families,
+        ),
+        "family_distance": kept(
+            along, [one.distance for one in found],
+            "relative distance of the final breather from this family", DIGITS,
+        ),
+    }  # fmt: skip
+    return {
+        f"{start}{name}": one._replace(long_name=f"{one.long_name}{about}")
+        for name, one in variables.items()
+    }
+
+
+def _shares(first: list[End], second: list[End]) -> dict[str, Variable]:
+    """Return the share of each fate in the area of each map."""
+    found = np.array([
+        [shares_of_area(one.fate, mirrored=plane == "amplitudes") for one in maps]
+        for plane, maps in zip(PLANES, (first, second), strict=True)
+    ])  # (plane, omega, limit, fate)  # fmt: skip
+    along, words = ("plane", "omega", "fate_name"), "share of the area of data with this fate"
+    return {
+        "plane": Variable(("plane",), list(PLANES), "what varies over a map of fates"),
+        "fate_name": Variable(("fate_name",), list(FATES), "fate"),
+        "area": Variable(along, found[:, :, 0], words),
+        "area_low": Variable(along, found[:, :, 1], f"{words}, lower confidence limit"),
+        "area_high": Variable(along, found[:, :, 2], f"{words}, upper confidence limit"),
+    }
+
+
+def _beside(coarse: xr.Dataset, fine: xr.Dataset) -> dict[str, Variable]:
+    """Return how many data both maps have on each plane, and of how many they find the same.
+
+    None are common to maps of other terms.
+    """
+    alike = all(coarse.attrs[name] == fine.attrs.get(name) for name in TERMS)
+    common, agreed = np.zeros((2, len(PLANES), coarse.sizes["omega"]), dtype=int)
+    for i, start in enumerate(("", "turned_") if alike else ()):
+        names = [f"{start}fate", f"{start}periodic"]
+        here = coarse[names].to_array()
+        there = fine[names].reindex_like(here, method="nearest", tolerance=1e-9).to_array()
+        in_both, same = there.notnull().all("variable"), (here == there).all("variable")
+        across = [name for name in in_both.dims if name != "omega"]
+        common[i], agreed[i] = in_both.sum(across), (in_both & same).sum(across)
+    along = ("plane", "omega")
+    return {
+        "common": Variable(along, common, "data of this map on the committed fine one too"),
+        "agreed": Variable(along, agreed, "data of these of which both maps find the same"),
+    }
+
+
+def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, Variable]:
+    """Return what becomes of the paper's data."""
+    omegas = [one.constants.omega for one in cases.values()]
+    a0, b0 = zip(*(one.initial[:, one.initial.shape[1] // 2].real for one in cases.values()),
+                 strict=True)  # fmt: skip
+    found = [ends([one], Families.of(periodic, one.constants.omega)) for one in cases.values()]
+    along = ("case",)
+    return {
+        "case": Variable(along, list(cases)),
+        "case_omega": Variable(along, omegas, "detuning Omega of the case"),
+        "case_a0": Variable(along, a0, "A_0 of the case"),
+        "case_b0": Variable(along, b0, "B_0 of the case"),
+        "case_fate": _flagged(
+            along, [one.fate[0] for one in found], "fate of the data of the case", FATES
+        ),
+        "case_periodic": _flagged(
+            along, [one.periodic[0] for one in found],
+            "whether the case, if it stays, is periodic, a breather", PERIODIC, -1,
+        ),
+        "case_breather_frequency": kept(
+            along, [one.frequency[0] for one in found],
+            "frequency of the final breather of the case", DIGITS,
+        ),
+        "family": Variable(
+            ("family",), [str(name) for name in periodic["family"].values],
+            "family of periodic breathers",
+        ),
+        "case_distance": kept(
+            (*along, "family"), [one.distances[0] for one in found],
+            "relative distance of the final breather of the case from each family", DIGITS,
+        ),
+    }  # fmt: skip
+
+
 def _checked(
-    problems: Mapping[float, Problem], grid: Grid, first: list[End],
+    problems: Mapping[float, Problem], amplitudes: np.ndarray, step: int, first: list[End],
     families: Mapping[float, Families],
 ) -> dict[str, Variable]:  # fmt: skip
     """Return the fates of some data by the map's runs, and by runs on other terms."""
-    some = np.arange(grid.checked - 1, len(grid.amplitudes), grid.checked)
+    some = np.arange(step - 1, len(amplitudes), step)
     rows, columns = (some[numbers] for numbers in np.tril_indices(len(some), -1))
-    data = list(zip(grid.amplitudes[rows], grid.amplitudes[columns], strict=True))
-
-    def again(change) -> list[np.ndarray]:
-        return [
-            ends((change(on_one_pair(one, a, b)) for a, b in data), families[omega]).fate
+    a0, b0 = amplitudes[rows], amplitudes[columns]
+    found = [[one.fate[rows, columns] for one in first]]
+    for change in OTHERWISE.values():
+        found.append([
+            ends((change(on_one_pair(one, *pair)) for pair in zip(a0, b0, strict=True)),
+                 families[omega]).fate
             for omega, one in problems.items()
-        ]
-
-    found = [[one.fate[rows, columns] for one in first], *map(again, OTHERWISE.values())]
+        ])  # fmt: skip
     return {
         "conditions": Variable(
             ("conditions",), ["as on the map", *OTHERWISE],
             "how long, where and how finely data are run"
         ),
-        "checked_a0": Variable(
-            ("checked",), grid.amplitudes[rows], "A_0 of data that are run on several terms"
-        ),
-        "checked_b0": Variable(
-            ("checked",), grid.amplitudes[columns], "B_0 of data that are run on several terms"
-        ),
-        "checked_fate": Variable(
-            ("conditions", "omega", "checked"), np.array(found, dtype=np.int8),
-            "fate of data that are run on several terms", attributes=_flags(FATES),
+        "checked_a0": Variable(("checked",), a0, "A_0 of data that are run on several terms"),
+        "checked_b0": Variable(("checked",), b0, "B_0 of data that are run on several terms"),
+        "checked_fate": _flagged(
+            ("conditions", "omega", "checked"), found,
+            "fate of data that are run on several terms", FATES,
         ),
     }  # fmt: skip

@@ -1,14 +1,15 @@
 """What becomes of data on one pair: they disperse, stay at it, move away, or spread.
 
-The four fates are told apart by the end of a run on an even chain, without a number to choose:
+The end of a run on an even chain distinguishes the four fates, without a number to choose:
 
 - three neighbouring pairs, or three and their mirror image, hold more than half of P: the central
   ones, then the motion *stays*, or others, then it *moves*;
 - no three do, and P is no larger than linear waves could have made it: it *disperses*;
-- no three do, and P is larger: it *spreads*, and the drive feeds the sea that fills the chain.
+- no three do, and P is larger: it *spreads*, and the drive feeds the chaotic state that fills the
+  chain.
 
 Three and not one, since a breather of little P and whatever moves along the chain reach beyond one
-pair. On 61 pairs dispersed waves and seas have less than a third of P on any three.
+pair. On 61 pairs dispersed waves and chaotic states have less than a third of P on any three.
 
 Linear waves of A - B at the detuning kappa = Omega - 4 epsilon sin^2(k / 2) conserve
 (kappa + 2 gamma) q^2 + (kappa - 2 gamma) p^2 up to signs, so that their P grows at most by the
@@ -28,17 +29,9 @@ from pendula.numerics.elementary import complex_of, cos, sin
 from pendula.problem import Constants, Problem
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import find_reduction, unpack
-from pendula.simulation.simulate import Trajectory, integrate
+from pendula.simulation.simulate import integrate
 
-from .nearest import (
-    Families,
-    Follower,
-    alone,
-    distances,
-    family_of_shape,
-    swing,
-    unreturned,
-)
+from .nearest import Families, Follower, crossings, distances, family_of_shape, unreturned
 
 FATES = ("disperses", "stays", "moves", "spreads")
 DISPERSES, STAYS, MOVES, SPREADS = range(len(FATES))
@@ -55,37 +48,36 @@ def largest_linear_gain(constants: Constants) -> float:
     return float((least + drive) / (least - drive)) if least > drive else 1.0
 
 
-def folded_power(modulus: np.ndarray) -> np.ndarray:
+def power_by_distance(state: np.ndarray) -> np.ndarray:
     """Return P of each pair and its mirror image, (distance from the centre,).
 
-    `modulus` is (component, site) on an odd number of sites.
+    `state` is (component, site) on an odd number of sites.
     """
-    power = (modulus**2).sum(axis=0)
+    power = (state.real**2 + state.imag**2).sum(axis=0)
     centre = len(power) // 2
     folded = power[centre:].copy()
     folded[1:] += power[:centre][::-1]
     return folded
 
 
-def held_by_three(modulus: np.ndarray) -> np.ndarray:
+def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
     """Return the share of P on a pair, its two neighbours and their images, by (distance,).
 
-    `modulus` is (component, site) on an odd number of sites. The first entry is the share of the
-    three at the centre, the next one that of the five there.
+    `power` is that by distance. The first entry is the share of the three at the centre, the next
+    one that of the five there.
     """
-    power = folded_power(modulus)
     held = power.copy()
     held[1:] += power[:-1]
     held[:-1] += power[1:]
     return held / power.sum()
 
 
-def place_of(modulus: np.ndarray) -> int | None:
+def place_of(power: np.ndarray) -> int | None:
     """Return how far from the centre three pairs hold more than half of P; None if none do.
 
     What is one site away from the centre includes it, and is no place of its own.
     """
-    held = held_by_three(modulus)
+    held = share_of_three_pairs(power)
     if held[0] > MAJORITY:
         return 0
     if len(held) < 3:
@@ -94,18 +86,15 @@ def place_of(modulus: np.ndarray) -> int | None:
     return strongest if held[strongest] > MAJORITY else None
 
 
-def fate_of(modulus: np.ndarray, initial_power: float, gain: float) -> int:
-    """Return the fate that the moduli (component, site) at the end of a run show."""
-    place = place_of(modulus)
+def fate_of(problem: Problem, final: np.ndarray) -> int:
+    """Return the fate that the final state (component, site) of a run shows."""
+    power = power_by_distance(final)
+    place = place_of(power)
     if place is not None:
         return MOVES if place else STAYS
-    grown = folded_power(modulus).sum() > gain * (1.0 + ROUNDING) * initial_power
-    return SPREADS if grown else DISPERSES
-
-
-def at_the_end(run: Trajectory) -> np.ndarray:
-    """Return the moduli of a run at its end time, (component, site)."""
-    return np.sqrt(run.final.real**2 + run.final.imag**2)
+    initial = np.sum(problem.initial.real**2 + problem.initial.imag**2)
+    most = largest_linear_gain(problem.constants) * (1.0 + ROUNDING) * initial
+    return SPREADS if power.sum() > most else DISPERSES
 
 
 class End(NamedTuple):
@@ -136,30 +125,25 @@ def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
     """Return what becomes of the data of a problem; the flag `stop` ends the run."""
     reduction = find_reduction(problem.amplitudes)
     _, _, y, _ = integrate(problem, reduction, lambda run, *given: run(*given, stop))
-    state = unpack(y, reduction)
-    squares = state.real**2 + state.imag**2
-    modulus = np.sqrt(squares)
-    fate = fate_of(modulus, power_of(problem.initial), largest_linear_gain(problem.constants))
-    held = held_by_three(modulus)[0]
-    end = End(fate, held, np.nan, np.nan, 0, np.full(len(families.names), np.nan))
+    final = unpack(y, reduction)
+    fate, power = fate_of(problem, final), power_by_distance(final)
+    held, unknown = share_of_three_pairs(power)[0], np.full(len(families.names), np.nan)
+    end = End(fate, held, np.nan, np.nan, 0, unknown)
     if fate != STAYS:
         return end
-    guess = alone(problem.constants, float(squares.max()))
-    found = swing(Follower(problem, state, stop), guess)
+    # the frequency of one amplitude between neighbours at rest
+    square = float((final.real**2 + final.imag**2).max())
+    guess = problem.constants.omega - 2.0 * problem.constants.epsilon + 0.5 * square
+    found = crossings(Follower(problem, final, stop), guess)
     if found is None:
         return end
-    end = end._replace(unreturned=unreturned(found, float(folded_power(modulus)[2:].mean() / 2.0)))
+    end = end._replace(unreturned=unreturned(found, float(power[2:].mean() / 2.0)))
     if end.unreturned > 1.0:
         return end
     return end._replace(
         frequency=found.frequency, family=1 + family_of_shape(found, families.names),
         distances=distances(found, families),
     )  # fmt: skip
-
-
-def power_of(amplitudes: np.ndarray) -> float:
-    """Return P of complex amplitudes."""
-    return float(np.sum(amplitudes.real**2 + amplitudes.imag**2))
 
 
 def ends(problems: Iterable[Problem], families: Families) -> End:
@@ -219,15 +203,15 @@ def shares_of_area(fates: np.ndarray, mirrored: bool = False) -> Limits:
     In a `mirrored` map each point but for the diagonal stands twice and counts once. The diagonal,
     A_0 = B_0, has no area and is left out.
     """
-    is_of = np.arange(len(FATES))[:, None, None] == fates
-    counted = np.where(np.eye(*fates.shape, dtype=bool) & mirrored, np.nan, is_of.astype(float))
-    points = np.isfinite(counted[0]).sum() / (2 if mirrored else 1)
-    return Limits(*np.transpose([_share(one, points) for one in counted]))
-
-
-def _share(counted: np.ndarray, points: float) -> Limits:
-    share = float(np.nanmean(counted))
-    squares = [np.diff(counted, axis=axis).ravel() ** 2 for axis in (0, 1)]
-    between = 0.5 * float(np.nanmean(np.concatenate(squares)))
-    draws = points * share * (1.0 - share) / between if between else points
-    return share_limits(share * draws, draws)._replace(value=share)
+    found = []
+    for number in range(len(FATES)):
+        counted = (fates == number).astype(float)
+        if mirrored:
+            np.fill_diagonal(counted, np.nan)
+        points = np.isfinite(counted).sum() / (2 if mirrored else 1)
+        share = float(np.nanmean(counted))
+        squares = [np.diff(counted, axis=axis).ravel() ** 2 for axis in (0, 1)]
+        between = 0.5 * float(np.nanmean(np.concatenate(squares)))
+        draws = points * share * (1.0 - share) / between if between else points
+        found.append(share_limits(share * draws, draws)._replace(value=share))
+    return Limits(*np.transpose(found))

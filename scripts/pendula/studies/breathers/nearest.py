@@ -1,8 +1,9 @@
-"""How a run that stays at one pair swings: whether it is a periodic breather, and of which family.
+"""Whether a run that stays at one pair is a periodic breather, and of which family.
 
 A periodic breather of `periodic` has A and B real twice in a period, with opposite signs. So a run
-is followed beyond its end and looked at whenever the larger one of A_0 and B_0, the leading one, is
-real. With the instants tau_0, ..., tau_K of K half periods,
+is continued beyond its end, and its crossings of a Poincare section are recorded: the instants at
+which the larger one of A_0 and B_0, the leading one, is real. With the instants tau_0, ..., tau_K
+of K half periods,
 
     lambda = pi K / (tau_K - tau_0),
     distance = max over k of |(A_0, B_0)(tau_k) - +-(a, b)| / |(a, b)|,
@@ -12,8 +13,8 @@ of the leading one. The distance of a breather from its own family is zero but f
 and grows with all that the run has besides: other phases of the other one, other frequencies.
 Exchanging A and B changes no equation: where B leads, a run is compared with (b, a).
 
-The motion is periodic if the pair is back at each instant where it was, but for the waves that are
-left on the chain. With z_k = +-(A_0, B_0)(tau_k) and its mean over k
+The motion is periodic if the pair returns to one point of the section at each instant, but for the
+waves that are left on the chain. With z_k = +-(A_0, B_0)(tau_k) and its mean over k
 
     P that does not return = mean over k of |z_k - mean z|^2,
 
@@ -28,7 +29,7 @@ import numpy as np
 import xarray as xr
 
 from pendula.integrators import DONE
-from pendula.problem import Constants, Problem
+from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction, pack
 from pendula.simulation.models import make_chain
 from pendula.simulation.observables import blank_record
@@ -42,13 +43,13 @@ Once the tangent of its phase is at most LARGEST_TANGENT, the phase that is left
 """
 LARGEST_TANGENT = 1.2
 MOST_STRIDES = 20
-"""A leading amplitude that is not real again after so many steps does not swing."""
+"""A leading amplitude that is not real again after so many steps does not rotate."""
 SLOWEST = 0.5
 """Least frequency that a step is made for."""
 
 
-class Swing(NamedTuple):
-    """How the pair at the centre swings; the leading amplitude is real and positive."""
+class Crossings(NamedTuple):
+    """The pair at the centre at its crossings, with the leading amplitude real and positive."""
 
     frequency: float
     pairs: np.ndarray  # (instant, 2), complex: the leading amplitude and the other one
@@ -70,8 +71,8 @@ class Follower:
         self._centre = 1 if reduction.even else 1 + state.shape[1] // 2
         self.time = 0.0
 
-    def go(self, duration: float) -> bool:
-        """Follow the state for `duration`; return whether the solver could."""
+    def integrate_for(self, duration: float) -> bool:
+        """Integrate the state over `duration`; return whether the solver could."""
         given = np.array([0.0, duration]), self._controls, self._work, self._record
         self.time += duration
         return self._run.run(self._chain, self._y, *given, self._stop).status == DONE
@@ -83,13 +84,8 @@ class Follower:
         return pair if len(pair) == 2 else np.repeat(pair, 2)
 
 
-def alone(constants: Constants, square: float) -> float:
-    """Return the frequency of one amplitude between neighbours at rest, |A_0|^2 = `square`."""
-    return constants.omega - 2.0 * constants.epsilon + 0.5 * square
-
-
-def swing(follower: Follower, frequency: float, half_periods: int = HALF_PERIODS) -> Swing | None:
-    """Return how the pair swings from now on, or None where it does not.
+def crossings(follower: Follower, frequency: float) -> Crossings | None:
+    """Return the next crossings of HALF_PERIODS half periods, or None where there are not so many.
 
     `frequency` is a guess. The amplitudes turn as exp(-i lambda tau), so that the phase of the
     leading one falls; its signs at the instants must alternate.
@@ -97,22 +93,24 @@ def swing(follower: Follower, frequency: float, half_periods: int = HALF_PERIODS
     pair = follower.pair()
     lead = int(np.argmax(pair.real**2 + pair.imag**2))
     times, pairs = [], []
-    for _ in range(half_periods + 1):
+    for _ in range(HALF_PERIODS + 1):
         rate = frequency if len(times) < 2 else np.pi / (times[-1] - times[-2])
-        if not _to_real(follower, lead, max(rate, SLOWEST)):
+        if not _reach_crossing(follower, lead, max(rate, SLOWEST)):
             return None
         times.append(follower.time)
         pairs.append(follower.pair()[[lead, 1 - lead]])
     signs = np.sign([pair[0].real for pair in pairs])
     if (signs[1:] == signs[:-1]).any():
         return None
-    return Swing(np.pi * half_periods / (times[-1] - times[0]), signs[:, None] * np.array(pairs))
+    return Crossings(
+        np.pi * HALF_PERIODS / (times[-1] - times[0]), signs[:, None] * np.array(pairs)
+    )
 
 
-def _to_real(follower: Follower, lead: int, rate: float) -> bool:
-    """Follow until the leading amplitude is real again; return whether that happened."""
+def _reach_crossing(follower: Follower, lead: int, rate: float) -> bool:
+    """Integrate until the leading amplitude is real again; return whether that happened."""
     for _ in range(MOST_STRIDES):
-        if not follower.go(STRIDE / rate):
+        if not follower.integrate_for(STRIDE / rate):
             return False
         left = _phase_left(follower.pair()[lead])
         if left is not None:
@@ -121,7 +119,7 @@ def _to_real(follower: Follower, lead: int, rate: float) -> bool:
         return False
     for fraction in (0.9, 1.0):  # the first step measures the rate, the second one uses it
         before, duration = left, fraction * left / rate
-        if not follower.go(duration):
+        if not follower.integrate_for(duration):
             return False
         left = _phase_left(follower.pair()[lead])
         if left is None:
@@ -147,14 +145,14 @@ INSTANTS = 0.01
 """By how much of its amplitudes a pair may miss itself since its instants are not exact."""
 
 
-def unreturned(swing: Swing, waves: float) -> float:
+def unreturned(found: Crossings, waves: float) -> float:
     """Return P that does not return after half periods, over the most that `waves` explain.
 
     `waves` is the mean P of a pair outside the centre. Where this is at most 1, the motion is
     periodic.
     """
-    mean = swing.pairs.mean(axis=0)
-    off = swing.pairs - mean
+    mean = found.pairs.mean(axis=0)
+    off = found.pairs - mean
     left, whole = ((one.real**2 + one.imag**2).sum(axis=-1).mean() for one in (off, mean))
     return float(left / (WAVES * waves + INSTANTS**2 * whole))
 
@@ -190,39 +188,29 @@ class Families(NamedTuple):
         The ratio of both amplitudes and |A_0|^2 / lambda are interpolated in 1 / lambda: to a
         hundredth, but for lambda below 9 at Omega = 8, where A alone turns into A = B: a tenth.
         """
-        return np.array([self._pair(i, frequency) for i in range(len(self.names))])
-
-    def _pair(self, family: int, frequency: float) -> np.ndarray:
-        known = np.isfinite(self.pairs[0, family])
-        frequencies, (a, b) = self.frequencies[known], self.pairs[:, family, known]
-        if not known.any() or not frequencies[0] <= frequency <= BEYOND * frequencies[-1]:
-            return np.full(2, np.nan)
-        around = np.sort(np.argsort(np.abs(1.0 / frequencies - 1.0 / frequency))[:NODES])
-        x, a, b = 1.0 / frequencies[around], a[around], b[around]
-        ratio, square = (_lagrange(x, y, 1.0 / frequency) for y in (b / a, a * a * x))
-        first = np.sqrt(square * frequency)
-        return np.array([first, ratio * first])
-
-
-def _lagrange(x: np.ndarray, y: np.ndarray, at: float) -> float:
-    """Return the value of the polynomial through (x, y)."""
-    total = 0.0
-    for i, (xi, yi) in enumerate(zip(x, y, strict=True)):
-        weight = yi
-        for j, xj in enumerate(x):
-            if j != i:
-                weight = weight * (at - xj) / (xi - xj)
-        total += weight
-    return float(total)
+        found = np.full((len(self.names), 2), np.nan)
+        for i in range(len(self.names)):
+            known = np.isfinite(self.pairs[0, i])
+            frequencies = self.frequencies[known]
+            if not known.any() or not frequencies[0] <= frequency <= BEYOND * frequencies[-1]:
+                continue
+            around = np.sort(np.argsort(np.abs(1.0 / frequencies - 1.0 / frequency))[:NODES])
+            x, (a, b) = 1.0 / frequencies[around], self.pairs[:, i, known][:, around]
+            own = np.eye(len(x), dtype=bool)
+            ratios = np.where(own, 1.0, (1.0 / frequency - x) / (x[:, None] - x + own))
+            lagrange = ratios.prod(axis=1)
+            ratio, square = np.sum(lagrange * [b / a, a * a * x], axis=1)
+            found[i] = np.sqrt(square * frequency) * np.array([1.0, ratio])
+        return found
 
 
 SHAPES = {"A only": (1.0, 0.0), "A = -B": (0.5**0.5, -(0.5**0.5)), "A = B": (0.5**0.5, 0.5**0.5)}
 """The direction of (a, b) that the symmetry of a family gives: exactly but where A leads."""
 
 
-def family_of_shape(swing: Swing, names: list[str]) -> int:
+def family_of_shape(found: Crossings, names: list[str]) -> int:
     """Return the index of the family whose direction the mean pair is nearest to."""
-    mean = swing.pairs.mean(axis=0).real
+    mean = found.pairs.mean(axis=0).real
     return int(np.argmax([(mean * SHAPES[name]).sum() for name in names]))
 
 
@@ -230,9 +218,9 @@ NEAR = 0.1
 """A breather that is no further than this from a periodic one looks like it in a figure."""
 
 
-def distances(swing: Swing, families: Families) -> np.ndarray:
+def distances(found: Crossings, families: Families) -> np.ndarray:
     """Return the distance from each family, see the module's text: (family,), NaN where none is."""
-    wanted = families.at(swing.frequency)[:, None]
-    off = swing.pairs - wanted
+    wanted = families.at(found.frequency)[:, None]
+    off = found.pairs - wanted
     squares = (off.real**2 + off.imag**2).sum(axis=-1).max(axis=-1)
     return np.sqrt(squares / (wanted**2).sum(axis=-1)[:, 0])

@@ -1,7 +1,6 @@
 """The dataset of periodic breathers: families, their stability, and where multipliers collide."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -9,113 +8,51 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents
 from pendula.problem import Constants
 
-from . import multipliers, periodic, perturbed, steady, waves
-from .contents import GROWTH_DIGITS, PARTS, energy_of, kept
+from . import multipliers, periodic, perturbed, waves
+from .contents import DIGITS, GROWTH_DIGITS, PARTS, energy_of, kept
+from .steady import power
 
 MODES = 3
 """Localised modes of one parity that are kept; no breather of the study has more."""
 COLLISION_DIGITS, MEASURED_DIGITS = 6, 5
 
+OVER = ("family", "omega", "frequency")
+PARITY_OVER = ("parity", *OVER)
+LEAST = ("instant", "family", "omega")
+RATE, GROWING = "largest rate of growth", "number of multipliers that grow"
+MET = "between this frequency and the next higher one multipliers collide: "
+TABLE = {
+    "amplitude": (("part", "component", *OVER), DIGITS,
+                  "amplitude on a site, site 0, when both are real"),
+    "power": (("component", *OVER), DIGITS, "power P of each component, the largest of a period"),
+    "quarter_power": (("component", *OVER), DIGITS,
+                      "power P of each component a quarter of a period later, when both are "
+                      "imaginary: the least of a period"),
+    "least_power": (LEAST, 7, "least P of a family, at and between its frequencies"),
+    "least_power_frequency": (LEAST, 4, "frequency lambda of the breather with this P"),
+    "energy": (OVER, DIGITS, "conserved energy H of equation (8)"),
+    "growth": (OVER, GROWTH_DIGITS, f"{RATE} of a perturbation"),
+    "growth_half": (OVER, GROWTH_DIGITS, f"{RATE} of a perturbation on half of the half-width"),
+    "parity_growth": (PARITY_OVER, GROWTH_DIGITS, f"{RATE} by parity"),
+    "measured_growth": (PARITY_OVER, MEASURED_DIGITS, f"{RATE} in the nonlinear flow by parity"),
+    "growing": (OVER, None, GROWING),
+    "growing_half": (OVER, None, f"{GROWING}, on half of the half-width"),
+    "mode_trace": (("part", "mode", *PARITY_OVER), GROWTH_DIGITS,
+                   "half the sum of a localised mode's multiplier over half a period and of its "
+                   "inverse"),
+    "mode_signature": (("mode", *PARITY_OVER), None,
+                       "Krein signature of a localised mode, 0 where there is none or it grows"),
+    "collision_frequency": (PARITY_OVER, COLLISION_DIGITS, f"{MET}frequency lambda"),
+    "collision_power": (PARITY_OVER, MEASURED_DIGITS, f"{MET}P of the breather"),
+    "collision_multiplier": (("part", *PARITY_OVER), COLLISION_DIGITS,
+                             f"{MET}their value over half a period, with the change of sign there"),
+    "collision_signature": (("colliding", *PARITY_OVER), None,
+                            f"{MET}their Krein signatures, 0 where none do"),
+}  # fmt: skip
+"""Dimensions, significant digits (None of integers) and long name of each stored variable."""
 
-class Member(NamedTuple):
-    """A breather and (traces, signs) by parity."""
-
-    breather: periodic.Breather
-    spectra: dict[str, tuple[np.ndarray, np.ndarray]]
-
-    def growth(self, parity: str) -> float:
-        """Return the largest rate of growth of a perturbation of one parity."""
-        return multipliers.growth(self.breather.frequency, self.spectra[parity][0])
-
-    @property
-    def growing(self) -> int:
-        """How many pairs of multipliers grow, of both parities."""
-        spectra = self.spectra.values()
-        return sum(
-            multipliers.unstable_count(self.breather.frequency, traces) for traces, _ in spectra
-        )
-
-
-def member_of(breather: periodic.Breather) -> Member:
-    """Return a breather with its spectra."""
-    return Member(breather, {
-        parity: multipliers.spectrum(multipliers.half_map(breather, parity), parity)
-        for parity in multipliers.PARITIES
-    })  # fmt: skip
-
-
-def on_half(breather: periodic.Breather) -> Member:
-    """Return the breather on a chain of half the half-width."""
-    constants, frequency, data = breather
-    sites = data.shape[1] // 2 + 1
-    return member_of(periodic.shoot(constants, frequency, periodic.widened(data, sites)))
-
-
-class _Table:
-    """The numbers of all members, NaN (0 for signatures) where there is none."""
-
-    def __init__(self, *over: int):
-        parities, parts = len(multipliers.PARITIES), 2
-        self.amplitude = np.full((parts, 2, *over), np.nan)
-        self.power = np.full((len(periodic.INSTANTS), 2, *over), np.nan)
-        self.least = np.full((2, len(periodic.INSTANTS), *over[:-1]), np.nan)
-        self.energy = np.full(over, np.nan)
-        self.growth_half, self.growing = np.full(over, np.nan), np.full((2, *over), np.nan)
-        self.growth, self.measured_growth = np.full((2, parities, *over), np.nan)
-        self.trace = np.full((parts, MODES, parities, *over), np.nan)
-        self.signature = np.zeros((MODES, parities, *over), np.int8)
-        self.collision = np.full((parities, *over), np.nan)
-        self.collision_power = np.full((parities, *over), np.nan)
-        self.collision_multiplier = np.full((parts, parities, *over), np.nan)
-        self.collision_signature = np.zeros((2, parities, *over), np.int8)
-
-    def add(self, at: tuple[int, ...], one: Member) -> None:
-        """Write a member at its family, Omega and frequency."""
-        breather = one.breather
-        self.amplitude[(slice(None), slice(None), *at)] = breather.data[:, 0], (0.0, 0.0)
-        for i, instant in enumerate(periodic.INSTANTS):
-            self.power[(i, slice(None), *at)] = periodic.power_at(breather, instant)
-        self.energy[at] = energy_of(breather.constants, breather.data.astype(complex))
-        half = on_half(breather)
-        self.growth_half[at] = max(half.growth(parity) for parity in multipliers.PARITIES)
-        self.growing[(slice(None), *at)] = one.growing, half.growing
-        for p, parity in enumerate(multipliers.PARITIES):
-            self.growth[(p, *at)] = one.growth(parity)
-            modes = multipliers.localised_modes(breather, *one.spectra[parity])
-            for m, mode in enumerate(modes[:MODES]):
-                self.trace[(slice(None), m, p, *at)] = mode.trace.real, mode.trace.imag
-                self.signature[(m, p, *at)] = mode.signature
-
-    def measure(self, at: tuple[int, ...], one: Member) -> None:
-        """Write how fast the fastest perturbations grow in the nonlinear flow, if some do."""
-        for p, parity in enumerate(multipliers.PARITIES):
-            traces = one.spectra[parity][0]
-            rates = multipliers.growths(one.breather.frequency, traces)
-            if rates.max() > 0.0:
-                trace = complex(traces[rates.argmax()])
-                found = perturbed.measured_growth(one.breather, trace, parity)
-                self.measured_growth[(p, *at)] = found
-
-    def add_least(self, at: tuple[int, ...], family: list[periodic.Breather]) -> None:
-        """Write the least P of a family at an Omega, and where it has that."""
-        for i, instant in enumerate(periodic.INSTANTS):
-            self.least[(slice(None), i, *at)] = periodic.least_power(family, instant)
-
-    def add_collisions(self, at: tuple[int, ...], one: Member, above: Member) -> None:
-        """Write what collides between a member and the one at the next higher frequency."""
-        for p, parity in enumerate(multipliers.PARITIES):
-            found = multipliers.collision(
-                (one.breather, *one.spectra[parity]), (above.breather, *above.spectra[parity]),
-                parity,
-            )  # fmt: skip
-            if found is None:
-                continue
-            self.collision[(p, *at)] = found.breather.frequency
-            self.collision_power[(p, *at)] = steady.power(found.breather.data).sum()
-            self.collision_multiplier[(slice(None), p, *at)] = (
-                found.trace, np.sqrt(max(0.0, 1.0 - found.trace * found.trace)),
-            )  # fmt: skip
-            self.collision_signature[(slice(None), p, *at)] = found.signatures
+Spectra = dict[str, tuple[np.ndarray, np.ndarray]]
+"""Traces and signatures of the perturbations of a breather, by their parity."""
 
 
 def periodic_contents(
@@ -127,33 +64,114 @@ def periodic_contents(
     `half_widths` has the least and the most that a chain may have.
     """
     frequencies = sorted(frequencies)
-    table = _Table(len(periodic.FAMILIES), len(omegas), len(frequencies))
-    for j, omega in enumerate(omegas):
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-        edge = waves.highest(constants)  # within the waves, those of a finite chain collide
+    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
+    table = _blank_table(len(omegas), len(frequencies))
+    for j, constants in enumerate(given):
         for i, family in enumerate(periodic.FAMILIES):
-            above, found = None, []
+            found, above = [], None
             for breather in periodic.family_of(constants, family, frequencies, half_widths):
+                at = (..., i, j, frequencies.index(breather.frequency))
+                spectra = spectra_of(breather)
+                _add_breather(table, at, breather, spectra)
+                # within the waves, those of a finite chain collide
+                if breather.frequency > waves.highest(constants):
+                    _add_measured(table, at, breather, spectra)
+                    if above is not None:
+                        _add_collisions(table, at, (breather, spectra), above)
                 found.append(breather)
-                at = (i, j, frequencies.index(breather.frequency))
-                one = member_of(breather)
-                table.add(at, one)
-                if breather.frequency > edge:
-                    table.measure(at, one)
-                if above is not None and breather.frequency > edge:
-                    table.add_collisions(at, one, above)
-                above = one
-            if found:
-                table.add_least((i, j), found)
-    about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
+                above = breather, spectra
+            for k, instant in enumerate(periodic.INSTANTS if found else ()):
+                frequency, least = periodic.least_power(found, instant)
+                table["least_power_frequency"][k, i, j], table["least_power"][k, i, j] = (
+                    frequency, least
+                )  # fmt: skip
+    table["growth"] = table["parity_growth"].max(axis=0)
     variables = {
+        "part": PARTS,
+        "component": COMPONENTS,
+        "parity": Variable(
+            ("parity",), list(multipliers.PARITIES), "parity of the tangent vector in n"
+        ),
         **_coordinates(omegas, frequencies),
-        **_waves(epsilon, gamma, omegas, frequencies),
-        **_families(table),
-        **_stability(table),
-        **_collisions(table),
+        **_waves(given, frequencies),
+        "instant": Variable(
+            ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
+        ),
+        **{
+            name: kept(dimensions, table[name], words, digits)
+            for name, (dimensions, digits, words) in TABLE.items()
+        },
     }
+    about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     return variables, {"title": "Periodic breathers localised at one pair", **about}
+
+
+def _blank_table(omegas: int, frequencies: int) -> dict[str, np.ndarray]:
+    """Return an array for each variable: NaN, or 0 for signatures."""
+    sizes = {"mode": MODES, "family": len(periodic.FAMILIES)}
+    sizes |= {"omega": omegas, "frequency": frequencies}
+    table = {}
+    for name, (dimensions, _, _) in TABLE.items():
+        shape = [sizes.get(dimension, 2) for dimension in dimensions]
+        is_sign = name.endswith("signature")
+        table[name] = np.zeros(shape, np.int8) if is_sign else np.full(shape, np.nan)
+    return table
+
+
+def spectra_of(breather: periodic.Breather) -> Spectra:
+    """Return the spectra of even and of odd perturbations of a breather."""
+    return {
+        parity: multipliers.spectrum(multipliers.half_map(breather, parity), parity)
+        for parity in multipliers.PARITIES
+    }
+
+
+def growth_of(breather: periodic.Breather, spectra: Spectra) -> tuple[list[float], int]:
+    """Return the largest rate of growth by parity, and how many pairs of multipliers grow."""
+    traces = [found for found, _ in spectra.values()]
+    growing = sum(multipliers.unstable_count(breather.frequency, one) for one in traces)
+    return [multipliers.growth(breather.frequency, one) for one in traces], growing
+
+
+def _add_breather(table: dict, at: tuple, breather: periodic.Breather, spectra: Spectra) -> None:
+    """Write a breather, its stability on its own and on half of the half-width, and its modes."""
+    constants, frequency, data = breather
+    table["amplitude"][at] = data[:, 0], (0.0, 0.0)
+    for name, instant in zip(("power", "quarter_power"), periodic.INSTANTS, strict=True):
+        table[name][at] = periodic.power_at(breather, instant)
+    table["energy"][at] = energy_of(constants, data.astype(complex))
+    half = periodic.shoot(constants, frequency, periodic.widened(data, data.shape[1] // 2 + 1))
+    rates, table["growing_half"][at] = growth_of(half, spectra_of(half))
+    table["growth_half"][at] = max(rates)
+    table["parity_growth"][at], table["growing"][at] = growth_of(breather, spectra)
+    for p, parity in enumerate(multipliers.PARITIES):
+        modes = multipliers.localised_modes(breather, *spectra[parity])
+        for m, mode in enumerate(modes[:MODES]):
+            table["mode_trace"][:, m, p][at] = mode.trace.real, mode.trace.imag
+            table["mode_signature"][m, p][at] = mode.signature
+
+
+def _add_measured(table: dict, at: tuple, breather: periodic.Breather, spectra: Spectra) -> None:
+    """Write how fast the fastest perturbation of each parity grows in the flow, if one does."""
+    for p, (parity, (traces, _)) in enumerate(spectra.items()):
+        rates = multipliers.growths(breather.frequency, traces)
+        if rates.max() > 0.0:
+            trace = complex(traces[rates.argmax()])
+            found = perturbed.measured_growth(breather, trace, parity)
+            table["measured_growth"][p][at] = found
+
+
+def _add_collisions(table: dict, at: tuple, one: tuple, above: tuple) -> None:
+    """Write what collides between a breather and the one above, each with its spectra."""
+    for p, parity in enumerate(multipliers.PARITIES):
+        ends = [(breather, *spectra[parity]) for breather, spectra in (one, above)]
+        found = multipliers.collision(*ends, parity)
+        if found is not None:
+            table["collision_frequency"][p][at] = found.breather.frequency
+            table["collision_power"][p][at] = power(found.breather.data).sum()
+            sine = np.sqrt(max(0.0, 1.0 - found.trace * found.trace))
+            table["collision_multiplier"][:, p][at] = found.trace, sine
+            table["collision_signature"][:, p][at] = found.signatures
 
 
 def perturbed_contents(
@@ -171,33 +189,24 @@ def perturbed_contents(
         constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
         for i, family in enumerate(periodic.FAMILIES):
             for breather in periodic.family_of(constants, family, frequencies, half_widths):
-                if not member_of(breather).growing:
-                    at = (slice(None), i, j, frequencies.index(breather.frequency))
+                if not growth_of(breather, spectra_of(breather))[1]:
+                    at = (..., i, j, frequencies.index(breather.frequency))
                     found = perturbed.swing(breather, change, end_time, tolerance)
                     lowest[at], highest[at] = found
-    said = "value of P on the central pair, in a tenth of the run"
-    coordinates = _coordinates(omegas, frequencies)
+    over, said = ("span", *OVER), "value of P on the central pair, in a tenth of the run"
     variables = {
-        **{name: coordinates[name] for name in OVER},
+        **_coordinates(omegas, frequencies),
         "span": Variable(("span",), ["first tenth", "last tenth"], "part of the run"),
-        "lowest_power": kept(("span", *OVER), lowest, f"least {said}", MEASURED_DIGITS),
-        "highest_power": kept(("span", *OVER), highest, f"largest {said}", MEASURED_DIGITS),
+        "lowest_power": kept(over, lowest, f"least {said}", MEASURED_DIGITS),
+        "highest_power": kept(over, highest, f"largest {said}", MEASURED_DIGITS),
     }
     about = {"epsilon": epsilon, "gamma": gamma, "change": change, "end_time": end_time}
     title = "How stable periodic breathers move after a change"
     return variables, {"title": title, **about, "tolerance": tolerance}
 
 
-OVER = ("family", "omega", "frequency")
-
-
 def _coordinates(omegas, frequencies) -> dict[str, Variable]:
     return {
-        "part": PARTS,
-        "component": COMPONENTS,
-        "parity": Variable(
-            ("parity",), list(multipliers.PARITIES), "parity of the tangent vector in n"
-        ),
         "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
         "omega": Variable(("omega",), np.array(omegas, dtype=float)),
         "frequency": Variable(
@@ -206,9 +215,8 @@ def _coordinates(omegas, frequencies) -> dict[str, Variable]:
     }
 
 
-def _waves(epsilon, gamma, omegas, frequencies) -> dict[str, Variable]:
+def _waves(given: list[Constants], frequencies) -> dict[str, Variable]:
     """Return where the bands of (15) lie, and which frequencies none of whose multiples meets."""
-    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     away = [[waves.distance_from_bands(one, lam) for lam in frequencies] for one in given]
     free = [waves.free_intervals(one) for one in given]
     ends = np.full((2, len(free), max(map(len, free))), np.nan)
@@ -221,82 +229,8 @@ def _waves(epsilon, gamma, omegas, frequencies) -> dict[str, Variable]:
             ("omega", "frequency"), away, "distance of the odd multiples of lambda from the bands"
         ),
         "highest_wave": Variable(
-            ("omega",), [waves.highest(one) for one in given], "highest frequency of linear waves",
+            ("omega",), [waves.highest(one) for one in given], "highest frequency of linear waves"
         ),
         "free_low": Variable(over, ends[0], says.format("lower")),
         "free_high": Variable(over, ends[1], says.format("upper")),
-    }  # fmt: skip
-
-
-def _families(table: _Table) -> dict[str, Variable]:
-    said = "power P of each component"
-    least = ("instant", "family", "omega")
-    return {
-        "instant": Variable(
-            ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
-        ),
-        "amplitude": kept(
-            ("part", "component", *OVER), table.amplitude,
-            "amplitude on a site, site 0, when both are real",
-        ),
-        "power": kept(("component", *OVER), table.power[0], f"{said}, the largest of a period"),
-        "quarter_power": kept(
-            ("component", *OVER), table.power[1],
-            f"{said} a quarter of a period later, when both are imaginary: the least of a period",
-        ),
-        "least_power": kept(
-            least, table.least[1], "least P of a family, at and between its frequencies", 7
-        ),
-        "least_power_frequency": kept(
-            least, table.least[0], "frequency lambda of the breather with this P", 4
-        ),
-        "energy": kept(OVER, table.energy, "conserved energy H of equation (8)"),
-    }  # fmt: skip
-
-
-def _stability(table: _Table) -> dict[str, Variable]:
-    rate = "largest rate of growth of a perturbation"
-    signature = "Krein signature of a localised mode, 0 where there is none or it grows"
-    trace = "half the sum of a localised mode's multiplier over half a period and of its inverse"
-    rates = (table.growth.max(axis=0), table.growth_half, table.growth)
-    return {
-        "growth": kept(OVER, rates[0], rate, GROWTH_DIGITS),
-        "growth_half": kept(OVER, rates[1], f"{rate} on half of the half-width", GROWTH_DIGITS),
-        "parity_growth": kept(
-            ("parity", *OVER), rates[2], "largest rate of growth by parity", GROWTH_DIGITS
-        ),
-        "measured_growth": kept(
-            ("parity", *OVER), table.measured_growth,
-            "largest rate of growth in the nonlinear flow by parity", MEASURED_DIGITS,
-        ),
-        "growing": Variable(OVER, table.growing[0], "number of multipliers that grow"),
-        "growing_half": Variable(
-            OVER, table.growing[1], "number of multipliers that grow, on half of the half-width"
-        ),
-        "mode_trace": kept(
-            ("part", "mode", "parity", *OVER), table.trace, trace, GROWTH_DIGITS
-        ),
-        "mode_signature": Variable(("mode", "parity", *OVER), table.signature, signature),
-    }  # fmt: skip
-
-
-def _collisions(table: _Table) -> dict[str, Variable]:
-    says = "between this frequency and the next higher one multipliers collide: "
-    over = ("parity", *OVER)
-    return {
-        "collision_frequency": kept(
-            over, table.collision, f"{says}frequency lambda", COLLISION_DIGITS
-        ),
-        "collision_power": kept(
-            over, table.collision_power, f"{says}P of the breather", MEASURED_DIGITS
-        ),
-        "collision_multiplier": kept(
-            ("part", *over), table.collision_multiplier,
-            f"{says}their value over half a period, with the change of sign there",
-            COLLISION_DIGITS,
-        ),
-        "collision_signature": Variable(
-            ("colliding", *over), table.collision_signature,
-            f"{says}their Krein signatures, 0 where none do",
-        ),
-    }  # fmt: skip
+    }
