@@ -26,8 +26,8 @@ from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
 from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
 from pendula.studies.breathers.fate_contents import TERMS  # noqa: E402
-from pendula.studies.breathers.fate_figures import MAPS  # noqa: E402
 from pendula.studies.breathers.fates import FATES  # noqa: E402
+from pendula.studies.breathers.figures import MAPS  # noqa: E402
 from pendula.studies.breathers.nearest import NEAR  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers, slope_powers, thermal_powers  # noqa: E402
 from pendula.studies.unbounded.measured import BULK, FRONT, speeds  # noqa: E402

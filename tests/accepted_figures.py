@@ -1,7 +1,6 @@
 """All figures of a run: what draws each, and what gathers it from accepted datasets."""
 
 from accepted import dataset
-from pendula.studies.breathers import fate_figures
 from pendula.studies.breathers import figures as breathers
 from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
@@ -65,7 +64,7 @@ FIGURES = {
     "trust_horizons": (paper.draw_trust, paper.gather_trust, "checks/trust"),
     "breathers": (breathers.draw_breathers, breathers.gather_breathers,
                   "breathers/periodic", "breathers/growth"),
-    "fates": (fate_figures.draw_fates, fate_figures.gather_fates,
+    "fates": (breathers.draw_fates, breathers.gather_fates,
               "breathers/fates", "quoted/breathers"),
     "sensitivity": (breathers.draw_sensitivity, breathers.gather_sensitivity,
                     "breathers/sensitivity"),

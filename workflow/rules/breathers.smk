@@ -115,7 +115,7 @@ use rule figure as draw_fates with:
     pathvars:
         made="<size>figures/fates",
     params:
-        call=function("pendula.studies.breathers.fate_figures.draw_fates"),
+        call=function("pendula.studies.breathers.figures.draw_fates"),
         committed=fine_maps,
 
 

@@ -1,10 +1,12 @@
-"""Breathers in pictures: families and their growth, sensitivity to data; not the maps of fates."""
+"""The figures of the study: families of breathers, sensitivity to data, and the maps of fates."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.transforms import offset_copy
 
 from pendula.drawing import style
@@ -15,11 +17,6 @@ FAMILY_LOOKS = {
     "A = B": ("#16876b", "^", "A = B"),
 }
 DRIVES = ("#a9bbe0", "#e0a100", "#16876b", style.BLUE, style.RED)
-
-
-# --- Families -------------------------------------------------------------------------------------
-
-
 PAIRS, PAIR = 1, 2
 """What collides: two pairs of multipliers, which make a quartet, or a pair with itself."""
 CROWDED = 1.5
@@ -27,6 +24,9 @@ CROWDED = 1.5
 ABOVE = 9
 """How far above its place a collision is marked, in points: breathers have marks of their own."""
 COLLISION_LOOKS = {PAIRS: ("*", 6, "two pairs collide"), PAIR: ("X", 4.5, "a pair meets itself")}
+
+
+# --- Families -------------------------------------------------------------------------------------
 
 
 def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
@@ -57,12 +57,12 @@ def gather_breathers(periodic: xr.Dataset, growth: xr.Dataset) -> xr.Dataset:
 def draw_breathers(data: xr.Dataset) -> Figure:
     """Draw P against the frequency for each family and Omega; beside it, growth by the drive."""
     figure = style.new_figure(style.DOUBLE, 3.0)
-    panels = figure.subplots(1, data.sizes["omega"] + 1)
+    *panels, last = figure.subplots(1, data.sizes["omega"] + 1)
     for letter, axes, omega in zip("abcdef", panels, data["omega"].values, strict=False):
         _draw_families(axes, data.sel(omega=omega))
         axes.set_title(rf"({letter}) $\Omega = {omega:g}$", loc="left")
-    _draw_growth(panels[-1], data)
-    panels[-1].set_title(f"({'abcdef'[len(panels) - 1]}) growth by the drive", loc="left")
+    _draw_growth(last, data)
+    last.set_title(f"({'abcdef'[len(panels)]}) growth by the drive", loc="left")
     shown = [
         Line2D([], [], color=colour, marker=marker, markersize=4, label=words)
         for colour, marker, words in FAMILY_LOOKS.values()
@@ -128,13 +128,8 @@ def _draw_members(axes: Axes, data: xr.Dataset, shown: np.ndarray) -> None:
         axes.plot(*at, transform=above, color="black", marker=marker, markersize=size, ls="none",
                   zorder=4)  # fmt: skip
         for place in zip(*at, strict=True):
-            axes.annotate(
-                "",
-                place,
-                (0, ABOVE),
-                textcoords="offset points",
-                arrowprops={"arrowstyle": "-", "lw": 0.6, "shrinkA": 0, "shrinkB": 0},
-            )
+            line = {"arrowstyle": "-", "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
+            axes.annotate("", place, (0, ABOVE), textcoords="offset points", arrowprops=line)
 
 
 def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
@@ -154,12 +149,10 @@ def _draw_growth(axes: Axes, data: xr.Dataset) -> None:
 
 # --- Sensitivity ----------------------------------------------------------------------------------
 
-SENSITIVITY = ("share", "share_low", "share_high", "largest_l2", "spread")
-
 
 def gather_sensitivity(sensitivity: xr.Dataset) -> xr.Dataset:
     """Return the shares that spread, and the scan of amplitudes, as they are drawn."""
-    return sensitivity[list(SENSITIVITY)]
+    return sensitivity[["share", "share_low", "share_high", "largest_l2", "spread"]]
 
 
 @style.styled
@@ -188,3 +181,108 @@ def draw_sensitivity(data: xr.Dataset) -> Figure:
     scan.set_title("(b) a scan of amplitudes", loc="left")
     scan.legend(loc="upper right")
     return figure
+
+
+# --- Maps of fates --------------------------------------------------------------------------------
+
+LOOKS = {
+    "disperses": "#e4e4e0",
+    "stays, not periodic": "#8fb8e8",
+    "stays, periodic: a breather": style.BLUE,
+    "stays, not known whether periodic": "#c9a2c9",
+    "moves away": "#16876b",
+    "spreads": "#e8622c",
+}
+"""The fates in their order; what stays is divided by whether it is periodic. The colours are of
+lightness so different that they stay apart in grey and for people who see two colours."""
+KINDS = tuple(LOOKS)
+COLOURS = ListedColormap([*LOOKS.values()], name="kinds of ends")
+
+MAPS = ("fate", "periodic", "turned_fate", "turned_periodic")
+OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate", "case_periodic")
+
+
+def gather_fates(
+    fates: xr.Dataset, fine: xr.Dataset | None = None, of_paper: bool = True
+) -> xr.Dataset:
+    """Return both maps and what becomes of the data of the cases, as they are drawn.
+
+    The maps are those of `fine` if these are of the same runs: if they have data in common with
+    `fates` at each Omega. `of_paper` says whether the cases are the paper's.
+    """
+    shown = fates
+    if fine is not None and bool((fates["common"] > 0).all()):
+        shown = fine.sel(omega=fates["omega"])
+    maps = shown[[*MAPS]].assign(fates[[*OF_CASES]])
+    about = {} if of_paper else {"marked": "the data of Figs 2 to 4"}
+    return maps.assign_attrs(about, ratio=fates.attrs["ratio"])
+
+
+def kind_of(fate: np.ndarray, periodic: np.ndarray) -> np.ndarray:
+    """Return the number in KINDS of each end of a run; `periodic` is -1, 0 or 1."""
+    return np.choose(fate, [0, 1 + periodic % 3, 4, 5])
+
+
+@style.styled
+def draw_fates(data: xr.Dataset) -> Figure:
+    """Draw the fate of each (A_0, B_0), below it that of each phase of B_0; a column an Omega."""
+    figure = style.new_figure(style.DOUBLE, 5.2)
+    grid = figure.subplots(2, data.sizes["omega"], sharey="row", squeeze=False)
+    letters = np.array(list("abcdefghijklmnop")[: grid.size]).reshape(grid.shape)
+    for column, omega in enumerate(data["omega"].values):
+        here = data.sel(omega=omega)
+        above, below = grid[:, column]
+        _draw_map(above, here, ("a0", "b0"), "")
+        # phases begin with the column of phase pi, turned back to -pi
+        turned = here[["turned_fate", "turned_periodic"]]
+        last = turned.isel(phase=[-1])
+        first = last.assign_coords(phase=last["phase"] - 2 * np.pi)
+        _draw_map(below, xr.concat([first, turned], "phase"), ("phase", "turned_a0"), "turned_")
+        _mark_cases(above, below, data, omega)
+        above.set_title(rf"({letters[0, column]}) $\Omega = {omega:g}$", loc="left")
+        below.set_title(rf"({letters[1, column]}) $\Omega = {omega:g}$", loc="left")
+        above.set_xlabel("$A_0$")
+        below.set(xlabel="phase of $B_0$", xlim=(-np.pi, np.pi))
+        below.set_xticks(np.pi * np.arange(-1, 2), [r"$-\pi$", "$0$", r"$\pi$"])
+    grid[0, 0].set_ylabel("$B_0$")
+    grid[1, 0].set_ylabel(rf"$A_0$, with $|B_0| = {data.attrs['ratio']:g}\,A_0$")
+    kinds = [kind_of(data[fate].values, data[periodic].values).ravel()
+             for fate, periodic in (MAPS[:2], MAPS[2:])]  # fmt: skip
+    shown = [
+        Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in np.unique(np.concatenate(kinds))
+    ]
+    paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
+                   color="black", label=data.attrs.get("marked", "the paper's data"))  # fmt: skip
+    figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)
+    return figure
+
+
+def _draw_map(axes: Axes, here: xr.Dataset, over: tuple[str, str], start: str) -> None:
+    """Draw one map by the kind of each end, a cell around each of the equally spaced data."""
+    ends = (here[f"{start}{name}"].transpose(*over[::-1]).values for name in ("fate", "periodic"))
+    extent = []
+    for name in over:
+        centres = here[name].values
+        half = 0.5 * (centres[1] - centres[0])
+        extent += [float(centres[0] - half), float(centres[-1] + half)]
+    axes.imshow(
+        kind_of(*ends), cmap=COLOURS, vmin=-0.5, vmax=COLOURS.N - 0.5, extent=extent,
+        origin="lower", aspect="auto", interpolation="none",
+    )  # fmt: skip
+
+
+def _mark_cases(above: Axes, below: Axes, data: xr.Dataset, omega: float) -> None:
+    """Mark the data of the cases by circles in the colour of their own fate, where a map has them.
+
+    The map over phases has those whose B_0 is as large as on that map.
+    """
+    for case in data["case"].values[data["case_omega"].values == omega]:
+        one = data.sel(case=case)
+        a, b = float(one["case_a0"]), float(one["case_b0"])
+        colour = COLOURS(kind_of(one["case_fate"].values, one["case_periodic"].values))
+        places = [(above, (a, b))]
+        if abs(b - data.attrs["ratio"] * a) < 1e-9 * a:
+            places.append((below, (0.0, a)))
+        for axes, at in places:
+            axes.plot(*at, marker="o", markersize=7.5, color="white")
+            axes.plot(*at, marker="o", markersize=5, color="black", markerfacecolor=colour)
