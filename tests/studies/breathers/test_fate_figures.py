@@ -3,7 +3,7 @@
 from accepted import dataset
 from matplotlib.colors import to_hex
 from pendula.studies.breathers import fates
-from pendula.studies.breathers.fate_figures import KINDS, LOOKS, draw_fates, gather_fates, kind_of
+from pendula.studies.breathers.figures import KINDS, LOOKS, draw_fates, gather_fates, kind_of
 
 
 def test_what_is_not_known_is_drawn_as_nothing_else():

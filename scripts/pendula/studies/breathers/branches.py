@@ -81,15 +81,6 @@ def turning_point(points: list) -> float:
     return float(at + (after - before) ** 2 / (8.0 * (2.0 * at - before - after)))
 
 
-def exchange_eigenvalue(chain: Chain, parent: Family, state: np.ndarray) -> float:
-    """Return the largest eigenvalue of K on the perturbations that break the parent's symmetry."""
-    s = parent.drive(chain.gamma)
-    shift = -2.0 * s if parent.kind == "equal" else 0.0
-    linear = chain.epsilon * second_difference(state.shape[1])
-    matrix = linear + np.diag(chain.omega + shift + 1.5 * state[0] ** 2)
-    return float(np.linalg.eigvals(matrix).real.max())
-
-
 class Followed:
     """The states of a family at one Omega after another, each found from the one before."""
 
@@ -110,12 +101,18 @@ class Followed:
 
 
 def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
-    """Return the Omega between `low` and `high` where an asymmetric family leaves its parent."""
+    """Return the Omega between `low` and `high` where an asymmetric family leaves its parent.
+
+    The largest eigenvalue of K on perturbations that break the parent's symmetry vanishes there.
+    """
     followed = Followed(chain, parent)
+    shift = -2.0 * parent.drive(chain.gamma) if parent.kind == "equal" else 0.0
 
     def eigenvalue(omega: float) -> float:
-        here, state = followed.at(omega)
-        return exchange_eigenvalue(here, parent, state)
+        _, state = followed.at(omega)
+        linear = chain.epsilon * second_difference(state.shape[1])
+        matrix = linear + np.diag(omega + shift + 1.5 * state[0] ** 2)
+        return float(np.linalg.eigvals(matrix).real.max())
 
     return brentq(eigenvalue, low, high, xtol=1e-13)
 
@@ -145,9 +142,9 @@ def thresholds(
     found, state = [], None
     for chain in chains:
         followed = Followed(chain, family, state)
-        ends = found[-1] if found else (low, high)
-        if not (found and followed.is_stable(ends[0]) and not followed.is_stable(ends[1])):
-            ends = stable_below(followed, family.name, low, high, digits)
-        found.append(ends)
+        if found and followed.is_stable(found[-1][0]) and not followed.is_stable(found[-1][1]):
+            found.append(found[-1])
+        else:
+            found.append(stable_below(followed, family.name, low, high, digits))
         state = followed.state
     return [0.5 * (below + above) for below, above in found]

@@ -24,6 +24,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from pendula.numerics.elementary import geometric, log
 from pendula.numerics.matrices import times
@@ -102,43 +103,40 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
         miss = miss[0, ::2].ravel()[: sites * (1 if symmetry else 2)]
         if inverse is None or largest > SLOWEST * last:
             inverse = np.linalg.inv(_matrix(guess._replace(data=data), symmetry))
-        else:
-            _learn(inverse, step, miss)
+        else:  # so that it explains what the last step has left
+            wrong, along = times(inverse, miss), times(inverse.T, step)
+            inverse -= wrong[:, None] * along / np.sum(step * (step + wrong))
         step = -times(inverse, miss)
         one = step.reshape(-1, sites)
         data = data + (np.concatenate([one, symmetry * one]) if symmetry else one)
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
 
 
-def quarter_later(breather: Breather) -> np.ndarray:
-    """Return A and B after a quarter of the period, over i: both are imaginary then."""
-    nothing = np.empty((0, 4, breather.data.shape[1]))
-    state, steps = real_data(breather.data), breather.finer * FINE_STEPS
-    return flow(breather.constants, state, nothing, nothing, breather.quarter, steps)[0, 1::2]
-
-
-INSTANTS = {"both real": lambda breather: breather.data, "both imaginary": quarter_later}
-"""A and B at the two instants of a period at which P is largest and least: it is even in time about
-both, and rises or falls all the way between them."""
+INSTANTS = ("both real", "both imaginary")
+"""The two instants of a period at which P is largest and least, by what A and B are there: P is
+even in time about both, and rises or falls all the way between them."""
 
 
 def power_at(breather: Breather, instant: str) -> np.ndarray:
     """Return P of each component at one of INSTANTS, (component,)."""
-    return power(INSTANTS[instant](breather))
+    if instant == "both real":
+        return power(breather.data)
+    nothing = np.empty((0, 4, breather.data.shape[1]))
+    state, steps = real_data(breather.data), breather.finer * FINE_STEPS
+    ends = flow(breather.constants, state, nothing, nothing, breather.quarter, steps)
+    return power(ends[0, 1::2])
 
 
-CLOSE = 1e-4
+CLOSE = 1e-5
 """How far from the least P the frequency may be at which it is looked for. P is flat there, so that
 it is known to 1e-9 of itself."""
-GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 
 def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
     """Return the frequency at which a family has the least P at an instant, and this P.
 
-    It lies beside the member with the least P and is found by golden sections between the
-    neighbours of that; if this is the first or the last member, P falls to the end, and it is this
-    member.
+    It lies between the neighbours of the member with the least P; if this is the first or the last
+    member, P falls to the end, and it is this member.
     """
     family = sorted(family, key=lambda one: one.frequency)
     powers = [float(power_at(one, instant).sum()) for one in family]
@@ -150,20 +148,9 @@ def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
     def total(frequency: float) -> float:
         return float(power_at(shoot(family[0].constants, frequency, start), instant).sum())
 
-    low, high = family[middle - 1].frequency, family[middle + 1].frequency
-    inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)]
-    found = [total(frequency) for frequency in inner]
-    while high - low > CLOSE:
-        if found[0] < found[1]:
-            high, inner[1], found[1] = inner[1], inner[0], found[0]
-            inner[0] = high - GOLDEN * (high - low)
-            found[0] = total(inner[0])
-        else:
-            low, inner[0], found[0] = inner[0], inner[1], found[1]
-            inner[1] = low + GOLDEN * (high - low)
-            found[1] = total(inner[1])
-    best = int(np.argmin(found))
-    return inner[best], found[best]
+    ends = family[middle - 1].frequency, family[middle + 1].frequency
+    found = minimize_scalar(total, bounds=ends, method="bounded", options={"xatol": CLOSE})
+    return float(found.x), float(found.fun)
 
 
 def exchange_sign(data: np.ndarray) -> int:
@@ -174,25 +161,13 @@ def exchange_sign(data: np.ndarray) -> int:
 def _matrix(guess: Breather, symmetry: int) -> np.ndarray:
     """Return the derivative of the miss by the data; of A alone if A = B or A = -B."""
     sites = guess.data.shape[1]
-    directions = real_data(_changes(sites, symmetry))
+    one = np.eye(sites)
+    both = np.eye(2 * sites).reshape(-1, 2, sites)
+    directions = real_data(np.stack([one, symmetry * one], axis=1) if symmetry else both)
     steps, nothing = guess.finer * STEPS, np.empty((0, 4, sites))
     state = real_data(guess.data)
     ends = flow(guess.constants, state, directions, nothing, guess.quarter, steps)
     return ends[1:, ::2].reshape(len(directions), -1)[:, : len(directions)].T
-
-
-def _learn(inverse: np.ndarray, step: np.ndarray, miss: np.ndarray) -> None:
-    """Change the inverse so that it explains the `miss` that the last step has left."""
-    wrong, along = times(inverse, miss), times(inverse.T, step)
-    inverse -= wrong[:, None] * along / np.sum(step * (step + wrong))
-
-
-def _changes(sites: int, symmetry: int) -> np.ndarray:
-    """Return unit changes of real data, (change, component, site); both components if symmetric."""
-    one = np.eye(sites)
-    if symmetry:
-        return np.stack([one, symmetry * one], axis=1)
-    return np.eye(2 * sites).reshape(-1, 2, sites)
 
 
 LARGEST_RATIOS = 2.0, 1.5

@@ -191,8 +191,8 @@ def perturbed_contents(
             for breather in periodic.family_of(constants, family, frequencies, half_widths):
                 if not growth_of(breather, spectra_of(breather))[1]:
                     at = (..., i, j, frequencies.index(breather.frequency))
-                    found = perturbed.swing(breather, change, end_time, tolerance)
-                    lowest[at], highest[at] = found
+                    given = change, end_time, tolerance
+                    lowest[at], highest[at] = perturbed.range_of_power(breather, *given)
     over, said = ("span", *OVER), "value of P on the central pair, in a tenth of the run"
     variables = {
         **_coordinates(omegas, frequencies),

@@ -8,8 +8,6 @@ method of Prony). Stable breathers are changed by more, and followed for thousan
 the phase drifts in time, P on the central pair is watched, which swings within each period.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from pendula.numerics.elementary import log
@@ -27,13 +25,6 @@ TOLERANCE = 1e-14
 """Of the runs whose difference is measured."""
 SAMPLES = 400
 """Samples of each tenth of a long run: several in each period of a beat."""
-
-
-class Swing(NamedTuple):
-    """The least and the largest P on the central pair early and late in a run, each (span,)."""
-
-    lowest: np.ndarray
-    highest: np.ndarray
 
 
 def run_from(
@@ -60,23 +51,6 @@ def run_from(
     return run.modulus
 
 
-def _parted(breather: Breather, parity: str, periods: int) -> np.ndarray:
-    """Return how far a perturbation has come after each period, (component and site, period).
-
-    A run without a change stays even, so that an odd perturbation is the difference of a run and
-    its own mirror image.
-    """
-    period = 4.0 * breather.quarter
-    given = periods * period, period, TOLERANCE, parity
-    changed = run_from(breather, SMALLEST, *given)
-    centre = changed.shape[1] // 2
-    if parity == "even":
-        found = (changed - run_from(breather, 0.0, *given))[:, centre : centre + 2]
-    else:
-        found = changed[:, centre + 1 : centre + 3] - changed[:, centre - 2 : centre][:, ::-1]
-    return found.reshape(-1, periods + 1)
-
-
 def measured_growth(breather: Breather, trace: complex, parity: str = "even") -> float:
     """Return the rate of growth in the flow of the perturbation of one parity that grows fastest.
 
@@ -86,7 +60,14 @@ def measured_growth(breather: Breather, trace: complex, parity: str = "even") ->
     period = 4.0 * breather.quarter
     rate = growth(breather.frequency, np.array([trace]))
     periods = int(np.ceil(log(LARGEST / SMALLEST) / (rate * period))) + 2
-    parted = _parted(breather, parity, periods)
+    given = periods * period, period, TOLERANCE, parity
+    changed = run_from(breather, SMALLEST, *given)
+    centre = changed.shape[1] // 2
+    if parity == "even":
+        parted = (changed - run_from(breather, 0.0, *given))[:, centre : centre + 2]
+    else:  # a run without a change stays even: the mirror image stands for it
+        parted = changed[:, centre + 1 : centre + 3] - changed[:, centre - 2 : centre][:, ::-1]
+    parted = parted.reshape(-1, periods + 1)  # (component and site, period)
     before, here, after = (parted[:, (periods + 1) // 2 :][:, k : k - 2 or None] for k in range(3))
     if not trace.imag:
         return float(log(np.sum(after * here) / np.sum(here * here))) / period
@@ -98,9 +79,14 @@ def measured_growth(breather: Breather, trace: complex, parity: str = "even") ->
     return float(log(product)) / (2.0 * period)
 
 
-def swing(breather: Breather, change: float, end_time: float, tolerance: float) -> Swing:
-    """Return the swing of P on the central pair in the first and the last tenth of a long run."""
+def range_of_power(
+    breather: Breather, change: float, end_time: float, tolerance: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least and the largest P on the central pair in the first and the last tenth.
+
+    The run is a long one from a changed breather; both results are (span,).
+    """
     moduli = run_from(breather, change, end_time, end_time / (10 * SAMPLES), tolerance)
     centre = (moduli[:, moduli.shape[1] // 2] ** 2).sum(axis=0)
     spans = np.stack([centre[:SAMPLES], centre[-SAMPLES:]])
-    return Swing(spans.min(axis=1), spans.max(axis=1))
+    return spans.min(axis=1), spans.max(axis=1)
