@@ -51,7 +51,7 @@ use rule dataset as growth_by_drive with:
 
 
 use rule dataset as measure_sensitivity with:
-    "Which of almost equal data spread over the chain"
+    "Share of runs that spread, by the size of a random change of the data"
     input:
         kernels=kernels("taylor"),
     pathvars:
@@ -99,7 +99,7 @@ use rule figure as draw_breathers with:
 
 
 use rule figure as draw_sensitivity with:
-    "Which of almost equal data spread over the chain, as a picture"
+    "Share of runs that spread, as a figure"
     input:
         sensitivity="<results>/{size}breathers/sensitivity.nc",
     pathvars:
@@ -109,7 +109,7 @@ use rule figure as draw_sensitivity with:
 
 
 use rule figure as draw_fates with:
-    "What becomes of data on one pair, as a map"
+    "Maps of what becomes of initial conditions on one pair"
     input:
         fates="<results>/{size}breathers/fates.nc",
     pathvars:

@@ -47,12 +47,17 @@ def test_the_source_is_a_cosine_sum(family):
     assert rate(FREE, one) == pytest.approx(source**2 / np.sin(k), rel=1e-12)
 
 
-def test_the_rate_of_one_site_is_that_of_the_closed_form(family):
-    """A profile on one site radiates gamma^2 a^2 / (epsilon sin k)."""
+def test_the_rates_of_one_site_are_those_of_the_closed_forms(family):
+    """A profile on one site radiates gamma^2 a^2 / (epsilon sin k).
+
+    Its own image has gamma a / (a^2 - 2 i epsilon sin k) there and all along the outgoing waves.
+    """
     one = family[10]._replace(profile=np.append(2.0, np.zeros(20)))
     strong = Constants(epsilon=1.0, gamma=0.3, omega=-4.0)
     _, sine = wave(FREE, one.frequency)
     assert rate(strong, one) == pytest.approx(0.09 * 4.0 / sine)
+    image = 0.3 * 2.0 / (4.0 - 2.0j * sine)
+    assert own_radiation(strong, one) == pytest.approx(4.0 * sine * abs(image) ** 2)
 
 
 def test_beyond_the_band_nothing_is_radiated(family):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.problem import Constants, Problem
+from on_breathers import BELOW, members
+from pendula.problem import Constants
 from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.fates import STAYS, ends, on_one_pair
 from pendula.studies.breathers.nearest import (
@@ -17,25 +18,20 @@ from pendula.studies.breathers.nearest import (
     distances,
     unreturned,
 )
-from pendula.studies.breathers.periodic import FAMILIES, family_of
+from pendula.studies.breathers.periodic import FAMILIES, problem_from, unfolded
 
-WIDTHS = {"least": 8, "most": 30}
 KNOWN = [9.0, 10.0, 12.0, 15.0, 20.0]
-BELOW = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 
 
 def breather(family, frequency):
     """Return a breather of a family at Omega = -4 on the whole chain."""
-    (found,) = family_of(BELOW, family, [frequency], WIDTHS)
-    return np.concatenate([found.data[:, :0:-1], found.data], axis=1).astype(complex)
+    (found,) = members(BELOW, family, frequency, most=30)
+    return unfolded(found.data).astype(complex)
 
 
 def problem_of(state, omega=-4.0, end_time=5.0):
-    return Problem(
-        constants=Constants(epsilon=1.0, gamma=1.0, omega=omega), half_width=state.shape[1] // 2,
-        boundary="dirichlet", initial=state, end_time=end_time, output_step=end_time,
-        solver={"name": "taylor", "rtol": 1e-10, "atol": 1e-10},
-    )  # fmt: skip
+    constants = Constants(epsilon=1.0, gamma=1.0, omega=omega)
+    return problem_from(constants, state, end_time, end_time, 1e-10)
 
 
 def crossings_of(problem, guess):
@@ -47,7 +43,7 @@ def periodic():
     """Return the pairs at the centre of the families as the dataset has them."""
     pairs = np.zeros((2, 2, 3, 1, len(KNOWN)))
     for i, family in enumerate(FAMILIES):
-        for one in family_of(BELOW, family, KNOWN, WIDTHS):
+        for one in members(BELOW, family, *KNOWN, most=30):
             pairs[0, :, i, 0, KNOWN.index(one.frequency)] = one.data[:, 0]
     dimensions = ("part", "component", "family", "omega", "frequency")
     return xr.Dataset(

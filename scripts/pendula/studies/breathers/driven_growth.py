@@ -30,11 +30,11 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
 from pendula.numerics.elementary import complex_of, interpolated
-from pendula.problem import Constants, Problem, output_times
+from pendula.problem import Constants, output_times
 from pendula.simulation.simulate import simulate
 
 from .contents import kept
-from .periodic import shoot, single_site
+from .periodic import problem_from, shoot, single_site, unfolded
 from .steady import power, second_difference
 
 DECIMALS = 9
@@ -116,9 +116,10 @@ def predicted(
     """
     frequencies = np.array([one.frequency for one in family])
     powers = np.array([one.power for one in family])
-    inside = [i for i in range(start, len(family)) if frequencies[i] < edge(constants)]
-    slowness = np.append([1.0 / rate(constants, family[i]) for i in inside], 0.0)
-    passed = np.append(powers[inside], interpolated(edge(constants), frequencies, powers))
+    inside = [one for one in family[start:] if one.frequency < edge(constants)]
+    slowness = np.append([1.0 / rate(constants, one) for one in inside], 0.0)
+    last = interpolated(edge(constants), frequencies, powers)
+    passed = np.append([one.power for one in inside], last)
     spans = np.diff(passed) * 0.5 * (slowness[1:] + slowness[:-1])
     return interpolated(times, np.append(0.0, np.cumsum(spans)), passed)
 
@@ -131,15 +132,9 @@ def gained(
 
     The drive is switched on at tau = 0 on a breather of the chain without drive, whose B is zero.
     """
-    a = breather.profile
-    data = np.zeros((2, 2 * a.size - 1), complex)
-    data[0] = np.concatenate([a[:0:-1], a])
-    run = simulate(Problem(
-        constants=constants, half_width=half_width, boundary="dirichlet", initial=data,
-        end_time=float(times[-1]), output_step=float(times[1]),
-        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
-    ))  # fmt: skip
-    return run.l2[1] ** 2
+    data = unfolded(np.stack([breather.profile, np.zeros_like(breather.profile)]))
+    end, step = float(times[-1]), float(times[1])
+    return simulate(problem_from(constants, data, end, step, tolerance, half_width)).l2[1] ** 2
 
 
 def growth_contents(

@@ -28,7 +28,7 @@ from scipy.optimize import minimize_scalar
 
 from pendula.numerics.elementary import geometric, log
 from pendula.numerics.matrices import times
-from pendula.problem import Constants
+from pendula.problem import Constants, Problem
 
 from .quarter_period import FINE_STEPS, STEPS, flow
 from .steady import NotFoundError, power
@@ -222,6 +222,26 @@ def _between(edge: float, start: float, end: float) -> list[float]:
     count = max(1, int(np.ceil(max(counts) - 1e-9)))
     away = geometric(start - edge, end - edge, count + 1)[1:-1]
     return [*(float(edge + one) for one in away), end]
+
+
+def unfolded(data: np.ndarray) -> np.ndarray:
+    """Return even data (..., site 0..M) on the whole chain, (..., site -M..M)."""
+    return np.concatenate([data[..., :0:-1], data], axis=-1)
+
+
+def problem_from(
+    constants: Constants, initial: np.ndarray, end_time: float, output_step: float,
+    tolerance: float, half_width: int = 0,
+) -> Problem:  # fmt: skip
+    """Return the problem of data (component, site -M..M), on their chain if no other one is given.
+
+    It rests beyond its ends, and is integrated by the Taylor method.
+    """
+    return Problem(
+        constants=constants, half_width=half_width or initial.shape[1] // 2, boundary="dirichlet",
+        initial=initial.astype(complex), end_time=end_time, output_step=output_step,
+        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
+    )  # fmt: skip
 
 
 def real_data(data: np.ndarray) -> np.ndarray:

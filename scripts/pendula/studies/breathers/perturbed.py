@@ -11,11 +11,10 @@ the phase drifts in time, P on the central pair is watched, which swings within 
 import numpy as np
 
 from pendula.numerics.elementary import log
-from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 
 from .multipliers import growth
-from .periodic import Breather
+from .periodic import Breather, problem_from, unfolded
 
 DECIMALS = 9
 """Of the data of runs: LAPACK finds breathers, and their last bits differ between processors."""
@@ -35,20 +34,15 @@ def run_from(
 
     An odd change is one of the two sites beside the centre, of opposite signs.
     """
-    half, sizes = np.round(breather.data, DECIMALS), np.array([change, -0.7 * change])
-    data = np.concatenate([half[:, :0:-1], half], axis=1)
-    centre = half.shape[1] - 1
+    data, sizes = unfolded(np.round(breather.data, DECIMALS)), np.array([change, -0.7 * change])
+    centre = data.shape[1] // 2
     if parity == "even":
         data[:, centre] *= 1.0 + sizes
     else:
         data[:, centre + 1] *= 1.0 + sizes
         data[:, centre - 1] *= 1.0 - sizes
-    run = simulate(Problem(
-        constants=breather.constants, half_width=half.shape[1] - 1, boundary="dirichlet",
-        initial=data.astype(complex), end_time=end_time, output_step=step, snapshot_every=1,
-        solver={"name": "taylor", "rtol": tolerance, "atol": tolerance},
-    ))  # fmt: skip
-    return run.modulus
+    problem = problem_from(breather.constants, data, end_time, step, tolerance)
+    return simulate(problem.changed(snapshot_every=1)).modulus
 
 
 def measured_growth(breather: Breather, trace: complex, parity: str = "even") -> float:
