@@ -7,12 +7,8 @@ from pendula.studies.chaos import figures as chaos
 from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
-from pendula.studies.pendula import (
-    over_the_top_figure,
-    phases_figure,
-    remainder_figure,
-    threshold_figure,
-)
+from pendula.studies.pendula import figures as pendula
+from pendula.studies.pendula import figures_phases
 from pendula.studies.theory import bounds_figure
 from pendula.studies.theory import figures as theory
 from pendula.studies.unbounded import figures as unbounded
@@ -77,14 +73,12 @@ FIGURES = {
     "lifetimes": (lifetimes_figure.draw_lifetimes, lifetimes_figure.gather_lifetimes,
                   "checks/lifetimes"),
     "pendula_over_the_top": (
-        over_the_top_figure.draw_over_the_top, over_the_top_figure.gather_over_the_top,
+        figures_phases.draw_over_the_top, figures_phases.gather_over_the_top,
         "pendula/sea", "pendula/over_the_top", "unbounded/thermal",
     ),
-    "pendula_phases": (phases_figure.draw_phases, phases_figure.gather_phases, "pendula/phases"),
-    "pendula_remainder": (remainder_figure.draw_remainder, remainder_figure.gather_remainder,
-                          "pendula/remainder"),
-    "pendula_threshold": (threshold_figure.draw_threshold, threshold_figure.gather_threshold,
-                          "pendula/threshold"),
+    "pendula_phases": (figures_phases.draw_phases, figures_phases.gather_phases, "pendula/phases"),
+    "pendula_remainder": (pendula.draw_remainder, pendula.gather_remainder, "pendula/remainder"),
+    "pendula_threshold": (pendula.draw_threshold, pendula.gather_threshold, "pendula/threshold"),
     "bounds": (bounds_figure.draw_bounds, bounds_figure.gather_bounds,
                "checks/cases", "checks/sweeps", "checks/samples", "checks/worst",
                "checks/sharpness", "checks/chain_growth"),

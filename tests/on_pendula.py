@@ -1,9 +1,6 @@
-"""Runs of the pendula, their equations (1) in plain NumPy, and changed settings of their study."""
+"""Runs of the pendula, and their equations (1) in plain NumPy."""
 
 import numpy as np
-from helpers import chosen
-from pendula.configuration.messages import load
-from pendula.configuration.paper import paper
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
 
@@ -62,13 +59,3 @@ def start(problem: Problem):
     omega = np.sqrt(1 + problem.mu**2 * problem.constants.omega)
     z = 2 * problem.mu * problem.amplitudes
     return np.array([z.real, -omega * z.imag])
-
-
-def load_with(topic: str, change: dict):
-    """Return the validated configuration with `change` in one topic of the study of the pendula.
-
-    The section is that of config/pendula.yaml, for the paper's configuration has no long studies.
-    """
-    section = chosen("pendula").model_dump(mode="json")
-    section[topic] |= change
-    return load(dict(paper()) | {"unbounded": None, "breathers": None, "pendula": section})

@@ -18,7 +18,8 @@ from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
 from pendula.studies.breathers import figures as breathers
-from pendula.studies.pendula import phases_figure, remainder_figure
+from pendula.studies.pendula import figures as pendula
+from pendula.studies.pendula import figures_phases
 
 
 def gather_own_norms(run, other):
@@ -156,7 +157,7 @@ def test_it_is_said_of_which_instant_the_p_of_a_periodic_breather_is():
 
 def test_a_line_shows_mu_by_its_colour_alone():
     """Shades and dashes of one colour lie on each other where norms are nearly equal."""
-    figure = phases_figure.draw_phases(dataset("figures/pendula_phases"))
+    figure = figures_phases.draw_phases(dataset("figures/pendula_phases"))
     for axes in figure.axes:
         assert len({line.get_color() for line in axes.lines}) == len(axes.lines)
         assert {line.get_linestyle() for line in axes.lines} <= {"-"}
@@ -168,7 +169,7 @@ def test_a_line_shows_mu_by_its_colour_alone():
 
 def test_each_width_of_a_line_is_named_and_each_axis_says_what_it_is():
     drawn = dataset("figures/pendula_remainder")
-    _, growth, horizon = remainder_figure.draw_remainder(drawn).axes
+    _, growth, horizon = pendula.draw_remainder(drawn).axes
     looks = {(line.get_linewidth(), line.get_alpha()) for line in growth.lines}
     named = {
         (line.get_linewidth(), line.get_alpha()): text.get_text()

@@ -24,7 +24,7 @@ use rule figure as pendula_threshold with:
     pathvars:
         made="figures/pendula_threshold",
     params:
-        call=function("pendula.studies.pendula.threshold_figure.draw_threshold"),
+        call=function("pendula.studies.pendula.figures.draw_threshold"),
 
 
 use rule dataset as measure_remainder with:
@@ -50,7 +50,7 @@ use rule figure as draw_remainder with:
     pathvars:
         made="<size>figures/pendula_remainder",
     params:
-        call=function("pendula.studies.pendula.remainder_figure.draw_remainder"),
+        call=function("pendula.studies.pendula.figures.draw_remainder"),
 
 
 use rule dataset as measure_phases with:
@@ -79,7 +79,7 @@ use rule dataset as measure_sea with:
         made="<size>pendula/sea",
     params:
         **values_of(SEA, "window", "size", "seed"),
-        call=function("pendula.studies.pendula.sea.measure_sea"),
+        call=function("pendula.studies.pendula.chaotic_state.measure_sea"),
         problem=run_of(**values_of(SEA, "case", "tolerance", "output_step"), end_time=SEA.window[1]),
         given=sized(SEA, "mus", "members"),
 
@@ -92,7 +92,7 @@ use rule dataset as measure_over_the_top with:
         made="<size>pendula/over_the_top",
     params:
         **values_of(OVER_THE_TOP, "mus", "per_period", "size", "seed", "settled"),
-        call=function("pendula.studies.pendula.over_the_top.measure_over_the_top"),
+        call=function("pendula.studies.pendula.chaotic_state.measure_over_the_top"),
         problem=lambda wildcards: run_of(
             **values_of(OVER_THE_TOP, "case", "tolerance"),
             **values_of(of_size(OVER_THE_TOP, wildcards), "end_time"),
@@ -108,7 +108,7 @@ use rule dataset as film_pendula with:
         made="pendula/film",
     params:
         **values_of(FILM, "reach", "periods", "per_period"),
-        call=function("pendula.studies.pendula.film.film_pendula"),
+        call=function("pendula.studies.pendula.phases.film_pendula"),
         problems=followed(FILM.cases, FILM.tolerance, model="pendula", mu=FILM.mu),
 
 
@@ -119,7 +119,7 @@ use rule figure as pendula_phases with:
     pathvars:
         made="figures/pendula_phases",
     params:
-        call=function("pendula.studies.pendula.phases_figure.draw_phases"),
+        call=function("pendula.studies.pendula.figures_phases.draw_phases"),
 
 
 use rule figure as draw_over_the_top with:
@@ -131,7 +131,7 @@ use rule figure as draw_over_the_top with:
     pathvars:
         made="<size>figures/pendula_over_the_top",
     params:
-        call=function("pendula.studies.pendula.over_the_top_figure.draw_over_the_top"),
+        call=function("pendula.studies.pendula.figures_phases.draw_over_the_top"),
 
 
 rule pendula:

@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 from hill_series import distance_to_edge, growth_over_period
+from pendula.configuration.paper import paper
+from pendula.problem import Constants
 from pendula.studies.pendula import mathieu
 from pendula.studies.pendula.mathieu import (
     band_threshold,
     first_tongue,
     growth,
     second_tongue,
+    strings_grow,
     wave_threshold,
 )
 from scipy.special import mathieu_a, mathieu_b
@@ -48,15 +51,8 @@ def test_deeper_fractions_change_no_bit(of, monkeypatch):
 
 
 def test_growth_is_that_of_the_monodromy():
-    for offset, q in (
-        (-0.1, 0.3),
-        (0.0, 1e-3),
-        (0.02, 0.02006),
-        (0.5, 1.0),
-        (0.56, 1.1),
-        (1.2, 3.0),
-        (-0.5, 4.0),
-    ):
+    at = (-0.1, 0.3), (0.0, 1e-3), (0.02, 0.02006), (0.5, 1.0), (0.56, 1.1), (1.2, 3.0), (-0.5, 4.0)
+    for offset, q in at:
         exact = growth_over_period(offset, q) / np.pi
         assert float(growth(offset, q)) == pytest.approx(exact, rel=1e-12)
 
@@ -80,3 +76,14 @@ def test_a_band_is_as_stable_as_its_weakest_wave():
 def test_a_band_at_a_resonance_bears_no_drive():
     found = band_threshold(np.array([-0.2, 2.5, 3.5, 0.5]), np.array([0.1, 3.1, 3.9, 2.0]))
     assert found[:2].tolist() == [0.0, 0.0] and np.isnan(found[2]) and found[3] > 0.0
+
+
+def test_only_a_drive_that_beats_the_strings_loses_pendula():
+    """By Mathieu's equation: a <= 4 epsilon mu^2 / omega^2 is stable up to q = b_1(a)."""
+    of_paper = [Constants.of(one) for one in paper()["cases"].values()]
+    assert not any(strings_grow(one, mu) for one in of_paper for mu in (0.05, 0.15, 0.3))
+    plain = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
+    for changes in ({"gamma": 3.0}, {"epsilon": 2.0}, {"epsilon": -0.1, "gamma": 0.0}):
+        assert strings_grow(Constants(**plain | changes), 0.3)
+    free = Constants(epsilon=0.0, gamma=1.0, omega=0.0)
+    assert not strings_grow(free, np.sqrt(0.9 / 2.0)) and strings_grow(free, np.sqrt(0.91 / 2.0))

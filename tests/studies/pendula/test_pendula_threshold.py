@@ -6,10 +6,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from hill_series import distance_to_edge, growth_over_period
-from on_pendula import load_with
-from pendula.configuration.files import ConfigurationError
-from pendula.configuration.paper import paper
-from pendula.datasets.netcdf import as_xarray
 from pendula.models.linear_chain import gamma_0
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
@@ -22,7 +18,6 @@ from pendula.studies.pendula.threshold import (
     pendula_threshold,
     second_resonance,
     squared_frequency,
-    threshold_contents,
 )
 from scipy.integrate import solve_ivp
 
@@ -193,31 +188,3 @@ def test_rates_are_those_of_the_fastest_wave(omega, curvature):
     found = float(pendula_rate(omega, mu, gamma, 1.0))
     assert found == pytest.approx(np.log(max(waves)) / period, rel=1e-9)
     assert max(waves) == multiplier(omega, mu, gamma, curvature)
-
-
-def test_the_dataset_holds_what_its_names_say():
-    given = paper()["pendula"]["threshold"]
-    data = as_xarray(
-        *threshold_contents(1.0, given["omegas"], given["mus"], 30, [-4.0, 8.0], [0.0, 3.0], [-1.0])
-    )
-    assert {-4.0, 8.0} <= set(data["omega"].values) and list(data["mu"].values) == list(MUS)
-    assert data["gamma_0"].dims == ("omega", "mu")
-    assert np.all(data["gamma_0"].sel(omega=[0.0, 1.0, 4.0]) == 0.0)
-    assert data["wave_rate"].sel(gamma=0.0).max() == 0.0
-    assert data["curve_gamma_0"].values[0] == pytest.approx(
-        data["gamma_0"].sel(omega=-1.0).values, rel=1e-15
-    )
-
-
-@pytest.mark.parametrize(
-    ("change", "text"),
-    [
-        ({"omegas": [-9]}, r"omegas: has -9, and at mu = 0.3 every wave there lies above"),
-        ({"mus": [0.6]}, r"growth.omegas: has -4, and at mu = 0.6"),
-        ({"growth": {"omegas": [-6], "gammas": {"first": 0, "last": 12, "step": 1}}},
-         r"growth.gammas: has 12, at which waves of Omega = -6 and mu = 0.3 grow by the second"),
-    ],
-)  # fmt: skip
-def test_what_has_no_threshold_is_refused_by_its_key(change, text):
-    with pytest.raises(ConfigurationError, match=text):
-        load_with("threshold", change)

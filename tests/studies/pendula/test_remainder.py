@@ -4,28 +4,24 @@ from math import log, pi
 
 import numpy as np
 import pytest
-from on_pendula import load_with
-from pendula.configuration.files import ConfigurationError
 from pendula.models.pendula import times_of
 from pendula.problem import PENDULA, Constants, Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.pendula.followed import angles_at, compared, misses, turns
 from pendula.studies.pendula.remainder import (
     PHASES,
-    READINGS,
-    WRONG,
     follow,
     horizon,
     measure,
+    misses,
     orders,
     peak,
     reach,
-    runs_of,
     samples,
     up_to,
     window_maxima,
 )
+from pendula.studies.pendula.runs import angles_at
 
 
 def problem(omega=-4.0, pair=(1.0, 0.1), **changes):
@@ -55,13 +51,6 @@ def test_windows_are_half_periods_that_end_at_multiples_of_the_spacing(mu):
     assert found.apart == (half_period < 0.05)
     if not found.apart:  # no time is left out
         assert np.array_equal(np.unique(found.steps), np.arange(found.steps.max() + 1))
-
-
-def test_every_sample_is_found_among_the_times():
-    found = samples(0.1, -4.0, 1.0, 0.05)
-    steps, places = found.times
-    assert steps[0] == 0 and np.all(np.diff(steps) > 0)
-    np.testing.assert_array_equal(steps[places], found.steps)
 
 
 def test_a_peak_is_the_top_of_a_parabola():
@@ -115,17 +104,11 @@ def test_without_the_next_order_the_angles_are_those_of_simulated_amplitudes():
     mu, phases, taus = 0.1, np.array([0.3, 0.7, 2.0]), np.array([0.0, 0.4, 1.0])
     turned = simulate(problem()).final * np.exp(1j * phases[-1])
     angles = np.tile(2.0 * mu * turned.real, (3, 1, 1))
+    pendula = problem(model=PENDULA, mu=mu)
     for wrong in (0.0, 0.01):
         angles[-1, 1, 3] -= wrong
-        record = compared(angles, turns(phases), mu, np.zeros(1), np.array([3]))
-        missed = misses(problem(), 0.0, taus, record, WHOLE)
+        missed = misses(pendula, False, taus, np.exp(1j * phases), angles, [0.0], [3], WHOLE)
         assert missed[0, -1] == pytest.approx(wrong, rel=1e-9, abs=1e-11)
-
-
-def test_readings_that_share_their_amplitudes_share_a_run():
-    runs = runs_of({**READINGS, **WRONG})
-    assert [len(thirds) for thirds in runs.values()] == [2, 2, 1]
-    assert runs[True, 1.0] == {"corrected": 1.0, "a third harmonic of the opposite sign": -1.0}
 
 
 def test_sites_that_nothing_has_reached_change_no_error():
@@ -136,23 +119,23 @@ def test_sites_that_nothing_has_reached_change_no_error():
     sizes = np.abs(simulate(given.changed(end_time=0.5, output_step=0.5)).final).max(axis=0)
     assert 0.0 < sizes[24 + 15] < 1e-15 < sizes[24 + 12]
     whole, part = (measure(one, {0.1: 0.5}, ends, 0.05) for one in (given, shorter))
-    np.testing.assert_array_equal(whole.errors, part.errors)
-    run = follow(given.changed(model=PENDULA, mu=0.1, end_time=0.5), 0.05, 0.25)
-    assert run.errors.max(axis=1) == pytest.approx(part.errors[0, :, -1], rel=1e-12)
+    np.testing.assert_array_equal(whole.right, part.right)
+    run = follow(given.changed(model=PENDULA, mu=0.1, end_time=0.5), ends, 0.05, 0.25)
+    assert run.right == pytest.approx(part.right[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("omega", [8.0, -4.0])
 def test_the_orders_are_three_and_five(omega):
     run_ends = dict.fromkeys((0.1, 0.05, 0.025), 0.5)
     found = measure(problem(omega), run_ends, np.array([0.5]), 0.025)
-    order, off = orders(found.errors)
+    order, off = orders(found.right)
     assert order[:, 0] == pytest.approx([3.0, 5.0], abs=0.03) and off.max() < 0.03
     wrong, _ = orders(found.wrong)
     assert wrong == pytest.approx([1.0, 3.0, 3.0], abs=0.2)
 
 
 def test_where_the_chain_at_rest_is_unstable_the_error_outruns_every_power_of_time():
-    errors = measure(problem(0.0), {0.1: 4.0}, np.array([1.0, 2.0, 4.0]), 0.05).errors[0, 0]
+    errors = measure(problem(0.0), {0.1: 4.0}, np.array([1.0, 2.0, 4.0]), 0.05).right[0, 0]
     assert log(errors[2] / errors[0]) / log(4.0) > 2.0
 
 
@@ -160,29 +143,6 @@ def test_pendula_that_are_driven_beyond_all_bounds_are_lost():
     """At mu = 0.4 large data go over the top, and the string then turns them ever faster."""
     driven = Constants(epsilon=1.0, gamma=0.6, omega=-4.0)  # by more drive they turn faster
     pendula = problem(pair=(5.0, 1.0), model=PENDULA, mu=0.4, end_time=7.0, constants=driven)
-    run = follow(pendula, 0.05, 1.0)
-    assert np.isinf(run.errors[:, -1]).all() and np.isfinite(run.errors[:, 0]).all()
+    run = follow(pendula, np.array([0.05, 7.0]), 0.05, 1.0)
+    assert np.isinf(run.right[:, -1]).all() and np.isfinite(run.right[:, 0]).all()
     assert np.isfinite(run.wrong).all()
-
-
-# --- The configuration ----------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("change", "text"),
-    [
-        ({"mus": [0.4, 0.2, 0.15, 0.05, 0.025, 0.0125]}, r"mus: must each be half"),
-        ({"mus": [0.8, 0.4, 0.2, 0.1, 0.05, 0.025]}, r"mus: has 0.8, at which the pendula of fig3"),
-        ({"ends": {"fig2_small": [1.0]}}, r"ends.fig2_small: has 1 ends for 6 values of mu"),
-        ({"ends": {"fig2": [1.0] * 6}}, r"there is no case 'fig2'"),
-        (
-            {"ends": {"fig2_small": [1.1] * 6}},
-            r"ends.fig2_small: 1.1 is not a whole number",
-        ),
-        ({"spacing": 0.1}, r"end_step: is not a whole number of `spacing`"),
-        ({"long": 1e9}, r"long: its runs together would take"),
-    ],
-)
-def test_what_gives_no_order_is_refused_by_its_key(change, text):
-    with pytest.raises(ConfigurationError, match=text):
-        load_with("remainder", change)

@@ -21,8 +21,6 @@ from pendula.ledger.cutoff import Cutoff
 from pendula.measures.confidence import difference_limits, mean_limits
 from pendula.numerics.elementary import log
 
-from .thermal_beside import thermal_beside
-
 SECTION = 7
 PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 THERMAL = "unbounded/thermal"
@@ -58,21 +56,17 @@ def known(levels):
     return levels
 
 
-def largest_power(phases):
-    """Return the largest known P = |A|^2 + |B|^2 of each run, (case, mu)."""
-    return (phases["l2"] ** 2).sum("component").max("tau")
-
-
 def at_finite(values):
     """Return values at all mu but 0, which stands for the amplitude equations."""
-    return with_some_mu(values.sel(mu=values["mu"] > 0.0))
-
-
-def with_some_mu(dataset):
-    """Return what has a mu at all."""
-    if not dataset.sizes["mu"]:
+    found = values.sel(mu=values["mu"] > 0.0)
+    if not found.sizes["mu"]:
         raise UndecidableError("there is no such mu")
-    return dataset
+    return found
+
+
+def thermal_beside(sea, thermal, *names: str):
+    """Return these variables of the thermal chain at the sea's Omega, NaN where none was solved."""
+    return thermal[list(names)].reindex(omega=[sea.attrs["omega"]]).isel(omega=0, drop=True)
 
 
 @claim(
@@ -131,9 +125,10 @@ def pendula_norms(phases) -> Finding:
 def pendula_spread(phases) -> Finding:
     """Compare the late norms with those of the data, at each mu."""
     case = phases.sel(case=["fig3_large"])
-    starts = {name: late_start(case, name) for name in ("l2", "linf")}
-    grown = at_finite(known(late_levels(case))) / starts["l2"]
-    level = at_finite(known(late_levels(case, "linf"))) / starts["linf"]
+    start = case.sel(mu=0.0).isel(tau=0)
+    l2, linf = np.sqrt((start["l2"] ** 2).sum("component")), start["linf"].max("component")
+    grown = at_finite(known(late_levels(case))) / l2
+    level = at_finite(known(late_levels(case, "linf"))) / linf
     measured = {
         "least_growth": grown.min(),
         "least_level": level.min(),
@@ -151,12 +146,6 @@ def pendula_spread(phases) -> Finding:
         " one they go over the top"
     )
     return judge(measured, criterion, fails=fails)
-
-
-def late_start(case, norm: str):
-    """Return the norm of the data of the pair."""
-    first = case[norm].sel(mu=0.0).isel(tau=0)
-    return np.sqrt((first * first).sum("component")) if norm == "l2" else first.max("component")
 
 
 @claim(
@@ -181,7 +170,8 @@ def theorem_1_for_the_pendula(phases) -> Finding:
     cases = phases.sel(case=["fig2_small", "fig2_large"])
     if not np.isfinite(cases["theorem_1_power"]).all():
         raise UndecidableError("Theorem 1 says nothing of these constants")
-    over = at_finite(largest_power(cases) / cases["theorem_1_power"]).max("case")
+    power = (cases["l2"] ** 2).sum("component").max("tau")
+    over = at_finite(power / cases["theorem_1_power"]).max("case")
     members = phases["over_theorem_1"].values
     ratios = np.append(over.values, members)
     mus = np.append(over["mu"].values, phases["member_mu"].values)
@@ -210,22 +200,17 @@ def theorem_1_for_the_pendula(phases) -> Finding:
 def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
     """Compare angles alone, which give no more than P, with the bound by the energy of the data."""
     bound = phases["theorem_3_power"]
-    cases = at_finite(largest_power(phases) / bound).max("case")
-    sea = with_some_mu(over_the_top)["angle_power"].max("member") / bound.sel(case="fig4_small")
+    cases = at_finite((phases["l2"] ** 2).sum("component").max("tau") / bound).max("case")
+    sea = at_finite(over_the_top)["angle_power"].max("member") / bound.sel(case="fig4_small")
+    above = [float(one["mu"][(one > 1.0).values].min()) for one in (cases, sea) if one.max() > 1.0]
     measured = {"largest_over_bound": max(cases.max(), sea.max())}
-    measured |= {"smallest_mu_over_it": _least_mu([cases, sea])}
+    measured |= {"smallest_mu_over_it": min(above, default=np.nan)}
     fails = (
         "no energy bounds pendula that are driven: once over the top they turn on and wind up the"
         " strings"
     )
     says = "largest P over its bound"
     return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
-
-
-def _least_mu(shares) -> float:
-    """Return the least mu at which one of the shares is above one; NaN where none is."""
-    above = [float(one["mu"][(one > 1.0).values].min()) for one in shares if (one > 1.0).any()]
-    return min(above, default=np.nan)
 
 
 @claim(
@@ -278,7 +263,7 @@ def same_sea(sea, thermal) -> Finding:
 def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
     """Compare the largest angle by the end with 2 mu times the amplitudes' level."""
     level = sea["linf_level"].sel(mu=0.0).mean("member")
-    angles = known(with_some_mu(over_the_top)["angle_so_far"].isel(tau=-1)).mean("member")
+    angles = known(at_finite(over_the_top)["angle_so_far"].isel(tau=-1)).mean("member")
     over = angles / (2.0 * over_the_top["mu"] * level)
     passed = over_the_top["passed"].isel(tau=-1)
     measured = {

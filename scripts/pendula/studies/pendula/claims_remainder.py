@@ -37,15 +37,6 @@ def common_end(remainder) -> float:
     return float(remainder["end"].values[known].max())
 
 
-def at_common_end(remainder, name: str, expansion: str, cases=STABLE):
-    """Return a variable at the end that every run reaches, by case."""
-    chosen = {"expansion": expansion, "case": list(cases), "end": common_end(remainder)}
-    values = remainder[name].sel(chosen)
-    if not np.isfinite(values).all():
-        raise UndecidableError("an order takes three mu, each half of the one before")
-    return values
-
-
 def of_wrong(name: str, reading: str, expansion: str):
     """Return what gives an expansion the orders, or the errors, of a wrong one."""
 
@@ -58,10 +49,12 @@ def of_wrong(name: str, reading: str, expansion: str):
 
 
 def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Finding:
-    """Require one order of every case."""
-    order = at_common_end(remainder, "order", expansion, cases)
-    off = at_common_end(remainder, "order_uncertainty", expansion, cases)
-    constant = at_common_end(remainder, "error_constant", expansion, cases)
+    """Require one order of every case, at the end that every run reaches."""
+    chosen = {"expansion": expansion, "case": list(cases), "end": common_end(remainder)}
+    names = "order", "order_uncertainty", "error_constant"
+    order, off, constant = (remainder[name].sel(chosen) for name in names)
+    if not all(np.isfinite(one).all() for one in (order, off, constant)):
+        raise UndecidableError("an order takes three mu, each half of the one before")
     measured = {
         "least_order": order.min(),
         "largest_order": order.max(),
@@ -109,12 +102,6 @@ def expansion_order(remainder) -> Finding:
 )
 def next_order_of_the_expansion(remainder) -> Finding:
     return judged_order(remainder, "corrected", 5.0)
-
-
-def in_square_of_time(remainder):
-    """Return errors that grow like tau^2."""
-    error = remainder["error"]
-    return remainder.assign(error=(0.0 * error.fillna(0.0) + remainder["end"] ** 2))
 
 
 def over_late_half(remainder, cases, long: float):
@@ -172,7 +159,12 @@ def remainder_bounded(remainder) -> Finding:
     "Where the chain at rest is stable, the remainder of small data grows in proportion to time at "
     "most.",
     (REMAINDER,),
-    (Control("errors in proportion to tau^2", in_square_of_time),),
+    (
+        Control(
+            "errors in proportion to tau^2",
+            lambda one: one.assign(error=0.0 * one["error"].fillna(0.0) + one["end"] ** 2),
+        ),
+    ),
     on=("fig2_small", "fig3_small"),
 )
 def remainder_secular(remainder) -> Finding:
@@ -185,15 +177,14 @@ def remainder_secular(remainder) -> Finding:
 
 def slopes(remainder):
     """Return by expansion how much later the horizon comes at mu / e than at mu."""
-    found, mus = {}, remainder["mu"].values
-    horizons = remainder["visible_from"].sel(case=UNSTABLE).transpose("expansion", "mu")
-    for expansion, horizon in zip(horizons["expansion"].values, horizons.values, strict=True):
-        known = np.isfinite(horizon)
-        if known.sum() < FEWEST:
+    found = {}
+    for horizon in remainder["visible_from"].sel(case=UNSTABLE).transpose("expansion", "mu"):
+        known = horizon[np.isfinite(horizon.values)].sortby("mu")
+        if known.size < FEWEST:
             raise UndecidableError(f"fewer than {FEWEST} runs go on to their horizon")
-        late, early = (pick(mus[known]) for pick in (np.argmin, np.argmax))
-        apart = log(float(mus[known][early]) / float(mus[known][late]))
-        found[str(expansion)] = float(horizon[known][late] - horizon[known][early]) / apart
+        mus = known["mu"].values
+        apart = log(float(mus[-1]) / float(mus[0]))
+        found[str(horizon["expansion"].values)] = float(known[0] - known[-1]) / apart
     return found
 
 

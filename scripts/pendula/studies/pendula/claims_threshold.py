@@ -140,17 +140,6 @@ def correction_of_the_threshold(threshold) -> Finding:
     return judge(measured, criterion)
 
 
-def largest_misses(dataset):
-    """Return by mu the largest difference of the rates of growth, over the largest rate.
-
-    Near a threshold a rate is the root of a small difference, and that threshold itself moves; so
-    squares of rates are compared.
-    """
-    square, law = dataset["wave_rate"] ** 2, dataset["rate_lemma"] ** 2
-    off = abs(square - law) / law.max("gamma")
-    return off.max(("growth_omega", "gamma"))
-
-
 @claim(
     PLACE,
     "Unstable pendula grow at the rates of Lemma 1, with an error of the order mu^2.",
@@ -164,9 +153,15 @@ def largest_misses(dataset):
     ),
 )
 def rates_of_the_pendula(threshold) -> Finding:
-    """Take the order between the two smallest mu."""
+    """Take the order of the largest difference, over the largest rate, at the two smallest mu.
+
+    Near a threshold a rate is the root of a small difference, and that threshold itself moves; so
+    squares of rates are compared.
+    """
     ordered = smallest_mus(threshold)
-    missed, mu = largest_misses(ordered).values, ordered["mu"].values
+    square, law = ordered["wave_rate"] ** 2, ordered["rate_lemma"] ** 2
+    missed = (abs(square - law) / law.max("gamma")).max(("growth_omega", "gamma")).values
+    mu = ordered["mu"].values
     if not missed[-1] > 0:
         raise UndecidableError("no wave grows at any of the drives")
     order = order_between(missed[-2], missed[-1], mu)

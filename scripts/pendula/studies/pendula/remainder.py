@@ -13,48 +13,126 @@ a period is sampled in each short span of tau, and the parabola through the larg
 neighbours has the maximum.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from pendula.compiled import kernel
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents
+from pendula.integrators import DONE, FAULTS, dop853
 from pendula.measures.difference import VISIBLE
+from pendula.models.expansion import Expansion, angle, corrected_start, rates
 from pendula.models.pendula import frequency
-from pendula.numerics.elementary import exp, log
+from pendula.numerics.elementary import exp, log, product, turn
 from pendula.problem import PENDULA, Problem
-from pendula.simulation.lattice import find_reduction
+from pendula.simd import largest_magnitude
+from pendula.simulation.interrupts import interruptible
+from pendula.simulation.lattice import Reduction, aligned, find_reduction, pack
+from pendula.simulation.models import make_chain
+from pendula.simulation.simulate import IntegrationError
 
-from .followed import angles_at, compared, misses, turns
+from .runs import angles_at
 
+TOLERANCE = 1e-12
+"""Of the amplitudes, relative and absolute: far below what the expansion leaves at any mu."""
 PHASES = 12
 """Samples of half a period; with twice as many the maxima change by less than 1e-3."""
-
-
 ROUNDING = 1e-16
 """What is smaller than this part of the data makes no difference to them in double precision."""
-
-
-class Reading(NamedTuple):
-    """What is taken for the expansion: the paper's, its next order, or a wrong one.
-
-    `corrected` lets G move the amplitudes, from the corrected start. `third` is the factor of P E^3
-    in the angles, and `clock` the slow time of the amplitudes over mu^2 t / 2.
-    """
-
-    corrected: bool = False
-    third: float = 0.0
-    clock: float = 1.0
-
-
-READINGS = {"leading": Reading(), "corrected": Reading(corrected=True, third=1.0)}
-WRONG = {
-    "the slow time mu^2 t": Reading(clock=2.0),
-    "a third harmonic of the opposite sign": Reading(corrected=True, third=-1.0),
-    "a third harmonic alone": Reading(third=1.0),
+RUNS = {
+    (False, 1.0): {"leading": 0.0, "a third harmonic alone": 1.0},
+    (True, 1.0): {"corrected": 1.0, "a third harmonic of the opposite sign": -1.0},
+    (False, 2.0): {"the slow time mu^2 t": 0.0},
 }
+"""Expansions by the run of the amplitudes that they share, with the factor of P E^3 in the angles.
+
+A run is told by whether G moves the amplitudes, from the corrected start, and by their slow time
+over mu^2 t / 2.
+"""
+RIGHT = ("leading", "corrected")
+WRONG = (
+    "the slow time mu^2 t",
+    "a third harmonic of the opposite sign",
+    "a third harmonic alone",
+)
 """Expansions that must not have the order of a right one."""
+
+
+# --- How far an expansion is from the angles -----------------------------------------------------
+
+
+class Compared(NamedTuple):
+    """Angles of pendula, and how far those of expansions are from them."""
+
+    angles: np.ndarray  # (time, component, site)
+    turns: np.ndarray  # (time, 4): Re E, Im E, Re E^3 and Im E^3
+    mu: float
+    thirds: np.ndarray  # (expansion,): factors of the third harmonic
+    counts: np.ndarray  # (expansion,): at so many times each is compared
+    apart: np.ndarray  # (component, site): scratch
+    misses: np.ndarray  # (expansion, time): the largest of all pendula
+
+
+@kernel
+def compare(expansion, y, i, record):
+    """Write the largest misses of each expansion at output `i`, where the amplitudes are `y`."""
+    turn = record.turns[i, 0], record.turns[i, 1], record.turns[i, 2], record.turns[i, 3]
+    one, sites = np.uint64(1), record.apart.shape[1]
+    for reading in range(record.thirds.size):
+        if i >= record.counts[reading]:
+            continue
+        third = record.thirds[reading]
+        for re in range(0, y.shape[0], 2):
+            im, k, other = re + 1, re // 2, y.shape[0] - 2 - re
+            for place in range(sites):
+                site = np.uint64(place)  # so that no code asks whether it counts from the end
+                j = site + one
+                u, v, s, t = y[re, j], y[im, j], y[other, j], y[other + 1, j]
+                expected = angle(record.mu, expansion.chain.gamma, third, turn, u, v, s, t)
+                record.apart[k, site] = record.angles[i, k, site] - expected
+        record.misses[reading, i] = largest_magnitude(record.apart.reshape(-1))
+
+
+solve = dop853.build(rates, compare)
+
+
+@kernel
+def run(system, y, times, controls, work, record, stop):
+    return solve(system, y, times, controls, work, record, stop)
+
+
+def misses(
+    problem: Problem, corrected: bool, taus: np.ndarray, turned: np.ndarray, angles: np.ndarray,
+    thirds: Sequence[float], counts: Sequence[int], reduction: Reduction,
+) -> np.ndarray:  # fmt: skip
+    """Return how far expansions are from `angles`, (expansion, time), zero after their `counts`.
+
+    `problem` is that of the pendula, whose angles (time, component, site) are of what `reduction`
+    leaves of the chain; `turned` is E at each time. The amplitudes are solved at `taus`, which
+    begin with 0: by F, or if `corrected` by F + mu^2 G from the data that have the angles and
+    velocities of the problem's to that order (see pendula.models.expansion).
+    """
+    squared_mu = problem.mu * problem.mu if corrected else 0.0
+    cubed = product(turned, product(turned, turned))
+    record = Compared(
+        angles, np.stack([turned.real, turned.imag, cubed.real, cubed.imag], axis=-1), problem.mu,
+        np.array(thirds), np.array(counts), np.empty(angles.shape[1:]),
+        np.zeros((len(thirds), max(counts))),
+    )  # fmt: skip
+    chain = make_chain(problem.constants, problem.boundary, reduction)
+    y = corrected_start(chain, squared_mu, pack(problem.amplitudes, reduction))
+    system = Expansion(chain, squared_mu, np.zeros_like(y), np.zeros_like(y))
+    controls, work = (TOLERANCE, TOLERANCE), aligned((dop853.WORK, *y.shape))
+    outcome = interruptible(run, system, y, taus, controls, work, record)
+    if outcome.status != DONE:
+        fault = FAULTS[outcome.status]
+        raise IntegrationError(f"the amplitudes stopped at tau = {outcome.time:.6g}: {fault}")
+    return record.misses
+
+
+# --- Sampling ------------------------------------------------------------------------------------
 
 
 class Samples(NamedTuple):
@@ -63,15 +141,6 @@ class Samples(NamedTuple):
     steps: np.ndarray  # (window, PHASES + 2): times in units of half a period / PHASES
     step: float  # that unit in tau
     apart: bool  # whether there is time between the windows
-
-    @property
-    def times(self) -> tuple[np.ndarray, np.ndarray]:
-        """All times, once each and rising from zero on, and the place of each sample in them.
-
-        They are in the unit `step`, by which a run has to multiply them.
-        """
-        steps, places = np.unique(np.append(0, self.steps), return_inverse=True)
-        return steps, places[1:].reshape(self.steps.shape)
 
 
 def samples(mu: float, omega: float, end: float, spacing: float) -> Samples:
@@ -118,38 +187,9 @@ def window_maxima(found: Samples, errors: np.ndarray) -> tuple[np.ndarray, np.nd
 
 
 def up_to(taus: np.ndarray, sizes: np.ndarray, ends: np.ndarray, run_end: float) -> np.ndarray:
-    """Return the largest of sizes (..., window) so far at each of `ends`; NaN beyond the run."""
-    largest = np.maximum.accumulate(sizes, axis=-1)
+    """Return the largest of sizes (window,) so far at each of `ends`; NaN beyond the run."""
     last = np.searchsorted(taus, ends, side="right") - 1
-    return np.where(ends <= run_end, largest[..., last], np.nan)
-
-
-def orders(errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the order in mu of errors (mu, ...) as mu goes to zero, and what it may be off by.
-
-    Each mu is half of the one before. The order between two neighbours is that of the limit plus a
-    multiple of mu^2, so two of them, from the three smallest mu that have an error, give the limit.
-    What the second of them differs by from the limit is taken as its error. NaN where fewer than
-    three mu have an error.
-    """
-    shape = errors.shape[1:]
-    order, off = np.full((2, *shape), np.nan)
-    for place in np.ndindex(shape):
-        known = np.flatnonzero(np.isfinite(errors[(slice(None), *place)]))
-        if known.size >= 3:
-            coarse, middle, fine = errors[(known[-3:], *place)]
-            before, last = log(coarse / middle) / log(2.0), log(middle / fine) / log(2.0)
-            step = (last - before) / 3.0
-            order[place], off[place] = last + step, abs(step)
-    return order, off
-
-
-def smallest_known(errors: np.ndarray) -> np.ndarray:
-    """Return, of errors (mu, ...), those of the last mu that has one; NaN where none has."""
-    found = np.full(errors.shape[1:], np.nan)
-    for one in errors:
-        found = np.where(np.isfinite(one), one, found)
-    return found
+    return np.where(ends <= run_end, np.maximum.accumulate(sizes)[last], np.nan)
 
 
 def horizon(taus: np.ndarray, errors: np.ndarray, sizes: np.ndarray, part: float) -> float:
@@ -162,50 +202,47 @@ def horizon(taus: np.ndarray, errors: np.ndarray, sizes: np.ndarray, part: float
     return float(taus[beyond[0]]) if beyond.size else np.inf
 
 
-class Followed(NamedTuple):
-    """One run of the pendula, window by window: the error of each right reading, and the angles."""
-
-    taus: np.ndarray  # (reading, window)
-    errors: np.ndarray  # (reading, window)
-    angles: np.ndarray  # (window,): the largest
-    wrong: np.ndarray  # (wrong reading,): the largest error up to a time
+# --- Errors by case, mu and end ------------------------------------------------------------------
 
 
-def follow(problem: Problem, spacing: float, wrong_end: float) -> Followed:
-    """Return how far the expansions are from the pendula of `problem` up to its end time.
+class Errors(NamedTuple):
+    """Errors of the expansions in one run of the pendula; with mu as first axis, in several."""
 
-    Wrong readings are followed up to the slow time `wrong_end` only.
+    right: np.ndarray  # (expansion, end)
+    angles: np.ndarray  # (end,): the largest
+    horizons: np.ndarray  # (expansion,)
+    wrong: np.ndarray  # (wrong expansion,), up to the shortest run's end
+
+
+def follow(problem: Problem, ends: np.ndarray, spacing: float, wrong_end: float) -> Errors:
+    """Return the errors of the expansions of the pendula of `problem` up to its end time.
+
+    Wrong expansions are followed up to the slow time `wrong_end` only.
     """
     mu, omega = problem.mu, problem.constants.omega
     reduction = find_reduction(problem.amplitudes)
     found = samples(mu, omega, problem.end_time, spacing)
-    steps, places = found.times
+    # all times, once each and rising from zero on, and the place of each sample in them
+    steps, places = np.unique(np.append(0, found.steps), return_inverse=True)
+    places = places[1:].reshape(found.steps.shape)
     angles = angles_at(problem, steps * (np.pi / PHASES / frequency(omega, mu)), reduction)
-    phases = np.pi / PHASES * np.arange(2 * PHASES)
-    turned = turns(phases)[steps % phases.size]
-    brief = int(np.searchsorted(steps * found.step, wrong_end * (1.0 + 1e-9), side="right"))
-    counts = dict.fromkeys(READINGS, steps.size) | dict.fromkeys(WRONG, brief)
+    turned = turn(np.pi / PHASES * np.arange(2 * PHASES))[steps % (2 * PHASES)]
+    brief = np.searchsorted(steps * found.step, wrong_end * (1.0 + 1e-9), side="right")
     missed = {}
-    for (corrected, clock), thirds in runs_of({**READINGS, **WRONG}).items():
-        wanted = np.array([counts[name] for name in thirds])
-        record = compared(angles, turned, mu, np.array(list(thirds.values())), wanted)
-        taus = clock * found.step * steps[: wanted.max()]
-        sizes = misses(problem, mu * mu if corrected else 0.0, taus, record, reduction)
+    for (corrected, clock), thirds in RUNS.items():
+        counts = [brief if name in WRONG else steps.size for name in thirds]
+        taus = clock * found.step * steps[: max(counts)]
+        given = taus, turned, angles, list(thirds.values()), counts
+        sizes = misses(problem, corrected, *given, reduction)
         missed |= dict(zip(thirds, sizes, strict=True))
-    pairs = [window_maxima(found, missed[name][places]) for name in READINGS]
-    return Followed(
-        *map(np.array, zip(*pairs, strict=True)),
-        window_maxima(found, np.abs(angles).max(axis=(1, 2))[places])[1],
+    _, swings = window_maxima(found, np.abs(angles).max(axis=(1, 2))[places])
+    right = [window_maxima(found, missed[name][places]) for name in RIGHT]
+    return Errors(
+        np.array([up_to(tau, size, ends, problem.end_time) for tau, size in right]),
+        up_to(right[0][0], swings, ends, problem.end_time),
+        np.array([horizon(tau, size, swings, VISIBLE) for tau, size in right]),
         np.array([missed[name][:brief].max() for name in WRONG]),
     )
-
-
-def runs_of(readings: Mapping[str, Reading]) -> dict[tuple[bool, float], dict[str, float]]:
-    """Return by runs of the amplitudes the readings that share one, with their third harmonic."""
-    runs = {}
-    for name, one in readings.items():
-        runs.setdefault((one.corrected, one.clock), {})[name] = one.third
-    return runs
 
 
 def reach(problem: Problem, end: float) -> int:
@@ -223,35 +260,36 @@ def reach(problem: Problem, end: float) -> int:
     return problem.initial.shape[1] // 2 + n - 1
 
 
-class Case(NamedTuple):
-    """What is found for one case: by the right expansions, and by the wrong ones."""
-
-    errors: np.ndarray  # (mu, expansion, end)
-    angles: np.ndarray  # (mu, end)
-    horizons: np.ndarray  # (mu, expansion)
-    wrong: np.ndarray  # (mu, wrong expansion), up to the shortest run's end
-
-
 def measure(
     problem: Problem, run_ends: Mapping[float, float], ends: np.ndarray, spacing: float
-) -> Case:
+) -> Errors:
     """Return the errors of a case of the amplitudes, whose pendula are run to an end by each mu."""
-    errors, angles, horizons, wrong = [], [], [], []
+    found = []
     for mu, end in run_ends.items():
         moving = min(problem.half_width, reach(problem, end))
-        pendula = problem.changed(
-            model=PENDULA, mu=mu, end_time=end, output_step=end, half_width=moving
-        )
-        run = follow(pendula, spacing, min(run_ends.values()))
-        pairs = list(zip(run.taus, run.errors, strict=True))
-        errors.append([up_to(tau, size, ends, end) for tau, size in pairs])
-        angles.append(up_to(run.taus[0], run.angles, ends, end))
-        horizons.append([horizon(tau, size, run.angles, VISIBLE) for tau, size in pairs])
-        wrong.append(run.wrong)
-    return Case(*map(np.array, (errors, angles, horizons, wrong)))
+        changes = {"end_time": end, "output_step": end, "half_width": moving}
+        pendula = problem.changed(model=PENDULA, mu=mu, **changes)
+        found.append(follow(pendula, ends, spacing, min(run_ends.values())))
+    return Errors(*map(np.array, zip(*found, strict=True)))
 
 
-# --- The dataset ----------------------------------------------------------------------------------
+def orders(errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the order in mu of errors (mu, ...) as mu goes to zero, and what it may be off by.
+
+    Each mu is half of the one before. The order between two neighbours is that of the limit plus a
+    multiple of mu^2, so two of them, from the three smallest mu that have an error, give the limit.
+    What the second of them differs by from the limit is taken as its error. NaN where fewer than
+    three mu have an error.
+    """
+    order, off = np.full((2, *errors.shape[1:]), np.nan)
+    for place in np.ndindex(order.shape):
+        known = np.flatnonzero(np.isfinite(errors[(slice(None), *place)]))
+        if known.size >= 3:
+            coarse, middle, fine = errors[(known[-3:], *place)]
+            before, last = log(coarse / middle) / log(2.0), log(middle / fine) / log(2.0)
+            step = (last - before) / 3.0
+            order[place], off[place] = last + step, abs(step)
+    return order, off
 
 
 def remainder_contents(
@@ -263,7 +301,7 @@ def remainder_contents(
 ) -> Contents:
     """Return the errors of all cases; `run_ends` gives by case and mu how far the pendula are run.
 
-    All cases have the same mu, each half of the one before.
+    All cases have the same mu, each half of the one before, and the same solver.
     """
     mus = np.array(list(next(iter(run_ends.values()))), dtype=float)
     last = np.array([list(run_ends[name].values()) for name in problems], dtype=float)
@@ -272,21 +310,23 @@ def remainder_contents(
     for name, problem in problems.items():
         found.append(measure(problem, run_ends[name], ends, spacing))
         step(f"{name} done ({len(found)} of {len(problems)})")
-    errors = np.array([one.errors for one in found]).transpose(2, 0, 1, 3)
-    order, off = orders(np.moveaxis(errors, 2, 0))
+    errors = np.array([one.right for one in found])  # (case, mu, expansion, end)
+    order, off = orders(errors.transpose(1, 2, 0, 3))
     powers = np.array([mus * mus * mus, mus * mus * mus * mus * mus])
-    constant = smallest_known(np.moveaxis(errors / powers[:, None, :, None], 2, 0))
-    wrong = np.array([one.wrong for one in found]).transpose(2, 0, 1)
-    horizons = np.array([one.horizons for one in found]).transpose(2, 0, 1)
+    constant = np.full(order.shape, np.nan)
+    for one in (errors / powers.T[:, :, None]).transpose(1, 2, 0, 3):
+        constant = np.where(np.isfinite(one), one, constant)  # of the last mu that has one
+    wrong = np.array([one.wrong for one in found])  # (case, mu, wrong expansion)
     over, reduced = ("expansion", "case", "mu", "end"), ("expansion", "case", "end")
     variables = {
-        "expansion": Variable(("expansion",), list(READINGS), "order of the expansion"),
+        "expansion": Variable(("expansion",), list(RIGHT), "order of the expansion"),
         "case": Variable(("case",), list(problems)),
         "mu": Variable(("mu",), mus),
         "end": Variable(("end",), ends, "end of the time window, which begins at 0"),
         "omega": Variable(("case",), [float(one.constants.omega) for one in problems.values()]),
         "pendula_end": Variable(("case", "mu"), last, "end of the run of the pendula"),
-        "error": Variable(over, errors, "error of an angle, the largest up to the end", "rad"),
+        "error": Variable(over, errors.transpose(2, 0, 1, 3),
+                          "error of an angle, the largest up to the end", "rad"),
         "order": Variable(reduced, order, "order in mu of the error as mu goes to zero"),
         "order_uncertainty": Variable(reduced, off, "what the order in mu may be off by"),
         "error_constant": Variable(
@@ -294,20 +334,17 @@ def remainder_contents(
             "rad"),
         "largest_angle": Variable(("case", "mu", "end"), np.array([one.angles for one in found]),
                                   "largest angle up to the end", "rad"),
-        "visible_from": Variable(over[:3], horizons,
-                            "slow time at which the error is a visible part of the largest angle"),
+        "visible_from": Variable(
+            over[:3], np.array([one.horizons for one in found]).transpose(2, 0, 1),
+            "slow time at which the error is a visible part of the largest angle"),
         "wrong_expansion": Variable(("wrong_expansion",), list(WRONG), "expansion that is wrong"),
-        "wrong_error": Variable(("wrong_expansion", "case", "mu"), wrong,
+        "wrong_error": Variable(("wrong_expansion", "case", "mu"), wrong.transpose(2, 0, 1),
                                 "largest error of an angle by a wrong expansion", "rad"),
-        "wrong_order": Variable(("wrong_expansion", "case"), orders(np.moveaxis(wrong, 2, 0))[0],
+        "wrong_order": Variable(("wrong_expansion", "case"), orders(wrong.transpose(1, 2, 0))[0],
                                 "order in mu of the error of a wrong expansion"),
     }  # fmt: skip
+    (solver,) = {tuple(sorted(one.solver.items())) for one in problems.values()}
     about = {"title": "The expansion (3) and its next order beside Newton's equations (1)"}
     about |= {"visible_part": VISIBLE, "spacing": spacing}
-    return variables, about | _solver_of(problems)
-
-
-def _solver_of(problems: Mapping[str, Problem]) -> dict[str, object]:
-    """Return name and controls of the solver that follows the pendula of all cases."""
-    (solver,) = {tuple(sorted(one.solver.items())) for one in problems.values()}
-    return {"solver" if key == "name" else f"solver_{key}": value for key, value in solver}
+    about |= {"solver" if key == "name" else f"solver_{key}": value for key, value in solver}
+    return variables, about

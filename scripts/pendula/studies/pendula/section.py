@@ -19,9 +19,8 @@ from pendula.report.words import (
     with_error,
 )
 
-from .claims_phases import late_levels
+from .claims_phases import late_levels, thermal_beside
 from .claims_remainder import common_end
-from .thermal_beside import thermal_beside
 
 THRESHOLD, REMAINDER = "pendula/threshold", "pendula/remainder"
 PHASES, SEA, TOP, FILM = "pendula/phases", "pendula/sea", "pendula/over_the_top", "pendula/film"
