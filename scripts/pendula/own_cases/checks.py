@@ -22,9 +22,8 @@ from pendula.numerics.elementary import log, modulus, square_modulus
 from pendula.problem import PENDULA, Problem
 from pendula.simulation.lattice import find_reduction
 from pendula.simulation.simulate import IntegrationError, simulate
-from pendula.studies.chaos.lyapunov import ROUNDING, amplification, predict
+from pendula.studies.chaos.lyapunov import ROUNDING, amplification, predict, random_tangent
 from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
-from pendula.studies.chaos.tangents import random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 

@@ -6,7 +6,6 @@ from accepted import dataset
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.studies.chaos import lyapunov
 from pendula.studies.chaos.figures import draw_lyapunov, gather_lyapunov
-from pendula.studies.chaos.lyapunov import follow_parity
 from problems import problem_of
 
 TAU, SEED = np.linspace(0.0, 20.0, 1001), 20170817
@@ -27,20 +26,8 @@ def test_a_thousandth_of_the_error_diverges_later_by_its_logarithm_over_the_rate
     log = lyapunov.amplification(TAU, 2.0 * TAU, np.ones_like(TAU))
     early, late = (lyapunov.predict(TAU, log, error) for error in (1e-6, 1e-9))
     assert late - early == pytest.approx(np.log(1e3) / 2.0, abs=0.02)
-
-
-def test_what_never_grows_never_diverges():
     log = lyapunov.amplification(TAU, np.zeros_like(TAU), np.ones_like(TAU))
     assert lyapunov.predict(TAU, log, 1e-6) == np.inf
-
-
-def test_a_chaotic_run_diverges_when_predicted():
-    problem = problem_of("fig4_small", half_width=15, end_time=16.0, output_step=0.125)
-    growth = follow_parity(problem, "even", 16.0, SEED)
-    log = lyapunov.amplification(growth.tau, growth.log_growth[0], growth.size)
-    found = lyapunov.measure_divergence(problem, [1e-6])
-    made = found.early[0] / np.exp(log[lyapunov.early_index(growth.tau)])
-    assert found.time[0] == pytest.approx(lyapunov.predict(growth.tau, log, made), abs=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -55,21 +42,27 @@ def test_published_exponents_are_those_of_an_even_and_an_odd_vector(measured):
     cases, found, about = measured
     assert about["end_time"] == 16.0 and about["seed"] == SEED
     assert found["parity"].values == ["even", "odd"]
-    assert found["parity"].long_name == "parity of the tangent vector in n"
     assert found["chaotic"].values.tolist() == [0, 1]
-    chaotic = np.zeros((2, 2), bool)
-    for i, problem in enumerate(cases.values()):
-        for j, parity in enumerate(("even", "odd")):
-            one = follow_parity(problem, parity, 16.0, SEED, tolerance=1e-12)
-            tau, growth = one.tau, one.log_growth[0]
-            np.testing.assert_array_equal(found["tau"].values, tau)
-            np.testing.assert_array_equal(found["log_growth"].values[i, j], growth)
-            assert found["exponent"].values[i, j] == mean_rate(tau, growth, 8.0)
-            assert found["exponent_error"].values[i, j] == mean_rate_error(tau, growth, 8.0)
-            chaotic[i, j] = is_chaotic(tau, growth, one.size)
-            if parity == "even":
-                np.testing.assert_array_equal(found["l2"].values[i], one.size)
-    assert chaotic[1].sum() == 1 and not chaotic[0].any()  # one of both is enough
+    published = zip(*(found[name].values.reshape(4, -1) for name in
+                      ("log_growth", "exponent", "exponent_error")), strict=True)  # fmt: skip
+    pairs = [(one, parity) for one in cases.values() for parity in ("even", "odd")]
+    chaotic = []
+    for (problem, parity), (growth, rate, error) in zip(pairs, published, strict=True):
+        one = lyapunov.follow_parity(problem, parity, 16.0, SEED, tolerance=1e-12)
+        np.testing.assert_array_equal(growth, one.log_growth[0])
+        assert rate == mean_rate(one.tau, growth, 8.0)
+        assert error == mean_rate_error(one.tau, growth, 8.0)
+        chaotic.append(is_chaotic(one.tau, growth, one.size))
+    assert not any(chaotic[:2]) and sum(chaotic[2:]) == 1  # one of both is enough
+
+
+def test_chaotic_runs_diverge_when_predicted_and_regular_ones_do_not(measured):
+    cases, growth, _ = measured
+    found = lyapunov.divergence_times(cases, [1e-4, 1e-7], growth)
+    regular, chaotic = found["divergence_predicted"].values
+    assert np.isinf(regular).all() and np.isinf(found["divergence_measured"].values[0]).all()
+    assert chaotic[0] < chaotic[1] < found["divergence_rounding"].values[1]
+    np.testing.assert_allclose(found["divergence_measured"].values[1], chaotic, atol=3.0)
 
 
 @pytest.mark.parametrize("pair, said", [("0", ""), ("1", " at first")])
@@ -79,24 +72,3 @@ def test_uneven_data_have_a_parity_at_first_alone(pair, said):
     (legend,) = draw_lyapunov(drawn.assign(initial=drawn["initial"].copy(data=data))).legends
     told = [text.get_text() for text in legend.get_texts()]
     assert told[-2:] == [f"even in $n${said}", f"odd in $n${said}"]
-
-
-def test_published_divergence_times_are_those_of_errors_seen_early_and_of_rounding(measured):
-    cases, growth, _ = measured
-    found = lyapunov.divergence_times(cases, [1e-6, 1e-9], growth)
-    assert found["rtol"].values.tolist() == [1e-6, 1e-9]
-    tau = growth["tau"].values
-    for i, problem in enumerate(cases.values()):
-        log = lyapunov.amplification(tau, growth["log_growth"].values[i, 0], growth["l2"].values[i])
-        runs = lyapunov.measure_divergence(problem, [1e-6, 1e-9])
-        np.testing.assert_array_equal(found["divergence_measured"].values[i], runs.time)
-        seen = [lyapunov.predict(tau, log, made) for made in runs.early / np.exp(log[8])]
-        np.testing.assert_array_equal(found["divergence_predicted"].values[i], seen)
-        assert found["divergence_rounding"].values[i] == lyapunov.predict(tau, log, 2.0**-53)
-    regular, chaotic = found["divergence_predicted"].values
-    assert np.isinf(regular).all() and chaotic[0] < chaotic[1] < 16.0
-    assert chaotic[1] < found["divergence_rounding"].values[1]
-
-
-def test_errors_are_read_off_at_two():
-    assert lyapunov.early_index(TAU) == 100

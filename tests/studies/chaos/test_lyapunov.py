@@ -5,8 +5,8 @@ import pytest
 from pendula.measures.confidence import Limits
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.studies.chaos import lyapunov
+from pendula.studies.chaos.lyapunov import PARITIES, random_tangent
 from pendula.studies.chaos.tangent_dynamics import grow
-from pendula.studies.chaos.tangents import PARITIES, random_tangent
 from problems import problem_of
 
 SEED = 20170817
@@ -17,42 +17,45 @@ def whole_spectrum():
     return lyapunov.follow_many(problem_of("fig3_large", half_width=1), 12, 200.0, SEED)
 
 
-def test_the_sum_of_all_exponents_is_zero_at_every_time(whole_spectrum):
+def test_the_spectrum_is_that_of_a_hamiltonian_flow(whole_spectrum):
+    """Exponents sum to zero at every time, come in pairs of opposite sign, and two vanish."""
     np.testing.assert_allclose(whole_spectrum.log_growth.sum(axis=0), 0.0, atol=1e-5)
-
-
-def test_exponents_come_in_pairs_of_opposite_sign(whole_spectrum):
     rates = mean_rate(whole_spectrum.tau, whole_spectrum.log_growth, 50.0)
     assert rates[0] > 0.3
     np.testing.assert_allclose(rates, -rates[::-1], atol=0.05)
-
-
-def test_two_exponents_vanish(whole_spectrum):
-    rates = mean_rate(whole_spectrum.tau, whole_spectrum.log_growth, 50.0)
     np.testing.assert_allclose(rates[5:7], 0.0, atol=0.05)
 
 
 @pytest.mark.parametrize("parity", PARITIES)
-def test_the_chain_is_chaotic_at_omega_zero(parity):
-    growth = lyapunov.follow_parity(problem_of("fig4_small", half_width=15), parity, 60.0, SEED)
-    assert mean_rate(growth.tau, growth.log_growth, 20.0)[0] == pytest.approx(1.7, abs=0.35)
-    assert is_chaotic(growth.tau, growth.log_growth[0], growth.size)
+@pytest.mark.parametrize(
+    ("case", "exponent", "off", "chaotic"),
+    [("fig4_small", 1.7, 0.35, True), ("fig3_small", 0.0, 0.02, False)],
+)
+def test_the_chain_is_chaotic_at_omega_zero_and_regular_at_minus_four(
+    case, exponent, off, chaotic, parity
+):
+    growth = lyapunov.follow_parity(problem_of(case, half_width=15), parity, 60.0, SEED)
+    rate = mean_rate(growth.tau, growth.log_growth, 20.0)[0]
+    assert rate == pytest.approx(exponent, abs=off)
+    assert is_chaotic(growth.tau, growth.log_growth[0], growth.size) == chaotic
 
 
 @pytest.mark.parametrize("parity", PARITIES)
-def test_small_data_at_omega_minus_4_are_regular(parity):
-    growth = lyapunov.follow_parity(problem_of("fig3_small", half_width=15), parity, 60.0, SEED)
-    assert abs(mean_rate(growth.tau, growth.log_growth, 20.0)[0]) < 0.02
-    assert not is_chaotic(growth.tau, growth.log_growth[0], growth.size)
+@pytest.mark.parametrize("site", [0, 1])
+def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity, site):
+    """Along data that are not even the whole chain is followed."""
+    problem = problem_of("fig3_small", half_width=2, initial={site: (1.0, 0.1)})
+    vector = random_tangent(5, parity, np.random.default_rng([SEED, PARITIES.index(parity)]))
+    known = grow(problem, vector[None], 1.0, even=parity == "even" and site == 0)
+    found = lyapunov.follow_parity(problem, parity, 1.0, SEED)
+    np.testing.assert_array_equal(found.log_growth, known.log_growth)
 
 
-def test_along_data_that_are_not_even_the_whole_chain_is_followed():
-    lopsided = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
-    tangent = random_tangent(5, "even", np.random.default_rng([SEED, 0]))
-    np.testing.assert_array_equal(
-        lyapunov.follow_parity(lopsided, "even", 1.0, SEED).log_growth,
-        grow(lopsided, tangent[None], 1.0).log_growth,
-    )
+def test_a_basis_is_drawn_in_turn_by_one_seed():
+    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(SEED)
+    basis = np.array([random_tangent(3, None, rng) for _ in range(12)])
+    found = lyapunov.follow_many(problem, 12, 1.0, SEED)
+    np.testing.assert_array_equal(found.log_growth, grow(problem, basis, 1.0).log_growth)
 
 
 def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
@@ -70,33 +73,22 @@ def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_wit
     assert found["spectrum_case"] == list(cases) and found["spectrum_half_width"] == [1, 2]
     assert found["spectrum_end_time"] == [20.0, 8.0]
     np.testing.assert_array_equal(found["index"], np.arange(1, 21))
+    chains = [("", 0, 1, 20.0, 1.0), ("", 1, 2, 8.0, 1.0), ("_undriven", ..., 1, 12.0, 0.0)]
     for i, problem in enumerate(cases.values()):
-        for j, (half_width, end, gamma) in enumerate(((1, 20.0, 1.0), (2, 8.0, 1.0), (1, 12.0, 0))):
-            short = problem.changed(half_width=half_width, gamma=float(gamma))
+        for key, j, half_width, end, gamma in chains:
+            short = problem.changed(half_width=half_width, gamma=gamma)
             half = lyapunov.follow_many(short, 2 * short.sites, end, SEED, tolerance=1e-12)
             one = lyapunov.in_pairs(lyapunov.spectrum_of(half, end / 4))
             rest = np.full(20 - len(one.value), np.nan)
-            key, at = ("", (i, j)) if gamma else ("_undriven", i)
-            told = found[f"exponents{key}"][at], found[f"exponents_error{key}"][at]
-            np.testing.assert_array_equal(told[0], [*one.value, *rest])
-            np.testing.assert_array_equal(told[1], [*one.half, *rest])
+            np.testing.assert_array_equal(found[f"exponents{key}"][i][j], [*one.value, *rest])
+            np.testing.assert_array_equal(found[f"exponents_error{key}"][i][j], [*one.half, *rest])
             if gamma:
-                assert found["vanishing"][at] == np.sum((one.low <= 0.0) & (one.high >= 0.0)) > 0
+                assert found["vanishing"][i, j] == np.sum((one.low <= 0.0) & (one.high >= 0.0)) > 0
 
 
-@pytest.mark.parametrize("parity", PARITIES)
-def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity):
-    problem, place = problem_of("fig4_small", half_width=2), PARITIES.index(parity)
-    vector = random_tangent(5, parity, np.random.default_rng([SEED, place]))
-    known = grow(problem, vector[None], 1.0, even=parity == "even")
-    found = lyapunov.follow_parity(problem, parity, 1.0, SEED)
-    np.testing.assert_array_equal(found.log_growth, known.log_growth)
-
-
-def test_half_of_the_exponents_are_those_of_the_whole_spectrum(whole_spectrum):
+def test_half_of_the_exponents_are_those_of_the_whole_spectrum():
     problem = problem_of("fig3_large", half_width=1)
-    half = lyapunov.follow_many(problem, 6, 4.0, SEED, tolerance=1e-13)
-    whole = lyapunov.follow_many(problem, 12, 4.0, SEED, tolerance=1e-13)
+    half, whole = (lyapunov.follow_many(problem, n, 4.0, SEED, tolerance=1e-13) for n in (6, 12))
     np.testing.assert_allclose(half.log_growth, whole.log_growth[:6], atol=1e-8)
 
 
@@ -106,10 +98,3 @@ def test_the_lower_half_of_a_spectrum_has_the_opposite_signs():
     np.testing.assert_array_equal(found.value, [2.0, 0.5, -0.5, -2.0])
     np.testing.assert_array_equal(found.low, [1.5, -0.1, -1.1, -2.5])
     np.testing.assert_array_equal(found.high, [2.5, 1.1, 0.1, -1.5])
-
-
-def test_a_basis_is_drawn_in_turn_by_one_seed():
-    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(SEED)
-    basis = np.array([random_tangent(3, None, rng) for _ in range(12)])
-    found = lyapunov.follow_many(problem, 12, 1.0, SEED)
-    np.testing.assert_array_equal(found.log_growth, grow(problem, basis, 1.0).log_growth)

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from accepted import dataset
 from pendula.measures.difference import PARAMETERS
-from pendula.studies.chaos.ensembles import _norms_of
+from pendula.studies.chaos.ensembles import norms_at
 from pendula.studies.paper import figures, solvers
 from pendula.studies.paper.tables import energy_part, trust_part
 from pendula.studies.unbounded import figures as unbounded
@@ -90,7 +90,7 @@ def test_of_another_case_the_paper_states_no_drift(trajectories, swept_pairs):
 
 def test_a_true_run_is_not_drawn_on_after_its_end(make_trajectory):
     pair = xr.Dataset(coords={"tau": np.linspace(0.0, 10.0, 21)})
-    norms = _norms_of(pair, ["fig2_small"], [make_trajectory()])
+    norms = norms_at(pair["tau"], ["fig2_small"], [make_trajectory()])
     assert norms.sel(tau=5.0).notnull().all() and norms.sel(tau=slice(5.1, None)).isnull().all()
 
 

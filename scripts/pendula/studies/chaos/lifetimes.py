@@ -23,9 +23,8 @@ from pendula.measures.confidence import (
 from pendula.measures.norms import drift
 from pendula.numerics.elementary import modulus
 from pendula.problem import Problem, output_times
+from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
-
-from .ensembles import draw_members
 
 SPAN = 10.0
 """Units of tau from one look at the centre to the next: a run ends with the life that it follows.

@@ -15,13 +15,21 @@ from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.confidence import Limits, student
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
+from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import exp, log
 from pendula.problem import Problem
 from pendula.simulation.lattice import find_reduction
-from pendula.simulation.simulate import Trajectory, simulate
+from pendula.simulation.simulate import simulate
 
 from .tangent_dynamics import Growth, grow
-from .tangents import PARITIES, random_tangent
+
+PARITIES = ("even", "odd")
+
+
+def random_tangent(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
+    z = complex_normal(rng, (2, sites))
+    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]
 
 
 def follow_parity(problem: Problem, parity: str, end_time: float, seed: int, **controls) -> Growth:
@@ -83,24 +91,21 @@ class Divergence(NamedTuple):
 
 def measure_divergence(problem: Problem, tolerances: list[float]) -> Divergence:
     """Follow a case by dop853 at each tolerance, and by another method at FINEST."""
-    finest = _run(problem, FINEST, "taylor")
-    first = early_index(finest.tau)
-    rows = []
-    for tolerance in tolerances:
-        run = _run(problem, tolerance)
-        difference = norm_difference(run.linf, run.l2, finest.linf, finest.l2)
-        rows.append((first_above(run.tau, difference, VISIBLE), difference[first]))
-    return Divergence(*np.array(rows).T)
+    finest, *runs = (
+        simulate(
+            problem.changed(solver={"name": name, "rtol": rtol, "atol": rtol}, snapshot_every=0),
+            energy=False,
+        )
+        for name, rtol in [("taylor", FINEST), *(("dop853", each) for each in tolerances)]
+    )
+    apart = [norm_difference(run.linf, run.l2, finest.linf, finest.l2) for run in runs]
+    early = np.array([one[early_index(finest.tau)] for one in apart])
+    return Divergence(first_above(finest.tau, np.array(apart), VISIBLE), early)
 
 
 def early_index(tau: np.ndarray) -> int:
     """Return where EARLY is among increasing times."""
     return int(np.argmin(np.abs(tau - EARLY)))
-
-
-def _run(problem: Problem, tolerance: float, solver: str = "dop853") -> Trajectory:
-    solver = {"name": solver, "rtol": tolerance, "atol": tolerance}
-    return simulate(problem.changed(solver=solver, snapshot_every=0), energy=False)
 
 
 # --- Datasets -------------------------------------------------------------------------------------
@@ -120,15 +125,11 @@ def largest_exponents(problems: dict[str, Problem], end_time: float, seed: int) 
         for p in problems.values()
     ]
     tau, middle = runs[0][0].tau, end_time / 2
-
-    def each(measure) -> np.ndarray:
-        return np.array([[measure(run.log_growth[0], run.size) for run in pair] for pair in runs])
-
-    log_growth = each(lambda growth, size: growth)
-    rates = each(lambda growth, size: mean_rate(tau, growth, middle))
-    errors = each(lambda growth, size: mean_rate_error(tau, growth, middle))
-    chaotic = each(lambda growth, size: is_chaotic(tau, growth, size)).any(axis=1).astype(int)
-    l2 = each(lambda growth, size: size)[:, PARITIES.index("even")]
+    log_growth = np.array([[run.log_growth[0] for run in pair] for pair in runs])
+    l2 = np.array([[run.size for run in pair] for pair in runs])
+    # one at a time, since NumPy adds in another order along an axis of more
+    errors = np.apply_along_axis(lambda one: mean_rate_error(tau, one, middle), -1, log_growth)
+    chaotic = is_chaotic(tau, log_growth, l2).any(axis=1).astype(int)
     by_parity, parity = ("case", "parity"), "parity of the tangent vector in n"
     if not all(find_reduction(p.amplitudes).even for p in problems.values()):
         parity += ", which uneven data do not keep"
@@ -140,11 +141,14 @@ def largest_exponents(problems: dict[str, Problem], end_time: float, seed: int) 
         "log_growth": Variable(
             (*by_parity, "tau"), log_growth, "logarithm of the growth of a tangent vector"
         ),
-        "l2": Variable(("case", "tau"), l2, "l2 norm over the chain, of A and B together"),
-        "exponent": Variable(by_parity, rates, "largest Lyapunov exponent, per unit of tau"),
+        "l2": Variable(("case", "tau"), l2[:, 0], "l2 norm over the chain, of A and B together"),
+        "exponent": Variable(
+            by_parity, mean_rate(tau, log_growth, middle),
+            "largest Lyapunov exponent, per unit of tau",
+        ),
         "exponent_error": Variable(by_parity, errors, "standard error of the exponent"),
         "chaotic": Variable(("case",), chaotic, "one where tangent vectors grow exponentially"),
-    }
+    }  # fmt: skip
     title = "Lyapunov exponents of the cases, and when runs leave the solution"
     return variables, {"title": title, **shared, "end_time": end_time, "seed": seed}
 
@@ -155,11 +159,10 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     `growth` holds the variables of `largest_exponents`. Errors are predicted to grow as the even
     tangent vector does, those that the run is seen to make up to EARLY or those of rounding.
     """
-    tau = growth["tau"].values
-    early, even = early_index(tau), PARITIES.index("even")
+    tau, even = growth["tau"].values, growth["log_growth"].values[:, PARITIES.index("even")]
+    early = early_index(tau)
     seen, measured, rounding = [], [], []
-    series = zip(growth["log_growth"].values[:, even], growth["l2"].values, strict=True)
-    for problem, (log_growth, l2) in zip(problems.values(), series, strict=True):
+    for problem, log_growth, l2 in zip(problems.values(), even, growth["l2"].values, strict=True):
         amplified = amplification(tau, log_growth, l2)
         found = measure_divergence(problem, tolerances)
         seen.append([predict(tau, amplified, made) for made in found.early / exp(amplified[early])])
@@ -189,53 +192,36 @@ def spectra(
     without a drive to `undriven_end` too, where the l2 norm is a second integral.
     """
     most = 4 * (2 * max(end_times) + 1)
-    shape = (len(problems), len(end_times), most)
-    rates, errors = np.full(shape, np.nan), np.full(shape, np.nan)
-    vanishing = np.zeros(shape[:2], int)
+    ends = [*end_times.values(), undriven_end]  # the last row is that without a drive
+    rates = np.full((len(problems), len(ends), most), np.nan)
+    errors, vanishing = rates.copy(), np.zeros(rates.shape[:2], int)
     for i, problem in enumerate(problems.values()):
-        for j, (half_width, end_time) in enumerate(end_times.items()):
-            found = _short_spectrum(problem, end_time, seed, half_width=half_width)
-            count = len(found.value)
+        chains = [problem.changed(half_width=half_width) for half_width in end_times]
+        chains.append(problem.changed(half_width=min(end_times), gamma=0.0))
+        for j, (chain, end_time) in enumerate(zip(chains, ends, strict=True)):
+            count, tolerance = 4 * chain.sites, chain.solver["rtol"]
+            run = follow_many(chain, count // 2, end_time, seed, tolerance=tolerance)
+            found = in_pairs(spectrum_of(run, end_time / 4))
             rates[i, j, :count], errors[i, j, :count] = found.value, found.half
             vanishing[i, j] = ((found.low <= 0.0) & (found.high >= 0.0)).sum()
-    along = ("spectrum_case", "spectrum_half_width", "index")
+    case, chain, index = ("spectrum_case", "spectrum_half_width", "index")
     words = "all Lyapunov exponents of a short chain, per unit of tau"
+    alone = "all Lyapunov exponents of the shortest chain at gamma = 0, per unit of tau"
+    half = "half of the confidence interval"
     return {
-        along[0]: Variable(along[:1], list(problems), "case, on a short chain"),
-        along[1]: Variable(along[1:2], list(end_times), "half-width of the short chain"),
-        along[2]: Variable(along[2:], np.arange(1, 1 + most), "number of the exponent"),
+        case: Variable((case,), list(problems), "case, on a short chain"),
+        chain: Variable((chain,), list(end_times), "half-width of the short chain"),
+        index: Variable((index,), np.arange(1, 1 + most), "number of the exponent"),
         "spectrum_end_time": Variable(
-            along[1:2], list(end_times.values()), "end time of the runs on the short chain"
+            (chain,), ends[:-1], "end time of the runs on the short chain"
         ),
-        "exponents": Variable(along, rates, words),
-        "exponents_error": Variable(along, errors, f"{words}: half of the confidence interval"),
-        "vanishing": Variable(along[:2], vanishing, "exponents that cannot be told from zero"),
-        **_undriven_spectra(problems.values(), min(end_times), undriven_end, most, seed),
-    }
-
-
-def _short_spectrum(problem: Problem, end_time: float, seed: int, **changes) -> Limits:
-    short, tolerance = problem.changed(**changes), problem.solver["rtol"]
-    run = follow_many(short, 2 * short.sites, end_time, seed, tolerance=tolerance)
-    return in_pairs(spectrum_of(run, end_time / 4))
-
-
-def _undriven_spectra(
-    problems, half_width: int, end_time: float, most: int, seed: int
-) -> dict[str, Variable]:
-    """Return all exponents of the cases on the shortest chain at gamma = 0, and their errors."""
-    alone = {"half_width": half_width, "gamma": 0.0}
-    found = [_short_spectrum(problem, end_time, seed, **alone) for problem in problems]
-    along, words = ("spectrum_case", "index"), "all Lyapunov exponents of the shortest chain"
-    rates, errors = np.full((len(found), most), np.nan), np.full((len(found), most), np.nan)
-    for i, one in enumerate(found):
-        rates[i, : len(one.value)], errors[i, : len(one.value)] = one.value, one.half
-    words = f"{words} at gamma = 0, per unit of tau"
-    return {
-        "exponents_undriven": Variable(along, rates, words),
-        "exponents_error_undriven": Variable(
-            along, errors, f"{words}: half of the confidence interval"
+        "exponents": Variable((case, chain, index), rates[:, :-1], words),
+        "exponents_error": Variable((case, chain, index), errors[:, :-1], f"{words}: {half}"),
+        "vanishing": Variable(
+            (case, chain), vanishing[:, :-1], "exponents that cannot be told from zero"
         ),
+        "exponents_undriven": Variable((case, index), rates[:, -1], alone),
+        "exponents_error_undriven": Variable((case, index), errors[:, -1], f"{alone}: {half}"),
     }
 
 

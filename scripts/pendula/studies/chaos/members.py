@@ -1,8 +1,9 @@
 """The members of ensembles of every case, each reduced to the numbers that sentences are about.
 
 The paper's sentences on figures speak of levels, of growth, of how many pendula move. In a chaotic
-case such a number differs from run to run, so that the ensemble has to say it, with limits. Cases
-that are not chaotic have ensembles here too: what a sentence says of chaos must not hold for them.
+case such a number differs from run to run, so that only an ensemble decides, by confidence limits.
+Cases that are not chaotic have ensembles here too: what a sentence says of chaos must not hold for
+them.
 """
 
 from typing import NamedTuple
@@ -19,6 +20,7 @@ from pendula.simulation.ensembles import PERTURBATIONS, draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, pair_l2, pair_linf
 
+PAIR = QUANTITIES.index("pair")
 REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
@@ -36,8 +38,7 @@ def reduce_run(run: Trajectory, windows: list[Window], every: int) -> dict[str, 
     """Return the numbers REDUCED of a run that kept the moduli at each `every`-th output time."""
     inside = [(run.tau >= start) & (run.tau <= end) for start, end in windows]
     l2, linf = pair_l2(run), pair_linf(run)
-    pair = QUANTITIES.index("pair")
-    ratio, squares = (l2[pair] / linf[pair]) ** 2, run.modulus**2
+    ratio, squares = (l2[PAIR] / linf[PAIR]) ** 2, run.modulus**2
     return {
         "l2_level": np.stack([l2[:, kept].mean(axis=1) for kept in inside], axis=-1),
         "linf_level": np.stack([linf[:, kept].mean(axis=1) for kept in inside], axis=-1),
@@ -46,9 +47,6 @@ def reduce_run(run: Trajectory, windows: list[Window], every: int) -> dict[str, 
         "norm_correlation": np.array([correlation(*run.l2[:, kept] ** 2) for kept in inside]),
         "rms": np.sqrt([squares[..., kept[::every]].mean(axis=-1) for kept in inside]),
     }
-
-
-# --- Widths of bands ------------------------------------------------------------------------------
 
 
 class Spread(NamedTuple):
@@ -81,9 +79,6 @@ def width_ratio(even: Spread, uneven: Spread, members: int) -> tuple[float, floa
     return ratio, ratio * (1.0 - off), ratio * (1.0 + off)
 
 
-# --- Dataset --------------------------------------------------------------------------------------
-
-
 def measure_case(problem: Problem, windows, size: float, members: int, seed: int, kind: str):
     """Return (numbers REDUCED by name with members first, spread and mean of the pair's l2).
 
@@ -94,7 +89,7 @@ def measure_case(problem: Problem, windows, size: float, members: int, seed: int
     reduced = [reduce_run(run, windows, problem.snapshot_every) for run in runs]
     start, end = windows[-1]
     last = (runs[0].tau >= start) & (runs[0].tau <= end)
-    late = np.array([pair_l2(run)[QUANTITIES.index("pair"), last] for run in runs])
+    late = np.array([pair_l2(run)[PAIR, last] for run in runs])
     stacked = {name: np.array([one[name] for one in reduced]) for name in REDUCED}
     return stacked, measure_spread(late), late.mean()
 
@@ -111,8 +106,14 @@ def member_numbers(
         [measure_case(one, windows, size, members, seed, kind) for one in problems.values()]
         for kind in kinds
     ]
+    widths = [[np.sqrt(spread.variance) / mean for _, spread, mean in row] for row in found]
+    pairs = zip(*[[spread for _, spread, _ in row] for row in found], strict=True)
+    ratio, low, high = np.array([width_ratio(*pair, members) for pair in pairs]).T
+    squares = [square_modulus(problem.initial) for problem in problems.values()]
+    l2, linf = (np.sqrt([reduce(one) for one in squares]) for reduce in (np.sum, np.max))
+    width = "standard deviation of the pair's l2 norm over the members, relative to its mean"
+    over = "width of the even ensemble over that of the uneven one"
     described, shared = describe_cases(problems)
-    grid = ("kind", "case", "member")
     variables = {
         **described,
         "kind": Variable(("kind",), kinds, "kind of the ensemble: runs even in n, or not"),
@@ -120,8 +121,12 @@ def member_numbers(
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(-reach, reach + 1)),
-        **_starts(problems),
-        **_widths(found, members),
+        "l2_start": Variable(("case",), l2, "l2 norm of the data, of the pair"),
+        "linf_start": Variable(("case",), linf, "l-infinity norm of the data"),
+        "relative_width": Variable(("kind", "case"), widths, width),
+        "width_ratio": Variable(("case",), ratio, over),
+        "width_ratio_low": Variable(("case",), low, f"{over}, lower limit"),
+        "width_ratio_high": Variable(("case",), high, f"{over}, upper limit"),
     }
     for name, (rest, long_name) in REDUCED.items():
         rows = [[stacked[name] for stacked, *_ in row] for row in found]
@@ -129,31 +134,7 @@ def member_numbers(
             values = np.stack([side_by_side(row, -1) for row in rows]).astype(np.float32)
         else:
             values = np.array(rows)
-        variables[name] = Variable((*grid, *rest), values, long_name)
+        variables[name] = Variable(("kind", "case", "member", *rest), values, long_name)
     title = "Members of ensembles of every case, from almost equal data"
     about = {"perturbation": size, "members": members, "seed": seed}
     return variables, {"title": title, **shared, **about}
-
-
-def _starts(problems: dict[str, Problem]) -> dict[str, Variable]:
-    """Return the norms of the data themselves by case."""
-    sizes = [square_modulus(problem.initial) for problem in problems.values()]
-    starts = {
-        "l2_start": ([np.sqrt(one.sum()) for one in sizes], "l2 norm of the data, of the pair"),
-        "linf_start": ([np.sqrt(one.max()) for one in sizes], "l-infinity norm of the data"),
-    }
-    return {name: Variable(("case",), *said) for name, said in starts.items()}
-
-
-def _widths(found, members: int) -> dict[str, Variable]:
-    """Return the relative widths of the bands, (kind, case), and the ratio of the two kinds."""
-    widths = [[np.sqrt(spread.variance) / mean for _, spread, mean in row] for row in found]
-    pairs = zip(*[[spread for _, spread, _ in row] for row in found], strict=True)
-    ratios = np.array([width_ratio(*pair, members) for pair in pairs]).T
-    words = "standard deviation of the pair's l2 norm over the members, relative to its mean"
-    over = "width of the even ensemble over that of the uneven one"
-    named = zip(("", "_low", "_high"), ("", ", lower limit", ", upper limit"), ratios, strict=True)
-    return {"relative_width": Variable(("kind", "case"), widths, words)} | {
-        f"width_ratio{end}": Variable(("case",), values, over + which)
-        for end, which, values in named
-    }
