@@ -4,7 +4,6 @@ from accepted import dataset
 from pendula.studies.breathers import figures as breathers
 from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
-from pendula.studies.chaos import lifetimes_figure
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
 from pendula.studies.pendula import figures as pendula
@@ -70,7 +69,7 @@ FIGURES = {
     "symmetry": (chaos.draw_symmetry, chaos.gather_symmetry, "checks/symmetry", "checks/lyapunov"),
     "ensembles": (chaos.draw_ensembles, chaos.gather_ensembles,
                   "checks/ensembles", "checks/ensemble_runs"),
-    "lifetimes": (lifetimes_figure.draw_lifetimes, lifetimes_figure.gather_lifetimes,
+    "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes,
                   "checks/lifetimes"),
     "pendula_over_the_top": (
         figures_phases.draw_over_the_top, figures_phases.gather_over_the_top,

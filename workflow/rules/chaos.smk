@@ -98,7 +98,7 @@ use rule figure as lifetimes with:
     pathvars:
         made="figures/lifetimes",
     params:
-        call=function("pendula.studies.chaos.lifetimes_figure.draw_lifetimes"),
+        call=function("pendula.studies.chaos.figures.draw_lifetimes"),
 
 
 use rule figure as chaos_figures with:

@@ -17,7 +17,7 @@ from pendula.numerics.elementary import log
 
 from .changes import exchange
 from .claim import Control
-from .criterion import Above, Criterion
+from .criterion import Above, AllOf, Criterion, Finding, judge
 from .cutoff import Cutoff
 
 MUCH_GROWTH = Cutoff(MANY, "logarithm of a growth by a hundred, where tau^6 has grown by 64")
@@ -52,6 +52,11 @@ class AlmostEqual(NamedTuple):
     measured: dict[str, float]
     criterion: Criterion
     caveat: str
+
+    def judge(self, measured: dict[str, float], *criteria: Criterion, caveat: str = "") -> Finding:
+        """Return the finding on a sentence for which this share must be large enough as well."""
+        every = AllOf(*criteria, self.criterion)
+        return judge(measured | self.measured, every, joined(caveat, self.caveat))
 
 
 def almost_equal(sensitivity, within: float) -> AlmostEqual:

@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 from pendula.datasets.netcdf import as_xarray
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos import lifetimes, lifetimes_figure
+from pendula.studies.chaos import figures, lifetimes
 from problems import problem_of
 
 SOLVER = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
 
 
-def problem(**changes):
-    return problem_of(
-        "fig4_small", **{"solver": SOLVER, "end_time": 20.0, "output_step": 0.1} | changes
-    )
+def problem(case="fig4_small", a0=1.0, **changes):
+    given = {"solver": SOLVER, "end_time": 20.0, "output_step": 0.1, "initial": {0: (a0, 0.2 * a0)}}
+    return problem_of(case, **given | changes)
 
 
 def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
@@ -23,7 +22,7 @@ def test_the_centre_shares_alike_from_the_mean_over_all_pairs_on():
 
 
 def test_a_life_is_the_same_in_pieces_as_in_one_run():
-    case = lifetimes.localised(problem(), 2.0, 0.2)
+    case = problem(a0=2.0)
     whole = simulate(case.changed(end_time=10.0, snapshot_every=1))
     first = np.flatnonzero(lifetimes.shares_alike(whole.modulus))[0]
     life = lifetimes.follow(case)
@@ -31,13 +30,12 @@ def test_a_life_is_the_same_in_pieces_as_in_one_run():
     assert 0 < life.drift < 1e-5 and life.work > 0
 
 
-def test_a_large_centre_outlasts_the_run_and_a_stable_one_too():
-    assert lifetimes.follow(lifetimes.localised(problem(), 10.0, 0.2)).time == np.inf
-    stable = problem_of("fig2_large", solver=SOLVER, end_time=20.0, output_step=0.1)
-    assert lifetimes.follow(stable).time == np.inf
+@pytest.mark.parametrize(("case", "a0"), [("fig4_small", 10.0), ("fig2_large", 5.0)])
+def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
+    assert lifetimes.follow(problem(case, a0)).time == np.inf
 
 
-def test_a_rate_that_is_constant_only_after_a_dead_time_is_told():
+def test_a_rate_that_is_constant_only_after_a_dead_time_is_seen():
     draws = 10.0 + np.random.default_rng(0).exponential(10.0, (40, 200))
     chances = [lifetimes.chance_of_rate(lives, 10.0, 100.0) for lives in draws]
     assert np.mean(np.array(chances) > 0.05) > 0.85
@@ -46,23 +44,34 @@ def test_a_rate_that_is_constant_only_after_a_dead_time_is_told():
     assert lifetimes.chance_of_rate(np.array([3.0, 4.0]), 10.0, 100.0) == 1.0
 
 
-def test_one_transition_bounds_a_rate_by_all_the_time_that_was_watched():
+def test_one_transition_bounds_a_rate_by_all_the_time_that_was_watched(monkeypatch):
     """Of 64 runs to tau = 50 one changes over from A_0 = 9, at 48.2, and six do from 8."""
-    given, lives = problem(end_time=50.0, output_step=0.5), np.full((2, 64), np.inf)
-    lives[0, :6], lives[1, 0] = [35.8, 40.2, 40.4, 42.1, 42.4, 47.9], 48.2
-    drawn = {8.0: lives[0], 9.0: lives[1]}
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lifetimes, "follow_members", lambda one, *_: [
-            lifetimes.Life(time, 0.0, 0) for time in drawn[float(abs(one.initial[0]).max())]
-        ])  # fmt: skip
-        data = as_xarray(*lifetimes.measure_lives(given, [8.0, 9.0], 0.2, 1e-7, 64, 10.0, 3))
+    drawn = {8.0: np.full(64, np.inf), 9.0: np.full(64, np.inf)}
+    drawn[8.0][:6], drawn[9.0][0] = [35.8, 40.2, 40.4, 42.1, 42.4, 47.9], 48.2
+    followed = []
+
+    def follow_members(problem, a0, ratio, tolerance, kind, *_):
+        followed.append((a0, tolerance, kind))
+        return lifetimes.Lives(drawn[a0], tolerance, 1)
+
+    monkeypatch.setattr(lifetimes, "follow_members", follow_members)
+    given, choices = problem(end_time=50.0, output_step=0.5), [[1e-8, "even"], [1e-5, "uneven"]]
+    compared = {"amplitude": 9.0, "choices": choices}
+    data = as_xarray(
+        *lifetimes.measure_lifetimes(given, [8.0, 9.0], 0.2, compared, 1e-7, 64, 10.0, 3)
+    )
+    # an ensemble that is known is not run again
+    assert followed == [(8.0, 1e-8, "even"), (9.0, 1e-8, "even"), (9.0, 1e-5, "uneven")]
+    assert data["choice_drift"].values.tolist() == [1e-8, 1e-5]
+    assert data["choice_kind"].values.tolist() == ["even", "uneven"]
     rate, low, high = (data[f"rate{end}"].values for end in ("", "_low", "_high"))
-    exposed = 64 * 40.0 - np.array([np.sum(50.0 - lives[0, :6]), 1.8])
+    exposed = 64 * 40.0 - np.array([np.sum(50.0 - drawn[8.0][:6]), 1.8])
     assert rate == pytest.approx([6, 1] / exposed)
+    assert data["choice_rate"].values.tolist() == [rate[1]] * 2
     assert high[1] == pytest.approx(5.57164 / 2558.2, rel=1e-5)  # Poisson: exp(-m) (1 + m) = 0.025
     assert low[1] == pytest.approx(-np.log(0.975) / 2558.2, rel=1e-5)
     assert low[1] < low[0] < high[1] < high[0]
-    shown = lifetimes_figure.draw_lifetimes(lifetimes_figure.gather_lifetimes(data)).axes[1]
+    shown = figures.draw_lifetimes(figures.gather_lifetimes(data)).axes[1]
     (means,) = (one for one in shown.containers if len(one.lines[0].get_ydata()) == 2)
     assert np.diff(means.lines[0].get_ydata()) > 0
 
@@ -74,28 +83,12 @@ def test_survival_falls_with_each_transition():
     assert (low < share).all() and (high >= share).all()
 
 
-def test_the_dataset_has_every_amplitude_and_every_choice():
+def test_members_start_from_both_amplitudes_at_the_tolerance_of_their_ensemble():
     given = problem(end_time=12.0)
-    contents = lifetimes.measure_lives(given, [2.0, 7.0], 0.2, 1e-7, 3, 10.0, 1)
-    choices = [(1e-6, "even"), (1e-6, "uneven")]
-    numerics = lifetimes.compare_numerics(
-        lifetimes.localised(given, 7.0, 0.2), choices, 1e-7, 3, 10.0, 1, contents[0]
-    )
-    data = as_xarray(contents[0] | numerics, contents[1])
-    assert data["life"].shape == (2, 3) and np.isfinite(data["life"][0]).all()
-    assert data["median"][0] < data["median"][1]
-    assert data["choice_kind"].values.tolist() == ["even", "uneven"]
-    assert data["compared_amplitude"] == 7.0
-
-
-def test_an_ensemble_that_is_known_is_not_run_again(monkeypatch):
-    given, drawn = problem(end_time=12.0), (1e-7, 3, 10.0, 1)
-    lives, _ = lifetimes.measure_lives(given, [2.0, 7.0], 0.2, *drawn)
-    compared, own = lifetimes.localised(given, 7.0, 0.2), [(1e-8, "even")]
-    again = lifetimes.compare_numerics(lifetimes.localised(given, 7.0, 0.2), own, *drawn, {
-        **lives, "start_amplitude": lives["start_amplitude"]._replace(values=[2.0, 8.0])
-    })  # fmt: skip
-    monkeypatch.delattr(lifetimes, "follow_members")
-    known = lifetimes.compare_numerics(compared, own, *drawn, lives)
-    for name, one in again.items():
-        np.testing.assert_array_equal(known[name].values, one.values)
+    ensembles = [(2.0, 1e-6, "even"), (2.0, 1e-9, "even"), (2.0, 1e-6, "uneven")]
+    found = [lifetimes.follow_members(given, a0, 0.2, *how, 1e-7, 3, 1) for a0, *how in ensembles]
+    assert all(np.isfinite(one.times).all() for one in found)
+    alone = lifetimes.follow(problem(a0=2.0, end_time=12.0))
+    assert found[1].times == pytest.approx(alone.time, abs=0.3)
+    assert found[1].drift < found[0].drift and found[1].work > found[0].work
+    assert not np.array_equal(found[0].drift, found[2].drift)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pendula.ledger.changes import keep, repeat
-from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal, joined
+from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, almost_equal
 from pendula.ledger.claim import CHANGE, FACTOR, MUCH, Control, checks, claim
 from pendula.ledger.criterion import (
     Above,
@@ -53,10 +53,10 @@ END = 50.0
 """The paper runs Figs 2 to 4 up to this time."""
 
 
-def limits(members, case: str, reduce: Callable) -> dict[str, Limits]:
+def limits(members, case: str, reduce: Callable, *given) -> dict[str, Limits]:
     """Return the limits of the mean over the members of a case, by kind of ensemble.
 
-    `reduce` makes one number of each member from the dataset of the case.
+    `reduce` makes one number of each member from the dataset of the case and what is `given`.
     """
     known = {EARLIER, LATER} <= set(members["window"].values)
     if case not in members["case"].values or not known:
@@ -64,7 +64,7 @@ def limits(members, case: str, reduce: Callable) -> dict[str, Limits]:
     if members.sizes["member"] < FEWEST:
         raise UndecidableError(f"an ensemble has {FEWEST} members at least")
     return {
-        kind: mean_limits(reduce(members_of(members, kind, case)), LEVEL.value)
+        kind: mean_limits(reduce(members_of(members, kind, case), *given), LEVEL.value)
         for kind in map(str, members["kind"].values)
     }
 
@@ -84,25 +84,23 @@ def named(found: dict[str, Limits], part: str, name: str = "") -> dict[str, floa
     }
 
 
-def level(norm: str, window: str = LATER, quantity: str = "pair") -> Callable:
-    """Return a function of a case's members: the mean of a norm over a window."""
-    return lambda case: levels_of(case, norm, window, quantity)
+# What each member is reduced to, from the dataset of a case, (member,)
 
 
 @once
-def levels_of(case, norm: str, window: str, quantity: str) -> np.ndarray:
-    """Return the mean of a norm of each member over a window."""
+def level(case, norm: str, window: str = LATER, quantity: str = "pair") -> np.ndarray:
+    """Return the mean of a norm over a window."""
     return case[f"{norm}_level"].sel(window=window, quantity=quantity).values
 
 
-def over_start(norm: str) -> Callable:
-    """Return a function of a case's members: the late mean of a norm over that of the data."""
-    return lambda case: level(norm)(case) / float(case[f"{norm}_start"])
+def over_start(case, norm: str) -> np.ndarray:
+    """Return the late mean of a norm over that of the data."""
+    return level(case, norm) / float(case[f"{norm}_start"])
 
 
-def change(norm: str) -> Callable:
-    """Return a function of a case's members: the relative change of a norm between the halves."""
-    return lambda case: level(norm, LATER)(case) / level(norm, EARLIER)(case) - 1.0
+def change(case, norm: str) -> np.ndarray:
+    """Return the relative change of a norm between the halves."""
+    return level(case, norm) / level(case, norm, EARLIER) - 1.0
 
 
 def pendula(case) -> np.ndarray:
@@ -157,11 +155,10 @@ def cases_of_fig3(*wrongs: str) -> tuple[Control, ...]:
 )
 def ensemble_fig3_grows(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
-    found = limits(members, "fig3_large", over_start("l2"))
+    found = limits(members, "fig3_large", over_start, "l2")
     lows = named(found, "low")
     says = f"lower limits of the mean l2 on {LATER} over the start"
-    criterion = AllOf(Above(FACTOR, *lows, says=says), near.criterion)
-    return judge(named(found, "value") | lows | near.measured, criterion, near.caveat)
+    return near.judge(named(found, "value") | lows, Above(FACTOR, *lows, says=says))
 
 
 @claim(
@@ -182,8 +179,7 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
     found = limits(members, "fig3_large", excited)
     lows = named(found, "low")
     says = f"lower limits of how many others move by more than A_0 / 3 on {LATER}"
-    criterion = AllOf(Above(SEVERAL, *lows, says=says), near.criterion)
-    return judge(named(found, "value") | lows | near.measured, criterion, near.caveat)
+    return near.judge(named(found, "value") | lows, Above(SEVERAL, *lows, says=says))
 
 
 @claim(
@@ -197,18 +193,17 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
     def ratio(case):
-        return level("l2", quantity="A")(case) / level("l2", quantity="B")(case)
+        return level(case, "l2", LATER, "A") / level(case, "l2", LATER, "B")
 
-    ratios = limits(members, "fig3_large", ratio)
-    exchange = limits(
-        members, "fig3_large", lambda case: case["norm_correlation"].sel(window=LATER).values
-    )
+    def correlation(case):
+        return case["norm_correlation"].sel(window=LATER).values
+
+    ratios, exchange = (limits(members, "fig3_large", each) for each in (ratio, correlation))
     ends = named(ratios, "low", "ratio") | named(ratios, "high", "ratio")
     together = named(exchange, "low", "correlation")
     alike = WithinFactor(FACTOR, *ends, says=f"limits of l2 of A over l2 of B on {LATER}")
     says = "lower limits of the correlation of |A|^2 and |B|^2"
-    criterion = AllOf(alike, Above(ANTICORRELATED, *together, says=says), near.criterion)
-    return judge(ends | together | near.measured, criterion, near.caveat)
+    return near.judge(ends | together, alike, Above(ANTICORRELATED, *together, says=says))
 
 
 @claim(
@@ -221,14 +216,13 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
 )
 def ensemble_fig3_maximum(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
-    found = limits(members, "fig3_large", over_start("linf"))
+    found = limits(members, "fig3_large", over_start, "linf")
     ends = named(found, "low") | named(found, "high")
     rise = min(limit.low for limit in found.values()) - 1.0
     rises = f"it rises by {rise:.0%} at least" if rise > 0.0 else ""
     says = f"limits of the mean l-infinity norm on {LATER} over the start"
-    criterion = AllOf(WithinFactor(FACTOR, *ends, says=says), near.criterion)
-    measured = named(found, "value") | ends | near.measured
-    return judge(measured, criterion, joined(rises, near.caveat))
+    alike = WithinFactor(FACTOR, *ends, says=says)
+    return near.judge(named(found, "value") | ends, alike, caveat=rises)
 
 
 # --- Fig 4 ----------------------------------------------------------------------------------------
@@ -236,12 +230,12 @@ def ensemble_fig3_maximum(members, sensitivity) -> Finding:
 BOTH = ("fig4_small", "fig4_large")
 
 
-def of_both(members, reduce: Callable) -> dict[str, Limits]:
+def of_both(members, *reduce) -> dict[str, Limits]:
     """Return the limits of both panels of Fig 4, by size of the data and kind."""
     return {
         f"{case.removeprefix('fig4_')}_{kind}": limit
         for case in BOTH
-        for kind, limit in limits(members, case, reduce).items()
+        for kind, limit in limits(members, case, *reduce).items()
     }
 
 
@@ -257,11 +251,11 @@ def of_both(members, reduce: Callable) -> dict[str, Limits]:
     on=BOTH,
 )
 def ensemble_fig4_settles(members) -> Finding:
-    changes = named(distance(of_both(members, change("linf"))), "high", "change")
-    grown = named(limits(members, "fig4_small", over_start("linf")), "low", "growth")
-    ratio = of_both(members, lambda case: level("l2")(case) / level("linf")(case))
+    changes = named(distance(of_both(members, change, "linf")), "high", "change")
+    grown = named(limits(members, "fig4_small", over_start, "linf"), "low", "growth")
+    ratio = of_both(members, lambda case: level(case, "l2") / level(case, "linf"))
     over = named(ratio, "low", "l2_over_linf")
-    l2_grown = named(of_both(members, over_start("l2")), "low", "l2_growth")
+    l2_grown = named(of_both(members, over_start, "l2"), "low", "l2_growth")
     criterion = AllOf(
         Below(CHANGE, *changes, says="upper limits of the change between the halves"),
         Above(FACTOR, *grown, says="lower limits of the growth from the small data"),
@@ -296,10 +290,10 @@ def ensemble_fig4_many(members) -> Finding:
 
 def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
     """Return lower less upper panel of a norm over a window, as a part of the lower, by kind."""
-    limits(members, BOTH[0], level(norm, window))  # says what is missing
+    limits(members, BOTH[0], level, norm, window)  # says what is missing
     found = {}
     for kind in map(str, members["kind"].values):
-        small, large = (level(norm, window)(members_of(members, kind, case)) for case in BOTH)
+        small, large = (level(members_of(members, kind, case), norm, window) for case in BOTH)
         found[kind] = difference_limits(large / large.mean(), small / large.mean(), LEVEL.value)
     return found
 
@@ -361,7 +355,7 @@ def ensemble_equilibrium(members) -> Finding:
         return amplitudes.min(axis=(1, 2)) / share
 
     least_of_all = limits(members, "fig4_small", least)
-    changes = limits(members, "fig4_small", lambda case: np.square(change("l2")(case) + 1.0) - 1.0)
+    changes = limits(members, "fig4_small", lambda case: np.square(change(case, "l2") + 1.0) - 1.0)
     lows, moves = named(least_of_all, "low", "least"), named(distance(changes), "high", "change")
     everywhere = Above(
         FACTOR, *lows,

@@ -11,7 +11,7 @@ import numpy as np
 
 from pendula.datasets.trajectories import constants_of
 from pendula.ledger.changes import keep, repeat, take
-from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, AlmostEqual, almost_equal, joined
+from pendula.ledger.chaos import FAR_AS_NEAR, SENSITIVITY, AlmostEqual, almost_equal
 from pendula.ledger.claim import CHANGE, FACTOR, FEWEST, NEARLY_ALL, Control, checks, claim
 from pendula.ledger.criterion import (
     Above,
@@ -262,8 +262,7 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
         " of the peak"
     )
     says = "lower limits of the mean over all longer chains over that of the shortest"
-    criterion = AllOf(Above(1.0, *lows, says=says), near.criterion)
-    return judge(measured | lows | near.measured, criterion, joined(peak, near.caveat))
+    return near.judge(measured | lows, Above(1.0, *lows, says=says), caveat=peak)
 
 
 @claim(
@@ -313,9 +312,7 @@ def ensemble_fig6_not_technical(even, uneven, sensitivity) -> Finding:
     }
     fixed = "growth without bound in time is not decided by a fixed window"
     says = "lower limits of the largest P over that of the data"
-    criterion = AllOf(Above(c_0, *lows, says=says), near.criterion)
-    measured = {**lows, "C_0": c_0, **near.measured}
-    return judge(measured, criterion, joined(fixed, near.caveat))
+    return near.judge(lows | {"C_0": c_0}, Above(c_0, *lows, says=says), caveat=fixed)
 
 
 @claim(
@@ -334,11 +331,10 @@ def ensemble_fig6_time(even, uneven, sensitivity) -> Finding:
         data = {"even": even, "uneven": uneven}[kind]
         earlier = maxima(data, "fig6_right", "l2", TEXT_5)
         shorter.append(earlier.mean[-1] / means.mean[-1])
-    measured = {**lows, "shorter_over_longer": min(shorter), **near.measured}
+    measured = lows | {"shorter_over_longer": min(shorter)}
     earlier = (
         f"the shorter span {TEXT_5} does so too: on the longest chain the norm has reached"
         f" {min(shorter):.0%} of its value by then"
     )
     says = "least lower limit of l2 over the start, at any M"
-    criterion = AllOf(Above(FACTOR, *lows, says=says), near.criterion)
-    return judge(measured, criterion, joined(earlier, near.caveat))
+    return near.judge(measured, Above(FACTOR, *lows, says=says), caveat=earlier)

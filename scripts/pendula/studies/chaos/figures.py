@@ -1,7 +1,8 @@
-"""Chaos in pictures: exponents, how evenness is lost, and ensembles beside the paper's runs."""
+"""Chaos in pictures: exponents, lost evenness, ensembles beside the paper's runs, and lifetimes."""
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -11,23 +12,16 @@ from pendula.drawing import panels, style
 from pendula.numerics.elementary import exp, geometric, log
 from pendula.problem import is_even
 
+NORM = r"$\ell^2$ norm"
+
+# --- Exponents ------------------------------------------------------------------------------------
+
 COLOURS = {8.0: "#e0a100", -4.0: style.BLUE, 0.0: style.RED}
 """By detuning, of different lightness."""
 WIDTHS = {"small": 0.7, "large": 1.5}
 DASHES = {"even": (None, None), "odd": (3, 1.5)}
 MARKERS = ["o", "s", "^", "D"]
-DRAWN = ["running", "exponents", "exponents_error", "divergence_predicted", "divergence_measured"]
-DRAWN += ["omega", "initial"]
-LIGHT = "#f2a15f"
-BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
-MEDIAN = {"color": style.RED, "lw": 1.3}
-MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
-OWN = {"color": style.BLUE, "lw": 0.6}
-TRUE = {"color": "black", "lw": 0.6}
-COMPARED = ["omega", "initial", "run", "true", "run_inside", "l2_mean", "l2_deviation"]
-COMPARED += ["swept_run", "swept_window", "swept_omega", "swept_initial"]
-OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
-NORM = r"$\ell^2$ norm"
+GROWTH = ["running", "exponents", "exponents_error", "divergence_predicted", "divergence_measured"]
 
 
 def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
@@ -35,7 +29,7 @@ def gather_lyapunov(lyapunov: xr.Dataset) -> xr.Dataset:
     later = lyapunov.isel(tau=slice(1, None))
     running = later["log_growth"] / later["tau"]
     running.attrs = {"long_name": "mean rate of growth since the start, per unit of tau"}
-    return later.assign(running=running)[DRAWN]
+    return later.assign(running=running)[[*GROWTH, "omega", "initial"]]
 
 
 @style.styled
@@ -46,7 +40,17 @@ def draw_lyapunov(data: xr.Dataset) -> Figure:
     _draw_running(running, data)
     _draw_spectrum(spectrum, data)
     _draw_divergence(times, data)
-    figure.legend(handles=_lyapunov_legend(data), loc="outside upper center", ncols=4)
+    cases = [
+        Line2D([], [], label=style.name_case(data.sel(case=case)), **_marked(data, case))
+        for case in data["case"].values
+    ]
+    kept = all(map(is_even, map(str, data["initial"].values)))
+    first = "" if kept else " at first"  # uneven data mix both parities
+    parities = [
+        Line2D([], [], color="0.3", lw=1, dashes=dashes, label=f"{parity} in $n${first}")
+        for parity, dashes in DASHES.items()
+    ]
+    figure.legend(handles=cases + parities, loc="outside upper center", ncols=4)
     return figure
 
 
@@ -63,10 +67,11 @@ def _marked(data: xr.Dataset, case: str) -> dict:
 
 
 def _draw_running(axes: Axes, data: xr.Dataset) -> None:
+    # equal steps of the logarithm, so that its axis is not crowded
+    sampled = np.unique(geometric(1.0, data.sizes["tau"], 40).round().astype(int)) - 1
     for case in data["case"].values:
         for parity in data["parity"].values:
-            curve = data["running"].sel(case=case, parity=parity)
-            shown = abs(curve.isel(tau=_evenly_on_log(curve["tau"])))
+            shown = abs(data["running"].sel(case=case, parity=parity).isel(tau=sampled))
             axes.plot(shown["tau"], shown, dashes=DASHES[parity], **_look(data, case))
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -77,61 +82,43 @@ def _draw_running(axes: Axes, data: xr.Dataset) -> None:
     axes.set_title("one small change", loc="left")
 
 
-def _evenly_on_log(tau: xr.DataArray, count: int = 40) -> np.ndarray:
-    """Return where to sample equal steps of time so that a logarithmic axis is not crowded."""
-    return np.unique(geometric(1.0, tau.size, count).round().astype(int)) - 1
-
-
 def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
     axes.axhline(0.0, color="0.5", lw=0.6)
-    lengths = data["spectrum_half_width"].values
+    chains = list(zip(MARKERS, data["spectrum_half_width"].values, strict=False))
+    dot = {"linestyle": "none", "markersize": 3.5, "mew": 0}
+    handles = [
+        Line2D([], [], color="0.4", marker=marker, label=f"$M = {half_width}$", **dot)
+        for marker, half_width in chains
+    ]
     for case in data["spectrum_case"].values:
-        for marker, half_width in zip(MARKERS, lengths, strict=False):
-            one = {"spectrum_case": case, "spectrum_half_width": half_width}
-            rates, errors = data["exponents"].sel(one), data["exponents_error"].sel(one)
+        colour = _look(data, case)["color"]
+        for marker, half_width in chains:
+            one = data.sel(spectrum_case=case, spectrum_half_width=half_width)
+            rates, errors = one["exponents"], one["exponents_error"]
             place = (rates["index"] - 0.5) / float(rates.notnull().sum())
-            look = {"color": _look(data, case)["color"], "marker": marker, "markersize": 2.2}
-            axes.fill_between(
-                place, rates - errors, rates + errors, color=look["color"], alpha=0.2, lw=0
-            )
+            axes.fill_between(place, rates - errors, rates + errors, color=colour, alpha=0.2, lw=0)
+            look = {"color": colour, "marker": marker, "markersize": 2.2}
             axes.plot(place, rates, linestyle="none", mew=0, **look)
+        label = rf"$\Omega = {float(data['omega'].sel(case=case)):g}$"
+        handles.append(Line2D([], [], color=colour, lw=2, label=label))
     # the other half are the same with the opposite sign
     axes.set_xlim(0, 0.52)
     axes.set_ylim(-0.2, None)
     axes.set_title("all changes: the upper half", loc="left")
     axes.set_xlabel("number of the exponent over $4N$")
     axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
-    axes.legend(
-        handles=_spectrum_legend(data), loc="upper right", handlelength=1.2, handletextpad=0.5
-    )
-
-
-def _spectrum_legend(data: xr.Dataset) -> list[Line2D]:
-    dot = {"linestyle": "none", "markersize": 3.5, "mew": 0}
-    lengths = zip(MARKERS, data["spectrum_half_width"].values, strict=False)
-    chains = [
-        Line2D([], [], color="0.4", marker=marker, label=f"$M = {half_width}$", **dot)
-        for marker, half_width in lengths
-    ]
-    cases = [
-        Line2D([], [], color=_look(data, case)["color"], lw=2,
-               label=rf"$\Omega = {float(data['omega'].sel(case=case)):g}$")
-        for case in data["spectrum_case"].values
-    ]  # fmt: skip
-    return chains + cases
+    axes.legend(handles=handles, loc="upper right", handlelength=1.2, handletextpad=0.5)
 
 
 def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
-    tops = [1.0]
+    times = data[["divergence_predicted", "divergence_measured"]]
+    tolerances = list(zip(MARKERS, data["rtol"].values, strict=False))
     for case in data["case"].values:
-        predicted = data["divergence_predicted"].sel(case=case)
-        measured = data["divergence_measured"].sel(case=case)
         look = _marked(data, case) | {"linestyle": "none"}
-        for marker, rtol in zip(MARKERS, data["rtol"].values, strict=False):
-            point = predicted.sel(rtol=rtol), measured.sel(rtol=rtol)
-            axes.plot(*point, **look | {"marker": marker})
-            tops += [float(time) for time in point if np.isfinite(time)]
-    top = 1.1 * max(tops)
+        for marker, rtol in tolerances:
+            axes.plot(*times.sel(case=case, rtol=rtol).values(), **look | {"marker": marker})
+    shown = times.to_array().isel(rtol=slice(len(tolerances)))
+    top = 1.1 * max(1.0, float(shown.where(np.isfinite(shown)).max()))
     axes.plot([0, top], [0, top], color="black", lw=0.8)
     axes.set_xlim(0, top)
     axes.set_ylim(0, top)
@@ -139,26 +126,14 @@ def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylabel(r"measured divergence time $\tau$")
     axes.set_title("runs differ by 1 %", loc="left")
     look = {"color": "0.3", "linestyle": "none", "markersize": 4}
-    exponents = (log(data["rtol"].values) / log(10.0)).round().astype(int)
     handles = [
-        Line2D([], [], marker=marker, label=rf"$10^{{{exponent}}}$", **look)
-        for marker, exponent in zip(MARKERS, exponents, strict=False)
+        Line2D([], [], marker=marker, label=rf"$10^{{{round(log(rtol) / log(10.0))}}}$", **look)
+        for marker, rtol in tolerances
     ]
     axes.legend(handles=handles, title="tolerance", loc="lower right", handletextpad=0.1)
 
 
-def _lyapunov_legend(data: xr.Dataset) -> list[Line2D]:
-    cases = [
-        Line2D([], [], label=style.name_case(data.sel(case=case)), **_marked(data, case))
-        for case in data["case"].values
-    ]
-    kept = all(map(is_even, map(str, data["initial"].values)))
-    first = "" if kept else " at first"  # uneven data mix both parities
-    parities = [
-        Line2D([], [], color="0.3", lw=1, dashes=dashes, label=f"{parity} in $n${first}")
-        for parity, dashes in DASHES.items()
-    ]
-    return cases + parities
+# --- Lost evenness --------------------------------------------------------------------------------
 
 
 def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
@@ -172,9 +147,8 @@ def gather_symmetry(symmetry: xr.Dataset, lyapunov: xr.Dataset) -> xr.Dataset:
     predicted.attrs = {"long_name": "odd part predicted by tangent dynamics"}
     predicted = predicted.rename(tau="predicted_tau")
     predicted["predicted_tau"].attrs = {"long_name": "slow time of the prediction"}
-    names = ["rounded", "perturbed", "omega", "initial"]
     # on a time of its own, coarser than that of the runs
-    return symmetry[names].assign(predicted=predicted)
+    return symmetry[["rounded", "perturbed", "omega", "initial"]].assign(predicted=predicted)
 
 
 @style.styled
@@ -187,7 +161,7 @@ def _draw_odd_part(axes: Axes, case: xr.Dataset) -> None:
     for member in range(case.sizes["member"]):
         curve = panels.positive(case["perturbed"].isel(member=member))
         label = "from odd perturbations" if member == 0 else None
-        axes.plot(curve["tau"], curve, color=LIGHT, lw=0.6, label=label)
+        axes.plot(curve["tau"], curve, color="#f2a15f", lw=0.6, label=label)
     curve = panels.positive(case["rounded"])
     axes.plot(curve["tau"], curve, color=style.BLUE, lw=1, label="by rounding alone")
     look = {"color": "black", "lw": 0.9, "dashes": (3, 1.5)}
@@ -195,8 +169,20 @@ def _draw_odd_part(axes: Axes, case: xr.Dataset) -> None:
     axes.set_ylim(1e-17, 10)
 
 
+# --- Ensembles ------------------------------------------------------------------------------------
+
+BANDS = [((0.05, 0.95), "#f9d3c0"), ((0.25, 0.75), "#ee9a75")]
+MEDIAN = {"color": style.RED, "lw": 1.3}
+MEAN = {"color": style.RED, "marker": "o", "markersize": 3, "linestyle": "none"}
+OWN = {"color": style.BLUE, "lw": 0.6}
+TRUE = {"color": "black", "lw": 0.6}
+OWN_DOT = {"color": style.BLUE, "marker": "x", "markersize": 4, "linestyle": "none"}
+COMPARED = ["omega", "initial", "run", "true", "run_inside", "l2_mean", "l2_deviation"]
+COMPARED += ["swept_run", "swept_window", "swept_omega", "swept_initial"]
+
+
 def gather_ensembles(ensembles: xr.Dataset, comparison: xr.Dataset) -> xr.Dataset:
-    """Return the pair's bands, and all that they are compared with (see `ensembles.compare`)."""
+    """Return the pair's bands, and what they are compared with (see `ensembles.compare_runs`)."""
     return comparison[COMPARED].assign(l2=ensembles["l2"].sel(quantity="pair", drop=True))
 
 
@@ -213,7 +199,20 @@ def draw_ensembles(data: xr.Dataset) -> Figure:
         _draw_sweep(axes, data.sel(sweep=name))
     above[0].set_ylabel(NORM)
     above[0].set_ylim(bottom=0)
-    figure.legend(handles=_ensembles_legend(data), loc="outside upper center", ncols=3)
+    true = [Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2})]
+    whose = "its own" if "other_solvers" in data.attrs else "the paper's"
+    bands = [
+        Patch(color=colour, label=f"{100 * low:g} to {100 * high:g} % of the ensemble")
+        for (low, high), colour in BANDS
+    ]
+    handles = [
+        *bands,
+        Line2D([], [], label="median", **MEDIAN),
+        *(true if data["true"].notnull().any() else ()),
+        Line2D([], [], label="mean and standard deviation", **MEAN),
+        Line2D([], [], label=f"one run by {whose} solver", **{**OWN_DOT, "linestyle": "-"}),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -244,17 +243,87 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.set_title(style.name_case(sweep[list(labels)].rename(labels)), loc="left")
 
 
-def _ensembles_legend(data: xr.Dataset) -> list:
-    true = [Line2D([], [], label="the true run", **{**TRUE, "lw": 1.2})]
-    whose = "its own" if "other_solvers" in data.attrs else "the paper's"
-    bands = [
-        Patch(color=colour, label=f"{100 * low:g} to {100 * high:g} % of the ensemble")
-        for (low, high), colour in BANDS
-    ]
-    return [
-        *bands,
-        Line2D([], [], label="median", **MEDIAN),
-        *(true if data["true"].notnull().any() else ()),
-        Line2D([], [], label="mean and standard deviation", **MEAN),
-        Line2D([], [], label=f"one run by {whose} solver", **{**OWN_DOT, "linestyle": "-"}),
-    ]
+# --- Lifetimes ------------------------------------------------------------------------------------
+
+LINE = 0.075
+"""The height of a line of text, as a share."""
+BESIDE = 0.18
+"""How far the marks of means are beside those of medians, in units of A_0."""
+
+
+def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
+    """Return the shares that survive, median lives and rates, all with their limits."""
+    ends = ("", "_low", "_high")
+    return lifetimes[[f"{name}{end}" for name in ("surviving", "median", "rate") for end in ends]]
+
+
+@style.styled
+def draw_lifetimes(data: xr.Dataset) -> Figure:
+    """Draw the share that is still localised against tau, and the life against A_0."""
+    figure = style.new_figure(style.DOUBLE, 2.9)
+    shares, lives = figure.subplots(1, 2, width_ratios=(1.2, 1))
+    _draw_shares(shares, data)
+    _draw_lives(lives, data)
+    return figure
+
+
+def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
+    tau, end = data["tau"], float(data["tau"][-1])
+    # before chaos sets in all members have the same life
+    differ = np.isfinite(data["rate"].values)
+    fast, slow = data.isel(start_amplitude=~differ), data.isel(start_amplitude=differ)
+    for share in fast["surviving"]:
+        axes.step(tau, share, where="post", color="0.6", lw=0.8)
+    free = -np.inf
+    for k, a0 in enumerate(slow["start_amplitude"].values):
+        one = slow.isel(start_amplitude=k)
+        colour = colormaps["viridis"](0.85 * k / max(1, slow.sizes["start_amplitude"] - 1))
+        band = one["surviving_low"], one["surviving_high"]
+        axes.fill_between(tau, *band, step="post", color=colour, alpha=0.15, lw=0)
+        axes.step(tau, one["surviving"], where="post", color=colour, lw=1.3)
+        free = max(free + LINE, float(one["surviving"][-1]))
+        axes.text(1.07 * end, free, f"$A_0 = {a0:g}$", color=colour, va="center", fontsize=7)
+    if amplitudes := fast["start_amplitude"].values.tolist():
+        last = f" to {amplitudes[-1]:g}" if len(amplitudes) > 1 else ""
+        axes.text(0.93 * float(fast["median"].min()), 0.04, f"$A_0 = {amplitudes[0]:g}${last}",
+                  color="0.45", fontsize=7, ha="right")  # fmt: skip
+    axes.set_xscale("log")
+    axes.set_xlim(1, end)
+    axes.set_ylim(0, 1.03)
+    axes.set_xlabel(r"$\tau$")
+    axes.set_ylabel("share of runs still localised")
+    axes.set_title("(a) runs that have not changed over", loc="left")
+
+
+def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
+    a0, end = data["start_amplitude"].values, float(data["tau"][-1])
+    middle, low, high = (data[f"median{part}"].values for part in ("", "_low", "_high"))
+    known = np.isfinite(middle)
+    above = np.where(np.isfinite(high), high, end)
+    bars = np.abs([middle[known] - low[known], above[known] - middle[known]])
+    look = {"color": style.BLUE, "marker": "o", "markersize": 3.5, "elinewidth": 0.8, "capsize": 2}
+    axes.errorbar(a0[known], middle[known], bars, linestyle="none", label="median", **look)
+    later = np.where(np.isfinite(low), low, end)
+    _draw_bounds(axes, a0[~known], later[~known], style.BLUE, "median at least")
+    settled, seen, unseen = data.attrs["settled"], data["rate"].values > 0, data["rate"].values == 0
+    rates = (data[f"rate{part}"].values for part in ("", "_high", "_low"))
+    value, least, most = (settled + 1.0 / rate[seen] for rate in rates)
+    look |= {"color": style.RED, "marker": "s"}
+    axes.errorbar(
+        a0[seen] + BESIDE, value, [value - least, most - value], linestyle="none",
+        label=rf"mean, if localised at $\tau = {settled:g}$", **look,
+    )  # fmt: skip
+    least = settled + 1.0 / data["rate_high"].values[unseen]
+    _draw_bounds(axes, a0[unseen] + BESIDE, least, style.RED, "mean at least")
+    axes.set_yscale("log")
+    axes.set_xlabel("initial amplitude $A_0$")
+    axes.set_ylabel("life, units of $\\tau$")
+    axes.set_title("(b) how long it takes", loc="left")
+    axes.legend(loc="upper left", handletextpad=0.3)
+
+
+def _draw_bounds(axes: Axes, a0: np.ndarray, least: np.ndarray, colour: str, label: str) -> None:
+    """Draw lower bounds as triangles, if there are any."""
+    if a0.size:
+        axes.plot(a0, least, color=colour, marker="^", markersize=5, linestyle="none",
+                  markerfacecolor="white", label=label)  # fmt: skip

@@ -21,7 +21,6 @@ from pendula.measures.confidence import (
     share_limits,
 )
 from pendula.measures.norms import drift
-from pendula.numerics.elementary import modulus
 from pendula.problem import Problem, output_times
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import simulate
@@ -43,16 +42,18 @@ def follow(problem: Problem) -> Life:
     """Follow one run at its output times until the centre holds no more than an even share of P."""
     spans = max(1, round(problem.end_time / SPAN))
     piece = problem.changed(end_time=problem.end_time / spans, snapshot_every=1)
-    energies, work = [], 0
+    energies, work, time = [], 0, np.inf
     for done in range(spans):
         run = simulate(piece)
         energies.append(run.energy)
         work += run.outcome.evaluations
         ended = np.flatnonzero(shares_alike(run.modulus))
         if ended.size:
-            return Life(float(done * piece.end_time + run.tau[ended[0]]), _drift(energies), work)
+            time = float(done * piece.end_time + run.tau[ended[0]])
+            break
         piece = piece.changed(initial=run.final)
-    return Life(np.inf, _drift(energies), work)
+    energy = np.concatenate(energies)
+    return Life(time, float(drift(energy).max() / abs(energy[0])), work)
 
 
 def shares_alike(modulus: np.ndarray) -> np.ndarray:
@@ -64,24 +65,29 @@ def shares_alike(modulus: np.ndarray) -> np.ndarray:
     return power[len(power) // 2] <= power.mean(axis=0)
 
 
-def _drift(energies: list[np.ndarray]) -> float:
-    energy = np.concatenate(energies)
-    return float(drift(energy).max() / abs(energy[0]))
-
-
 # --- Many lives -----------------------------------------------------------------------------------
 
 
-def localised(problem: Problem, amplitude: float, ratio: float) -> Problem:
-    """Return the problem with A_0 = `amplitude` and B_0 = `ratio` A_0 on the central pair alone."""
-    return problem.changed(initial=np.array([[amplitude], [ratio * amplitude]], complex))
+class Lives(NamedTuple):
+    """The runs of one ensemble up to their transitions."""
+
+    times: np.ndarray  # (member,), infinite if later than the end
+    drift: float  # largest relative error of the energy
+    work: int  # of all members
 
 
 def follow_members(
-    problem: Problem, size: float, members: int, seed: int, kind: str = "even"
-) -> list[Life]:
-    """Follow the members of an ensemble of `problem`, one Life each."""
-    return [follow(member) for member in draw_members(problem, size, members, seed, kind)]
+    problem: Problem, amplitude: float, ratio: float, tolerance: float, kind: str,
+    size: float, members: int, seed: int,
+) -> Lives:  # fmt: skip
+    """Follow an ensemble from A_0 = `amplitude` and B_0 = `ratio` A_0 on the central pair alone."""
+    one = problem.changed(
+        initial=np.array([[amplitude], [ratio * amplitude]], complex),
+        solver={**problem.solver, "rtol": tolerance, "atol": tolerance},
+    )
+    lives = [follow(member) for member in draw_members(one, size, members, seed, kind)]
+    times, drifts, work = zip(*lives, strict=True)
+    return Lives(np.array(times), max(drifts), sum(work))
 
 
 def chance_of_rate(lives: np.ndarray, settled: float, end_time: float) -> float:
@@ -103,115 +109,80 @@ def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
     return Limits(*np.array([known[int(count)] for count in counts]).T)
 
 
-NUMBERS = {
-    "median": "median life, from order statistics",
-    "rate": "transitions per unit of tau and member that is localised, after the settled time",
-}
-ENDS = {"value": "", "low": ", lower confidence limit", "high": ", upper confidence limit"}
-
-
-def measure_lives(
-    problem: Problem, amplitudes: list[float], ratio: float, size: float, members: int,
-    settled: float, seed: int,
-) -> Contents:  # fmt: skip
-    """Return the lives of `members` from each amplitude A_0 with B_0 = `ratio` A_0."""
-    runs = [follow_members(localised(problem, a0, ratio), size, members, seed) for a0 in amplitudes]
-    lives = np.array([[life.time for life in row] for row in runs])
-    tau = output_times(problem.end_time, 0.5)
-    shares = [surviving(row, tau) for row in lives]
-    medians = [median_limits(row) for row in lives]
-    rates = [event_rate(row, settled, problem.end_time) for row in lives]
-    chances = [chance_of_rate(row, settled, problem.end_time) for row in lives]
-    over, share = ("start_amplitude",), "share of members that are still localised"
-    variables = {
-        "start_amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the centre"),
-        "tau": Variable(("tau",), tau),
-        "life": Variable((*over, "member"), lives, "time of the transition, infinite if later"),
-        "relative_drift": Variable(
-            over, [max(life.drift for life in row) for row in runs],
-            "largest relative error of the energy in any member",
-        ),
-        "work": Variable(
-            over, [sum(life.work for life in row) for row in runs],
-            "work of the ensemble, right-hand sides",
-        ),
-        **_limits("surviving", (*over, "tau"), shares, share),
-        **_limits("median", over, medians, NUMBERS["median"]),
-        **_limits("rate", over, rates, NUMBERS["rate"]),
-        "rate_chance": Variable(over, chances, "chance of lives as far from a constant rate"),
-    }  # fmt: skip
-    _, shared = describe_cases({"centre": problem})
-    about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "settled": settled}
-    about |= {"perturbation": size, "members": members, "seed": seed}
-    title = "How long the central pendulum stays localised, against its initial amplitude"
-    return variables, {**shared, "title": title, **about}
-
-
-class Found(NamedTuple):
-    """What an ensemble tells of its tolerance and its kind."""
-
-    times: np.ndarray  # (member,), lives
-    drift: float  # largest relative error of the energy
-    work: int  # right-hand sides
-
-
-def compare_numerics(
-    problem: Problem, choices: list[tuple[float, str]], size: float, members: int,
-    settled: float, seed: int, lives: dict[str, Variable],
-) -> dict[str, Variable]:  # fmt: skip
-    """Return the rate of transitions, its error and its cost, for (tolerance, kind of ensemble).
-
-    The choice by which `measure_lives` made `lives` is not run again if they hold the amplitude.
-    """
-    a0, found = float(modulus(problem.initial[0]).max()), []
-    known = a0 in lives["start_amplitude"].values
-    for tolerance, kind in choices:
-        if known and (tolerance, kind) == (problem.solver["rtol"], "even"):
-            found.append(_measured(lives, a0))
-            continue
-        solver = {**problem.solver, "rtol": tolerance, "atol": tolerance}
-        runs = follow_members(problem.changed(solver=solver), size, members, seed, kind)
-        times, drifts, work = zip(*runs, strict=True)
-        found.append(Found(np.array(times), max(drifts), sum(work)))
-    rates = [event_rate(one.times, settled, problem.end_time) for one in found]
-    over = ("choice",)
-    return {
-        "compared_amplitude": Variable((), a0, "initial amplitude A_0 of the compared ensembles"),
-        "choice_tolerance": Variable(over, [one for one, _ in choices], "tolerance of the solver"),
-        "choice_kind": Variable(over, [kind for _, kind in choices], "kind of the ensemble"),
-        "choice_drift": Variable(
-            over, [one.drift for one in found], "largest relative error of the energy"
-        ),
-        "choice_work": Variable(
-            over, [one.work for one in found], "work of the ensemble, right-hand sides"
-        ),
-        **_limits("choice_rate", over, rates, NUMBERS["rate"]),
-    }
-
-
-def _measured(lives: dict[str, Variable], a0: float) -> Found:
-    """Return what `measure_lives` found of the ensemble from one of its amplitudes."""
-    row = list(lives["start_amplitude"].values).index(a0)
-    return Found(*(lives[name].values[row] for name in ("life", "relative_drift", "work")))
-
-
-def _limits(name: str, dimensions, limits: list[Limits], words: str) -> dict[str, Variable]:
-    """Return an estimate and its two limits as three variables."""
-    return {
-        f"{name}_{end}" if end != "value" else name: Variable(
-            dimensions, np.array([getattr(one, end) for one in limits]), words + said
-        )
-        for end, said in ENDS.items()
-    }
-
-
 def measure_lifetimes(
     problem: Problem, amplitudes: list[float], ratio: float, compared: Mapping, size: float,
     members: int, settled: float, seed: int,
 ) -> Contents:  # fmt: skip
-    """Return the lives from each amplitude, and those from one of them by other `choices`."""
-    drawn = (size, members, settled, seed)
-    lives, attributes = measure_lives(problem, amplitudes, ratio, *drawn)
-    one = localised(problem, compared["amplitude"], ratio)
-    numerics = compare_numerics(one, compared["choices"], *drawn, lives)
-    return lives | numerics, {**attributes, "ratio": ratio}
+    """Return the lives of `members` from each amplitude A_0 with B_0 = `ratio` A_0.
+
+    `compared` holds an `amplitude` that is run again by other `choices` of tolerance and kind of
+    ensemble, for the error and the cost of the rate of transitions.
+    """
+    own, again, choices = problem.solver["rtol"], compared["amplitude"], compared["choices"]
+    main = [(a0, own, "even") for a0 in amplitudes]
+    others = [(again, *choice) for choice in choices]
+    found = {
+        one: follow_members(problem, one[0], ratio, *one[1:], size, members, seed)
+        for one in dict.fromkeys(main + others)
+    }
+    lives, numerics = [found[one] for one in main], [found[one] for one in others]
+    tau, end_time = output_times(problem.end_time, 0.5), problem.end_time
+
+    def rates(ensembles: list[Lives]) -> list[Limits]:
+        return [event_rate(one.times, settled, end_time) for one in ensembles]
+
+    over, over_choices = ("start_amplitude",), ("choice",)
+    drift_says = "largest relative error of the energy"
+    work_says = "work of the ensemble, right-hand sides"
+    rate_says = "transitions per unit of tau and member that is localised, after the settled time"
+    variables = {
+        "start_amplitude": Variable(over, amplitudes, "initial amplitude A_0 of the centre"),
+        "tau": Variable(("tau",), tau),
+        "life": Variable(
+            (*over, "member"), np.array([one.times for one in lives]),
+            "time of the transition, infinite if later",
+        ),
+        "relative_drift": Variable(
+            over, [one.drift for one in lives], f"{drift_says} in any member"
+        ),
+        "work": Variable(over, [one.work for one in lives], work_says),
+        **_limits(
+            "surviving", (*over, "tau"), [surviving(one.times, tau) for one in lives],
+            "share of members that are still localised",
+        ),
+        **_limits(
+            "median", over, [median_limits(one.times) for one in lives],
+            "median life, from order statistics",
+        ),
+        **_limits("rate", over, rates(lives), rate_says),
+        "rate_chance": Variable(
+            over, [chance_of_rate(one.times, settled, end_time) for one in lives],
+            "chance of lives as far from a constant rate",
+        ),
+        "compared_amplitude": Variable(
+            (), float(again), "initial amplitude A_0 of the compared ensembles"
+        ),
+        "choice_tolerance": Variable(
+            over_choices, [tolerance for tolerance, _ in choices], "tolerance of the solver"
+        ),
+        "choice_kind": Variable(over_choices, [kind for _, kind in choices],
+                                "kind of the ensemble"),
+        "choice_drift": Variable(over_choices, [one.drift for one in numerics], drift_says),
+        "choice_work": Variable(over_choices, [one.work for one in numerics], work_says),
+        **_limits("choice_rate", over_choices, rates(numerics), rate_says),
+    }  # fmt: skip
+    _, shared = describe_cases({"centre": problem})
+    about = {"initial": f"A_0 and B_0 = {ratio:g} A_0 on the central pair", "settled": settled}
+    about |= {"perturbation": size, "members": members, "seed": seed, "ratio": ratio}
+    title = "How long the central pendulum stays localised, against its initial amplitude"
+    return variables, {**shared, "title": title, **about}
+
+
+def _limits(name: str, dimensions, limits: list[Limits], words: str) -> dict[str, Variable]:
+    """Return estimates and their two limits as three variables."""
+    value, low, high = np.moveaxis(np.array(limits), 1, 0)
+    return {
+        name: Variable(dimensions, value, words),
+        f"{name}_low": Variable(dimensions, low, f"{words}, lower confidence limit"),
+        f"{name}_high": Variable(dimensions, high, f"{words}, upper confidence limit"),
+    }
