@@ -1,10 +1,11 @@
 """Who is compared: every solver of this project, and those of other people that are installed.
 
 A contestant is prepared for a problem once (it compiles what it compiles) and then solves it at a
-given accuracy (a tolerance, or a step), again and again.
+given accuracy (a tolerance, or a step), again and again: from loose to tight, which gives the
+points of a work-precision diagram, and in turns with another one at the same error.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import NamedTuple
 
@@ -14,29 +15,29 @@ from pendula.simulation.simulate import simulate
 
 from . import peers_as_programs, peers_in_python
 from .peer import Peer, Solve
-from .timing import timed
+from .timing import Times, TooLongError, in_turns, limit, repeat, timed
 
 TOLERANCES = 10.0 ** -np.arange(4.0, 15.5)
 ITERATED = ("crank_nicolson", "delfour_fortin_payre")
-STEPS = {name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED}
-
-PEERS: dict[str, Peer] = {
-    "scipy_rk45_numpy": peers_in_python.RK45_NUMPY,
-    "scipy_dop853_numpy": peers_in_python.DOP853_NUMPY,
-    "scipy_rk45": peers_in_python.RK45,
-    "scipy_dop853": peers_in_python.DOP853,
-    "scipy_lsoda": peers_in_python.LSODA,
-    "scipy_radau": peers_in_python.RADAU,
-    "heyoka_full": peers_in_python.HEYOKA,
-    "heyoka_half": peers_in_python.HEYOKA_HALF,
-    "cvode_adams": peers_in_python.CVODE_ADAMS,
-    "octave_ode45": peers_as_programs.OCTAVE_ODE45,
-    "numbalsoda_dop853": peers_in_python.NUMBALSODA,
-    "numbalsoda_dop853_half": peers_in_python.NUMBALSODA_HALF,
-    "cpp_taylor": peers_as_programs.TAYLOR_SEPARATE,
-    "cpp_taylor_contracted": peers_as_programs.TAYLOR_FUSED,
-    "cpp_taylor_eight": peers_as_programs.TAYLOR_EIGHT,
+STEPS = {
+    **{name: 0.04 / 2.0 ** np.arange(6) for name in ITERATED},
+    "kahan_li": 1.6 / 2.0 ** np.arange(6),  # of the pendula, in their time t
 }
+PEERS: dict[str, Peer] = peers_in_python.PEERS | peers_as_programs.PEERS
+
+PATIENCE = 1.0
+"""Seconds: a contestant that took longer is not asked for more accuracy."""
+LIMIT = 5.0
+"""Seconds after which a run is broken off."""
+ENOUGH = 0.1
+"""Seconds of repetitions after which a median is taken."""
+LEAST, MOST = 3, 15
+"""Repetitions of a run, as its length allows."""
+PAIRS, FEW_PAIRS = 7, 3
+LONG = 0.3
+"""Seconds: a run that takes longer is not repeated by itself, and few pairs are enough."""
+BLOCK = 0.02
+"""Seconds that one side of a pair takes at least: short runs are repeated."""
 
 
 class Contestant(NamedTuple):
@@ -47,35 +48,149 @@ class Contestant(NamedTuple):
     prepare: Callable[[Problem], Solve]
 
 
+class Point(NamedTuple):
+    """What one accuracy costs (median, least and most of the repetitions, s) and brings."""
+
+    accuracy: float
+    seconds: float
+    least: float
+    most: float
+    error: float
+
+
+class Comparison(NamedTuple):
+    """How many times as long a peer takes as our best solver, each at an error below the target."""
+
+    ours: str
+    our_point: Point
+    peer_point: Point
+    ratios: np.ndarray
+
+
+Measured = tuple[Contestant, list[Point]]
+
+
 def controls(name: str, accuracy: float) -> dict:
     """Return the controls of one of our solvers for a tolerance or a step."""
     if name in ITERATED:
         return {"name": name, "step": accuracy, "tolerance": 1e-13, "iterations": 50}
+    if name in STEPS:
+        return {"name": name, "step": accuracy}
     atol = accuracy / 100 if name == "ode45" else accuracy  # the paper's ratio for ode45
     return {"name": name, "rtol": accuracy, "atol": atol}
 
 
-def _prepare_own(name: str, problem: Problem) -> Solve:
+def _prepare_own(problem: Problem, name: str) -> Solve:
     def solve(accuracy: float) -> tuple[np.ndarray, float]:
-        given = problem.changed(solver=controls(name, accuracy))
+        given = problem.changed(solver=controls(name, float(accuracy)))
         run, seconds = timed(lambda: simulate(given))
         return run.final, seconds
 
     return solve
 
 
-OURS = {
-    name: Contestant(name, STEPS.get(name, TOLERANCES), partial(_prepare_own, name))
-    for name in ("ode45", *ITERATED, "dop853", "taylor")
+OWN = {
+    name: Contestant(name, STEPS.get(name, TOLERANCES), partial(_prepare_own, name=name))
+    for name in ("ode45", *ITERATED, "dop853", "taylor", "kahan_li")
 }
+OURS = {name: own for name, own in OWN.items() if name != "kahan_li"}
+"""The solvers of the amplitudes."""
 
 
-def find_peers() -> tuple[dict[str, Contestant], dict[str, str]]:
+def find_peers(
+    peers: Mapping[str, Peer] = PEERS,
+) -> tuple[dict[str, Contestant], dict[str, str]]:
     """Return the peers that are installed, and for the others the reason why they are missing."""
-    present, absent = {}, {}
-    for name, peer in PEERS.items():
-        if reason := peer.why_absent():
-            absent[name] = reason
-        else:
-            present[name] = Contestant(peer.title, TOLERANCES, peer.prepare)
+    absent = {name: why for name, peer in peers.items() if (why := peer.why_absent())}
+    present = {
+        name: Contestant(peer.title, TOLERANCES, peer.prepare)
+        for name, peer in peers.items()
+        if name not in absent
+    }
     return present, absent
+
+
+def error_of(final: np.ndarray, exact: np.ndarray) -> float:
+    """Return the largest difference of two final states in any number of a site."""
+    return float(np.abs(final - exact).max())
+
+
+def measure_points(
+    contestant: Contestant, problem: Problem, exact: np.ndarray, goal: float = 0.0
+) -> list[Point]:
+    """Return one point for each accuracy, from the loosest to the tightest.
+
+    `exact` is the state at the end of the problem. The first accuracy that takes too long, or errs
+    by less than `goal`, is the last one. An accuracy at which the contestant gives up, or returns
+    what is not finite, has no point.
+    """
+    solve, points = contestant.prepare(problem), []
+    for accuracy in contestant.accuracies:
+        try:
+            with limit(LIMIT):
+                final, seconds = solve(accuracy)
+                if not points and seconds > LONG:  # the very first may have compiled
+                    final, seconds = solve(accuracy)
+        except TooLongError:
+            break
+        except RuntimeError:  # of a peer that gives up; IntegrationError is one too
+            continue
+        if not np.all(np.isfinite(final)):
+            continue
+        times = Times(seconds, seconds, seconds)
+        if seconds <= LONG:
+            times = repeat(lambda a=accuracy: solve(a)[1], LEAST, MOST, ENOUGH, warm=True)
+        points.append(Point(accuracy, *times, error_of(final, exact)))
+        if times.median > PATIENCE or points[-1].error < goal:
+            break
+    return points
+
+
+def cheapest(points: list[Point], target: float) -> Point | None:
+    """Return the point of the least time whose error is not above the target, if there is one."""
+    reached = [point for point in points if point.error <= target]
+    return min(reached, key=lambda point: point.seconds, default=None)
+
+
+def compare(
+    problem: Problem, target: float, peer: Measured, ours: dict[str, Measured]
+) -> Comparison | None:
+    """Let the peer and our best solver take turns; None where one of them misses the target."""
+    reached = {name: cheapest(points, target) for name, (_, points) in ours.items()}
+    times = {name: point.seconds for name, point in reached.items() if point}
+    theirs = cheapest(peer[1], target)
+    if not times or theirs is None:
+        return None
+    best = min(times, key=times.get)
+    mine = reached[best]
+    solve_peer, solve_ours = peer[0].prepare(problem), ours[best][0].prepare(problem)
+    turns = FEW_PAIRS if theirs.seconds > LONG else PAIRS
+    ratios = in_turns(
+        lambda: solve_peer(theirs.accuracy)[1], lambda: solve_ours(mine.accuracy)[1], turns, BLOCK
+    )
+    return Comparison(best, mine, theirs, ratios)
+
+
+def compete(
+    problem: Problem,
+    exact: np.ndarray,
+    target: float,
+    ours: Mapping[str, Contestant],
+    peers: Mapping[str, Contestant],
+    say: Callable[[str], None],
+) -> tuple[dict[str, list[Point]], dict[str, Comparison | None]]:
+    """Return the points of all contestants by name, and how each peer compares with our best.
+
+    `say` is told who is measured next.
+    """
+    found = {}
+    for name, contestant in {**ours, **peers}.items():
+        say(contestant.title)
+        # peers need not err much less than what they are compared at
+        goal = 0.0 if name in ours else 0.3 * target
+        found[name] = measure_points(contestant, problem, exact, goal)
+    own = {name: (contestant, found[name]) for name, contestant in ours.items()}
+    pairs = {
+        name: compare(problem, target, (peer, found[name]), own) for name, peer in peers.items()
+    }
+    return found, pairs

@@ -4,6 +4,9 @@ Costs are times a site and unit of slow time. A chain without ends has no number
 is counted by its active sites, those that are integrated: 0..W of data that are even in n.
 """
 
+from functools import partial
+from itertools import product
+
 import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.problem import Constants, Problem
@@ -11,8 +14,7 @@ from pendula.simulation.simulate import simulate
 from pendula.studies.unbounded.active_sites import advance
 
 from . import machine
-from .contestants import PEERS, controls, find_peers
-from .points import BLOCK, PAIRS
+from .contestants import BLOCK, PAIRS, PEERS, controls, find_peers
 from .problems import until
 from .timing import clocked, in_turns, peak_memory, repeat
 
@@ -37,7 +39,7 @@ CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
 def measure(problem: Problem) -> dict[str, Variable]:
     """Return the variables of the dataset; `problem` is the regular case that is run for long."""
-    by_sites = np.array([[_of_chain(n, name) for name in SOLVERS] for n in SITES])
+    by_sites = np.array([[measure_chain(n, name) for name in SOLVERS] for n in SITES])
     by_time = np.array([[_until(problem, end, name) for name in SOLVERS] for end in END_TIMES])
     grid, long = ("sites", "solver"), ("end_time", "solver")
     return {
@@ -54,9 +56,9 @@ def measure(problem: Problem) -> dict[str, Variable]:
     }
 
 
-def noisy_chain(sites: int, name: str, seed: int = 0) -> Problem:
+def noisy_chain(sites: int, name: str) -> Problem:
     """Return a chain with even amplitudes of order one: every site moves from the start."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     half = rng.normal(size=(2, sites // 2 + 1)) + 1j * rng.normal(size=(2, sites // 2 + 1))
     end = min(50.0, max(1.0, WORK / sites))
     return Problem(
@@ -70,7 +72,7 @@ def noisy_chain(sites: int, name: str, seed: int = 0) -> Problem:
     )
 
 
-def _of_chain(sites: int, name: str) -> tuple[float, float, float]:
+def measure_chain(sites: int, name: str) -> tuple[float, float, float]:
     """Return the time a site and unit of tau, the steps a unit of tau, and bytes a site."""
     problem = noisy_chain(sites, name)
     end, work = problem.end_time, simulate(problem).outcome
@@ -92,33 +94,26 @@ def measure_by_hand(problem: Problem) -> dict[str, Variable]:
     """
     present, _ = find_peers()
     ratios = np.full((len(END_TIMES), len(BY_HAND)), np.nan)
-    for place in np.ndindex(ratios.shape):
-        end, name = END_TIMES[place[0]], BY_HAND[place[1]]
+    for (i, end), (j, name) in product(enumerate(END_TIMES), enumerate(BY_HAND)):
         if name in present:
-            ratios[place] = _by_hand(
-                until(problem, end, solver=controls("taylor", TOLERANCE)), name
-            )
+            given = until(problem, end, solver=controls("taylor", TOLERANCE))
+            solve = partial(present[name].prepare(given), TOLERANCE)
+            ours = clocked(partial(simulate, given))
+            ratios[i, j] = np.median(in_turns(lambda s=solve: s()[1], ours, PAIRS, BLOCK))
+    titles = np.array([PEERS[name].title for name in BY_HAND])
     said = "time of the method in C++ over that of taylor, median of pairs"
     return {
-        "by_hand": Variable(
-            ("by_hand",), np.array([PEERS[name].title for name in BY_HAND]), "method in C++"
-        ),
+        "by_hand": Variable(("by_hand",), titles, "method in C++"),
         "by_hand_ratio": Variable(("end_time", "by_hand"), ratios, said, "1"),
     }
 
 
-def _by_hand(problem: Problem, name: str) -> float:
-    solve = PEERS[name].prepare(problem)
-    ours = clocked(lambda: simulate(problem))
-    return float(np.median(in_turns(lambda: solve(TOLERANCE)[1], ours, PAIRS, BLOCK)))
-
-
-def active_sites(width: int, seed: int = 2017) -> np.ndarray:
+def active_sites(width: int) -> np.ndarray:
     """Return a state on the sites 0..W with amplitudes as strong as those behind the front.
 
     Only their phases are random: the largest of a million would shorten the steps.
     """
-    phases = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, size=(2, width + 1))
+    phases = np.random.default_rng(2017).uniform(0.0, 2.0 * np.pi, size=(2, width + 1))
     state = np.zeros((4, width + 3))
     state[0::2, 1:-1], state[1::2, 1:-1] = 3.0 * np.cos(phases), 3.0 * np.sin(phases)
     return state

@@ -79,7 +79,15 @@ def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
         look = look | {"linestyle": "none", "elinewidth": 0.8, "label": style.name_case(case)}
         axes.errorbar(ratio, rows + 0.15 - 0.3 * i, xerr=spread, **look)
     axes.axvline(1.0, color="0.45", lw=0.8)
-    axes.set_yticks(rows, _name_peers(data))
+    titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
+    missed = data["ratio"].isnull().all("case").values
+    axes.set_yticks(
+        rows,
+        [
+            f"{titles[peer]} (never so close)" if gone else str(titles[peer])
+            for peer, gone in zip(data["peer"].values, missed, strict=True)
+        ],
+    )
     axes.set_ylim(-0.7, rows[-1] + 0.7)
     axes.grid(axis="y", color="0.9", lw=0.6)
     axes.set_axisbelow(True)
@@ -87,15 +95,6 @@ def _draw_peers(axes: Axes, data: xr.Dataset) -> None:
     within = f"within an error of $10^{{{np.log10(float(data['target'][0])):.0f}}}$"
     axes.set_xlabel(f"time over that of the fastest solver here, {within}")
     axes.legend(loc="lower right")
-
-
-def _name_peers(data: xr.Dataset) -> list[str]:
-    titles = dict(zip(data["contestant"].values, data["title"].values, strict=True))
-    missed = data["ratio"].isnull().all("case").values
-    return [
-        f"{titles[peer]} (never so close)" if gone else str(titles[peer])
-        for peer, gone in zip(data["peer"].values, missed, strict=True)
-    ]
 
 
 def gather_cost(cost: xr.Dataset) -> xr.Dataset:

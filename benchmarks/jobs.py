@@ -1,6 +1,7 @@
 """What the jobs of `snakemake speed` call: each measures, tabulates or draws."""
 
 from collections.abc import Mapping
+from functools import partial
 
 import xarray as xr
 from pendula.datasets.netcdf import read, write
@@ -10,11 +11,23 @@ from pendula.problem import Problem, by_name
 from pendula.report.words import number, write_markdown
 
 from benchmarks import figures, machine, pendula
-from benchmarks.contestants import find_peers
+from benchmarks.contestants import PEERS, Contestant, find_peers
 from benchmarks.cost import measure
+from benchmarks.peer import Peer
+from benchmarks.peers_in_python import OF_PENDULA
 from benchmarks.problems import REGIME_OF, REGIMES, read_reference, until
 from benchmarks.tables import tabulate_cost, tabulate_pendula, tabulate_work_precision
 from benchmarks.work_precision import measure as measure_errors
+
+say = partial(print, flush=True)
+
+
+def installed(peers: Mapping[str, Peer]) -> tuple[dict[str, Contestant], str]:
+    """Return the peers that are installed, and why the others are not, which is also printed."""
+    present, absent = find_peers(peers)
+    for reason in absent.values():
+        print(f"not measured: {reason}")
+    return present, "; ".join(absent.values())
 
 
 def measure_work_precision(
@@ -26,21 +39,16 @@ def measure_work_precision(
         horizon = REGIMES[REGIME_OF[name]].horizon
         cases[name] = until(problem, horizon)
         exact[name] = read_reference(references[name], horizon)
-    peers, absent = find_peers()
-    for reason in absent.values():
-        print(f"not measured: {reason}")
-    variables = measure_errors(cases, exact, peers, lambda text: print(text, flush=True))
-    title = {"title": "Speed against error", "absent": "; ".join(absent.values())}
-    return variables, {**title, **machine.describe()}
+    peers, absent = installed(PEERS)
+    variables = measure_errors(cases, exact, peers, say)
+    return variables, {"title": "Speed against error", "absent": absent, **machine.describe()}
 
 
 def measure_pendula(problems: Mapping[str, Mapping], data: str, table: str) -> None:
     """Measure the pendula of the cases `problems`, and write a dataset and a page of Markdown."""
-    absent = pendula.absent().values()
-    for reason in absent:
-        print(f"not measured: {reason}")
-    variables = pendula.measure(by_name(problems), lambda text: print(text, flush=True))
-    title = {"title": "Speed against error on the pendula", "absent": "; ".join(absent)}
+    peers, absent = installed(OF_PENDULA)
+    variables = pendula.measure(by_name(problems), peers, say)
+    title = {"title": "Speed against error on the pendula", "absent": absent}
     title["compared_at"] = number(pendula.TARGET)
     write(data, variables, {**title, **machine.describe()})
     write_markdown(table, *tabulate_pendula(read(data)))

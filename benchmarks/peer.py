@@ -1,19 +1,22 @@
 """What a peer (an integrator by other people) is given, and the pieces that several share."""
 
 from collections.abc import Callable
-from typing import NamedTuple
+from importlib.util import find_spec
+from typing import Any, NamedTuple
 
 import numpy as np
 from pendula.compiled import kernel
-from pendula.models.amplitudes import Chain, rates
-from pendula.problem import Problem
-from pendula.simulation.lattice import Reduction, find_reduction, pack, unpack
-from pendula.simulation.models import make_chain
+from pendula.models.amplitudes import rates
+from pendula.models.pendula import at_time
+from pendula.models.pendula import rates as pendula_rates
+from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.simulation.lattice import WHOLE, Reduction, find_reduction, unfold, unpack
+from pendula.simulation.models import MODELS
 
 HALF = Reduction(even=True, synchronised=False)
 
 Solve = Callable[[float], tuple[np.ndarray, float]]
-"""From a tolerance (or a step) to the final amplitudes (2, N) and the seconds of the run."""
+"""From a tolerance (or a step) to the final state of the chain and the seconds of the run."""
 
 
 class Peer(NamedTuple):
@@ -24,33 +27,59 @@ class Peer(NamedTuple):
     prepare: Callable[[Problem], Solve]
 
 
-def check(problem: Problem, reduction: Reduction | None = None) -> None:
-    """Raise ValueError at what peers do not cover; some integrate half of a chain."""
+def needs(module: str, package: str) -> Callable[[], str | None]:
+    """Return a function that says what is missing where a Python module cannot be imported."""
+    missing = f"the Python package {package} is not installed"
+    return lambda: None if find_spec(module) else missing
+
+
+def begin(problem: Problem, reduction: Reduction = WHOLE) -> tuple[Any, np.ndarray, float]:
+    """Return system, initial state with ghosts and end time, as the library's kernels take them.
+
+    Raises ValueError at what peers do not cover; some integrate half of a chain.
+    """
     if problem.boundary != "dirichlet":
         raise ValueError(f"peers know only the boundary dirichlet, not {problem.boundary}")
     if reduction == HALF and not find_reduction(problem.amplitudes).even:
         raise ValueError("half a chain needs data that are even in n")
+    model = MODELS[problem.model]
+    end = float(model.times(problem)[-1])
+    return model.system(problem, reduction), model.start(problem, reduction), end
 
 
-def chain_of(problem: Problem, reduction: Reduction) -> Chain:
-    """Return the problem's constants and ends for the library's kernels."""
-    return make_chain(problem.constants, problem.boundary, reduction)
+def final_of(problem: Problem, state: np.ndarray, reduction: Reduction = WHOLE) -> np.ndarray:
+    """Return the amplitudes (2, N) of a state, or angles and velocities (part, component, site)."""
+    y = state.reshape(4, -1)
+    if problem.model == AMPLITUDES:
+        return unpack(y, reduction)
+    return np.array([unfold(y[part::2, 1:-1], reduction) for part in (0, 1)])
 
 
-def flat_state(problem: Problem, reduction: Reduction) -> np.ndarray:
-    """Return the initial state of the library's kernels, ghosts and all, as a vector."""
-    return pack(problem.amplitudes, reduction).ravel()
-
-
-def amplitudes_of(flat: np.ndarray, reduction: Reduction) -> np.ndarray:
-    """Return the amplitudes (2, N) of such a vector."""
-    return unpack(flat.reshape(4, -1), reduction)
+def with_ghosts(inner: np.ndarray) -> np.ndarray:
+    """Return the state of four rows whose sites are `inner`, with ghosts that stand still."""
+    return np.pad(inner.reshape(4, -1), ((0, 0), (1, 1)))
 
 
 @kernel
-def flat_rates(chain, flat, slope):
-    """Write the right-hand side of a vector with ghosts, which stand still."""
-    y, dy = flat.reshape(4, -1), slope.reshape(4, -1)
-    rates(chain, y, dy)
+def hold_ghosts(dy):
+    """Let the ghosts of a state stand still."""
     for row in range(4):
         dy[row, 0] = dy[row, dy.shape[1] - 1] = 0.0
+
+
+@kernel
+def flat_rates(chain, t, flat, slope):
+    """Write the right-hand side of a vector with ghosts."""
+    y, dy = flat.reshape(4, -1), slope.reshape(4, -1)
+    rates(chain, y, dy)
+    hold_ghosts(dy)
+
+
+@kernel
+def flat_rates_of_pendula(pendula, t, flat, slope):
+    y, dy = flat.reshape(4, -1), slope.reshape(4, -1)
+    pendula_rates(at_time(pendula, t), y, dy)
+    hold_ghosts(dy)
+
+
+FLAT_RATES = {AMPLITUDES: flat_rates, PENDULA: flat_rates_of_pendula}

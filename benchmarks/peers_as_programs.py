@@ -16,9 +16,8 @@ from pathlib import Path
 
 import numpy as np
 from pendula.problem import Problem
-from pendula.simulation.lattice import pack, unpack
 
-from .peer import HALF, Peer, Solve, check
+from .peer import HALF, Peer, Solve, begin, final_of, with_ghosts
 from .timing import timed
 
 
@@ -50,8 +49,8 @@ printf("%.17g\\n", seconds, [real(y(end, :)); imag(y(end, :))]);
 
 def prepare_octave(problem: Problem) -> Solve:
     """Return ode45 with the absolute tolerance rtol / 100, as in the paper's pair."""
-    check(problem)
-    z, constants, end_time = problem.amplitudes, problem.constants, float(problem.end_time)
+    _, _, end_time = begin(problem)
+    z, constants = problem.amplitudes, problem.constants
     parts = ", ".join(f"{complex(u).real!r} + {complex(u).imag!r}i" for u in z.ravel())
 
     def solve(rtol):
@@ -66,29 +65,16 @@ def prepare_octave(problem: Problem) -> Solve:
             short=0.01 * end_time,
             end_time=end_time,
         )
-        seconds, *values = run_octave(text)
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "integrate.m").write_text(text)
+            command = ["octave-cli", "--no-init-file", "--quiet", "integrate.m"]
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"Octave failed: {done.stderr.strip()}")
+        seconds, *values = map(float, done.stdout.split())
         return np.array(values).view(complex).reshape(z.shape), seconds
 
     return solve
-
-
-def run_octave(program: str) -> list[float]:
-    """Return the numbers that a program of Octave prints."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "integrate.m"
-        path.write_text(program)
-        done = subprocess.run(
-            ["octave-cli", "--no-init-file", "--quiet", path.name],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-        )
-    if done.returncode:
-        raise RuntimeError(f"Octave failed: {done.stderr.strip()}")
-    return [float(word) for word in done.stdout.split()]
-
-
-OCTAVE_ODE45 = Peer("Octave ode45", needs("octave-cli"), prepare_octave)
 
 
 # The Taylor method in C++
@@ -133,33 +119,31 @@ def compiled(contract: str, lanes: int):
 
 def prepare_taylor(problem: Problem, contract: str, lanes: int = 4) -> Solve:
     """Return the solver of half the chain, compiled into a temporary folder."""
-    check(problem, HALF)
-    function = compiled(contract, lanes)
-    constants, start = problem.constants, pack(problem.amplitudes, HALF)
+    _, start, end = begin(problem, HALF)
+    function, numbers = compiled(contract, lanes), tuple(problem.constants)
 
     def solve(rtol):
         y = start[:, 1:-1].copy()
         where, sites = y.ctypes.data, y.shape[1]
-        numbers = (constants.epsilon, constants.gamma, constants.omega)
-        arguments = (*numbers, sites, where, problem.end_time, rtol, rtol)
-        steps, seconds = timed(lambda: function(*arguments))
+        steps, seconds = timed(lambda: function(*numbers, sites, where, end, rtol, rtol))
         if steps < 0:
             raise RuntimeError("the Taylor method in C++ gave up")
-        end = start.copy()
-        end[:, 1:-1] = y
-        return unpack(end, HALF), seconds
+        return final_of(problem, with_ghosts(y), HALF), seconds
 
     return solve
 
 
-TAYLOR_SEPARATE = Peer(
-    "Taylor in C++, no contraction", needs("g++"), partial(prepare_taylor, contract="off")
-)
-TAYLOR_FUSED = Peer(
-    "Taylor in C++, contracted", needs("g++"), partial(prepare_taylor, contract="fast")
-)
-TAYLOR_EIGHT = Peer(
-    "Taylor in C++, no contraction, vectors of eight",
-    lacks_avx512,
-    partial(prepare_taylor, contract="off", lanes=8),
-)
+PEERS = {
+    "octave_ode45": Peer("Octave ode45", needs("octave-cli"), prepare_octave),
+    "cpp_taylor": Peer(
+        "Taylor in C++, no contraction", needs("g++"), partial(prepare_taylor, contract="off")
+    ),
+    "cpp_taylor_contracted": Peer(
+        "Taylor in C++, contracted", needs("g++"), partial(prepare_taylor, contract="fast")
+    ),
+    "cpp_taylor_eight": Peer(
+        "Taylor in C++, no contraction, vectors of eight",
+        lacks_avx512,
+        partial(prepare_taylor, contract="off", lanes=8),
+    ),
+}

@@ -3,32 +3,23 @@
 They are SciPy's (with a right-hand side in NumPy or compiled by this project), heyoka's Taylor
 method (Biscani and Izzo 2021), CVODE of SUNDIALS (Hindmarsh et al. 2005) through scikit-sundae, and
 numbalsoda's DOP853 (Hairer's, in Fortran). SciPy is among this project's requirements; the other
-packages are imported when a problem is prepared, so that none of them is needed.
+packages are imported when a problem is prepared, so that none of them is needed. SciPy and heyoka
+take Newton's equations too.
 """
 
-from collections.abc import Callable
+from dataclasses import asdict
 from functools import partial
-from importlib.util import find_spec
 
 import numba
 import numpy as np
 from numba import types
-from pendula.problem import Problem
-from pendula.simulation.lattice import WHOLE, Reduction, pack, unpack
+from pendula.models.pendula import frequency
+from pendula.problem import AMPLITUDES, PENDULA, Problem
+from pendula.simulation.lattice import WHOLE, Reduction
 from scipy.integrate import solve_ivp
 
-from .peer import HALF, Peer, Solve, amplitudes_of, chain_of, check, flat_rates, flat_state
+from .peer import FLAT_RATES, HALF, Peer, Solve, begin, final_of, flat_rates, needs, with_ghosts
 from .timing import timed
-
-
-def needs(module: str, package: str) -> Callable[[], str | None]:
-    """Return a function that says what is missing where a module cannot be imported."""
-
-    def why_absent() -> str | None:
-        return None if find_spec(module) else f"the Python package {package} is not installed"
-
-    return why_absent
-
 
 # SciPy
 
@@ -46,105 +37,94 @@ def plain_rates(tau, u, epsilon, gamma, omega):
     return -1j * np.concatenate([da, db])
 
 
-def final(rates, start, end_time, method, absolute, rtol):
-    """Return the state at the end, and the seconds; only the two ends are kept."""
+def plain_rates_of_pendula(t, u, coupling, strength, twice_omega):
+    """Equations (1) of the vector (x, y, x', y') as most people would write them in NumPy."""
+    x, y, _, _ = np.split(u, 4)
+    drive = strength * np.cos(twice_omega * t)
 
-    def run():
-        return solve_ivp(
-            rates,
-            (0.0, end_time),
-            start,
-            method=method,
-            t_eval=[end_time],
-            rtol=rtol,
-            atol=absolute * rtol,
-        )
+    def force(own, other):
+        wide = np.concatenate([[0], own, [0]])
+        bonds = coupling * (wide[2:] - 2 * own + wide[:-2])
+        return bonds + drive * (other - own) - np.sin(own)
 
-    result, seconds = timed(run)
-    if not result.success:
-        raise RuntimeError(f"{method} of SciPy gave up: {result.message}")
-    return result.y[:, -1], seconds
+    return np.concatenate([u[len(u) // 2 :], force(x, y), force(y, x)])
 
 
-def prepare_plain(problem: Problem, method: str, absolute: float) -> Solve:
-    """Return the solver on complex amplitudes; the absolute tolerance is `absolute` * rtol."""
-    check(problem)
-    constants = problem.constants
-    rates = partial(
-        plain_rates, epsilon=constants.epsilon, gamma=constants.gamma, omega=constants.omega
-    )
-    start = problem.amplitudes
-
-    def solve(rtol):
-        u, seconds = final(rates, start.ravel(), problem.end_time, method, absolute, rtol)
-        return u.reshape(start.shape), seconds
-
-    return solve
+def factors_of(problem: Problem) -> dict[str, float]:
+    """Return C, 2 gamma mu^2 and 2 omega of equations (1)."""
+    constants, square = problem.constants, problem.mu * problem.mu
+    return {
+        "coupling": constants.epsilon * square,
+        "strength": 2 * constants.gamma * square,
+        "twice_omega": 2 * frequency(constants.omega, problem.mu),
+    }
 
 
-def prepare_compiled(problem: Problem, method: str, absolute: float) -> Solve:
-    """Return the solver on the library's real state of the whole chain and its kernel."""
-    check(problem)
-    chain, start = chain_of(problem, WHOLE), flat_state(problem, WHOLE)
+def prepare_scipy(problem: Problem, method: str, compiled: bool) -> Solve:
+    """Return a method of `solve_ivp`; RK45 gets the paper's ratio of its two tolerances.
 
-    def rates(tau, u):
-        slope = np.empty_like(u)
-        flat_rates(chain, np.ascontiguousarray(u), slope)  # Radau gives strided columns
-        return slope
-
-    rates(0.0, start)
-
-    def solve(rtol):
-        u, seconds = final(rates, start, problem.end_time, method, absolute, rtol)
-        return amplitudes_of(u, WHOLE), seconds
-
-    return solve
-
-
-def scipy_peer(method: str, right_hand_side: str) -> Peer:
-    """Return a method of `solve_ivp`; RK45 gets the paper's ratio of its two tolerances."""
+    Its right-hand side is in NumPy, or it is the library's kernel on a state with ghosts.
+    """
+    system, start, end = begin(problem)
     absolute = 0.01 if method == "RK45" else 1.0
-    prepare = prepare_plain if right_hand_side == "NumPy" else prepare_compiled
-    title = f"SciPy {method}, {right_hand_side} right-hand side"
-    return Peer(title, lambda: None, partial(prepare, method=method, absolute=absolute))
+    if compiled:
+        kernel = FLAT_RATES[problem.model]
 
+        def rates(t, u):
+            slope = np.empty_like(u)
+            kernel(system, t, np.ascontiguousarray(u), slope)  # Radau gives strided columns
+            return slope
 
-RK45_NUMPY = scipy_peer("RK45", "NumPy")
-DOP853_NUMPY = scipy_peer("DOP853", "NumPy")
-RK45 = scipy_peer("RK45", "compiled")
-DOP853 = scipy_peer("DOP853", "compiled")
-LSODA = scipy_peer("LSODA", "compiled")
-RADAU = scipy_peer("Radau", "compiled")
+        rates(0.0, start.ravel())
+    elif problem.model == AMPLITUDES:
+        start = problem.amplitudes
+        rates = partial(plain_rates, **asdict(problem.constants))
+    else:
+        start = final_of(problem, start)
+        rates = partial(plain_rates_of_pendula, **factors_of(problem))
+
+    def solve(rtol):
+        options = {"method": method, "rtol": rtol, "atol": absolute * rtol}
+        run, seconds = timed(
+            lambda: solve_ivp(rates, (0.0, end), start.ravel(), t_eval=[end], **options)
+        )
+        if not run.success:
+            raise RuntimeError(f"{method} of SciPy gave up: {run.message}")
+        final = run.y[:, -1]
+        return final_of(problem, final) if compiled else final.reshape(start.shape), seconds
+
+    return solve
 
 
 # heyoka
 
 
-def equations(problem: Problem, n: int, even: bool, shared: bool):
+def neighbours(u, j: int, even: bool):
+    """Return the sum of the neighbours of site j; the half of an even chain mirrors its first."""
+    before = [u[j - 1]] if j > 0 else [u[1]] if even else []
+    after = [u[j + 1]] if j + 1 < len(u) else []
+    return sum(after + before)
+
+
+def equations(problem: Problem, n: int, reduction: Reduction) -> list:
     """Return [(variable, rate)] of the rows Re A, Im A, Re B, Im B of n sites.
 
-    Where |A|^2 and |B|^2 are not `shared`, each cubic term is written out as in the manual's
-    examples.
+    On half a chain |A|^2 and |B|^2 are shared; on the whole one each cubic term is written out as
+    in the manual's examples.
     """
     import heyoka
 
-    epsilon, gamma, omega = (
-        float(getattr(problem.constants, name)) for name in ("epsilon", "gamma", "omega")
-    )
+    epsilon, gamma, omega = problem.constants
+    even = reduction.even
     names = [f"{row}_{site}" for row in ("x", "y", "u", "v") for site in range(n)]
     rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
-    squares = rows[0::2] ** 2 + rows[1::2] ** 2 if shared else None
-
-    def neighbours(u, j):
-        before = [u[j - 1]] if j > 0 else [u[1]] if even else []
-        after = [u[j + 1]] if j + 1 < n else []
-        return sum(after + before)
+    squares = rows[0::2] ** 2 + rows[1::2] ** 2 if even else None
 
     def part(row, j, drive):
         u, im = rows[row], rows[row ^ 1]
-        linear = epsilon * (neighbours(u, j) - 2.0 * u[j]) + omega * u[j]
+        linear = epsilon * (neighbours(u, j, even) - 2.0 * u[j]) + omega * u[j]
         linear = linear + drive * (rows[(row + 2) % 4][j] - u[j])
-        if shared:
+        if even:
             return linear + 0.5 * squares[row // 2, j] * u[j]
         return linear + 0.5 * (u[j] * u[j] + im[j] * im[j]) * u[j]
 
@@ -156,17 +136,37 @@ def equations(problem: Problem, n: int, even: bool, shared: bool):
     return list(zip(rows.ravel(), rates, strict=True))
 
 
-def prepare_heyoka(problem: Problem, reduction: Reduction, shared: bool) -> Solve:
+def equations_of_pendula(problem: Problem, n: int, reduction: Reduction) -> list:
+    """Return the same of the rows x, x', y, y', with the drive as a function of t."""
+    import heyoka
+
+    factors = factors_of(problem)
+    drive = factors["strength"] * heyoka.cos(factors["twice_omega"] * heyoka.time)
+    names = [f"{row}_{site}" for row in ("x", "u", "y", "v") for site in range(n)]
+    rows = np.array(heyoka.make_vars(*names), dtype=object).reshape(4, n)
+
+    def force(x, other, j):
+        bonds = factors["coupling"] * (neighbours(x, j, reduction.even) - 2.0 * x[j])
+        return bonds + drive * (other[j] - x[j]) - heyoka.sin(x[j])
+
+    found = []
+    for row in (0, 2):
+        found += [(rows[row, j], rows[row + 1, j]) for j in range(n)]
+        found += [(rows[row + 1, j], force(rows[row], rows[2 - row], j)) for j in range(n)]
+    return found
+
+
+def prepare_heyoka(problem: Problem, reduction: Reduction) -> Solve:
     """Return heyoka's integrator, one compiled for each tolerance outside of the measured time.
 
     It runs in compact mode, because the default one compiles for minutes.
     """
-    check(problem, reduction)
+    _, start, end = begin(problem, reduction)
     import heyoka
 
-    start = pack(problem.amplitudes, reduction)[:, 1:-1]
-    system = equations(problem, start.shape[1], reduction.even, shared)
-    compiled = {}
+    start, compiled = start[:, 1:-1], {}
+    written = {AMPLITUDES: equations, PENDULA: equations_of_pendula}[problem.model]
+    system = written(problem, start.shape[1], reduction)
 
     def solve(rtol):
         if rtol not in compiled:
@@ -176,29 +176,23 @@ def prepare_heyoka(problem: Problem, reduction: Reduction, shared: bool) -> Solv
         integrator = compiled[rtol]
         integrator.time = 0.0
         integrator.state[:] = start.ravel()
-        outcome, seconds = timed(lambda: integrator.propagate_until(problem.end_time))
+        outcome, seconds = timed(lambda: integrator.propagate_until(end))
         if outcome[0] != heyoka.taylor_outcome.time_limit:
             raise RuntimeError(f"heyoka gave up: {outcome[0]}")
-        y = np.zeros((4, start.shape[1] + 2))
-        y[:, 1:-1] = integrator.state.reshape(4, -1)
-        return unpack(y, reduction), seconds
+        return final_of(problem, with_ghosts(integrator.state), reduction), seconds
 
     return solve
 
 
 HEYOKA = Peer(
-    "heyoka, whole chain",
-    needs("heyoka", "heyoka"),
-    partial(prepare_heyoka, reduction=WHOLE, shared=False),
+    "heyoka, whole chain", needs("heyoka", "heyoka"), partial(prepare_heyoka, reduction=WHOLE)
 )
 HEYOKA_HALF = Peer(
-    "heyoka, half chain",
-    needs("heyoka", "heyoka"),
-    partial(prepare_heyoka, reduction=HALF, shared=True),
+    "heyoka, half chain", needs("heyoka", "heyoka"), partial(prepare_heyoka, reduction=HALF)
 )
 
 
-# SUNDIALS
+# SUNDIALS and numbalsoda
 
 
 def prepare_cvode(problem: Problem) -> Solve:
@@ -206,15 +200,15 @@ def prepare_cvode(problem: Problem) -> Solve:
 
     GMRES needs no Jacobian, least of all a dense one.
     """
-    check(problem)
+    chain, start, end = begin(problem)
     from sksundae.cvode import CVODE
 
-    chain, start = chain_of(problem, WHOLE), flat_state(problem, WHOLE)
+    start = start.ravel()
     y = start.copy()
 
     def rates(tau, u, slope):
         y[:] = u  # CVODE's own vector is read-only, and the kernel fills its ghosts
-        flat_rates(chain, y, slope)
+        flat_rates(chain, tau, y, slope)
 
     rates(0.0, start, start.copy())
 
@@ -223,40 +217,27 @@ def prepare_cvode(problem: Problem) -> Solve:
         solver = CVODE(
             rates, method="Adams", linsolver="gmres", rtol=rtol, atol=rtol, max_num_steps=10**8
         )
-        result, seconds = timed(lambda: solver.solve([0.0, problem.end_time], start))
+        result, seconds = timed(lambda: solver.solve([0.0, end], start))
         if not result.success:
             raise RuntimeError(f"CVODE gave up: {result.message}")
-        return amplitudes_of(result.y[-1], WHOLE), seconds
+        return final_of(problem, result.y[-1]), seconds
 
     return solve
 
 
-CVODE_ADAMS = Peer("SUNDIALS CVODE, Adams", needs("sksundae", "scikit-sundae"), prepare_cvode)
+def prepare_numbalsoda(problem: Problem, reduction: Reduction) -> Solve:
+    """Return DOP853 on the library's real state of the whole or of half the chain."""
+    chain, start, end = begin(problem, reduction)
+    from numbalsoda import dop853
 
-
-# numbalsoda
-
-
-def c_function(chain, size: int):
-    """Return the right-hand side of vectors of `size` numbers as a C function."""
-    pointer = types.CPointer(types.float64)
+    start = start.ravel()
+    size, pointer = start.size, types.CPointer(types.float64)
 
     @numba.cfunc(types.void(types.float64, pointer, pointer, pointer), error_model="numpy")
     def rates(tau, u, slope, nothing):
-        flat_rates(chain, numba.carray(u, (size,)), numba.carray(slope, (size,)))
+        flat_rates(chain, tau, numba.carray(u, (size,)), numba.carray(slope, (size,)))
 
-    return rates
-
-
-def prepare_numbalsoda(problem: Problem, reduction: Reduction) -> Solve:
-    """Return DOP853 on the library's real state of the whole or of half the chain."""
-    check(problem, reduction)
-    from numbalsoda import dop853
-
-    start = flat_state(problem, reduction)
-    rates = c_function(chain_of(problem, reduction), start.size)
-    times = np.array([0.0, problem.end_time])
-    nothing = np.zeros(1)
+    times, nothing = np.array([0.0, end]), np.zeros(1)
 
     def solve(rtol):
         (u, success), seconds = timed(
@@ -264,19 +245,40 @@ def prepare_numbalsoda(problem: Problem, reduction: Reduction) -> Solve:
         )
         if not success:  # it then returns plausible numbers all the same
             raise RuntimeError("numbalsoda's dop853 gave up")
-        return amplitudes_of(u[-1], reduction), seconds
+        return final_of(problem, u[-1], reduction), seconds
 
     solve(1e-3)  # compiles the driver
     return solve
 
 
-NUMBALSODA = Peer(
-    "numbalsoda DOP853, whole chain",
-    needs("numbalsoda", "numbalsoda"),
-    partial(prepare_numbalsoda, reduction=WHOLE),
-)
-NUMBALSODA_HALF = Peer(
-    "numbalsoda DOP853, half chain",
-    needs("numbalsoda", "numbalsoda"),
-    partial(prepare_numbalsoda, reduction=HALF),
-)
+def _scipy(method: str, compiled: bool) -> Peer:
+    title = f"SciPy {method}, {'compiled' if compiled else 'NumPy'} right-hand side"
+    return Peer(title, lambda: None, partial(prepare_scipy, method=method, compiled=compiled))
+
+
+PEERS = {
+    "scipy_rk45_numpy": _scipy("RK45", compiled=False),
+    "scipy_dop853_numpy": _scipy("DOP853", compiled=False),
+    "scipy_rk45": _scipy("RK45", compiled=True),
+    "scipy_dop853": _scipy("DOP853", compiled=True),
+    "scipy_lsoda": _scipy("LSODA", compiled=True),
+    "scipy_radau": _scipy("Radau", compiled=True),
+    "heyoka_full": HEYOKA,
+    "heyoka_half": HEYOKA_HALF,
+    "cvode_adams": Peer("SUNDIALS CVODE, Adams", needs("sksundae", "scikit-sundae"), prepare_cvode),
+    **{
+        f"numbalsoda_dop853{ending}": Peer(
+            f"numbalsoda DOP853, {part} chain",
+            needs("numbalsoda", "numbalsoda"),
+            partial(prepare_numbalsoda, reduction=reduction),
+        )
+        for ending, part, reduction in (("", "whole", WHOLE), ("_half", "half", HALF))
+    },
+}
+OF_PENDULA = {
+    "scipy_dop853_numpy": PEERS["scipy_dop853_numpy"]._replace(title="SciPy DOP853, NumPy"),
+    "scipy_dop853": PEERS["scipy_dop853"]._replace(title="SciPy DOP853, compiled"),
+    "heyoka_full": HEYOKA,
+    "heyoka_half": HEYOKA_HALF,
+}
+"""Those that take Newton's equations."""

@@ -47,8 +47,3 @@ def read_reference(dataset, horizon: float) -> Reference:
     at = dataset["snapshot_tau"].values == horizon
     re, im = dataset["amplitude"].isel(snapshot=at).squeeze("snapshot").values
     return Reference(re + 1j * im, dataset["linf"].values, dataset["l2"].values)
-
-
-def error_of(final: np.ndarray, exact: np.ndarray) -> float:
-    """Return the largest difference of two states (component, site) in any amplitude."""
-    return float(np.abs(final - exact).max())

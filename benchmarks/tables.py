@@ -13,9 +13,25 @@ COMPARED = 1001, 100_001
 """Numbers of sites whose costs are compared in the last row of their table."""
 
 
+def titles_of(measured: xr.Dataset) -> dict[str, str]:
+    return dict(zip(measured["contestant"].values, measured["title"].values, strict=True))
+
+
 def tabulate_work_precision(measured: xr.Dataset) -> list[str]:
     """Return the parts of a page; every time in it stands beside the error that was measured."""
-    parts = ["# Speed against error", _explain(measured)]
+    targets = ", ".join(
+        f"{regime.target:.0e} at tau = {regime.horizon:g} ({name})"
+        for name, regime in REGIMES.items()
+    )
+    code_for = measured.attrs.get("code_for")
+    parts = [
+        "# Speed against error",
+        f"Measured on {measured.attrs.get('processor', 'a processor without a name')}"
+        f"{f', with code for the processor {code_for}' if code_for else ''}. One core, "
+        "after warm-up, runs without outputs. Errors are those of the largest component against "
+        f"the multiprecision reference. Compared at an error of {targets}; ratios are medians of "
+        "runs in turns, with the least and the largest.",
+    ]
     if "peer" in measured.dims:
         parts += ["## Times of the peers over that of the fastest solver here, at equal error"]
         parts += [_peers(measured)]
@@ -26,39 +42,14 @@ def tabulate_work_precision(measured: xr.Dataset) -> list[str]:
     return parts
 
 
-def _explain(measured: xr.Dataset) -> str:
-    targets = ", ".join(
-        f"{regime.target:.0e} at tau = {regime.horizon:g} ({name})"
-        for name, regime in REGIMES.items()
-    )
-    return (
-        f"Measured on {measured.attrs.get('processor', 'a processor without a name')}"
-        f"{_code_for(measured)}. One core, "
-        "after warm-up, runs without outputs. Errors are those of the largest component against "
-        f"the multiprecision reference. Compared at an error of {targets}; ratios are medians of "
-        "runs in turns, with the least and the largest."
-    )
-
-
-def _code_for(measured: xr.Dataset) -> str:
-    name = measured.attrs.get("code_for")
-    return f", with code for the processor {name}" if name else ""
-
-
 def _peers(measured: xr.Dataset) -> str:
-    cases = list(measured["case"].values)
-    titles = dict(zip(measured["contestant"].values, measured["title"].values, strict=True))
-    rows = []
+    cases, titles, rows = list(measured["case"].values), titles_of(measured), []
     for peer in measured["peer"].values:
         own = measured.sel(peer=peer)
-        cells = [_ratio(own.sel(case=case)) for case in cases]
-        rows.append([titles[peer], *cells, _mean(own)])
+        mean, count = float(own["mean_ratio"]), int(own["reached_cases"])
+        last = f"{mean:.3g} ({count} cases)" if count else "-"
+        rows.append([titles[peer], *(_ratio(own.sel(case=case)) for case in cases), last])
     return markdown(["peer", *cases, "geometric mean"], rows)
-
-
-def _mean(peer: xr.Dataset) -> str:
-    mean, count = float(peer["mean_ratio"]), int(peer["reached_cases"])
-    return f"{mean:.3g} ({count} cases)" if count else "-"
 
 
 def _ratio(pair: xr.Dataset) -> str:
@@ -70,63 +61,57 @@ def _ratio(pair: xr.Dataset) -> str:
 
 
 def _solvers(case: xr.Dataset) -> str:
-    head = ["solver", "accuracy", "time, ms", "error", "error of the norms", "energy drift"]
+    columns = {
+        "accuracy": "{:.1e}",
+        "seconds": "{:.3g}",
+        "error": "{:.1e}",
+        "norm_error": "{:.1e}",
+        "energy_drift": "{:.1e}",
+        "steps": "{:.0f}",
+        "evaluations": "{:.0f}",
+    }
     rows = []
     for solver in case["solver"].values:
         own = case.sel(contestant=solver, solver=solver)
-        points = (own.isel(point=i) for i in range(case.sizes["point"]))
-        rows += [_point(solver, point) for point in points if np.isfinite(point["seconds"])]
+        own = own.assign(seconds=1e3 * own["seconds"])
+        for k in np.flatnonzero(np.isfinite(own["seconds"])):
+            point = own.isel(point=k)
+            cells = [form.format(float(point[name])) for name, form in columns.items()]
+            rows.append([solver, *cells])
+    head = ["solver", "accuracy", "time, ms", "error", "error of the norms", "energy drift"]
     return markdown([*head, "steps", "evaluations"], rows)
-
-
-def _point(solver: str, point: xr.Dataset) -> list[str]:
-    accuracy, time = f"{float(point['accuracy']):.1e}", f"{1e3 * float(point['seconds']):.3g}"
-    small = [f"{float(point[name]):.1e}" for name in ("error", "norm_error", "energy_drift")]
-    work = [f"{int(point[name])}" for name in ("steps", "evaluations")]
-    return [solver, accuracy, time, *small, *work]
 
 
 def tabulate_cost(cost: xr.Dataset) -> list[str]:
     """Return the parts of a page on how the cost grows: with chain, time and active sites."""
     title, said = "## Time a site and unit of slow time, in µs, over the ", "one core, medians."
-    noise = f"Tolerance {TOLERANCE:.0e}, even noise on all sites, {said}"
-    parts = ["# How cost grows"]
-    parts += [f"{title}{cost['sites'].long_name}", noise, _over_sites(cost["seconds"])]
-    one_case = f"Tolerance {TOLERANCE:.0e}, one case, {said}"
-    over_time = _over(cost["long_seconds"], "end_time")
-    parts += [f"{title}{cost['end_time'].long_name}", one_case, over_time]
-    if "by_hand" in cost and cost["by_hand_ratio"].notnull().any():
-        parts += ["## The method of taylor in C++, in times of taylor", _over_by_hand(cost)]
-    if "active_width" in cost:
-        parts += ["## A chain without ends", _over_active_sites(cost)]
-    return parts
-
-
-def _over_sites(seconds: xr.DataArray) -> str:
-    if not set(COMPARED) <= set(seconds["sites"].values):
-        return _over(seconds, "sites")
-    short, long = (seconds.sel(sites=sites) for sites in COMPARED)
-    ratios = [f"{float(ratio):.3g}" for ratio in (long / short).values]
-    return _over(seconds, "sites", [f"{COMPARED[1]} over {COMPARED[0]}", *ratios])
-
-
-def _over(seconds: xr.DataArray, dim: str, *last: list[str]) -> str:
-    """Return the table of costs along a dimension, a column a solver, with rows to end it."""
-    rows = [
-        [f"{value:g}", *(f"{1e6 * cost:.3g}" for cost in seconds.sel({dim: value}).values)]
-        for value in seconds[dim].values
+    short, long = (cost["seconds"].sel(sites=sites).values for sites in COMPARED)
+    ratios = [f"{ratio:.3g}" for ratio in long / short]
+    last = [f"{COMPARED[1]} over {COMPARED[0]}", *ratios]
+    parts = [
+        "# How cost grows",
+        f"{title}{cost['sites'].long_name}",
+        f"Tolerance {TOLERANCE:.0e}, even noise on all sites, {said}",
+        _over(1e6 * cost["seconds"], cost["sites"], last),
+        f"{title}{cost['end_time'].long_name}",
+        f"Tolerance {TOLERANCE:.0e}, one case, {said}",
+        _over(1e6 * cost["long_seconds"], cost["end_time"]),
     ]
-    return markdown([seconds[dim].long_name, *seconds["solver"].values], [*rows, *last])
+    by_hand = cost["by_hand_ratio"].dropna("by_hand")
+    if by_hand.size:
+        parts += ["## The method of taylor in C++, in times of taylor"]
+        parts += [_over(by_hand, cost["end_time"])]
+    return [*parts, "## A chain without ends", _over_active_sites(cost)]
 
 
-def _over_by_hand(cost: xr.Dataset) -> str:
-    ratios = cost["by_hand_ratio"].dropna("by_hand")
-    head = [ratios["end_time"].long_name, *ratios["by_hand"].values]
+def _over(values: xr.DataArray, along: xr.DataArray, *last: list[str]) -> str:
+    """Return the table of values along a coordinate, with rows to end it."""
     rows = [
-        [f"{end:g}", *(f"{ratio:.3g}" for ratio in ratios.sel(end_time=end).values)]
-        for end in ratios["end_time"].values
+        [f"{place:g}", *(f"{value:.3g}" for value in row)]
+        for place, row in zip(along.values, values.values, strict=True)
     ]
-    return markdown(head, rows)
+    names = values[values.dims[1]].values
+    return markdown([along.long_name, *names], [*rows, *last])
 
 
 def _over_active_sites(cost: xr.Dataset) -> str:
@@ -134,22 +119,24 @@ def _over_active_sites(cost: xr.Dataset) -> str:
     head += ["right-hand sides a unit of slow time", "ns a site and right-hand side"]
     head += ["bytes a site 0..W"]
     names = ("active_width", "active_seconds", "active_evaluations", "active_memory")
-    columns = (cost[name].values for name in names)
-    return markdown(head, [_active_row(*values) for values in zip(*columns, strict=True)])
-
-
-def _active_row(width: int, seconds: float, evaluations: float, memory: float) -> list[str]:
-    each = f"{1e9 * seconds / evaluations:.3g}"
-    return [
-        *(f"{2 * int(width) + 1:,}", f"{1e6 * seconds:.3g}", f"{evaluations:.0f}"),
-        *(each, f"{memory:.0f}"),
+    rows = [
+        [
+            f"{2 * int(width) + 1:,}",
+            f"{1e6 * seconds:.3g}",
+            f"{evaluations:.0f}",
+            f"{1e9 * seconds / evaluations:.3g}",
+            f"{memory:.0f}",
+        ]
+        for width, seconds, evaluations, memory in zip(
+            *(cost[n].values for n in names), strict=True
+        )
     ]
+    return markdown(head, rows)
 
 
 def tabulate_pendula(measured: xr.Dataset) -> list[str]:
     """Return the parts of a page: ratios of the peers, and every point of every contestant."""
-    titles = dict(zip(measured["contestant"].values, measured["title"].values, strict=True))
-    cases = list(measured["case"].values)
+    titles, cases = titles_of(measured), list(measured["case"].values)
     rows = [
         [titles[peer], *(f"{float(value):.3g}" for value in measured["ratio"].sel(peer=peer))]
         for peer in measured["peer"].values

@@ -65,15 +65,16 @@ def in_turns(one: Run, other: Run, turns: int, block: float = 0.0) -> np.ndarray
     runs are repeated until one side of a pair takes about `block` seconds. Each run is first made
     once to warm up.
     """
-    sides = [_in_blocks(run, block) for run in (one, other)]
-    return np.array([sides[0]() / sides[1]() for _ in range(turns)])
+    counts = []
+    for run in (one, other):
+        run()  # what is not compiled yet is compiled before the first turn
+        seconds = run()
+        counts.append(max(1, round(block / seconds)) if seconds > 0.0 else 1)
 
+    def mean(run: Run, count: int) -> float:
+        return sum(run() for _ in range(count)) / count
 
-def _in_blocks(run: Run, block: float) -> Run:
-    run()  # what is not compiled yet is compiled before the first turn
-    seconds = run()
-    count = max(1, round(block / seconds)) if seconds > 0.0 else 1
-    return lambda: sum(run() for _ in range(count)) / count
+    return np.array([mean(one, counts[0]) / mean(other, counts[1]) for _ in range(turns)])
 
 
 def peak_memory(action: Callable[[], Any]) -> int:

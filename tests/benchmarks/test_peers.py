@@ -1,14 +1,16 @@
-"""Other people's integrators against ours, on a small chain."""
+"""Other people's integrators against ours, on a small chain of amplitudes and one of pendula."""
 
 import numpy as np
 import pytest
 from helpers import skip
 from oracle import SOLVERS, random_chain
-from pendula.problem import Constants, Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
+from problems import problem_from, problem_of
 
+from benchmarks import pendula
 from benchmarks.contestants import PEERS
+from benchmarks.peers_in_python import OF_PENDULA
 
 WAY = "install that beside environment.txt, in the same environment"
 CASES = {  # a peer's tolerance, and the largest error of an amplitude that it may leave
@@ -28,22 +30,15 @@ CASES = {  # a peer's tolerance, and the largest error of an amplitude that it m
     "cpp_taylor_contracted": (1e-12, 1e-10),
     "cpp_taylor_eight": (1e-12, 1e-10),
 }
+TIGHT = {"name": "dop853", "rtol": 1e-13, "atol": 1e-13}
+TIGHT_SERIES = {"name": "taylor", "rtol": 1e-15, "atol": 1e-15}
+PENDULA = pendula.as_pendula(problem_of("fig3_small", half_width=3))
 
 
-def problem(boundary="dirichlet", half_width=5, even=True):
-    return Problem(
-        constants=Constants(epsilon=1.0, gamma=1.0, omega=-4.0),
-        half_width=half_width,
-        boundary=boundary,
-        initial=random_chain(half_width, even=even),
-        end_time=2.0,
-        output_step=2.0,
-        solver={"name": "dop853", "rtol": 1e-13, "atol": 1e-13},
+def even_chain(half_width=5):
+    return problem_from(
+        random_chain(half_width, even=True), (1.0, 1.0, -4.0), end_time=2.0, output_step=2.0
     )
-
-
-def test_every_peer_has_a_case():
-    assert CASES.keys() == PEERS.keys()
 
 
 @pytest.mark.parametrize("name", PEERS)
@@ -52,9 +47,8 @@ def test_peers_agree_with_ours(name):
     if reason := peer.why_absent():
         skip(reason, WAY)
     rtol, bound = CASES[name]
-    given = problem()
-    exact = simulate(given, WHOLE).final
-    solve = peer.prepare(given)
+    exact = simulate(even_chain().changed(solver=TIGHT), WHOLE).final
+    solve = peer.prepare(even_chain())
     first, seconds = solve(rtol)
     again, _ = solve(rtol)
     assert np.abs(first - exact).max() < bound
@@ -62,12 +56,29 @@ def test_peers_agree_with_ours(name):
     assert seconds > 0.0
 
 
-@pytest.mark.parametrize("half_width", [3, 4, 5, 6])
+@pytest.mark.parametrize("half_width", [3, 4, 6])
 @pytest.mark.parametrize("name", ["cpp_taylor", "cpp_taylor_contracted", "cpp_taylor_eight"])
 def test_the_taylor_method_in_cpp_is_ours_to_rounding(name, half_width):
     if reason := PEERS[name].why_absent():
         skip(reason, WAY)
-    given = problem(half_width=half_width)
+    given = even_chain(half_width)
     expected = simulate(given.changed(solver=SOLVERS["taylor"])).final
     actual, _ = PEERS[name].prepare(given)(SOLVERS["taylor"]["rtol"])
     np.testing.assert_allclose(actual, expected, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", OF_PENDULA)
+def test_peers_agree_with_ours_on_pendula(name):
+    if reason := OF_PENDULA[name].why_absent():
+        skip(reason, WAY)
+    found, seconds = OF_PENDULA[name].prepare(PENDULA)(1e-12)
+    exact = simulate(PENDULA.changed(solver=TIGHT_SERIES)).final
+    assert found.shape == exact.shape and seconds > 0
+    np.testing.assert_allclose(found, exact, rtol=0, atol=2e-9)
+
+
+def test_what_is_exact_is_agreed_on_by_two_methods(monkeypatch):
+    assert pendula.exact_state(PENDULA).shape == (2, 2, 7)
+    monkeypatch.setattr(pendula, "AGREED", 1e-18)
+    with pytest.raises(RuntimeError, match="two methods differ"):
+        pendula.exact_state(PENDULA)

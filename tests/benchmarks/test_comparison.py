@@ -1,0 +1,68 @@
+"""Points from loose to tight, and contestants in turns at the same error, with known times."""
+
+import numpy as np
+import pytest
+from problems import problem_of
+
+from benchmarks.contestants import PAIRS, Contestant, Point, cheapest, compare, measure_points
+
+EXACT = np.ones((2, 3), complex)
+PROBLEM = problem_of(half_width=1)
+ALL = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+
+
+def contestant(seconds, accuracies=ALL, faults=(), blanks=()):
+    """Return a contestant that errs by what is asked for, in the seconds that `seconds()` gives."""
+
+    def solve(accuracy):
+        if accuracy in faults:
+            raise RuntimeError("gave up")
+        return EXACT + (np.nan if accuracy in blanks else accuracy), seconds()
+
+    return Contestant("made up", np.array(accuracies), lambda problem: solve)
+
+
+def with_points(made):
+    return made, measure_points(made, PROBLEM, EXACT)
+
+
+def test_the_time_is_the_median_of_several_runs_after_the_first():
+    times = iter([0.25, 0.1, 0.3, 0.2])
+    (point,) = measure_points(contestant(lambda: next(times), (1e-4,)), PROBLEM, EXACT)
+    assert point[1:4] == (0.2, 0.1, 0.3) and next(times, None) is None
+
+
+def test_who_gives_up_or_returns_no_numbers_has_no_point_there():
+    made = contestant(lambda: 1e-3, faults=(1e-4,), blanks=(1e-8,))
+    points = measure_points(made, PROBLEM, EXACT)
+    assert [point.accuracy for point in points] == [1e-6, 1e-10, 1e-12]
+
+
+def test_who_errs_by_less_than_the_goal_is_not_asked_for_more():
+    points = measure_points(contestant(lambda: 1e-3), PROBLEM, EXACT, goal=1e-5)
+    assert [point.accuracy for point in points] == [1e-4, 1e-6]
+
+
+def test_the_cheapest_run_that_is_good_enough_counts():
+    rows = ((1e-4, 1.0, 1e-3), (1e-6, 3.0, 9e-6), (1e-8, 2.0, 1e-7))
+    found = [Point(accuracy, time, time, time, error) for accuracy, time, error in rows]
+    assert [cheapest(found, target) for target in (1e-5, 1e-3, 1e-9)] == [found[2], found[0], None]
+
+
+def test_the_ratio_is_theirs_over_that_of_our_fastest_below_the_target():
+    slow, fast, coarse = map(
+        with_points,
+        (
+            contestant(lambda: 0.25),
+            contestant(lambda: 0.05),
+            contestant(lambda: 0.01, accuracies=ALL[:2]),
+        ),
+    )
+    found = compare(PROBLEM, 1e-10, slow, {"slow": slow, "fast": fast, "coarse": coarse})
+    assert found.ours == "fast"
+    assert found.ratios == pytest.approx([5.0] * PAIRS)
+    # the run at 1e-10 errs by a little more than that, by rounding
+    assert found.our_point.error <= 1e-10 and found.peer_point.error <= 1e-10
+    # who never gets that far is not compared
+    assert compare(PROBLEM, 1e-10, coarse, {"fast": fast}) is None
+    assert compare(PROBLEM, 1e-10, fast, {"coarse": coarse}) is None
