@@ -63,6 +63,7 @@ def test_the_pair_is_compared_below_the_target(measured):
     assert float(pair["peer_error"]) <= 1e-10 and float(pair["our_error"]) <= 1e-10
     assert pair["our_best"].item() in ("dop853", "taylor")
     assert 1.0 < float(pair["ratio"]) < 100.0
+    assert measured["mean_ratio"].item() == pytest.approx(float(pair["ratio"]))
 
 
 def test_memory_grows_with_the_chain_and_with_the_active_sites(monkeypatch):
