@@ -40,13 +40,12 @@ SAME_LAW = Cutoff(0.05, "so near distributions differ by less than a figure show
 
 def late_levels(phases, norm: str = "l2"):
     """Return the mean norm of the pair from SETTLED on, (case, mu)."""
-    late = phases["tau"].values >= SETTLED
-    if not late.any():
+    late = phases[norm].sel(tau=slice(SETTLED, None))
+    if not late.sizes["tau"]:
         raise UndecidableError(f"the runs end before tau = {SETTLED:g}")
-    first = phases[norm].transpose("case", "mu", "component", "tau")
-    values = first.values[..., late]
-    pair = np.sqrt((values * values).sum(axis=2)) if norm == "l2" else values.max(axis=2)
-    return first[:, :, 0, 0].copy(data=pair.mean(axis=-1))
+    power = (late * late).sum("component", skipna=False)
+    pair = np.sqrt(power) if norm == "l2" else late.max("component", skipna=False)
+    return pair.mean("tau", skipna=False)
 
 
 def known(levels):
@@ -98,12 +97,8 @@ def pendula_norms(phases) -> Finding:
     if not (fine > 0.0).all():
         raise UndecidableError("a case has no difference from its limit")
     order = log(np.asarray(coarse / fine)) / log(mu[2] / mu[1])
-    measured = {
-        "least_order": order.min(),
-        "largest_order": order.max(),
-        "largest_difference": fine.max(),
-        "at_mu": mu[1],
-    }
+    measured = {"least_order": order.min(), "largest_order": order.max()}
+    measured |= {"largest_difference": fine.max(), "at_mu": mu[1]}
     says = "order in mu of the difference"
     return judge(measured, Near(2.0, ORDER, "least_order", "largest_order", says=says))
 
@@ -135,11 +130,10 @@ def pendula_spread(phases) -> Finding:
         "largest_level": level.max(),
         "mus": grown.sizes["mu"],
     }
+    says = "late over initial l-infinity norm"
     criterion = AllOf(
         AtLeast(FACTOR, "least_growth", says="late over initial l2 norm"),
-        WithinFactor(
-            FACTOR, "least_level", "largest_level", says="late over initial l-infinity norm"
-        ),
+        WithinFactor(FACTOR, "least_level", "largest_level", says=says),
     )
     fails = (
         "these data lie near a border of fates: at another mu the pendula disperse, and at a large"
@@ -243,10 +237,9 @@ def same_sea(sea, thermal) -> Finding:
         "from_thermal": max(abs(mean_limits(one).value / float(known) - 1.0) for one in others),
         "laws_apart": apart.max(),
     }
+    says = "relative difference of P a site, limits"
     criterion = AllOf(
-        Below(
-            SAME, "largest_difference", "its_limits", says="relative difference of P a site, limits"
-        ),
+        Below(SAME, "largest_difference", "its_limits", says=says),
         Below(SAME, "from_thermal", says="relative difference from the thermal P"),
         Below(SAME_LAW, "laws_apart", says="largest difference of the distributions"),
     )

@@ -15,6 +15,8 @@ STABLE = ("fig2_small", "fig2_large", "fig3_small", "fig3_large")
 """Cases whose chain at rest is stable."""
 UNSTABLE = "fig4_small"
 ALL = (*STABLE, "fig4_small", "fig4_large")
+SLOW, OPPOSITE = "the slow time mu^2 t", "a third harmonic of the opposite sign"
+"""Wrong expansions."""
 
 WHOLE = Cutoff(0.03, "an order is a whole number if it is so in its first two digits")
 SECULAR = Cutoff(1.5, "growth is nearer to proportion to time than to its square", 1.0)
@@ -30,8 +32,7 @@ FEWEST = 3
 
 def common_end(remainder) -> float:
     """Return the last end that every run reaches."""
-    errors = remainder["error"].transpose("end", ...).values
-    known = ~np.isnan(errors).any(axis=(1, 2, 3))
+    known = remainder["error"].notnull().all(("expansion", "case", "mu")).values
     if not known.any():
         raise UndecidableError("no slow time is reached by every run")
     return float(remainder["end"].values[known].max())
@@ -72,12 +73,7 @@ def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Findi
     "The expansion is justified on times of the order mu^-2: up to a tau of order one the angles "
     "of (3) and (4) miss those of the pendula by the order mu^3.",
     (REMAINDER,),
-    (
-        Control(
-            "amplitudes with the slow time mu^2 t",
-            of_wrong("order", "the slow time mu^2 t", "leading"),
-        ),
-    ),
+    (Control("amplitudes with the slow time mu^2 t", of_wrong("order", SLOW, "leading")),),
     on=ALL,
 )
 def expansion_order(remainder) -> Finding:
@@ -89,10 +85,7 @@ def expansion_order(remainder) -> Finding:
     "With its next order the expansion misses the pendula by the order mu^5.",
     (REMAINDER,),
     (
-        Control(
-            "a third harmonic of the opposite sign",
-            of_wrong("order", "a third harmonic of the opposite sign", "corrected"),
-        ),
+        Control(OPPOSITE, of_wrong("order", OPPOSITE, "corrected")),
         Control(
             "the third harmonic with the amplitudes of (4)",
             of_wrong("order", "a third harmonic alone", "corrected"),
@@ -123,12 +116,7 @@ def over_late_half(remainder, cases, long: float):
     "Section 2, before (4)",
     "The remainder of the expansion stays bounded as the system evolves.",
     (REMAINDER,),
-    (
-        Control(
-            "amplitudes with the slow time mu^2 t",
-            of_wrong("error", "the slow time mu^2 t", "leading"),
-        ),
-    ),
+    (Control("amplitudes with the slow time mu^2 t", of_wrong("error", SLOW, "leading")),),
     on=ALL,
 )
 def remainder_bounded(remainder) -> Finding:
@@ -190,8 +178,8 @@ def slopes(remainder):
 
 def by_power(remainder):
     """Return horizons in proportion to mu^-2, as an error that does not grow would have them."""
-    horizon, mu = remainder["visible_from"], remainder["mu"]
-    return remainder.assign(visible_from=horizon.isel(mu=0) * (mu[0] / mu) ** 2)
+    first, mu = remainder["visible_from"].isel(mu=0), remainder["mu"]
+    return remainder.assign(visible_from=first * (mu[0] / mu) ** 2)
 
 
 @claim(

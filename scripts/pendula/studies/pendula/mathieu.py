@@ -35,16 +35,6 @@ def _fraction(square, gaps):
     return found, slope
 
 
-def _odd_gaps(offset):
-    """Return (2 j + 1)^2 - a of the harmonics j = 1, 2, ..."""
-    return [4.0 * j * (j + 1) - offset for j in range(1, DEPTH + 1)]
-
-
-def _even_gaps(below_four):
-    """Return (2 j)^2 - a of the harmonics j = 3, 4, ..., for `below_four` = 4 - a."""
-    return [4.0 * (j * j - 1) + below_four for j in range(3, DEPTH + 3)]
-
-
 def _settled(step, start: np.ndarray, scale=0.0) -> np.ndarray:
     """Return what `step` leaves as it is, by iteration from `start`.
 
@@ -69,7 +59,8 @@ def first_tongue(offset) -> np.ndarray:
     does not reach so high, the result is infinite.
     """
     offset = np.asarray(offset, dtype=float)
-    gaps, size, side = _odd_gaps(offset), np.abs(offset), np.sign(offset)
+    size, side = np.abs(offset), np.sign(offset)
+    gaps = [4.0 * j * (j + 1) - offset for j in range(1, DEPTH + 1)]  # (2 j + 1)^2 - a
 
     def step(q):
         bounded = np.minimum(q, BEYOND)
@@ -86,11 +77,12 @@ def first_tongue(offset) -> np.ndarray:
 def second_tongue(offset) -> np.ndarray:
     """Return the q at which the lower curve b_2 of the second tongue comes down to 1 + `offset`."""
     below_four = 3.0 - np.asarray(offset, dtype=float)
-    gaps = _even_gaps(below_four)
-    return _settled(
-        lambda q: np.sqrt(below_four * (12.0 + below_four - _fraction(q * q, gaps)[0])),
-        np.sqrt(below_four * (12.0 + below_four)),
-    )
+    gaps = [4.0 * (j * j - 1) + below_four for j in range(3, DEPTH + 3)]  # (2 j)^2 - a
+
+    def step(q):
+        return np.sqrt(below_four * (12.0 + below_four - _fraction(q * q, gaps)[0]))
+
+    return _settled(step, np.sqrt(below_four * (12.0 + below_four)))
 
 
 def wave_threshold(offset) -> np.ndarray:
@@ -109,10 +101,8 @@ def band_threshold(lowest, highest) -> np.ndarray:
     nearest = np.where(lowest > 0.0, lowest, highest)
     within = ((lowest <= 0.0) & (highest >= 0.0)) | ((lowest <= 3.0) & (highest >= 3.0))
     above = lowest > 3.0
-    plain = within | above
-    found = np.minimum(
-        first_tongue(np.where(plain, 0.0, nearest)), second_tongue(np.where(plain, 0.0, highest))
-    )
+    nearest, highest = (np.where(within | above, 0.0, one) for one in (nearest, highest))
+    found = np.minimum(first_tongue(nearest), second_tongue(highest))
     return np.where(above, np.nan, np.where(within, 0.0, found))
 
 
@@ -124,8 +114,8 @@ def strings_grow(constants, mu: float) -> bool:
     and q = 2 |gamma| mu^2 / omega^2. `constants` are those of (4).
     """
     highest = 4.0 * constants.epsilon * mu * mu / squared_frequency(constants.omega, mu)
-    drive = strength(constants, mu)
-    return bool(highest < 0.0 or drive > band_threshold(-1.0, highest - 1.0))
+    stable_to = band_threshold(-1.0, highest - 1.0)
+    return bool(highest < 0.0 or strength(constants, mu) > stable_to)
 
 
 def strength(constants, mu: float) -> float:
@@ -142,29 +132,20 @@ def growth(offset, q) -> np.ndarray:
 
     A solution that grows is e^(s theta) times a series in e^(i (2 k + 1) theta), and the one with
     the largest s of the first tongue is real. Hill's equations for its terms, a continued fraction
-    on either side of k = 0 and k = -1, meet where |offset + s^2 + 2 i s - T(s)| = q. This is solved
-    for the s in 2 i s by iteration.
+    on either side of k = 0 and k = -1, meet where |offset + s^2 + 2 i s - T(s)| = q, with
+    T = q^2 / (d_1 - q^2 / (d_2 - ...)) and d_k = a + (s + i (2 k + 1))^2. This is solved for the s
+    in 2 i s by iteration.
     """
     offset, q = np.broadcast_arrays(np.asarray(offset, dtype=float), np.asarray(q, dtype=float))
-    square = q * q
 
     def step(s):
-        real, imaginary = _tail(offset + s * s, s, square)
-        level = offset + s * s - real
+        near, real, imaginary = offset + s * s, np.zeros(offset.shape), np.zeros(offset.shape)
+        for k in range(DEPTH, 0, -1):  # T, from its last term
+            x = near - 4.0 * k * (k + 1) - real
+            y = 2.0 * (2 * k + 1) * s - imaginary
+            over = q * q / (x * x + y * y)
+            real, imaginary = x * over, -y * over
+        level = near - real
         return 0.5 * (imaginary + np.sqrt(np.maximum(0.0, (q - level) * (q + level))))
 
     return _settled(step, np.zeros(offset.shape), q)
-
-
-def _tail(offset, s, square):
-    """Return the real and the imaginary part of T = q^2 / (d_1 - q^2 / (d_2 - ...)).
-
-    d_k = a + (s + i (2 k + 1))^2, and `offset` is a - 1 + s^2.
-    """
-    real, imaginary = np.zeros(offset.shape), np.zeros(offset.shape)
-    for k in range(DEPTH, 0, -1):
-        x = offset - 4.0 * k * (k + 1) - real
-        y = 2.0 * (2 * k + 1) * s - imaginary
-        over = square / (x * x + y * y)
-        real, imaginary = x * over, -y * over
-    return real, imaginary

@@ -125,7 +125,7 @@ class Followed(Model):
     """What the other topics share: a tolerance, and the runs that they make of cases."""
 
     may_lose: ClassVar[bool] = False
-    """Whether a run may end where a pendulum is lost (see followed.until_lost)."""
+    """Whether a run may end where a pendulum is lost (see runs.until_lost)."""
     tolerance: Tolerance
 
     def unfit(
