@@ -294,7 +294,7 @@ def with_middle_exchanged(over_the_top):
     ),
 )
 def waiting_grows(over_the_top) -> Finding:
-    """Ask for rates that rise with mu at every step, and whose limits part from end to end."""
+    """Require rates that rise with mu at every step, with distinct limits from end to end."""
     ordered = over_the_top.sortby("mu")
     rated = ordered.sel(mu=np.isfinite(ordered["passage_rate"]).values)
     if rated.sizes["mu"] < 2:
