@@ -15,7 +15,7 @@ from pendula.ledger.criterion import (
     Finding,
     UndecidableError,
     judge,
-)
+)  # fmt: skip
 from pendula.ledger.cutoff import Cutoff
 from pendula.models.pairs import FAMILIES
 
@@ -26,19 +26,20 @@ STEADY, PERIODIC = "breathers/steady", "breathers/periodic"
 GROWTH, MAP = "breathers/growth", "breathers/fates"
 
 RATES = ("growth", "growth_half")
-OTHERS = [family.name for family in FAMILIES[1:]]
 NEXT_FAMILY = roll("growth_half", {"family": 1})
-OF_PAPER = -4.0
-"""Omega of the paper's Fig 3."""
-OF_FIG_2, OF_FIG_4 = 8.0, 0.0
-"""Omega of the paper's Figs 2 and 4."""
+OTHER_ORDER = roll("case_distance", {"family": 1})
+NEXT_FREQUENCY = roll("measured_growth", {"frequency": 1})
+ALL_SPREAD = put(("share", "share_low", "share_high"), 1.0)
+OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
+"""Omega of the paper's figures."""
 DATA_POWER = 26.0
 """P of the paper's large data, A_0 = 5 and B_0 = 1."""
+AS_FLOQUET = Cutoff(1e-3, "runs part to 1e-4 of the breather: what is quadratic counts for less")
 FIRST_ORDER = Cutoff(0.1, "a law of first order holds up to a tenth where gamma is a tenth")
 
 
 def at_omega(dataset, omega: float):
-    """Return a dataset at one detuning, or say that it has no such one."""
+    """Return a dataset at one detuning; raise UndecidableError if it has none."""
     if omega not in dataset["omega"].values:
         raise UndecidableError(f"no breather was looked for at Omega = {omega:g}")
     return dataset.sel(omega=omega)
@@ -49,15 +50,17 @@ def at_omega(dataset, omega: float):
     "At the detuning of Fig 3 no steady state that is localised at one pair is stable.",
     (STEADY,),
     (
+        Control("the rates of growth at Omega = -13", exchange("omega", -4.0, -13.0, names=RATES)),
         Control(
-            "the rates of growth at Omega = -13", exchange("omega", OF_PAPER, -13.0, names=RATES)
+            "one family known of all",
+            put("power", np.nan, family=[family.name for family in FAMILIES[1:]]),
+            undecided=True,
         ),
-        Control("one family known of all", put("power", np.nan, family=OTHERS), undecided=True),
     ),
 )
 def steady_unstable(steady) -> Finding:
-    """Ask for a growing perturbation of each family, on a chain and on twice its half-width."""
-    here = at_omega(steady, OF_PAPER)
+    """Require a growing perturbation of each family, on a chain and on twice its half-width."""
+    here = at_omega(steady, OF_FIG_3)
     if here[["power", "growth", "growth_half"]].isnull().to_dataarray().any():
         raise UndecidableError("a state that is not known, or its rates, may be a stable one")
     measured = {
@@ -74,10 +77,7 @@ def steady_unstable(steady) -> Finding:
 
 
 def known(periodic):
-    """Return breathers, or raise an error if one in the midst of a family is unknown.
-
-    A family may begin at any frequency, and has no gap from there on.
-    """
+    """Return breathers; raise UndecidableError if a family has a gap above its first frequency."""
     found = periodic["power"].notnull().all("component")
     for name in RATES:
         found = found & periodic[name].notnull()
@@ -93,10 +93,9 @@ def known(periodic):
     (Control("breathers with A = B in place of A alone", exchange("family", "A only", "A = B")),),
 )
 def periodic_stable(periodic) -> Finding:
-    """Ask it of the family in which A swings and B follows by the drive."""
-    here = at_omega(known(periodic), OF_PAPER).sel(family="A only")
-    power = here["power"].sum("component", skipna=False)
-    found = np.isfinite(power)
+    """Decide by the family in which A oscillates and B follows by the drive."""
+    here = at_omega(known(periodic), OF_FIG_3).sel(family="A only")
+    found = here["power"].notnull().all("component")
     measured = {
         "breathers": found.sum(),
         "lowest_frequency": here["frequency"].where(found).min(),
@@ -140,11 +139,10 @@ def stable_on_any_chain(steady, periodic) -> Finding:
         "compared": np.isfinite(steady["growth"]).sum() + np.isfinite(outside["growth"]).sum(),
         "known_steady": np.isfinite(steady["growth"]).mean(),
     }
-    says = "states whose verdict changes"
     criterion = AllOf(
         AtLeast(1, "compared"),
         Above(MAJORITY, "known_steady", says="share of steady states that are known"),
-        AtMost(0, "steady", "periodic", says=says),
+        AtMost(0, "steady", "periodic", says="states whose verdict changes"),
     )
     within = periodic[["growing", "growing_half"]].where(~above)
     if not np.isfinite(within["growing"]).any():
@@ -164,7 +162,7 @@ def stable_on_any_chain(steady, periodic) -> Finding:
     (Control("both multipliers have one signature", put("collision_signature", 1)),),
 )
 def opposite_signatures_collide(periodic) -> Finding:
-    """Ask for the product of the two Krein signatures beside each collision."""
+    """Decide by the product of the two Krein signatures beside each collision."""
     met = np.isfinite(known(periodic)["collision_frequency"])
     if not met.any():
         raise UndecidableError("no family becomes unstable between the frequencies")
@@ -175,33 +173,25 @@ def opposite_signatures_collide(periodic) -> Finding:
         "quartets": quartets.sum(),
         "largest_product": product.max(),
     }
-    says = "product of the two signatures"
-    return judge(measured, Below(0.0, "largest_product", says=says))
-
-
-AS_FLOQUET = Cutoff(1e-3, "runs part to 1e-4 of the breather: what is quadratic counts for less")
+    criterion = Below(0.0, "largest_product", says="product of the two signatures")
+    return judge(measured, criterion)
 
 
 @claim(
     PLACE,
     "Perturbations of unstable breathers grow in the nonlinear flow at the rates of Floquet.",
     (PERIODIC,),
-    (
-        Control(
-            "rates of the flow at the next frequency",
-            roll("measured_growth", {"frequency": 1}),
-        ),
-    ),
+    (Control("rates of the flow at the next frequency", NEXT_FREQUENCY),),
 )
 def grows_as_floquet_says(periodic) -> Finding:
     """Compare the rates of even and of odd perturbations, above the frequencies of waves."""
-    measured = known(periodic)["measured_growth"]
-    off = abs(measured / periodic["parity_growth"].where(np.isfinite(measured)) - 1.0)
-    found = {"compared": np.isfinite(measured).sum(), "largest_difference": off.max()}
-    if not found["compared"]:
+    rates = known(periodic)["measured_growth"]
+    off = abs(rates / periodic["parity_growth"].where(np.isfinite(rates)) - 1.0)
+    measured = {"compared": np.isfinite(rates).sum(), "largest_difference": off.max()}
+    if not measured["compared"]:
         raise UndecidableError("no breather is unstable above the frequencies of waves")
     says = "largest relative difference of the rates"
-    return judge(found, Below(AS_FLOQUET, "largest_difference", says=says))
+    return judge(measured, Below(AS_FLOQUET, "largest_difference", says=says))
 
 
 @claim(
@@ -209,13 +199,13 @@ def grows_as_floquet_says(periodic) -> Finding:
     "The large data at Omega = -4 have less P at any time than every periodic breather there.",
     (PERIODIC,),
     (
-        Control("breathers at Omega = 8", exchange("omega", OF_PAPER, OF_FIG_2)),
+        Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
         Control("another family with half of its P", scale("least_power", 0.5, family="A = B")),
     ),
 )
 def data_below_breathers(periodic) -> Finding:
     """So they cannot end as one unless the drive feeds them."""
-    least = at_omega(known(periodic), OF_PAPER)["least_power"].min("family")
+    least = at_omega(known(periodic), OF_FIG_3)["least_power"].min("family")
     largest_instant, least_instant = least.values
     measured = {"largest_of_a_period": largest_instant, "least_of_a_period": least_instant}
     says = "least P of a breather over its period, all frequencies and families"
@@ -258,17 +248,11 @@ def grows_by_drive(growth) -> Finding:
     "Beyond the paper, Fig 3 lower and Fig 6 right",
     "That the large data at Omega = -4 spread is an accident of their digits.",
     (SENSITIVITY,),
-    (
-        FAR_AS_NEAR,
-        Control(
-            "runs that spread whatever the change",
-            put(("share", "share_low", "share_high"), 1.0),
-        ),
-    ),
+    (FAR_AS_NEAR, Control("runs that spread whatever the change", ALL_SPREAD)),
     on=("fig3_large",),
 )
 def spreading_is_an_accident(sensitivity) -> Finding:
-    """Ask whether most runs spread from data within 1e-6, and most do not from data off by 1e-2."""
+    """Require that most runs spread from data within 1e-6, and most do not from 1e-2 on."""
     sizes = sensitivity["size"].values
     small, large = sizes <= 1e-6, sizes >= 1e-2
     if not (small.any() and large.any()):
@@ -281,13 +265,10 @@ def spreading_is_an_accident(sensitivity) -> Finding:
         "of_the_scan": sensitivity["spread"].mean(),
         "members": float(sensitivity.attrs["members"]),
     }
+    said = "limit of the share that spreads"
     criterion = AllOf(
-        Above(
-            MAJORITY, "small_at_least", says="lower limit of the share that spreads, small changes"
-        ),
-        Below(
-            MAJORITY, "large_at_most", says="upper limit of the share that spreads, large changes"
-        ),
+        Above(MAJORITY, "small_at_least", says=f"lower {said}, small changes"),
+        Below(MAJORITY, "large_at_most", says=f"upper {said}, large changes"),
     )
     spread = measured["of_large"]
     some = f"{100 * spread:.2g} % of the runs from data changed by a hundredth spread too"
@@ -304,16 +285,13 @@ def spreading_is_an_accident(sensitivity) -> Finding:
             {MAP: exchange("case", "fig2_large", "fig3_large")},
             on=("fig3_large",),
         ),
-        Control(
-            "distances from the families in another order",
-            {MAP: roll("case_distance", {"family": 1})},
-        ),
+        Control("distances from the families in another order", {MAP: OTHER_ORDER}),
         Control("distances twenty times as large", {MAP: scale("case_distance", 20.0)}),
     ),
     on=("fig2_large",),
 )
 def ends_near_stable(fates, periodic) -> Finding:
-    """Ask whether the end is near this family and far from others, and this is stable there."""
+    """Require an end near this family and far from others, where this one is stable."""
     if "fig2_large" not in fates["case"].values:
         raise UndecidableError("the large data at Omega = 8 were not followed")
     end = fates.sel(case="fig2_large")
@@ -324,13 +302,12 @@ def ends_near_stable(fates, periodic) -> Finding:
         own = np.inf  # no breather, no family
     family = at_omega(known(periodic), OF_FIG_2).sel(family="A only").sortby("frequency")
     above = int(np.searchsorted(family["frequency"].values, frequency))
+    beside = family["growth"].isel(frequency=slice(max(above - 1, 0), above + 1))
     measured = {
         "frequency": frequency,
         "distance": own,
         "times_nearer": others.min(skipna=False) / own if np.isfinite(own) else 0.0,
-        "largest_growth": family["growth"]
-        .isel(frequency=slice(max(above - 1, 0), above + 1))
-        .max(),
+        "largest_growth": beside.max(),
     }
     criterion = AllOf(
         Below(CHANGE, "distance", says="distance from the family over its size"),
@@ -340,10 +317,9 @@ def ends_near_stable(fates, periodic) -> Finding:
     return judge(measured, criterion)
 
 
-def spread_on(fate):
-    """Return where the data of a map spread, as 0 or 1."""
-    number = fate.attrs["flag_meanings"].split().index("spreads")
-    return (fate == number).astype(float)
+def one_that_disperses(fates):
+    """Return the maps with another fate of the most unequal data at Omega = 0."""
+    return put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(fates)
 
 
 @claim(
@@ -352,23 +328,19 @@ def spread_on(fate):
     (MAP,),
     (
         Control("the maps of both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
-        Control(
-            "one point at Omega = 0 that disperses",
-            lambda fates: put("fate", 0, omega=OF_FIG_4, a0=fates["a0"][-1], b0=fates["b0"][0])(
-                fates
-            ),
-        ),
+        Control("one point at Omega = 0 that disperses", one_that_disperses),
     ),
     on=(MAPS,),
 )
 def detuning_decides(fates) -> Finding:
     """Count fates on both maps; A = B conserves P, has no area, and is left out."""
-    fate, turned = (spread_on(fates[name]) for name in ("fate", "turned_fate"))
-    fate = fate.where(fates["a0"] != fates["b0"])
+    spreads = fates["fate"].attrs["flag_meanings"].split().index("spreads")
+    unequal = (fates["fate"] == spreads).where(fates["a0"] != fates["b0"])
+    turned = (fates["turned_fate"] == spreads).astype(float)
     measured = {
-        "points": at_omega(fate, OF_FIG_2).count() + at_omega(turned, OF_FIG_2).count(),
-        "spread_at_8": at_omega(fate, OF_FIG_2).mean(),
-        "spread_at_0": at_omega(fate, OF_FIG_4).mean(),
+        "points": at_omega(unequal, OF_FIG_2).count() + at_omega(turned, OF_FIG_2).count(),
+        "spread_at_8": at_omega(unequal, OF_FIG_2).mean(),
+        "spread_at_0": at_omega(unequal, OF_FIG_4).mean(),
         "turned_at_8": at_omega(turned, OF_FIG_2).mean(),
         "turned_at_0": at_omega(turned, OF_FIG_4).mean(),
     }

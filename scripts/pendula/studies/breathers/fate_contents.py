@@ -79,46 +79,38 @@ def map_fates(
     return variables, about
 
 
-def _flagged(dimensions: tuple[str, ...], values, words: str, names, first: int = 0) -> Variable:
-    """Return a variable of numbers from `first` on that stand for names, as CF has them."""
-    meanings = " ".join(str(name).replace(" ", "") for name in names)
-    numbers = np.arange(first, first + len(names), dtype=np.int8)
-    about = {"flag_values": numbers, "flag_meanings": meanings}
+def _stored(dimensions: tuple[str, ...], values, words: str, names=None) -> Variable:
+    """Return a variable of rounded values, or of numbers that stand for `names`, as CF has them."""
+    if names is None:
+        return kept(dimensions, values, words, DIGITS)
+    first = -1 if names is PERIODIC else 0
+    about = {
+        "flag_values": np.arange(first, first + len(names), dtype=np.int8),
+        "flag_meanings": " ".join(str(name).replace(" ", "") for name in names),
+    }
     return Variable(dimensions, np.array(values, dtype=np.int8), words, attributes=about)
 
 
 def _map(start: str, over: tuple[str, ...], found: list[End], periodic: xr.Dataset) -> dict:
     """Return what one map shows at each detuning, under names that begin with `start`."""
     about = " (B_0 turned in phase)" if start else ""
-    along, families = ("omega", *over), ["none", *periodic["family"].values]
-    variables = {
-        "fate": _flagged(along, [one.fate for one in found], "fate of the data", FATES),
-        "held": kept(
-            along, [one.held for one in found], "share of P on the three central pairs", DIGITS
-        ),
-        "unreturned": kept(
-            along, [one.unreturned for one in found],
-            "P that does not return after half periods, over the most that waves explain", DIGITS,
-        ),
-        "periodic": _flagged(
-            along, [one.periodic for one in found],
-            "whether what stays is periodic, a breather", PERIODIC, -1,
-        ),
-        "breather_frequency": kept(
-            along, [one.frequency for one in found], "frequency of the final breather", DIGITS
-        ),
-        "breather_family": _flagged(
-            along, [one.family for one in found],
-            "family whose symmetry the final breather has", families,
-        ),
-        "family_distance": kept(
-            along, [one.distance for one in found],
-            "relative distance of the final breather from this family", DIGITS,
-        ),
-    }  # fmt: skip
+    families = ["none", *periodic["family"].values]
+    rows = (
+        ("fate", "fate", FATES, "fate of the data"),
+        ("held", "held", None, "share of P on the three central pairs"),
+        ("unreturned", "unreturned", None,
+         "P that does not return after half periods, over the most that waves explain"),
+        ("periodic", "periodic", PERIODIC, "whether what stays is periodic, a breather"),
+        ("breather_frequency", "frequency", None, "frequency of the final breather"),
+        ("breather_family", "family", families, "family whose symmetry the final breather has"),
+        ("family_distance", "distance", None,
+         "relative distance of the final breather from this family"),
+    )  # fmt: skip
     return {
-        f"{start}{name}": one._replace(long_name=f"{one.long_name}{about}")
-        for name, one in variables.items()
+        f"{start}{name}": _stored(
+            ("omega", *over), [getattr(one, field) for one in found], f"{words}{about}", names
+        )
+        for name, field, names, words in rows
     }
 
 
@@ -165,30 +157,29 @@ def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, V
     a0, b0 = zip(*(one.initial[:, one.initial.shape[1] // 2].real for one in cases.values()),
                  strict=True)  # fmt: skip
     found = [ends([one], Families.of(periodic, one.constants.omega)) for one in cases.values()]
+    fates, is_periodic, frequencies, distances = (
+        [getattr(one, field)[0] for one in found]
+        for field in ("fate", "periodic", "frequency", "distances")
+    )
     along = ("case",)
     return {
         "case": Variable(along, list(cases)),
         "case_omega": Variable(along, omegas, "detuning Omega of the case"),
         "case_a0": Variable(along, a0, "A_0 of the case"),
         "case_b0": Variable(along, b0, "B_0 of the case"),
-        "case_fate": _flagged(
-            along, [one.fate[0] for one in found], "fate of the data of the case", FATES
+        "case_fate": _stored(along, fates, "fate of the data of the case", FATES),
+        "case_periodic": _stored(
+            along, is_periodic, "whether the case, if it stays, is periodic, a breather", PERIODIC
         ),
-        "case_periodic": _flagged(
-            along, [one.periodic[0] for one in found],
-            "whether the case, if it stays, is periodic, a breather", PERIODIC, -1,
-        ),
-        "case_breather_frequency": kept(
-            along, [one.frequency[0] for one in found],
-            "frequency of the final breather of the case", DIGITS,
+        "case_breather_frequency": _stored(
+            along, frequencies, "frequency of the final breather of the case"
         ),
         "family": Variable(
-            ("family",), [str(name) for name in periodic["family"].values],
-            "family of periodic breathers",
+            ("family",), [*map(str, periodic["family"].values)], "family of periodic breathers"
         ),
-        "case_distance": kept(
-            (*along, "family"), [one.distances[0] for one in found],
-            "relative distance of the final breather of the case from each family", DIGITS,
+        "case_distance": _stored(
+            (*along, "family"), distances,
+            "relative distance of the final breather of the case from each family",
         ),
     }  # fmt: skip
 
@@ -215,7 +206,7 @@ def _checked(
         ),
         "checked_a0": Variable(("checked",), a0, "A_0 of data that are run on several terms"),
         "checked_b0": Variable(("checked",), b0, "B_0 of data that are run on several terms"),
-        "checked_fate": _flagged(
+        "checked_fate": _stored(
             ("conditions", "omega", "checked"), found,
             "fate of data that are run on several terms", FATES,
         ),

@@ -20,7 +20,7 @@ continued from gamma = 0, but they end at gamma of 0.2 to 0.5 and 0.7 to 0.95. A
 the drive and has the one harmonic lambda, which only has to lie above Omega.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -89,20 +89,19 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
     tens of misses, so that it is kept while the error falls, and learns from each step (C. G.
     Broyden, Math. Comp. 19 (1965) 577).
     """
-    data, sites, guess = start, start.shape[1], Breather(constants, frequency, start)
-    quarter, steps = guess.quarter, guess.finer * FINE_STEPS
-    symmetry = exchange_sign(start)
-    nothing, largest, inverse, step = np.empty((0, 4, sites)), np.inf, None, None
+    data, sites, symmetry = start, start.shape[1], exchange_sign(start)
+    largest, inverse, step = np.inf, None, None
     for _ in range(ITERATIONS):
-        miss = flow(constants, real_data(data), nothing, nothing, quarter, steps)
+        guess = Breather(constants, frequency, data)
+        miss = quarter_later(guess, FINE_STEPS)
         last, largest = largest, np.abs(miss[0, ::2]).max() / np.abs(data).max()
         if largest <= TOLERANCE and largest >= 0.1 * last:
-            return Breather(constants, frequency, data)
+            return guess
         if not largest < 10.0:
             break
         miss = miss[0, ::2].ravel()[: sites * (1 if symmetry else 2)]
         if inverse is None or largest > SLOWEST * last:
-            inverse = np.linalg.inv(_matrix(guess._replace(data=data), symmetry))
+            inverse = np.linalg.inv(_matrix(guess, symmetry))
         else:  # so that it explains what the last step has left
             wrong, along = times(inverse, miss), times(inverse.T, step)
             inverse -= wrong[:, None] * along / np.sum(step * (step + wrong))
@@ -110,6 +109,17 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
         one = step.reshape(-1, sites)
         data = data + (np.concatenate([one, symmetry * one]) if symmetry else one)
     raise NotFoundError(f"no breather at the frequency {frequency:g}: {largest:.1e} is left")
+
+
+def quarter_later(breather: Breather, steps: int, changes: Sequence = ()) -> np.ndarray:
+    """Return where a breather and small changes of its data are after a quarter of a period.
+
+    `changes` are real, (change, component, site); the result is (1 + changes, 4, site), see `flow`.
+    """
+    nothing = np.empty((0, 4, breather.data.shape[1]))
+    evens = real_data(changes) if len(changes) else nothing
+    given = evens, nothing, breather.quarter, breather.finer * steps
+    return flow(breather.constants, real_data(breather.data), *given)
 
 
 INSTANTS = ("both real", "both imaginary")
@@ -121,10 +131,7 @@ def power_at(breather: Breather, instant: str) -> np.ndarray:
     """Return P of each component at one of INSTANTS, (component,)."""
     if instant == "both real":
         return power(breather.data)
-    nothing = np.empty((0, 4, breather.data.shape[1]))
-    state, steps = real_data(breather.data), breather.finer * FINE_STEPS
-    ends = flow(breather.constants, state, nothing, nothing, breather.quarter, steps)
-    return power(ends[0, 1::2])
+    return power(quarter_later(breather, FINE_STEPS)[0, 1::2])
 
 
 CLOSE = 1e-5
@@ -163,11 +170,9 @@ def _matrix(guess: Breather, symmetry: int) -> np.ndarray:
     sites = guess.data.shape[1]
     one = np.eye(sites)
     both = np.eye(2 * sites).reshape(-1, 2, sites)
-    directions = real_data(np.stack([one, symmetry * one], axis=1) if symmetry else both)
-    steps, nothing = guess.finer * STEPS, np.empty((0, 4, sites))
-    state = real_data(guess.data)
-    ends = flow(guess.constants, state, directions, nothing, guess.quarter, steps)
-    return ends[1:, ::2].reshape(len(directions), -1)[:, : len(directions)].T
+    changes = np.stack([one, symmetry * one], axis=1) if symmetry else both
+    ends = quarter_later(guess, STEPS, changes)
+    return ends[1:, ::2].reshape(len(changes), -1)[:, : len(changes)].T
 
 
 LARGEST_RATIOS = 2.0, 1.5

@@ -1,9 +1,8 @@
-"""Which of almost equal data spread over the chain, and how almost equal they have to be.
+"""Share of runs that spread over the chain, by the size of a random change of the data.
 
 A run has spread where its fate says so: no three neighbouring pairs, with their mirror image, hold
 more than half of P at the end, and P is larger than waves could have made it, see `fates`. The
-share of runs that have spread is counted over random relative changes of the data of one size, with
-the exact limits of Clopper and Pearson.
+confidence limits of the share are the exact ones of Clopper and Pearson.
 """
 
 from collections.abc import Sequence

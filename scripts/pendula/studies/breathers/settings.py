@@ -60,7 +60,7 @@ Growth = model(
     tolerance=Tolerance,
 )
 
-# Which of almost equal data spread.
+# Share of runs that spread, by the size of a random change of the data.
 Sensitivity = model(
     case=Name,
     end_time=Positive,
@@ -101,11 +101,10 @@ class Fates(Model):
             return [float(f"{one:.12g}") for one in self.largest * middles]
 
         points = size.phases.points
-        turns = 2.0 * np.pi * np.arange(1, points + 1) / points - np.pi
         return {
             "amplitudes": amplitudes(size.points),
             "turned": amplitudes(size.phases.amplitudes),
-            "phases": [float(one) for one in turns],
+            "phases": (2.0 * np.pi * np.arange(1, points + 1) / points - np.pi).tolist(),
             "ratio": self.phases.ratio,
             "checked": size.checked,
         }
@@ -130,10 +129,8 @@ class Settings(Model):
             if name not in names:
                 yield f"steady.stability.between.{name}", f"is none of {', '.join(names)}"
             elif not low < high:
-                yield (
-                    f"steady.stability.between.{name}",
-                    f"[{low:g}, {high:g}] does not run forward",
-                )
+                says = f"[{low:g}, {high:g}] does not run forward"
+                yield f"steady.stability.between.{name}", says
         if self.periodic.half_widths.least > self.periodic.half_widths.most:
             yield "periodic.half_widths.least", "is larger than `most`"
         for key, given in (("fates", self.fates), ("fates.long", self.fates.long)):
@@ -142,12 +139,11 @@ class Settings(Model):
         absent = list(settings.absent("cases", "sensitivity.case", [self.sensitivity.case]))
         yield from absent
         if not absent:
-            given = self.sensitivity
+            given, fates, phases = self.sensitivity, self.fates, self.fates.phases
             one = [estimate(settings.problem(given.case, end_time=given.end_time))]
-            runs = given.members * len(given.sizes)
-            yield from settings.excess("sensitivity.members", one, runs)
-            phases = self.fates.phases
-            runs = len(self.fates.omegas) * self.fates.points**2
-            yield from settings.excess("fates.points", one, runs)
-            runs = len(self.fates.omegas) * phases.amplitudes * phases.points
-            yield from settings.excess("fates.phases.points", one, runs)
+            for key, runs in (
+                ("sensitivity.members", given.members * len(given.sizes)),
+                ("fates.points", len(fates.omegas) * fates.points**2),
+                ("fates.phases.points", len(fates.omegas) * phases.amplitudes * phases.points),
+            ):
+                yield from settings.excess(key, one, runs)
