@@ -21,7 +21,7 @@ def test_the_pitchforks_of_one_pair_are_those_of_the_closed_form(parent, omega):
 def test_a_daughter_turns_at_the_pitchfork(parent, daughter):
     chain = Chain(epsilon=0.3, gamma=1.0, omega=-5.0, half_width=8)
     state = continued(chain, daughter)
-    turns = turning_point(follow(chain, daughter.drive(1.0), state, 1.0, stop=-5.0))
+    turns = turning_point(follow(chain, daughter, state, stop=-5.0))
     assert pitchfork(chain, parent, turns - 0.05, turns + 0.05) == pytest.approx(turns, abs=1e-5)
 
 

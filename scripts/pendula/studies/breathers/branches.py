@@ -33,14 +33,14 @@ ARC = 0.05
 ARC_STEPS = 400
 
 
-def follow(chain: Chain, s: float, state: np.ndarray, direction: float, stop: float) -> list:
-    """Return the points (Omega, state) of a branch from `state` on, until Omega is below `stop`.
+def follow(chain: Chain, family: Family, state: np.ndarray, stop: float) -> list:
+    """Return the points (Omega, state) of a family from `state` on to larger Omega and back.
 
-    The first step changes Omega to the side of `direction`.
+    The last one is the first whose Omega is below `stop`.
     """
-    points = [(chain.omega, state)]
+    points, s = [(chain.omega, state)], family.drive(chain.gamma)
     slope = operators(chain, s, state, even=True)[1]
-    tangent = np.append(-np.linalg.solve(slope, state.ravel()), 1.0) * direction
+    tangent = np.append(-np.linalg.solve(slope, state.ravel()), 1.0)
     for _ in range(ARC_STEPS):
         tangent /= np.abs(tangent).max()
         omega, state = _step(chain, s, *points[-1], tangent)
@@ -85,19 +85,17 @@ class Followed:
     """The states of a family at one Omega after another, each found from the one before."""
 
     def __init__(self, chain: Chain, family: Family, state: np.ndarray | None = None):
-        """Begin with a `state` of the family on the chain, if one is known."""
         self._chain, self._family, self.state = chain, family, state
 
-    def at(self, omega: float) -> tuple[Chain, np.ndarray]:
-        """Return the chain and the state at this Omega."""
-        chain = self._chain._replace(omega=omega)
-        self.state = near_to(self.state, chain, self._family)
-        return chain, self.state
+    def at(self, omega: float) -> np.ndarray:
+        """Return the state at this Omega."""
+        self.state = near_to(self.state, self._chain._replace(omega=omega), self._family)
+        return self.state
 
     def is_stable(self, omega: float) -> bool:
         """Return whether no perturbation of the state at this Omega grows, even or odd."""
-        chain, state = self.at(omega)
-        return not fastest_growth(chain, self._family, state)
+        chain = self._chain._replace(omega=omega)
+        return not fastest_growth(chain, self._family, self.at(omega))
 
 
 def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
@@ -109,7 +107,7 @@ def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
     shift = -2.0 * parent.drive(chain.gamma) if parent.kind == "equal" else 0.0
 
     def eigenvalue(omega: float) -> float:
-        _, state = followed.at(omega)
+        state = followed.at(omega)
         linear = chain.epsilon * second_difference(state.shape[1])
         matrix = linear + np.diag(omega + shift + 1.5 * state[0] ** 2)
         return float(np.linalg.eigvals(matrix).real.max())

@@ -93,7 +93,7 @@ def _births(epsilon: float, gamma: float, half_width: int) -> dict[str, Variable
         highest = -gamma if parent.kind == "equal" else -3.0 * gamma  # where epsilon = 0
         chain = steady.Chain(epsilon, gamma, highest - gamma, half_width)
         state = steady.continued(chain, daughter)
-        points = branches.follow(chain, daughter.drive(gamma), state, 1.0, stop=highest - gamma)
+        points = branches.follow(chain, daughter, state, stop=highest - gamma)
         top = branches.turning_point(points)
         near = top - BESIDE * gamma, top + BESIDE * gamma
         names.append(daughter.name)

@@ -98,27 +98,16 @@ def fate_of(problem: Problem, final: np.ndarray) -> int:
 
 
 class End(NamedTuple):
-    """What runs have come to; NaN and 0 where a quantity is not known."""
+    """What one run, or each of many, has come to; NaN, 0 or -1 where a quantity is not known."""
 
     fate: int | np.ndarray
     held: float | np.ndarray  # share of P on the three pairs at the centre
-    unreturned: float | np.ndarray  # of what stays: P that does not return, see `nearest`
-    frequency: float | np.ndarray  # lambda, if it is periodic, and so a breather
-    family: int | np.ndarray  # of the breather, from 1 on
-    distances: np.ndarray  # (family,): of the breather from each family of periodic ones
-
-    @property
-    def periodic(self) -> np.ndarray:
-        """1 where a motion that stays is periodic, 0 where not, -1 where this is not known."""
-        known = np.where(np.isnan(self.unreturned), -1, self.unreturned <= 1.0)
-        return known.astype(np.int8)
-
-    @property
-    def distance(self) -> np.ndarray:
-        """The distance of a breather from its own family, NaN where that is not known."""
-        own = np.maximum(np.asarray(self.family) - 1, 0)[..., None]
-        off = np.take_along_axis(np.asarray(self.distances), own, -1)[..., 0]
-        return np.where(np.asarray(self.family) > 0, off, np.nan)
+    distances: np.ndarray  # (family,): of a breather from each family of periodic ones
+    unreturned: float | np.ndarray = np.nan  # of what stays: P that does not return, see `nearest`
+    periodic: int | np.ndarray = -1  # whether what stays is periodic, and so a breather
+    frequency: float | np.ndarray = np.nan  # lambda of the breather
+    family: int | np.ndarray = 0  # whose symmetry the breather has, from 1 on
+    distance: float | np.ndarray = np.nan  # of the breather from this family
 
 
 def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
@@ -127,8 +116,8 @@ def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
     _, _, y, _ = integrate(problem, reduction, lambda run, *given: run(*given, stop))
     final = unpack(y, reduction)
     fate, power = fate_of(problem, final), power_by_distance(final)
-    held, unknown = share_of_three_pairs(power)[0], np.full(len(families.names), np.nan)
-    end = End(fate, held, np.nan, np.nan, 0, unknown)
+    unknown = np.full(len(families.names), np.nan)
+    end = End(fate, share_of_three_pairs(power)[0], unknown)
     if fate != STAYS:
         return end
     # the frequency of one amplitude between neighbours at rest
@@ -137,13 +126,11 @@ def end_of(problem: Problem, families: Families, stop: np.ndarray) -> End:
     found = crossings(Follower(problem, final, stop), guess)
     if found is None:
         return end
-    end = end._replace(unreturned=unreturned(found, float(power[2:].mean() / 2.0)))
-    if end.unreturned > 1.0:
-        return end
-    return end._replace(
-        frequency=found.frequency, family=1 + family_of_shape(found, families.names),
-        distances=distances(found, families),
-    )  # fmt: skip
+    left = unreturned(found, float(power[2:].mean() / 2.0))
+    if left > 1.0:
+        return end._replace(unreturned=left, periodic=0)
+    off, family = distances(found, families), family_of_shape(found, families.names)
+    return End(fate, end.held, off, left, 1, found.frequency, 1 + family, off[family])
 
 
 def ends(problems: Iterable[Problem], families: Families) -> End:
