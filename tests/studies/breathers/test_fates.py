@@ -154,19 +154,6 @@ def test_a_map_of_phases_turns_b_alone():
     assert len({round(float(held), 9) for held in found.held[1]}) == 3
 
 
-@pytest.mark.parametrize(
-    "change",
-    [{"half_width": 60}, {"end_time": 140.0, "output_step": 140.0},
-     {"solver": {"name": "taylor", "rtol": 1e-10, "atol": 1e-10}}],
-)  # fmt: skip
-def test_no_choice_of_a_run_decides_fates_where_motion_is_regular(change):
-    data = [(-4.0, 1.0, 0.5), (-4.0, 6.5, 1.0), (8.0, 5.0, 1.0), (8.0, 2.0, 1.0), (0.0, 3.0, 1.0)]
-    runs = [pair_problem(*one, 70.0) for one in data]
-    changed = ends([run.changed(**change) for run in runs], NONE).fate
-    assert ends(runs, NONE).fate.tolist() == changed.tolist()
-    assert sorted(set(changed)) == [DISPERSES, STAYS, SPREADS]
-
-
 # --- Shares of an area, and maps beside a finer one -----------------------------------------------
 
 

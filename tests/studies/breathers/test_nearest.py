@@ -5,7 +5,6 @@ import pytest
 import xarray as xr
 from on_breathers import BELOW, members
 from pendula.problem import Constants
-from pendula.simulation.simulate import simulate
 from pendula.studies.breathers.fates import STAYS, ends, on_one_pair
 from pendula.studies.breathers.nearest import (
     HALF_PERIODS,
@@ -103,36 +102,6 @@ def test_a_state_that_turns_the_other_way_or_stays_has_no_frequency():
         assert crossings_of(problem_of(state, -20.0).changed(epsilon=1e-9), 5.0) is None
 
 
-def test_ends_have_a_frequency_and_a_family_where_they_stay(families):
-    state = breather("A only", 12.0)
-    dispersed = np.zeros_like(state)
-    dispersed[0, state.shape[1] // 2] = 0.5
-    found = ends([problem_of(state), problem_of(dispersed, end_time=40.0)], families)
-    assert found.fate[0] == STAYS != found.fate[1]
-    assert found.frequency[0] == pytest.approx(12.0, rel=1e-3)
-    assert found.family.tolist() == [1, 0]
-    assert found.periodic.tolist() == [1, -1]
-    assert found.distance[0] < 5e-3
-    assert np.isnan(found.frequency[1]) and np.isnan(found.distance[1])
-
-
-def rates_of(a, b):
-    """Return how fast the phases of A and B fall at the end of a run at Omega = 8."""
-    problem = problem_of(np.pad([[a], [b]], ((0, 0), (30, 30))).astype(complex), 8.0, 40.0)
-    follower, pairs = Follower(problem, simulate(problem).final, np.zeros(1, np.bool_)), []
-    for _ in range(600):
-        follower.integrate_for(0.01)
-        pairs.append(follower.pair())
-    phases = np.unwrap(np.angle(pairs), axis=0)
-    return (phases[0] - phases[-1]) / (599 * 0.01)
-
-
-def test_b_follows_near_the_family_and_has_a_frequency_of_its_own_far_from_it():
-    near, far = rates_of(7.0, 0.2), rates_of(6.0, 4.0)
-    assert near[1] == pytest.approx(-near[0], rel=0.01)  # the image of A, by the drive
-    assert 0.3 * far[0] < far[1] < 0.8 * far[0]
-
-
 def test_what_stays_is_periodic_only_if_it_returns(periodic, families):
     """At Omega = 8 B follows A if it starts small, and has a frequency of its own if it is large.
 
@@ -148,14 +117,17 @@ def test_what_stays_is_periodic_only_if_it_returns(periodic, families):
     assert np.isnan([irregular.distance[0], irregular.frequency[0]]).all()
 
 
-def test_a_breather_is_compared_with_the_family_of_its_symmetry_alone(periodic):
+def test_an_end_is_compared_with_the_family_of_its_symmetry_alone(periodic):
     """At a frequency where only A = B is known, A = -B is at an unknown distance."""
     known = periodic["amplitude"].where(periodic["family"] == "A = B")
     families = Families.of(periodic.assign(amplitude=known), -4.0)
-    found = ends([problem_of(breather(family, 12.0)) for family in FAMILIES], families)
-    assert found.family.tolist() == [1, 2, 3]
-    assert found.periodic.tolist() == [1, 1, 1]
-    assert np.isfinite(found.distance).tolist() == [family == "A = B" for family in FAMILIES]
+    dispersed = problem_of(np.pad([[0.5], [0.0]], ((0, 0), (12, 12))), end_time=40.0)
+    found = ends([*(problem_of(breather(one, 12.0)) for one in FAMILIES), dispersed], families)
+    assert (found.fate == STAYS).tolist() == [True, True, True, False]
+    assert found.frequency == pytest.approx([12.0, 12.0, 12.0, np.nan], rel=1e-3, nan_ok=True)
+    assert found.family.tolist() == [1, 2, 3, 0]
+    assert found.periodic.tolist() == [1, 1, 1, -1]
+    assert np.isfinite(found.distance).tolist() == [False, False, True, False]
 
 
 def test_waves_may_move_the_pair_and_a_second_frequency_may_not():

@@ -168,11 +168,8 @@ def opposite_signatures_collide(periodic) -> Finding:
         raise UndecidableError("no family becomes unstable between the frequencies")
     product = periodic["collision_signature"].astype(float).prod("colliding").where(met)
     quartets = met & (periodic["collision_multiplier"].sel(part="im") > 0.0)
-    measured = {
-        "collisions": met.sum(),
-        "quartets": quartets.sum(),
-        "largest_product": product.max(),
-    }
+    measured = {"collisions": met.sum(), "quartets": quartets.sum()}
+    measured["largest_product"] = product.max()
     criterion = Below(0.0, "largest_product", says="product of the two signatures")
     return judge(measured, criterion)
 
@@ -335,8 +332,10 @@ def one_that_disperses(fates):
 def detuning_decides(fates) -> Finding:
     """Count fates on both maps; A = B conserves P, has no area, and is left out."""
     spreads = fates["fate"].attrs["flag_meanings"].split().index("spreads")
-    unequal = (fates["fate"] == spreads).where(fates["a0"] != fates["b0"])
-    turned = (fates["turned_fate"] == spreads).astype(float)
+    turned, all_of_them = (
+        (fates[name] == spreads).astype(float) for name in ("turned_fate", "fate")
+    )
+    unequal = all_of_them.where(fates["a0"] != fates["b0"])
     measured = {
         "points": at_omega(unequal, OF_FIG_2).count() + at_omega(turned, OF_FIG_2).count(),
         "spread_at_8": at_omega(unequal, OF_FIG_2).mean(),

@@ -1,4 +1,4 @@
-"""How a localised motion feeds on the drive: the law of weak drives, and where it stops.
+"""How the drive feeds a localised motion: the law of weak drives, and where it ends.
 
 Let A_n = a_n exp(-i lambda tau), B = 0 be a breather of the chain without drive, real and even in
 n. To first order in gamma the drive acts on B by gamma conj A, at the frequency -lambda. B_n = b_n
@@ -38,8 +38,8 @@ from .periodic import problem_from, shoot, single_site, unfolded
 from .steady import power, second_difference
 
 DECIMALS = 9
-"""Of a breather without drive. LAPACK finds it, whose last bits differ between processors; what
-starts from the rounded one has the same bits on all."""
+"""Of a breather without drive. LAPACK's last bits differ between processors; runs that start from
+rounded data have the same bits on all."""
 
 
 class FreeBreather(NamedTuple):
@@ -53,7 +53,7 @@ class FreeBreather(NamedTuple):
 def free_breathers(constants: Constants, frequencies, half_width: int) -> list[FreeBreather]:
     """Return the breathers of A alone for gamma = 0 at rising frequencies.
 
-    A and B do not feel each other there, so that A is that of A = B, which is found sooner.
+    A and B are uncoupled there, so that A is that of A = B, which is found sooner.
     """
     free = Constants(epsilon=constants.epsilon, gamma=0.0, omega=constants.omega)
     falling = sorted(frequencies, reverse=True)

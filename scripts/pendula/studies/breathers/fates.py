@@ -75,7 +75,7 @@ def share_of_three_pairs(power: np.ndarray) -> np.ndarray:
 def place_of(power: np.ndarray) -> int | None:
     """Return how far from the centre three pairs hold more than half of P; None if none do.
 
-    What is one site away from the centre includes it, and is no place of its own.
+    Three pairs one site away from the centre include it, and are not counted.
     """
     held = share_of_three_pairs(power)
     if held[0] > MAJORITY:

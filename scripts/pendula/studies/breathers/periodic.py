@@ -1,4 +1,4 @@
-"""Periodic breathers: localised states that swing at a frequency lambda, and their stability.
+"""Periodic breathers: localised states that oscillate at a frequency lambda.
 
     A_n(tau) = sum over odd m of a_{n,m} exp(-i m lambda tau) with real coefficients,
 
@@ -10,7 +10,7 @@ has the period T and both symmetries. So a breather is found by shooting over a 
 period: Re A(T / 4) = Re B(T / 4) = 0 for the real unknowns A(0), B(0), by Newton's method, which
 needs the perturbations of these data alone.
 
-Their stability stands in `multipliers`.
+Module `multipliers` computes their stability.
 
 Existence. On an infinite chain the tails decay if no odd multiple of lambda meets the frequencies
 of linear waves, equation (15): with kappa between Omega - 4 epsilon and Omega, +-kappa for A + B
@@ -40,7 +40,7 @@ TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
 ITERATIONS = 30
 SLOWEST = 0.3
-"""An error that falls by less in one iteration asks for another matrix."""
+"""An error that falls by less in one iteration requires a new matrix."""
 
 
 class Breather(NamedTuple):
@@ -85,9 +85,9 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
     """Return the breather that Newton's method finds from real data, (component, site).
 
     A start with A = B or A = -B leads to such a breather to the last bit, also where the matrix
-    cannot tell the step that breaks the symmetry from zero. To find the matrix takes as long as
-    tens of misses, so that it is kept while the error falls, and learns from each step (C. G.
-    Broyden, Math. Comp. 19 (1965) 577).
+    does not determine the step that breaks the symmetry. The matrix costs as much as tens of
+    misses, so that it is kept while the error falls, and updated after each step (C. G. Broyden,
+    Math. Comp. 19 (1965) 577).
     """
     data, sites, symmetry = start, start.shape[1], exchange_sign(start)
     largest, inverse, step = np.inf, None, None
@@ -102,7 +102,7 @@ def shoot(constants: Constants, frequency: float, start: np.ndarray) -> Breather
         miss = miss[0, ::2].ravel()[: sites * (1 if symmetry else 2)]
         if inverse is None or largest > SLOWEST * last:
             inverse = np.linalg.inv(_matrix(guess, symmetry))
-        else:  # so that it explains what the last step has left
+        else:  # explain what the last step has left
             wrong, along = times(inverse, miss), times(inverse.T, step)
             inverse -= wrong[:, None] * along / np.sum(step * (step + wrong))
         step = -times(inverse, miss)

@@ -75,9 +75,7 @@ def periodic_contents(
                 _add_breather(table, at, breather, spectra)
                 # within the waves, those of a finite chain collide
                 if breather.frequency > waves.highest(constants):
-                    _add_measured(table, at, breather, spectra)
-                    if above is not None:
-                        _add_collisions(table, at, (breather, spectra), above)
+                    _add_instability(table, at, (breather, spectra), above)
                 found.append(breather)
                 above = breather, spectra
             for k, instant in enumerate(periodic.INSTANTS if found else ()):
@@ -151,27 +149,28 @@ def _add_breather(table: dict, at: tuple, breather: periodic.Breather, spectra: 
             table["mode_signature"][m, p][at] = mode.signature
 
 
-def _add_measured(table: dict, at: tuple, breather: periodic.Breather, spectra: Spectra) -> None:
-    """Write how fast the fastest perturbation of each parity grows in the flow, if one does."""
-    for p, (parity, (traces, _)) in enumerate(spectra.items()):
+def _add_instability(table: dict, at: tuple, one: tuple, above: tuple | None) -> None:
+    """Write how fast the fastest perturbations grow in the flow, and what collides below `above`.
+
+    Both are a breather and its spectra; `above` is the one at the next higher frequency.
+    """
+    for p, parity in enumerate(multipliers.PARITIES):
+        breather, (traces, _) = one[0], one[1][parity]
         rates = multipliers.growths(breather.frequency, traces)
         if rates.max() > 0.0:
-            trace = complex(traces[rates.argmax()])
-            found = perturbed.measured_growth(breather, trace, parity)
+            fastest = complex(traces[rates.argmax()])
+            found = perturbed.measured_growth(breather, fastest, parity)
             table["measured_growth"][p][at] = found
-
-
-def _add_collisions(table: dict, at: tuple, one: tuple, above: tuple) -> None:
-    """Write what collides between a breather and the one above, each with its spectra."""
-    for p, parity in enumerate(multipliers.PARITIES):
-        ends = [(breather, *spectra[parity]) for breather, spectra in (one, above)]
-        found = multipliers.collision(*ends, parity)
-        if found is not None:
-            table["collision_frequency"][p][at] = found.breather.frequency
-            table["collision_power"][p][at] = power(found.breather.data).sum()
-            sine = np.sqrt(max(0.0, 1.0 - found.trace * found.trace))
-            table["collision_multiplier"][:, p][at] = found.trace, sine
-            table["collision_signature"][:, p][at] = found.signatures
+        if above is None:
+            continue
+        ends = [(member, *spectra[parity]) for member, spectra in (one, above)]
+        met = multipliers.collision(*ends, parity)
+        if met is not None:
+            table["collision_frequency"][p][at] = met.breather.frequency
+            table["collision_power"][p][at] = power(met.breather.data).sum()
+            sine = np.sqrt(max(0.0, 1.0 - met.trace * met.trace))
+            table["collision_multiplier"][:, p][at] = met.trace, sine
+            table["collision_signature"][:, p][at] = met.signatures
 
 
 def perturbed_contents(

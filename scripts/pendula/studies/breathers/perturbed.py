@@ -1,11 +1,11 @@
-"""What perturbed breathers do in the nonlinear flow: they grow as Floquet says, or stay for long.
+"""Perturbed breathers in the nonlinear flow: how fast they leave, or that they stay for long.
 
-The flow is that of the solvers, and knows nothing of the perturbations in `multipliers`. Two runs,
-one from a breather and one from a slightly changed one, part by d_k after k periods T. Beside its
-own inverse a growing multiplier mu, or a pair of conjugate ones, is all that is left in d_k after a
-while, so that d_{k+1} = s d_k - p d_{k-1} with the sum s and the product p of two multipliers (the
-method of Prony). Stable breathers are changed by more, and followed for thousands of periods: as
-the phase drifts in time, P on the central pair is watched, which swings within each period.
+The flow is that of the solvers, and independent of the perturbations in `multipliers`. Two runs,
+one from a breather and one from a slightly changed one, differ by d_k after k periods T. After a
+while d_k has only a growing multiplier mu and its inverse, or two conjugate ones, so that
+d_{k+1} = s d_k - p d_{k-1} with the sum s and the product p of two multipliers (the method of
+Prony). Stable breathers are changed by more, and integrated for thousands of periods. Since the
+phase drifts, the range of P on the central pair is compared, which oscillates within each period.
 """
 
 import numpy as np

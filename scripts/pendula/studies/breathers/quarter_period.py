@@ -1,7 +1,7 @@
 """The flow of (4) and of its small perturbations over a quarter of a period, by fixed steps.
 
 The steps are those of the method of order eight in `integrators.dop853`. A fixed number of them
-makes the map from data to end a smooth function, as Newton's method wants it: a controlled step
+makes the map from initial to final state smooth, as Newton's method requires: a controlled step
 would change with the data.
 """
 
@@ -28,8 +28,9 @@ STAGES, SLOPES = 13, 16
 def parity_rates(chain, bundle, even, slopes):
     """Write the rates of a solution, of `even` even perturbations and of odd ones behind them.
 
-    All live on the sites 0..M. The neighbour of site 0 on the other half is the mirror image of
-    site 1: with its own sign in an even state, with the other in an odd one, which stays zero at 0.
+    All are given on the sites 0..M. The neighbour of site 0 on the other half is the mirror image
+    of site 1: with its own sign in an even state, with the opposite one in an odd state, which
+    stays zero at site 0.
     """
     y = bundle[:ROWS]
     rates(chain, y, slopes[:ROWS])

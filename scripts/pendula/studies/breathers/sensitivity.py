@@ -28,7 +28,7 @@ def has_spread(problem: Problem, run: Trajectory) -> bool:
 
 def shares(problem: Problem, sizes: Sequence[float], members: int, seed: int) -> Limits:
     """Return the share that spreads for each relative size of the change, (size,)."""
-    # outputs take a third of a run, and nothing reads those before the end
+    # outputs take a third of a run, and only the last one is used
     at_the_end_alone = problem.changed(output_step=problem.end_time)
     found = []
     for number, size in enumerate(sizes):

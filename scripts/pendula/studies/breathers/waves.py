@@ -1,4 +1,4 @@
-"""Frequencies of linear waves, equation (15), and how far from them a motion swings."""
+"""Frequencies of linear waves, equation (15), and the distance of other frequencies from them."""
 
 import numpy as np
 
