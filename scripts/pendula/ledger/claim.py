@@ -123,8 +123,8 @@ def claim(
     """
 
     def declare(function: Callable) -> Callable:
-        name, fed = function.__name__, tuple(_by_name(control, needs) for control in controls)
-        function.claim = Claim(name, place, says, needs, function, fed, on, reading)
+        fed = tuple(_by_name(control, needs) for control in controls)
+        function.claim = Claim(function.__name__, place, says, needs, function, fed, on, reading)
         return function
 
     return declare
@@ -132,23 +132,20 @@ def claim(
 
 def _by_name(control: Control, needs: tuple[str, ...]) -> Control:
     """Return the control with what it feeds by names that all have their folder."""
-    alone = not isinstance(control.fed, Mapping)
-    if alone and len(needs) > 1:
-        raise ValueError(f"control {control.says!r}: say which of {', '.join(needs)} it feeds")
-    fed = {}
-    for name, wrong in ({needs[0]: control.fed} if alone else control.fed).items():
+    fed, found = control.fed, {}
+    if not isinstance(fed, Mapping):
+        if len(needs) > 1:
+            raise ValueError(f"control {control.says!r}: say which of {', '.join(needs)} it feeds")
+        fed = {needs[0]: fed}
+    for name, wrong in fed.items():
         right = [need for need in needs if name in (need, need.partition("/")[2])]
         if len(right) != 1:
             raise ValueError(f"control {control.says!r}: {name} is not one of {', '.join(needs)}")
-        folder = right[0].partition("/")[0]
-        if isinstance(wrong, tuple):
-            wrong = (_with(folder, wrong[0]), wrong[1])
-        fed[right[0]] = _with(folder, wrong) if isinstance(wrong, str) else wrong
-    return control._replace(fed=fed)
-
-
-def _with(folder: str, name: str) -> str:
-    return name if "/" in name else f"{folder}/{name}"
+        other, *change = wrong if isinstance(wrong, tuple) else (wrong,)
+        if isinstance(other, str) and "/" not in other:
+            other = f"{right[0].partition('/')[0]}/{other}"
+        found[right[0]] = (other, *change) if change else other
+    return control._replace(fed=found)
 
 
 def _in(folder: str) -> Callable[..., tuple[str, ...]]:
@@ -158,8 +155,6 @@ def _in(folder: str) -> Callable[..., tuple[str, ...]]:
 
 checks, runs = _in("checks"), _in("trajectories")
 sweeps, unbounded = _in("sweeps"), _in("unbounded")
-
-
 SMALL = runs("fig2_small", "fig3_small", "fig4_small")
 LARGE = runs("fig2_large", "fig3_large", "fig4_large")
 
@@ -193,6 +188,9 @@ def number(check, name: str, **selection) -> float:
     return float(check[name].sel(selection).values)
 
 
+# --- All claims, and their verdicts ---------------------------------------------------------------
+
+
 @cache
 def all_claims(*modules: str) -> tuple[Claim, ...]:
     """Return the claims of all studies, or those in `modules`, in the order of the paper.
@@ -207,9 +205,18 @@ def all_claims(*modules: str) -> tuple[Claim, ...]:
     )
 
 
+def _in_order(modules: tuple[str, ...]) -> list[ModuleType]:
+    found = [module for start in modules or ("claims",) for module in studies.all_modules(start)]
+    return sorted(found, key=lambda module: module.SECTION)
+
+
 def sections(*modules: str) -> dict[str, int]:
     """Return the section of the paper with which each module begins, by its name in the rows."""
     return {_home(module.__name__): module.SECTION for module in _in_order(modules)}
+
+
+def _home(module: str) -> str:
+    return module.removeprefix(f"{studies.__name__}.")
 
 
 def in_order(rows: Iterable[dict], sections: Mapping[str, int]) -> list[dict]:
@@ -221,19 +228,9 @@ def in_order(rows: Iterable[dict], sections: Mapping[str, int]) -> list[dict]:
 
     def place(row: dict) -> tuple:
         module = row["function"].rpartition(".")[0]
-        study = module.partition(".")[0]
-        return sections[module], studies.STUDIES.index(study), module
+        return sections[module], studies.STUDIES.index(module.partition(".")[0]), module
 
     return sorted(rows, key=place)
-
-
-def _in_order(modules: tuple[str, ...]) -> list[ModuleType]:
-    found = [module for start in modules or ("claims",) for module in studies.all_modules(start)]
-    return sorted(found, key=lambda module: module.SECTION)
-
-
-def _home(module: str) -> str:
-    return module.removeprefix(f"{studies.__name__}.")
 
 
 def needed(*modules: str) -> list[str]:
@@ -265,24 +262,24 @@ def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
     absent = [name for name in (*claim.needs, *control.names) if name not in sources]
     if absent:
         return undecided({}, f"{', '.join(absent)} was not made")
+
+    def made(name: str, wrong: Wrong):
+        if isinstance(wrong, str):
+            return sources[wrong]
+        if isinstance(wrong, tuple):
+            other, change = wrong
+            return change(sources[name], sources[other])
+        return wrong(sources[name])
+
     try:
-        fed = {name: _wrong(wrong, sources[name], sources) for name, wrong in control.fed.items()}
+        fed = {name: made(name, wrong) for name, wrong in control.fed.items()}
     except UndecidableError as reason:
         return undecided({}, str(reason))
     return decide(claim, {**sources, **fed})
 
 
-def _wrong(wrong: Wrong, right, sources: Mapping):
-    if isinstance(wrong, str):
-        return sources[wrong]
-    if isinstance(wrong, tuple):
-        other, change = wrong
-        return change(right, sources[other])
-    return wrong(right)
-
-
 def passes(control: Control, finding: Finding) -> bool | None:
-    """Return whether a finding is what the control wants, None where it was not asked.
+    """Return whether a finding is what the control must give, None where it does not apply.
 
     A refusal must come from numbers: what is missing or no number refuses everything.
     """
@@ -300,6 +297,15 @@ def passes(control: Control, finding: Finding) -> bool | None:
 def confirmed(finding: Finding) -> bool:
     """Return whether a claim is confirmed, with a caveat or without."""
     return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
+
+
+def apart(differs: Differences, claim: Claim, control: Control | None = None) -> str:
+    """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
+    own = reason(differs, claim.needs, claim.on)
+    if own or control is None:
+        return own
+    of_same = reason(differs, claim.needs, control.on) if control.on else ""
+    return of_same or reason(differs, control.names, control.on)
 
 
 def evaluate(
@@ -340,7 +346,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
         "reading": claim.reading,
         "decided_by": list(claim.needs),
         "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
-        "measured": {name: plain(value) for name, value in finding.measured.items()},
+        "measured": _plain(finding),
         "criterion": str(finding.criterion or ""),
         "verdict": str(finding.verdict),
         "because": finding.because,
@@ -349,37 +355,18 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
             _cutoff_row(flip.cutoff) | {"moved_to": plain(flip.value), "verdict": flip.verdict}
             for flip in moved
         ],
-        "controls": [_control_row(control, fed) for control, fed in controls],
+        "controls": [
+            {
+                "fed": control.says,
+                "must": control.must,
+                "verdict": str(fed.verdict),
+                "because": fed.because,
+                "measured": _plain(fed),
+                "passes": passes(control, fed),
+            }
+            for control, fed in controls
+        ],
     }
-
-
-def apart(differs: Differences, claim: Claim, control: Control | None = None) -> str:
-    """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
-    own = reason(differs, claim.needs, claim.on)
-    if own or control is None:
-        return own
-    of_same = reason(differs, claim.needs, control.on) if control.on else ""
-    return of_same or reason(differs, control.names, control.on)
-
-
-def controls_of(rows: list[dict]) -> list[dict]:
-    """Return what every claim's function said of its controls, from the rows of the ledger."""
-    return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
-
-
-def cutoff_lines(rows: list[dict]) -> list[tuple]:
-    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
-    decides, rest = users(rows, "cutoffs"), users(rows, "rests_on")
-    return [(*cutoff, decides[cutoff], rest.get(cutoff, "")) for cutoff in decides]
-
-
-def users(rows: list[dict], key: str) -> dict[tuple, str]:
-    """Return the names of the claims that have a cut-off (value, origin) under `key`."""
-    names: dict[tuple, dict] = {}
-    for row in rows:
-        for cutoff in row[key]:
-            names.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
-    return {cutoff: ", ".join(found) for cutoff, found in names.items()}
 
 
 def _severe(
@@ -403,17 +390,26 @@ def _cutoff_row(cutoff: Cutoff) -> dict:
     return {"value": plain(cutoff.number), "from": cutoff.origin}
 
 
-def _control_row(control: Control, fed: Finding) -> dict:
-    return {
-        "fed": control.says,
-        "must": control.must,
-        "verdict": str(fed.verdict),
-        "because": fed.because,
-        "measured": {name: plain(value) for name, value in fed.measured.items()},
-        "passes": passes(control, fed),
-    }
+def _plain(finding: Finding) -> dict:
+    return {name: plain(value) for name, value in finding.measured.items()}
 
 
 def plain(value: float) -> float | str:
     """Return a number as JSON can hold it: six digits, the infinite as a word."""
     return float(f"{value:.6g}") if math.isfinite(value) else "infinite" if value > 0 else "none"
+
+
+def controls_of(rows: list[dict]) -> list[dict]:
+    """Return what every claim's function said of its controls, from the rows of the ledger."""
+    return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
+
+
+def cutoff_lines(rows: list[dict]) -> list[tuple]:
+    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
+    decides: dict[tuple, dict] = {}
+    rest: dict[tuple, dict] = {}
+    for key, users in (("cutoffs", decides), ("rests_on", rest)):
+        for row in rows:
+            for cutoff in row[key]:
+                users.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
+    return [(*one, ", ".join(decides[one]), ", ".join(rest.get(one, ()))) for one in decides]

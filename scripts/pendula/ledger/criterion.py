@@ -35,59 +35,52 @@ class Criterion(ABC):
 
 
 class Limit(Criterion):
-    """A limit on measured numbers; all of `names` must keep it.
+    """A limit to which measured numbers have the relation `sign`; all of `names` must keep it.
 
     The limit is a number or a `Cutoff`. `says` are the words for the numbers in print, if their
     names alone do not say what they are.
     """
 
+    sign: str
+
     def __init__(self, limit: SupportsFloat, *names: str, says: str = ""):
         self.limit, self.names, self.says = float(limit), names, says
 
-    @abstractmethod
     def keeps(self, value: float) -> bool:
         """Return whether one number keeps the limit."""
+        return RELATIONS[self.sign](value, self.limit)
 
     def failing(self, measured: Measured) -> list[str]:
         return [name for name in self.names if not self.keeps(measured[name])]
 
     @property
     def words(self) -> str:
-        """What is held to the limit."""
+        """What must keep the limit."""
         return self.says or ", ".join(map(in_words, self.names))
-
-
-class Comparison(Limit):
-    """Each number stands in a relation to the limit, which `sign` writes."""
-
-    sign: str
-
-    def keeps(self, value: float) -> bool:
-        return RELATIONS[self.sign](value, self.limit)
 
     def __str__(self) -> str:
         return f"{self.words} {self.sign} {plain(self.limit)}"
 
 
-class Below(Comparison):
+class Below(Limit):
     """Each number is less than the limit."""
 
     sign = "<"
 
 
-class AtMost(Comparison):
+class AtMost(Limit):
     """No number is above the limit."""
 
     sign = "<="
 
 
-class Above(Comparison):
+class Above(Limit):
     """Each number is greater than the limit."""
 
     sign = ">"
 
 
-class AtLeast(Comparison):
+class AtLeast(Limit):
     """No number is below the limit."""
 
     sign = ">="
@@ -203,9 +196,9 @@ class Finding(NamedTuple):
 def judge(measured: Measured, criterion: Criterion, caveat: str = "", fails: str = "") -> Finding:
     """Return a finding: not reproduced, because it `fails`, unless the criterion holds.
 
-    Without words of its own a finding that fails tells the numbers that do not keep the criterion.
-    If it holds and `caveat` is not empty, the claim is confirmed with that caveat. Where all that
-    fails is unknown, nothing is decided.
+    Without these words the numbers that do not keep the criterion are the reason. If it holds and
+    `caveat` is not empty, the claim is confirmed with that caveat. Where all that fails is unknown,
+    nothing is decided.
     """
     numbers = {name: float(value) for name, value in measured.items()}
     if off := dict.fromkeys(criterion.failing(numbers)):

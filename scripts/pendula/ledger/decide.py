@@ -25,19 +25,23 @@ def decide_claims(
 ) -> None:
     """Write the rows of the ledger on the claims in `modules`, and a table to read.
 
-    Beside the rows stands what the functions of the claims said of distorted datasets.
-
-    `makers` has the rule that makes each of `datasets`, in their order, by its name in the claims.
+    The file also holds what the functions of the claims found of distorted datasets. `makers` has
+    the rule that makes each of `datasets`, in their order, by its name in the claims.
     `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
     """
     absent = set(needed(*modules)) - set(makers)
     if absent:
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(makers, datasets, strict=True)}
-    rows = [row | {"rules": rules_of(row, makers)} for row in evaluate(sources, differs, modules)]
-    shown = [name for name in sources if name.startswith(CHECKS)]
-    shown = [name for name in shown if not name.startswith(OF_WRONG_STATEMENTS)]
-    checks = {name: sources[name].to_dict() for name in shown}
+    rows = [
+        row | {"rules": list(dict.fromkeys(makers[name] for name in row["decided_by"]))}
+        for row in evaluate(sources, differs, modules)
+    ]
+    checks = {
+        name: data.to_dict()
+        for name, data in sources.items()
+        if name.startswith(CHECKS) and not name.startswith(OF_WRONG_STATEMENTS)
+    }
     lines = check_lines(checks)
     left_out = {row["name"] for row in rows if row["verdict"] == Verdict.NOT_APPLICABLE}
     asked = [claim for claim in all_claims(*modules) if claim.name not in left_out]
@@ -54,11 +58,6 @@ def decide_claims(
     for name, check in checks.items():
         if broken(check):
             print(describe(name.removeprefix(CHECKS), check))
-
-
-def rules_of(row: dict, makers: dict[str, str]) -> list[str]:
-    """Return the rules whose datasets decide a row."""
-    return list(dict.fromkeys(makers[name] for name in row["decided_by"]))
 
 
 def join_claims(parts: list[str], names: list[str], ledger: str, controls: str, table: str) -> None:

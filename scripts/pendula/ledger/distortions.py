@@ -1,10 +1,9 @@
 """General distortions of datasets, fed to every claim to find what its function does not look at.
 
-The controls of a claim are wrong cases that somebody thought of. These are thought of by nobody:
-every dataset of every claim is distorted in each of these ways, and what the claim's function says
-of it goes into results/controls.json. A function that still confirms its claim
-does not look at what the sentence is on, unless a reason stands in BLIND. A reason that its claim
-does not need is out of date. A test holds both.
+The controls of a claim are wrong cases for that claim alone. Here every dataset of every claim is
+distorted in each of these ways, and what the claim's function finds goes into
+results/controls.json. A function that still confirms its claim does not look at what the sentence
+is on, unless BLIND gives a reason. Tests require a reason for each, and no other reasons.
 """
 
 import math
@@ -202,12 +201,6 @@ DISTORTIONS = (
 )
 
 
-def reason_of(kind: str, claim: str) -> str:
-    """Return why a kind of distortion may leave a claim confirmed; empty where it may not."""
-    reasons = BLIND.get(kind, {}).items()
-    return "; ".join(why for why, claims in reasons if claim in claims.split())
-
-
 class Said(NamedTuple):
     """By which distorted datasets the function of a claim came to which finding."""
 
@@ -240,14 +233,14 @@ def distorted(claims: Iterable[Claim], sources: Mapping) -> dict[tuple[str, Dist
             said = Said([], [], [], [])
             for name in claim.needs:
                 if wrong[name] is not None:
-                    found = _asked(claim, {**sources, name: wrong[name]})
+                    found = _decided(claim, {**sources, name: wrong[name]})
                     _place(found, right[claim.name], distortion, said).append(name)
             if any(said):
                 told[claim.name, distortion] = said
     return told
 
 
-def _asked(claim: Claim, sources: Mapping) -> Finding:
+def _decided(claim: Claim, sources: Mapping) -> Finding:
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         try:
@@ -270,7 +263,8 @@ def in_words(told: Mapping[tuple[str, Distortion], Said]) -> list[dict]:
     """Return a row for each claim, as results/controls.json has it."""
     by_claim: dict[str, dict] = {}
     for (claim, distortion), said in told.items():
-        why = reason_of(distortion.kind, claim) if said.blind else ""
+        reasons = BLIND.get(distortion.kind, {}).items() if said.blind else ()
+        why = "; ".join(reason for reason, claims in reasons if claim in claims.split())
         row = by_claim.setdefault(claim, {"claim": claim, "fed": "general distortions"})
         row[distortion.says] = f"{said}: {why}" if why else str(said)
     return list(by_claim.values())
