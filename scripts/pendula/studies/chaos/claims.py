@@ -387,14 +387,15 @@ def transition_amplitude(lifetimes) -> Finding:
         for a0, life in zip(lifetimes["start_amplitude"].values, lives, strict=True)
     }
     lows = {f"low_{a0}": share.low for a0, share in shares.items()}
-    missed = [a0 for a0, share in shares.items() if share.low <= ALL.value]
+    missed = ", ".join(
+        f"{share.value:.0%} from A_0 = {a0}"
+        for a0, share in shares.items()
+        if share.low <= ALL.value
+    )
+    fails = f"by tau = {END:g} not all runs have changed over, but {missed}"
     medians = lifetimes["median"].values[np.isfinite(lives).all(axis=1)]
-    times = {"fastest": medians.min(initial=np.inf), "slowest": medians.max(initial=0.0)}
-    caveat = fails = ""
-    if missed:
-        told = ", ".join(f"{shares[a0].value:.0%} from A_0 = {a0}" for a0 in missed)
-        fails = f"by tau = {END:g} not all runs have changed over, but {told}"
-    elif times["slowest"] > times["fastest"]:
-        caveat = f"it takes from tau = {times['fastest']:g} to {times['slowest']:g}"
+    fastest, slowest = medians.min(initial=np.inf), medians.max(initial=0.0)
+    times = {"fastest": fastest, "slowest": slowest}
+    caveat = f"it takes from tau = {fastest:g} to {slowest:g}" if slowest > fastest else ""
     says = f"lower limits of the share of runs that have changed over by tau = {END:g}"
     return judge(lows | times, Above(ALL, *lows, says=says), caveat, fails)

@@ -70,9 +70,8 @@ def maxima(ensembles, sweep: str, norm: str, window: str) -> Means:
     kept = ensembles.sel(chosen).dropna("half_width", subset=[f"{norm}_mean"])
     if kept.sizes["half_width"] < FEWEST:
         raise UndecidableError(text)
-    members = int(kept["swept_members"])
     values = (kept[name].values for name in ("half_width", f"{norm}_mean", f"{norm}_error"))
-    return Means(*values, members)
+    return Means(*values, int(kept["swept_members"]))
 
 
 def both(even, uneven, sweep: str, norm: str, window: str) -> dict[str, Means]:
@@ -84,11 +83,8 @@ def both(even, uneven, sweep: str, norm: str, window: str) -> dict[str, Means]:
 def over(means: Means, below: slice, above: slice) -> Limits:
     """Return the mean over some half-widths over that of others, `above` / `below`."""
     value = [means.mean[part].mean() for part in (below, above)]
-    counts = [len(means.mean[part]) for part in (below, above)]
-    error = [
-        np.sqrt((means.error[part] ** 2).sum()) / count
-        for part, count in zip((below, above), counts, strict=True)
-    ]
+    errors = [means.error[part] for part in (below, above)]
+    error = [np.sqrt((one**2).sum()) / len(one) for one in errors]
     return ratio_limits(value, error, means.members, LEVEL.value)
 
 
@@ -123,14 +119,13 @@ def with_sweep(name: str):
     return change
 
 
+STABLE = {"fig5_left": "the small data at Omega = -4", "fig6_left": "the large data at Omega = 8"}
+
+
 def stable(right: str, *wrongs: str) -> tuple[Control, ...]:
     """Return controls: single sweeps of stable cases, which have nothing to scatter."""
-    words = {
-        "fig5_left": "the small data at Omega = -4",
-        "fig6_left": "the large data at Omega = 8",
-    }
     return tuple(
-        Control(words[name], {NEEDS[0]: (f"sweeps/{name}", with_sweep(right))}) for name in wrongs
+        Control(STABLE[name], {NEEDS[0]: (f"sweeps/{name}", with_sweep(right))}) for name in wrongs
     )
 
 
@@ -248,18 +243,16 @@ def nearest(even, uneven, sensitivity) -> AlmostEqual:
 )
 def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)
-    measured, lows, back = {}, {}, []
+    measured, lows, peaks, back = {}, {}, [], []
     for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
-        ratio = over(means, slice(1), slice(1, None))
+        ratio, peak = over(means, slice(1), slice(1, None)), int(np.argmax(means.mean))
+        peaks.append(means.half_width[peak])
         measured |= {f"{kind}_ratio": ratio.value, f"{kind}_high": ratio.high}
-        lows[f"{kind}_low"] = ratio.low
-        peak = int(np.argmax(means.mean))
-        measured[f"{kind}_peak_at"] = means.half_width[peak]
+        measured[f"{kind}_peak_at"], lows[f"{kind}_low"] = peaks[-1], ratio.low
         back.append(over(means, slice(peak, peak + 1), slice(-3, None)).value)
-    peak_at = max(measured[f"{kind}_peak_at"] for kind in ("even", "uneven"))
     peak = (
-        f"up to M = {peak_at:.0f}: the three longest chains have {min(back):.2f} to {max(back):.2f}"
-        " of the peak"
+        f"up to M = {max(peaks):.0f}: the three longest chains have {min(back):.2f} to"
+        f" {max(back):.2f} of the peak"
     )
     says = "lower limits of the mean over all longer chains over that of the shortest"
     return near.judge(measured | lows, Above(1.0, *lows, says=says), caveat=peak)
@@ -282,14 +275,12 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     on=("fig6_right",),
 )
 def ensemble_fig6_diverges(even, uneven) -> Finding:
-    measured = {}
+    measured, levels = {}, {}
     for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
-        level = means.level_from(least=3)
-        measured |= {f"{kind}_level_from": level, f"{kind}_last": means.mean[-1]}
-        measured[f"{kind}_off"] = means.off[-1]
-    levels = [f"{kind}_level_from" for kind in ("even", "uneven")]
+        levels[f"{kind}_level_from"] = measured[f"{kind}_level_from"] = means.level_from(least=3)
+        measured |= {f"{kind}_last": means.mean[-1], f"{kind}_off": means.off[-1]}
     fails = (
-        f"from M = {max(measured[name] for name in levels):.0f} on all means are the same within"
+        f"from M = {max(levels.values()):.0f} on all means are the same within"
         " the limits of their difference, as they must be where the front does not reach the ends"
     )
     return judge(measured, NeverLevels(*levels), fails=fails)
@@ -326,11 +317,10 @@ def ensemble_fig6_time(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)
     start = float(even["l2"].sel(case="fig3_large", quantity="pair", quantile=0.5)[0])
     lows, shorter = {}, []
+    before = both(even, uneven, "fig6_right", "l2", TEXT_5)
     for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items():
         lows[f"{kind}_low"] = (means.mean - means.off).min() / start
-        data = {"even": even, "uneven": uneven}[kind]
-        earlier = maxima(data, "fig6_right", "l2", TEXT_5)
-        shorter.append(earlier.mean[-1] / means.mean[-1])
+        shorter.append(before[kind].mean[-1] / means.mean[-1])
     measured = lows | {"shorter_over_longer": min(shorter)}
     earlier = (
         f"the shorter span {TEXT_5} does so too: on the longest chain the norm has reached"

@@ -45,15 +45,10 @@ class Lyapunov(Model):
     seed: Natural
 
 
-class Symmetry(Model):
-    """How even data lose their evenness."""
-
-    tolerance: Tolerance
-    output_step: Positive
-    size: Positive
-    members: Count
-    seed: Natural
-
+# How even data lose their evenness.
+Symmetry = model(
+    tolerance=Tolerance, output_step=Positive, size=Positive, members=Count, seed=Natural
+)
 
 # The ensembles of sweeps: so many members on chains of each half-width.
 Swept = Annotated[
@@ -85,13 +80,6 @@ class Members(Model):
     seed: Natural
 
 
-class Compared(Model):
-    """One amplitude again, by other tolerances and kinds of ensembles."""
-
-    amplitude: Positive
-    choices: Annotated[list[tuple[Tolerance, Literal["even", "uneven"]]], Field(min_length=1)]
-
-
 class Lifetimes(Model):
     """How long the central pendulum stays localised, against its initial amplitude."""
 
@@ -105,7 +93,10 @@ class Lifetimes(Model):
     output_step: Positive
     settled: Positive
     seed: Natural
-    compared: Compared
+    compared: model(
+        amplitude=Positive,  # again, by other tolerances and kinds of ensembles
+        choices=Annotated[list[tuple[Tolerance, Literal["even", "uneven"]]], Field(min_length=1)],
+    )
 
 
 class Settings(Model):
