@@ -38,20 +38,11 @@ def edited(*place, value) -> dict:
     return whole
 
 
-@pytest.fixture
-def committed():
-    """Skip where a user has edited config/*.yaml: these tests are of the files as committed."""
-    changed = subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "config"], cwd=ROOT)
-    if changed.returncode == 1:
+def test_the_committed_configuration_is_the_papers():
+    if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "config"], cwd=ROOT).returncode == 1:
         skip("config/*.yaml were edited", "git checkout config")
-
-
-def test_the_committed_configuration_is_the_papers(committed):
     assert keep.configuration() == paper(), "run `python docs/keep.py config` if this is meant"
     assert differences(paper()) == {}
-
-
-def test_a_run_of_the_committed_files_is_of_the_papers_cases(committed):
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     whole = json.loads(load(gather(files, {})).model_dump_json())
     assert "long" in whole["breathers"]["fates"] and differences(whole) == {}
@@ -62,13 +53,8 @@ def test_cases_beside_the_papers_are_no_difference():
 
 
 @pytest.mark.parametrize("case", paper()["cases"])
-def test_whatever_rests_on_an_edited_case_is_told_apart(case):
-    for key in EDITS:
-        tell_apart(case, key)
-
-
-def tell_apart(case, key):
-    """Edit a key of a case, and look at what rests on this case and on others."""
+@pytest.mark.parametrize("key", EDITS)
+def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
     differs = differences(edited("cases", case, key, value=EDITS[key]))
     assert list(differs) == [f"cases.{case}.{key}"]
     said = reason(differs, [f"trajectories/{case}"])
@@ -81,15 +67,25 @@ def tell_apart(case, key):
     assert reason(differs, others) == ""
 
 
-def test_words_name_both_values():
-    differs = differences(edited("cases", "fig2_small", "omega", value=1.0))
-    assert list(differs.values()) == ["fig2_small.omega (1 in place of 8)"]
-    differs = differences(edited("cases", "fig2_small", "omega", value=8.0000000001))
-    assert list(differs.values()) == ["fig2_small.omega (8.0000000001 in place of 8)"]
-    differs = differences(edited("cases", "fig2_small", "solver", value=EDITS["solver"]))
-    assert list(differs.values()) == ["fig2_small.solver (dop853 in place of ode45)"]
-    differs = differences(edited("sweeps", "fig5_left", "half_widths", value=[4, 6]))
-    assert list(differs.values()) == ["fig5_left.half_widths ([4, 6] in place of 18 values from 5)"]
+@pytest.mark.parametrize(
+    ("place", "value", "words"),
+    [
+        ("cases.fig2_small.omega", 1.0, "fig2_small.omega (1 in place of 8)"),
+        ("cases.fig2_small.omega", 8.0000000001, "fig2_small.omega (8.0000000001 in place of 8)"),
+        (
+            "cases.fig2_small.solver",
+            EDITS["solver"],
+            "fig2_small.solver (dop853 in place of ode45)",
+        ),
+        (
+            "sweeps.fig5_left.half_widths",
+            [4, 6],
+            "fig5_left.half_widths ([4, 6] in place of 18 values from 5)",
+        ),
+    ],
+)
+def test_words_name_both_values(place, value, words):
+    assert list(differences(edited(*place.split("."), value=value)).values()) == [words]
 
 
 @pytest.mark.parametrize(
