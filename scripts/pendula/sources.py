@@ -54,24 +54,17 @@ def attached_to(modules: list[Path]) -> list[Path]:
 
 
 @cache
-def _beside(package: Path) -> list[tuple[Path, Path | None]]:
-    """Return the files of a package that are no modules, each with its owner."""
-    return [(path, _owner(path)) for path in _no_modules(package)]
-
-
-def _no_modules(folder: Path) -> Iterator[Path]:
+def _beside(folder: Path) -> list[tuple[Path, Path | None]]:
+    """Return the files of a package that are no modules, each with the module it is named after."""
+    found = []
     for path in folder.iterdir():
         if path.is_dir():
             if path.name != "__pycache__" and not (path / "__init__.py").exists():
-                yield from _no_modules(path)
+                found += _beside(path)
         elif path.suffix != ".py" and not path.name.startswith("."):
-            yield path
-
-
-def _owner(path: Path) -> Path | None:
-    """Return the module that a file is named after."""
-    module = path.with_name(path.name.split(".")[0] + ".py")
-    return module if module.exists() else None
+            module = path.with_name(path.name.split(".")[0] + ".py")
+            found.append((path, module if module.exists() else None))
+    return found
 
 
 @cache
@@ -139,7 +132,8 @@ def _imports_of(file: Path) -> frozenset[Path]:
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            package = _names_of(file)[: -node.level] if node.level else ()
+            home = SCRIPTS if file.is_relative_to(SCRIPTS) else SCRIPTS.parent
+            package = file.relative_to(home).parts[: -node.level] if node.level else ()
             base = ".".join([*package, *([node.module] if node.module else [])])
             names.update([base, *(f"{base}.{alias.name}" for alias in node.names)])
     return frozenset(path for name in names for path in files_of_module(name))
@@ -156,17 +150,6 @@ def _tree_of(text: str) -> ast.AST:
     return ast.parse("\n".join(imports) if same else text)
 
 
-def _folder_of(name: str) -> Path:
-    """Return the folder on the path that a package of OURS is found in."""
-    return SCRIPTS.parent if name == "benchmarks" else SCRIPTS
-
-
-def _names_of(file: Path) -> tuple[str, ...]:
-    """Return the parts of a module's dotted name."""
-    folder = SCRIPTS if file.is_relative_to(SCRIPTS) else _folder_of("benchmarks")
-    return file.relative_to(folder).parts
-
-
 def _statements(tree: ast.AST) -> Iterator[ast.AST]:
     """Yield a tree and all statements in it: no import hides in an expression."""
     waiting = [tree]
@@ -179,8 +162,9 @@ def _statements(tree: ast.AST) -> Iterator[ast.AST]:
 
 def files_of_module(name: str) -> tuple[Path, ...]:
     """Return the files that importing `name` executes: the module and its packages."""
-    ours, *inner = name.split(".")
-    return _files_in(_folder_of(ours), (ours, *inner)) if ours in OURS else ()
+    parts = tuple(name.split("."))
+    home = SCRIPTS.parent if parts[0] == "benchmarks" else SCRIPTS
+    return _files_in(home, parts) if parts[0] in OURS else ()
 
 
 @cache
@@ -193,17 +177,11 @@ def _files_in(folder: Path, parts: tuple[str, ...]) -> tuple[Path, ...]:
 
 def describe_machine() -> dict[str, str]:
     """Return the processor's name and the versions that decide how long a run takes."""
+    linux = Path("/proc/cpuinfo")
+    told = linux.read_text(encoding="utf-8") if linux.exists() else ""
+    named = re.search(r"^model name\s*:\s*(.*\S)", told, re.MULTILINE)
     return {
-        "processor": _processor(),
+        "processor": named[1] if named else platform.processor() or platform.machine(),
         "python": platform.python_version(),
         **{name: version(name) for name in ("numpy", "numba", "scipy")},
     }
-
-
-def _processor() -> str:
-    information = Path("/proc/cpuinfo")
-    if information.exists():
-        for line in information.read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()

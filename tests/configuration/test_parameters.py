@@ -31,10 +31,12 @@ def test_the_projects_own_configuration_is_that_of_the_paper():
 
 
 def test_all_faults_are_told_at_once():
-    settings = {"cases": {"a": {"omega": 1, "gama": 2}, "b": {"omega": "x", "half_width": -1}}}
+    stepped = {"name": "crank_nicolson", "stp": 0.1}  # a key of this solver is near, of none else
+    cases = {"a": {"omega": 1, "solver": stepped}, "b": {"omega": "x", "half_width": -1}}
     with pytest.raises(ConfigurationError) as caught:
-        load(settings)
+        load({"cases": cases})
     assert len(str(caught.value).splitlines()) == 1 + 3
+    assert "did you mean 'step'?" in str(caught.value)
 
 
 def test_numbers_are_read_as_yaml_and_python_write_them():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.measures.norms import drift, growth_margin, largest, mean, total_power
+from pendula.measures.norms import drift, growth_margin, largest, total_power
 
 
 def run(a=3.0, b=4.0, count=11):
@@ -15,7 +15,6 @@ def run(a=3.0, b=4.0, count=11):
 def test_p_is_the_square_of_both_norms_and_the_pair_is_as_large_as_the_larger():
     assert total_power(run()).tolist() == [25.0] * 11
     assert largest(run()).tolist() == [4.0] * 11
-    assert mean(run(), "l2", "A") == 3.0
 
 
 def test_the_drift_is_absolute_and_starts_at_zero():

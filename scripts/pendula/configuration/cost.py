@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from pendula.feasibility import Obstacle
 
-HOUR, GIGABYTE = 3600.0, 1e9
+HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
 """Seconds: a run that will take longer says so before it starts."""
 
@@ -72,37 +72,28 @@ def estimate(problem: Mapping) -> Cost:
 
     Nothing of the size of the chain is made; what overflows costs infinitely much.
     """
+    solver, every = problem["solver"], problem["snapshot_every"]
+    solvers = [solver]
+    if solver["name"] == "auto":
+        tolerances = auto_tolerances(solver["error"])
+        solvers = [{"name": "taylor", "rtol": tolerance} for tolerance in tolerances]
+    method = EXPLICIT.get(solvers[0]["name"])
     try:
-        return _estimate(problem)
+        sites, pairs = 2 * problem["half_width"] + 1, integrated_pairs(problem)
+        outputs = problem["end_time"] / problem["output_step"] + 1
+        moduli = 2 * sites * (outputs / every) if every else 0.0
+        seconds = sum(_solver_seconds(one, problem, pairs, outputs) for one in solvers)
+        memory = (method.site_bytes if method else ITERATED_BYTES) * pairs + SITE_BYTES * sites
+        return Cost(seconds, memory + OUTPUT_BYTES * outputs + MODULUS_BYTES * moduli)
     except (OverflowError, ZeroDivisionError):
         return Cost(inf, inf)
-
-
-def _estimate(problem: Mapping) -> Cost:
-    sites, pairs = 2 * problem["half_width"] + 1, integrated_pairs(problem)
-    outputs = problem["end_time"] / problem["output_step"] + 1
-    every = problem["snapshot_every"]
-    moduli = 2 * sites * (outputs / every) if every else 0.0
-    solver = problem["solver"]
-    if solver["name"] == "auto":
-        seconds = sum(
-            _solver_seconds({"name": "taylor", "rtol": tolerance}, problem, pairs, outputs)
-            for tolerance in auto_tolerances(solver["error"])
-        )
-    else:
-        seconds = _solver_seconds(solver, problem, pairs, outputs)
-    method = EXPLICIT.get(solver["name"] if solver["name"] != "auto" else "taylor")
-    per_pair = method.site_bytes if method else ITERATED_BYTES
-    memory = per_pair * pairs + SITE_BYTES * sites
-    return Cost(seconds, memory + OUTPUT_BYTES * outputs + MODULUS_BYTES * moduli)
 
 
 def _solver_seconds(solver: Mapping, problem: Mapping, pairs: float, outputs: float) -> float:
     steps, evaluations = steps_of(solver, problem)
     if solver["name"] == "kahan_li":
-        return outputs * OUTPUT["seconds"] + steps * (
-            COMPOSED["seconds"] + COMPOSED["site_seconds"] * pairs
-        )
+        each = COMPOSED["seconds"] + COMPOSED["site_seconds"] * pairs
+        return outputs * OUTPUT["seconds"] + steps * each
     seconds = outputs * (OUTPUT["seconds"] + OUTPUT["site_seconds"] * pairs)
     if solver["name"] in EXPLICIT:
         method = EXPLICIT[solver["name"]]
@@ -254,13 +245,12 @@ PLAIN = {
 
 def duration(seconds: float) -> str:
     """Return a time in words, of one or two digits."""
-    units = (("second", 1.0), ("minute", 60.0), ("hour", HOUR), ("day", 24 * HOUR))
-    units += (("year", 365.25 * 24 * HOUR),)
-    if seconds >= 1e6 * units[-1][1]:
+    units = {"second": 1.0, "minute": 60.0, "hour": HOUR, "day": 24 * HOUR, "year": YEAR}
+    if seconds >= 1e6 * YEAR:
         return "more than a million years"
     if seconds < 1.0:
         return "less than a second"
-    name, size = [unit for unit in units if seconds >= unit[1]][-1]
+    name, size = [unit for unit in units.items() if seconds >= unit[1]][-1]
     count = max(1, round(seconds / size))
     return f"{count} {name}{'s' * (count > 1)}"
 
@@ -271,7 +261,6 @@ def amount(size: float) -> str:
         return "more than a million terabytes"
     for unit, scale in (("TB", 1e12), ("GB", 1e9)):
         if size >= scale:
-            return (
-                f"{size / scale:.2g} {unit}" if size < 100 * scale else f"{size / scale:.0f} {unit}"
-            )
+            digits = ".2g" if size < 100 * scale else ".0f"
+            return f"{size / scale:{digits}} {unit}"
     return f"{max(1, round(size / 1e6))} MB"

@@ -70,14 +70,11 @@ def _unlike(was: Any, now: Any, place: tuple) -> Iterable[tuple[tuple, tuple]]:
         for inner in dict.fromkeys([*was, *now]):
             pair = (one.get(inner, "absent") for one in (was, now))
             yield from _unlike(*pair, (*place, inner))
-    elif not _does_as_well(key, was, now):
+    elif not (
+        all(isinstance(value, int | float) for value in (was, now))
+        and ((key in AT_LEAST and now >= was) or (key in AT_MOST and now <= was))
+    ):
         yield place, (was, now)
-
-
-def _does_as_well(key: str, was: Any, now: Any) -> bool:
-    if not all(isinstance(value, int | float) for value in (was, now)):
-        return False
-    return (key in AT_LEAST and now >= was) or (key in AT_MOST and now <= was)
 
 
 def _in_words(place: tuple, was: Any, now: Any) -> str:
@@ -145,29 +142,21 @@ def rests_on(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     folder, _, rest = name.partition("/")
     stem, _, solver = rest.partition(".")
     if folder == "trajectories":
-        return (*_keys(stem, *FINITE, "end_time"), *_solver(stem, solver))
+        by = f"solvers.{solver}" if solver else f"cases.{stem}.solver"
+        return (*_keys(stem, *FINITE, "end_time"), by)
     if folder == "sweeps":
         return _sweep(stem, solver)
-    if folder == "breathers":
-        return _breathers(rest, on)
-    if folder == "pendula":
-        return _pendula(rest, on)
-    if folder == "certified":
-        return _certified(rest)
-    return _unbounded(stem) if folder == "unbounded" else _check(rest, on)
+    of_studies = {"breathers": _breathers, "pendula": _pendula, "certified": _certified}
+    return (of_studies | {"unbounded": _unbounded}).get(folder, _check)(rest, on)
 
 
 def _keys(case: str, *keys: str) -> tuple[str, ...]:
     return tuple(f"cases.{case}.{key}" for key in keys)
 
 
-def _solver(case: str, solver: str = "") -> tuple[str]:
-    return (f"solvers.{solver}" if solver else f"cases.{case}.solver",)
-
-
 def _sweep(name: str, solver: str = "") -> tuple[str, ...]:
-    by = _solver(paper()["sweeps"][name]["case"], solver)
-    return (*_swept(name), *by, f"sweeps.{name}.solver")
+    by = f"solvers.{solver}" if solver else f"cases.{paper()['sweeps'][name]['case']}.solver"
+    return (*_swept(name), by, f"sweeps.{name}.solver")
 
 
 def _swept(name: str) -> tuple[str, ...]:
@@ -175,7 +164,7 @@ def _swept(name: str) -> tuple[str, ...]:
     return (*own, *_keys(paper()["sweeps"][name]["case"], *CHAIN))
 
 
-def _unbounded(name: str) -> tuple[str, ...]:
+def _unbounded(name: str, on: tuple[str, ...] = ()) -> tuple[str, ...]:
     given = paper()["unbounded"]
     shared = ("output_step", "perturbation", "short.solver")
     whole = tuple(f"unbounded.{key}" for key in shared)
@@ -234,7 +223,7 @@ ENCLOSED = ("cases", "theorem_2_case", "theorem_3_constant", "threshold", "chart
 """The checks whose constants the study of proofs encloses."""
 
 
-def _certified(name: str) -> tuple[str, ...]:
+def _certified(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     """Return what a proof rests on: its states or case, or what asks it about a wrong one."""
     given = paper()["certified"]
     wrong = given["curves"]["wrong"]
@@ -266,20 +255,17 @@ def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
         swept = [sweep for sweep in swept if sweep in ensemble["sweeps"]]
         of_sweeps = tuple(path for sweep in swept for path in _swept(sweep))
         return ("chaos.ensembles", *of_sweeps, *_of_all(cases, *FINITE, "end_time"))
-    if name == "lifetimes":
-        of_case = _keys(given["lifetimes"]["case"], *EQUATION, "boundary", "half_width")
-        return ("chaos.lifetimes", *of_case)
-    if name == "members":
-        return ("chaos.members", *_of_all(cases, *FINITE))
-    if name in ("lyapunov", "symmetry"):
-        return (f"chaos.{name}", *_of_all(cases, *FINITE, "end_time"))
     if name == "sweeps":
         return tuple(path for sweep in swept for path in _sweep(sweep))
-    if name in ("solvers", "trust", "second_solver"):
-        return ("solvers", *_of_all(cases, *FINITE, "end_time"))
-    if name == "cases":
-        return _of_all(cases, *FINITE, "end_time", "solver")
-    return ()
+    runs = _of_all(cases, *FINITE, "end_time")
+    lives = _keys(given["lifetimes"]["case"], *EQUATION, "boundary", "half_width")
+    return {
+        "lifetimes": ("chaos.lifetimes", *lives),
+        "members": ("chaos.members", *_of_all(cases, *FINITE)),
+        **{one: (f"chaos.{one}", *runs) for one in ("lyapunov", "symmetry")},
+        **dict.fromkeys(("solvers", "trust", "second_solver"), ("solvers", *runs)),
+        "cases": _of_all(cases, *FINITE, "end_time", "solver"),
+    }.get(name, ())
 
 
 def _of_all(cases: Iterable[str], *keys: str) -> tuple[str, ...]:

@@ -49,8 +49,10 @@ def difference_limits(one, other, confidence: float = CONFIDENCE) -> Limits:
     """Return the mean of `one` minus that of `other`, both (member,), with Welch's limits."""
     one, other = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     parts = [values.var(ddof=1) / len(values) for values in (one, other)]
-    difference, error = one.mean() - other.mean(), sqrt(sum(parts))
-    off = student(_welch(parts, (len(one), len(other))), confidence) * error if error else 0.0
+    difference, error, off = one.mean() - other.mean(), sqrt(sum(parts)), 0.0
+    if error:
+        freedom = _freedom(parts, (len(one), len(other)))
+        off = student(freedom, confidence) * error
     return Limits(difference, difference - off, difference + off)
 
 
@@ -72,8 +74,13 @@ def chance_of_means(one, other):
     (mean, deviation, draws), (other_mean, other_deviation, other_draws) = one, other
     parts = deviation * deviation / draws, other_deviation * other_deviation / other_draws
     score = np.abs(mean - other_mean) / np.sqrt(sum(parts))
-    below = sum(part * part / (n - 1) for part, n in zip(parts, (draws, other_draws), strict=True))
-    return np.round(2.0 * special.stdtr(sum(parts) * sum(parts) / below, -score), 6)
+    return np.round(2.0 * special.stdtr(_freedom(parts, (draws, other_draws)), -score), 6)
+
+
+def _freedom(parts, draws):
+    """Return Welch's degrees of freedom of a difference, from the squared errors of both means."""
+    below = sum(part * part / (count - 1) for part, count in zip(parts, draws, strict=True))
+    return sum(parts) * sum(parts) / below
 
 
 def ratio_limits(mean, error, members: int, confidence: float = CONFIDENCE) -> Limits:
@@ -113,8 +120,7 @@ def median_limits(values, confidence: float = CONFIDENCE) -> Limits:
     """
     ordered = np.sort(np.asarray(values, dtype=float))
     members, tail = len(ordered), 0.5 * (1.0 - confidence)
-    middle = ordered[[(members - 1) // 2, members // 2]]
-    median = middle[1] if np.isinf(middle).any() else middle.mean()
+    median = ordered[[(members - 1) // 2, members // 2]].mean()
     rank = np.searchsorted(special.bdtr(np.arange(members, dtype=float), members, 0.5), tail)
     low = ordered[rank - 1] if rank > 0 else -np.inf
     high = ordered[members - rank] if rank > 0 else np.inf
@@ -154,16 +160,6 @@ def chance_of_law(lives, watched: float) -> float:
     steps = np.arange(count + 1) / count
     off = max((steps[1:] - share).max(), (share - steps[:-1]).max())
     return _rounded(special.kolmogorov((sqrt(count) + 0.12 + 0.11 / sqrt(count)) * off))
-
-
-def _welch(parts, members) -> float:
-    """Return the degrees of freedom of a difference, from the squared errors of both means."""
-    below = sum(part * part / (count - 1) for part, count in zip(parts, members, strict=True))
-    return sum(parts) * sum(parts) / below if below else np.inf
-
-
-def _both(one: float, other: float) -> float:
-    return sqrt(one * one + other * other)
 
 
 def _rounded(value: float) -> float:

@@ -21,11 +21,6 @@ def largest(trajectory) -> np.ndarray:
     return trajectory["linf"].max("component").values
 
 
-def mean(trajectory, name: str, component: str) -> float:
-    """Return the mean of a norm of one component over time."""
-    return float(trajectory[name].sel(component=component).mean())
-
-
 def constants(dataset) -> Constants:
     """Return the constants of a trajectory or a sweep."""
     return Constants.of(dataset.attrs)
