@@ -5,7 +5,6 @@ gone; the list of those parts, and where to look, is on top of the module.
 
 import itertools
 import math
-import operator
 
 import numpy as np
 import pytest
@@ -34,11 +33,11 @@ LARGE = [0.0, -0.0, 1e-320, -1.0, 1e300, -np.inf, np.nan, -np.nan]
 numbers = st.lists(st.floats(allow_nan=False), min_size=LANES, max_size=LANES).map(np.array)
 
 
-def lanes_of(function, *arguments):
-    """Return the vector that a compiled `function(out, ...)` stores at the start of `out`."""
-    out = np.full(LANES, np.nan)
+def rows_of(function, rows, *arguments):
+    """Return the vectors that a compiled `function(out, ...)` stores one after another."""
+    out = np.full(rows * LANES, np.nan)
     function(out, *arguments)
-    return out
+    return out.reshape(rows, LANES)
 
 
 # --- Registers and arrays ---
@@ -49,59 +48,50 @@ def copy_vector(out, array, place):
     store(out, 0, load(array, place))
 
 
-@pytest.mark.parametrize("place", range(LANES + 1))
-def test_load_takes_a_vector_from_any_place(place):
-    found = lanes_of(copy_vector, BOTH, place)
-    np.testing.assert_array_equal(found, BOTH[place : place + LANES])
-
-
 @uncached
 def store_repeated(out, place, number):
     store(out, place, fill(number))
 
 
 @pytest.mark.parametrize("place", range(LANES + 1))
-def test_store_writes_a_vector_and_no_more_and_fill_repeats_one(place):
+def test_load_and_store_take_a_vector_from_and_to_any_place_and_fill_repeats_one(place):
+    expected = BOTH[place : place + LANES]
+    np.testing.assert_array_equal(rows_of(copy_vector, 1, BOTH, place)[0], expected)
     out, expected = np.zeros(2 * LANES), np.zeros(2 * LANES)
     store_repeated(out, place, 0.1)
     expected[place : place + LANES] = 0.1
     np.testing.assert_array_equal(out, expected)
 
 
-@uncached
-def copy_by_flat_index(out, array):
-    store(out, 0, load(array, 6))
-
-
 def test_load_counts_a_flat_index_through_the_rows_of_an_array():
     array = np.arange(15.0).reshape(3, 5)
-    found = lanes_of(copy_by_flat_index, array)
+    found = rows_of(copy_vector, 1, array, 6)[0]
     np.testing.assert_array_equal(found, np.arange(6, 6 + LANES))
-
-
-@uncached
-def add_vectors(out, a, b):
-    store(out, 0, load(a, 0) + load(b, 0))
-
-
-def test_eight_numbers_are_one_register_to_llvm():
-    """No fewer: the code would be right, and slow."""
-    lanes_of(add_vectors, ONE, OTHER)
-    (code,) = add_vectors.inspect_llvm().values()
-    assert "fadd <8 x double>" in code
 
 
 # --- Arithmetic ---
 
 
 @uncached
-def subtract_vectors(out, a, b):
-    store(out, 0, load(a, 0) - load(b, 0))
+def operate(out, number, a, b):
+    one, other = load(a, 0), load(b, 0)
+    results = (one + other, one - other, one * other, number + one, number - one, number * one)
+    for i in range(6):
+        store(out, i * LANES, results[i])
 
 
-@uncached
-def multiply_vectors(out, a, b):
-    store(out, 0, load(a, 0) * load(b, 0))
+@given(one=numbers, other=numbers)
+def test_operators_of_vectors_and_of_a_number_to_the_left_have_the_bits_of_numpy(one, other):
+    with np.errstate(all="ignore"):
+        expected = [one + other, one - other, one * other, 0.7 + one, 0.7 - one, 0.7 * one]
+        np.testing.assert_array_equal(rows_of(operate, 6, 0.7, one, other), expected)
+
+
+def test_eight_numbers_are_one_register_to_llvm():
+    """No fewer: the code would be right, and slow."""
+    rows_of(operate, 6, 0.7, ONE, OTHER)
+    (code,) = operate.inspect_llvm().values()
+    assert "fadd <8 x double>" in code
 
 
 @uncached
@@ -109,36 +99,8 @@ def negate_vector(out, a):
     store(out, 0, -load(a, 0))
 
 
-OPERATORS = {
-    "+": (add_vectors, operator.add),
-    "-": (subtract_vectors, operator.sub),
-    "*": (multiply_vectors, operator.mul),
-}
-
-
-@pytest.mark.parametrize("symbol", OPERATORS)
-@given(one=numbers, other=numbers)
-def test_operators_of_two_vectors_have_the_bits_of_numpy(symbol, one, other):
-    compiled, plain = OPERATORS[symbol]
-    with np.errstate(all="ignore"):
-        np.testing.assert_array_equal(lanes_of(compiled, one, other), plain(one, other))
-
-
-@uncached
-def operate_with_number(out, number, a):
-    store(out, 0, number + load(a, 0))
-    store(out, LANES, number - load(a, 0))
-    store(out, 2 * LANES, number * load(a, 0))
-
-
-def test_operators_take_a_number_to_the_left_of_a_vector():
-    out = np.zeros(3 * LANES)
-    operate_with_number(out, 0.7, ONE)
-    np.testing.assert_array_equal(out.reshape(3, LANES), [0.7 + ONE, 0.7 - ONE, 0.7 * ONE])
-
-
 def test_minus_changes_the_sign_of_zero_too():
-    out = lanes_of(negate_vector, np.array([0.0, -0.0, 1.5, np.inf, *[1.0] * 4]))
+    out = rows_of(negate_vector, 1, np.array([0.0, -0.0, 1.5, np.inf, *[1.0] * 4]))[0]
     signs = [True, False, True, True, *[True] * 4]
     np.testing.assert_array_equal(np.signbit(out), signs)
     np.testing.assert_array_equal(out, [0.0, 0.0, -1.5, -np.inf, *[-1.0] * 4])
@@ -152,7 +114,7 @@ def multiply_and_add(out, a, b, c):
 def test_a_product_and_a_sum_are_never_fused():
     """(1 + e)(1 - e) - 1 is zero when the product is rounded, -e^2 when it is not."""
     e = np.full(LANES, 2.0**-30)
-    out = lanes_of(multiply_and_add, 1.0 + e, 1.0 - e, -np.ones(LANES))
+    out = rows_of(multiply_and_add, 1, 1.0 + e, 1.0 - e, -np.ones(LANES))
     np.testing.assert_array_equal(out, 0.0)
 
 
@@ -166,11 +128,9 @@ def shift_both_ways(out, array):
 
 
 def test_shifts_show_each_site_its_neighbour():
-    out = np.zeros(2 * LANES)
-    shift_both_ways(out, BOTH)
-    left, right = BOTH[LANES - 1 : -1], BOTH[1 : LANES + 1]
-    np.testing.assert_array_equal(out[:LANES], left, "left neighbours of the second block")
-    np.testing.assert_array_equal(out[LANES:], right, "right neighbours of the first block")
+    left, right = rows_of(shift_both_ways, 2, BOTH)
+    np.testing.assert_array_equal(left, BOTH[LANES - 1 : -1], "of the second block")
+    np.testing.assert_array_equal(right, BOTH[1 : LANES + 1], "of the first block")
 
 
 @uncached
@@ -181,7 +141,7 @@ def keep_some(out, a, count):
 @pytest.mark.parametrize("count", range(LANES + 1))
 def test_keep_lanes_replaces_what_follows_the_count(count):
     expected = np.where(np.arange(LANES) < count, ONE, 9.0)
-    np.testing.assert_array_equal(lanes_of(keep_some, ONE, count), expected)
+    np.testing.assert_array_equal(rows_of(keep_some, 1, ONE, count)[0], expected)
 
 
 # --- Magnitudes ---
@@ -205,7 +165,7 @@ def test_the_larger_magnitude_is_found_in_each_lane_and_nan_wins():
     for one, other in itertools.product(LARGE, LARGE):
         a, b = np.array([one, 1.0, other, 1.0] * 2), np.array([other, 2.0, one, -2.0] * 2)
         expected = [larger_of_numbers(one, other), 2.0] * 4
-        found = lanes_of(larger_of_vectors, a, b)
+        found = rows_of(larger_of_vectors, 1, a, b)[0]
         np.testing.assert_array_equal(found, expected, err_msg=f"{one} and {other}")
 
 
@@ -247,19 +207,9 @@ def shape_of_view(state):
     return vector_views((state,))[0].shape
 
 
-def test_a_view_has_the_shape_of_its_state():
-    assert shape_of_view(np.zeros((3, 15))) == (3, 15)
-
-
 @uncached
 def read_view(out, state, row, j):
     store(out, 0, vector_views((state,))[0][row, j])
-
-
-@pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
-def test_reading_a_view_gives_as_many_columns_of_a_row(row, j):
-    state = np.arange(45.0).reshape(3, 15)
-    np.testing.assert_array_equal(lanes_of(read_view, state, row, j), state[row, j : j + LANES])
 
 
 @uncached
@@ -268,10 +218,13 @@ def write_view(state, row, j):
 
 
 @pytest.mark.parametrize(("row", "j"), [(0, 0), (0, 3), (2, 1), (2, 7)])
-def test_writing_a_view_changes_as_many_columns_of_a_row_and_nothing_else(row, j):
-    state, expected = np.zeros((3, 15)), np.zeros((3, 15))
+def test_a_view_reads_and_writes_as_many_columns_of_a_row_and_nothing_else(row, j):
+    state, lanes = np.arange(45.0).reshape(3, 15), (row, slice(j, j + LANES))
+    assert shape_of_view(state) == state.shape
+    np.testing.assert_array_equal(rows_of(read_view, 1, state, row, j)[0], state[lanes])
+    expected = state.copy()
+    expected[lanes] = 1.0
     write_view(state, row, j)
-    expected[row, j : j + LANES] = 1.0
     np.testing.assert_array_equal(state, expected)
 
 
