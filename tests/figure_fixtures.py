@@ -54,7 +54,7 @@ def trajectories(make_trajectory):
         "ode45": 1.001, "crank_nicolson": 1.02, "delfour_fortin_payre": 1.02, "dop853": 1.0,
     }  # fmt: skip
     return {
-        (case, solver): make_trajectory(case, scale=scale, solver=solver)
+        f"{case}.{solver}": make_trajectory(case, scale=scale, solver=solver)
         for case in ("fig2_small", "fig2_large")
         for solver, scale in scales.items()
     }
@@ -84,5 +84,5 @@ def make_sweep():
 
 @pytest.fixture(scope="session")
 def swept_pairs(make_sweep):
-    """Return a sweep by two solvers that agree."""
-    return {"fig5_left": (make_sweep(-4.0), make_sweep(-4.0))}
+    """Return sweeps by two solvers that agree."""
+    return {"fig5_left": make_sweep(-4.0)}, {"fig5_left": make_sweep(-4.0)}

@@ -14,7 +14,7 @@ from pendula.measures.difference import (
     norm_difference,
     state_error,
 )
-from pendula.studies.paper.solvers import trust
+from pendula.studies.paper.solvers import trust_solvers
 from pendula.studies.paper.tables import trust_part
 
 
@@ -81,7 +81,7 @@ def test_the_error_of_a_state_is_that_of_its_worst_component():
 
 def test_each_solver_has_its_horizon_at_each_level():
     bad = run(changes={("l2", 1, 2): 1.008, ("l2", 1, 6): 1.02})
-    found = trust({("case", "good"): run(), ("case", "bad"): bad}, {"case": run()})
+    found = trust_solvers({"case.good": run(), "case.bad": bad}, {"case": run()})
     found = found.sel(case="case")
     assert found["horizon"].sel(solver="bad").to_series().to_dict() == {"line": 1.0, "visible": 3.0}
     assert (found["horizon"].sel(solver="good") == np.inf).all()
@@ -90,7 +90,7 @@ def test_each_solver_has_its_horizon_at_each_level():
 
 def test_another_case_has_no_horizon():
     off = run(changes={("l2", 0, 1): 9.0})
-    found = trust({("case", "run"): off}, {"case": run(omega=7.0)})
+    found = trust_solvers({"case.run": off}, {"case": run(omega=7.0)})
     assert found["horizon"].isnull().all() and found["difference"].isnull().all()
 
 
@@ -102,7 +102,7 @@ def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope
     """The bound is a part of the smallest full scale, that of B, which is 1."""
     proved = run(omega=omega).sel(tau=slice(end))
     proved["bound"] = slope * proved["tau"]
-    found = trust({("case", "run"): run()}, {"case": run()}, None, {"case": proved})
+    found = trust_solvers({"case.run": run()}, {"case": run()}, proved={"case": proved})
     bound = found["proven_bound"].sel(case="case")
     expected = slope * bound["tau"] if omega == 8.0 else np.nan * bound
     np.testing.assert_allclose(bound, expected.where(bound["tau"] <= end))
@@ -111,14 +111,14 @@ def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope
 
 def test_data_as_printed_and_the_doubles_next_to_them_lead_apart():
     rounded = run(changes={("l2", 0, 3): 2.0 + 1e-9, ("l2", 0, 7): 2.5})
-    found = trust({("case", "run"): run()}, {"case": run()}, (run(), rounded))
+    found = trust_solvers({"case.run": run()}, {"case": run()}, {"a": run(), "b": rounded})
     assert found["decimal_horizon"].values.tolist() == [1.5, 3.5]
 
 
 def test_the_table_says_when_each_solver_is_lost_or_never():
     bad = run(changes={("l2", 1, 6): 1.02})
-    runs = {("fig2_small", "good"): run(), ("fig2_small", "bad"): bad}
-    page = re.sub(" +", " ", "\n".join(trust_part(trust(runs, {"fig2_small": run()}))))
+    runs = {"fig2_small.good": run(), "fig2_small.bad": bad}
+    page = re.sub(" +", " ", "\n".join(trust_part(trust_solvers(runs, {"fig2_small": run()}))))
     assert "| fig2_small | bad | 3 | 3 |" in page
     assert "| fig2_small | good | never | never |" in page
 

@@ -32,8 +32,8 @@ def labels(figure) -> str:
 def trusted(trajectories, **edited) -> xr.Dataset:
     """Return what trust says of edited runs and of a reference of the case as it was."""
     runs = {key: run.assign_attrs(edited) for key, run in trajectories.items()}
-    true = trajectories["fig2_small", "dop853"]
-    return solvers.trust(runs, {case: true for case, _ in runs})
+    true = trajectories["fig2_small.dop853"]
+    return solvers.trust_solvers(runs, {name.partition(".")[0]: true for name in runs})
 
 
 def edited_norms(make_trajectory, key) -> xr.Dataset:
@@ -62,9 +62,9 @@ def test_figures_of_an_edited_case_say_so(trajectories, make_trajectory):
 
 
 def test_after_the_end_of_a_reference_nothing_is_said_of_it(trajectories, make_trajectory):
-    long = {key: run.copy() for key, run in trajectories.items() if key[1] == "dop853"}
-    true = long["fig2_small", "dop853"].isel(tau=slice(0, 7))
-    data = solvers.trust(long, dict.fromkeys(("fig2_small", "fig2_large"), true))
+    long = {key: run.copy() for key, run in trajectories.items() if key.endswith("dop853")}
+    true = long["fig2_small.dop853"].isel(tau=slice(0, 7))
+    data = solvers.trust_solvers(long, dict.fromkeys(("fig2_small", "fig2_large"), true))
     assert (data["horizon"] == np.inf).all()
     assert (data["known_until"] == 3.0).all() and (data["run_end"] == 5.0).all()
     *_, words, table = trust_part(data)
@@ -75,7 +75,7 @@ def test_after_the_end_of_a_reference_nothing_is_said_of_it(trajectories, make_t
 
 
 def test_of_another_case_the_paper_states_no_drift(trajectories, swept_pairs):
-    data = solvers.compare(trajectories, swept_pairs, ["fig2_small"])
+    data = solvers.compare_solvers(trajectories, *swept_pairs, ["fig2_small"])
     assert np.isnan(float(data["stated_drift"].sel(case="fig2_small")))
     assert data["kept"].sel(case="fig2_small").isnull().all()
     assert data["kept"].sel(case="fig2_large", solver="ode45").values.tolist() == [1, 1]
@@ -84,7 +84,7 @@ def test_of_another_case_the_paper_states_no_drift(trajectories, swept_pairs):
     assert "none: another case" in small and small.endswith("no claim |")
     assert "1e-04" in large and "early, to the end" in large
     assert "stated by the paper" in labels(figures.draw_drift(figures.gather_drift(data)))
-    data = solvers.compare(trajectories, swept_pairs, ["fig2_small", "fig2_large"])
+    data = solvers.compare_solvers(trajectories, *swept_pairs, ["fig2_small", "fig2_large"])
     assert "stated" not in labels(figures.draw_drift(figures.gather_drift(data)))
 
 

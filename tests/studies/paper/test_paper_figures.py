@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from pendula.drawing import style
 from pendula.studies.paper import figures, solvers
 
 
@@ -32,28 +31,10 @@ def test_where_a_run_leaves_its_reference_both_stand_apart_and_a_line_shows_when
 def test_the_line_stands_where_the_dataset_of_horizons_says(leaving):
     run, true = leaving
     shown = figures.gather_norms([run, run], [true, run])["divergence_time"]
-    runs = {(name, "ode45"): run for name in figures.SIZES}
-    horizons = solvers.trust(runs, {"small": true, "large": run})["horizon"]
+    runs = {f"{name}.ode45": run for name in figures.SIZES}
+    horizons = solvers.trust_solvers(runs, {"small": true, "large": run})["horizon"]
     stored = horizons.sel(level="visible", solver="ode45")
     assert np.array_equal(shown, stored) and list(shown) == [2.0, np.inf]
-
-
-def test_the_legend_names_what_is_seen_alone(leaving):
-    run, true = leaving
-    for reference, entries in ((run, ["$A$", "$B$"]), (true, ["$A$", "$B$", figures.DIVERGED])):
-        figure = drawn([run, run], [reference, run])
-        assert [text.get_text() for text in figure.legends[0].get_texts()] == entries
-
-
-def test_panels_show_small_data_above_and_a_in_red(make_trajectory):
-    small, large = make_trajectory(), make_trajectory(scale=5.0)
-    panels = np.reshape(drawn([small, large], [small, large]).axes, (2, 2))
-    for row, run in zip(panels, (small, large), strict=True):
-        for axes, name in zip(row, ("linf", "l2"), strict=True):
-            lines = axes.get_lines()[-2:]  # the run lies above its reference
-            assert [line.get_color() for line in lines] == [style.RED, style.BLUE]
-            for line, component in zip(lines, ("A", "B"), strict=True):
-                assert np.array_equal(line.get_ydata(), run[name].sel(component=component))
 
 
 def test_runs_of_different_lengths_are_drawn_whole(make_trajectory):
@@ -75,11 +56,6 @@ def test_gather_reads_the_window_and_statistic_of_text_and_caption(make_sweep):
         assert np.array_equal(data[name].sel(reading="caption"), caption)
 
 
-def test_a_window_that_no_sweep_has_is_refused(make_sweep):
-    with pytest.raises(KeyError):
-        figures.gather_sweeps(make_sweep(), make_sweep(), "[10, 60]", "[10, 40]")
-
-
 def test_sweeps_over_different_half_widths_keep_all_their_dots(make_sweep):
     left, right = make_sweep(), make_sweep().assign_coords(half_width=[7, 10, 300])
     figure = figures.draw_sweeps(figures.gather_sweeps(left, right, "[10, 70]", "[10, 40]"))
@@ -88,7 +64,7 @@ def test_sweeps_over_different_half_widths_keep_all_their_dots(make_sweep):
 
 
 def test_the_drift_is_drawn_as_its_largest_value_so_far(trajectories, swept_pairs):
-    measured = solvers.compare(trajectories, swept_pairs)
+    measured = solvers.compare_solvers(trajectories, *swept_pairs)
     measured["drift"][..., -1] = 0.0  # it comes back to nothing, as an oscillation does
     drawn = figures.gather_drift(measured)["drift_so_far"]
     assert np.array_equal(drawn.isel(tau=-1), measured["drift"].isel(tau=-2))

@@ -26,17 +26,12 @@ def trusted(results: Results, case: str) -> tuple[str, str]:
         judged, source = trust.sel(solver=solver, level="visible"), TRUST
         times = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
     else:
-        times = _judged(run, results[f"truth/{case}"])
+        reference, end = results[f"truth/{case}"], float(run["tau"][-1])
+        times = np.nan, np.nan, end
+        if is_of_same_case(run, reference):
+            apart = difference(run, reference)
+            times = float(divergence_time(apart)), float(known_until(apart)), end
     return horizon_in_words(*times), source
-
-
-def _judged(run, reference) -> tuple[float, float, float]:
-    """Return when a run leaves its reference, until when both are known, and when it ends."""
-    end = float(run["tau"][-1])
-    if not is_of_same_case(run, reference):
-        return np.nan, np.nan, end
-    apart = difference(run, reference)
-    return float(divergence_time(apart)), float(known_until(apart)), end
 
 
 def controls_of(attributes: Mapping) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
 from pendula.measures.difference import VISIBLE, first_above, norm_difference
 from pendula.measures.norms import drift
-from pendula.problem import Problem
+from pendula.problem import Problem, name_window
 from pendula.simulation.ensembles import draw_members
 from pendula.simulation.simulate import Trajectory, simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, sweep
@@ -77,57 +77,44 @@ def _finer(problem: Problem, half_widths, windows, size: float, seed: int) -> di
     than the first solver, so that all means are independent of each other.
     """
     steps = [problem.solver["step"] * factor for factor in FINER]
-    by_step = []
+    found = []
     for step in steps:
         own = problem.changed(solver={**problem.solver, "step": step})
-        by_width = [
-            [own, *draw_members(own, size, DRAWS - 1, [seed, width, 1])] for width in half_widths
-        ]
-        draws = zip(*by_width, strict=True)
-        by_step.append([_swept(problems, half_widths, windows) for problems in draws])
+        for width in half_widths:
+            draws = [own, *draw_members(own, size, DRAWS - 1, [seed, width, 1])]
+            runs = [sweep(one, [width], windows) for one in draws]
+            found.append([(run.l2[0], run.linf[0]) for run in runs])
+    by_width = np.array(found).reshape(len(steps), len(half_widths), *np.shape(found)[1:])
+    norms = np.moveaxis(by_width, 3, 0).swapaxes(2, 3)
     grid = ("finer_step", "draw", "half_width", "quantity", "statistic", "window")
-    names = [f"[{start:g}, {end:g}]" for start, end in windows]
+    names = [name_window(window) for window in windows]
     axes = (list(half_widths), list(QUANTITIES), list(STATISTICS), names)
     return {
         "finer_step": Variable(grid[:1], steps, "step of the second solver in a chaotic sweep"),
         "draw": Variable(("draw",), np.arange(DRAWS), "draw, the first from the data themselves"),
         **{name: Variable((name,), axis) for name, axis in zip(grid[2:], axes, strict=True)},
-        **{
-            norm: Variable(grid, np.array([[one[k] for one in draws] for draws in by_step]))
-            for k, norm in enumerate(("l2", "linf"))
-        },
+        "l2": Variable(grid, norms[0]),
+        "linf": Variable(grid, norms[1]),
     }
 
 
-def _swept(problems, half_widths, windows) -> np.ndarray:
-    """Return both norms of a sweep whose problems may differ, (norm, half_width, ...)."""
-    runs = [sweep(one, [width], windows) for one, width in zip(problems, half_widths, strict=True)]
-    return np.array([[run.l2[0] for run in runs], [run.linf[0] for run in runs]])
-
-
 def _measure_case(problem: Problem, first) -> dict[str, np.ndarray]:
-    runs = [[_run(problem, scheme, factor) for factor in FACTORS] for scheme in SCHEMES]
-    apart = [[_difference(run, first) for run in row] for row in runs]
-    readings = [_largest(one, other) for one, other in zip(*runs[:2], strict=True)]
+    def run(scheme: str, factor: float) -> Trajectory:
+        controls = {**problem.solver, "name": scheme, "step": factor * problem.solver["step"]}
+        return simulate(problem.changed(solver=controls, snapshot_every=0))
+
+    runs = [[run(scheme, factor) for factor in FACTORS] for scheme in SCHEMES]
+    apart = np.array([[_difference(run, first) for run in row] for row in runs])
+    halved = [_difference(*row[1:]).max() for row in runs]
+    readings = [_difference(one, other).max() for one, other in zip(*runs[:2], strict=True)]
     return {
-        "scheme_difference": np.array([[one.max() for one in row] for row in apart]),
-        "scheme_divergence": np.array(
-            [[first_above(problem.times, one, VISIBLE) for one in row] for row in apart]
-        ),
+        "scheme_difference": apart.max(axis=-1),
+        "scheme_divergence": first_above(problem.times, apart, VISIBLE),
         "scheme_drift": np.array([[drift(run.energy).max() for run in row] for row in runs]),
-        "step_error": np.array([RICHARDSON * _largest(*row[1:]) for row in runs]),
+        "step_error": RICHARDSON * np.array(halved),
         "readings_difference": np.array(readings),
     }
 
 
-def _run(problem: Problem, scheme: str, factor: float) -> Trajectory:
-    controls = {**problem.solver, "name": scheme, "step": factor * problem.solver["step"]}
-    return simulate(problem.changed(solver=controls, snapshot_every=0))
-
-
-def _difference(run, first) -> np.ndarray:
-    return norm_difference(*(np.asarray(one) for one in (run.linf, run.l2, first.linf, first.l2)))
-
-
-def _largest(one, other) -> float:
-    return float(_difference(one, other).max())
+def _difference(run, other) -> np.ndarray:
+    return norm_difference(run.linf, run.l2, *(np.asarray(one) for one in (other.linf, other.l2)))

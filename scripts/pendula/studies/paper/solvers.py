@@ -24,9 +24,6 @@ from pendula.measures.difference import (
 )
 from pendula.measures.norms import drift
 
-Runs = Mapping[tuple[str, str], xr.Dataset]
-"""Trajectories by (case, solver)."""
-
 PAIRS = ("ode45 - crank_nicolson", "ode45 - delfour_fortin_payre", "ode45 - dop853")
 """The paper's two solvers first; each difference is from the paper's first solver."""
 STATED_DRIFT = {"small": 1e-6, "large": 1e-4}
@@ -35,9 +32,8 @@ STATED_DRIFT = {"small": 1e-6, "large": 1e-4}
 ORDER = Cutoff(2.0, '"up to the order of": up to twice the number')
 EARLY = 10.0
 """Slow time up to which an early drift is read."""
-# Where the doubles next to two solutions begin to tell them apart.
 DIGITS = 1e-12
-
+"""Where two solutions whose data differ by the rounding to doubles can be distinguished."""
 
 COMPARED = {
     "drift": "drift of the energy, |H(tau) - H(0)|",
@@ -73,58 +69,30 @@ def compare_solvers(
     trajectories: Mapping[str, xr.Dataset],
     first: Mapping[str, xr.Dataset],
     second: Mapping[str, xr.Dataset],
-    others: Collection[str],
-) -> xr.Dataset:
-    """Return `compare` of datasets by name; `first` and `second` are sweeps in one order."""
-    pairs = zip(first.values(), second.values(), strict=True)
-    return compare(by_solvers(trajectories), dict(zip(first, pairs, strict=True)), others)
-
-
-def trust_solvers(
-    trajectories: Mapping[str, xr.Dataset],
-    references: Mapping[str, xr.Dataset],
-    decimal: Mapping[str, xr.Dataset],
-    proved: Mapping[str, xr.Dataset],
-    proofs: Mapping[str, xr.Dataset],
-) -> xr.Dataset:
-    """Return `trust` of datasets by name; `proofs` are proved curves that are kept."""
-    runs, decimals = by_solvers(trajectories), tuple(decimal.values())
-    return trust(runs, references, decimals, {**proved, **proofs})
-
-
-def by_solvers(trajectories: Mapping[str, xr.Dataset]) -> Runs:
-    """Return trajectories whose names are those of a case and of a solver."""
-    return {tuple(name.split(".")): run for name, run in trajectories.items()}
-
-
-def compare(
-    runs: Runs,
-    sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]],
     others: Collection[str] = (),
 ) -> xr.Dataset:
     """Return how each solver keeps the energy, and how far pairs of solvers differ (see COMPARED).
 
-    `sweeps` holds each sweep by the first of the paper's solvers and by the second. Of the cases
-    `others`, which are not the paper's, it states no order: order and what is kept of it are NaN.
+    The names of `trajectories` are "case.solver"; `first` and `second` are the sweeps by the
+    paper's two solvers, in one order. For the cases `others`, which are not the paper's, the paper
+    states no order: the order and whether it is kept are NaN.
     """
-    cases = list(dict.fromkeys(case for case, _ in runs))
-    orders = {case: _stated(case) if case not in others else np.nan for case in cases}
-    by_case = [_compare_case(_by_solver(runs, case), orders[case]) for case in cases]
-    data = xr.merge([_stack(by_case, "case", cases), _compare_sweeps(sweeps)])
+    by_case, found = _by_case(trajectories), []
+    for case, runs in by_case.items():
+        stated = np.nan if case in others else STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
+        found.append(xr.merge([_drifts(runs, stated), _differences(runs), _problem(runs)]))
+    data = xr.merge([_stack(found, "case", list(by_case)), _compare_sweeps(first, second)])
     title = "The paper's solvers: drift of the energy, and agreement"
-    return _described(data.assign(visible=VISIBLE), COMPARED, runs, title)
+    return _described(data.assign(visible=VISIBLE), COMPARED, trajectories, title)
 
 
-def _by_solver(runs: Runs, case: str) -> dict[str, xr.Dataset]:
-    return {solver: run for (name, solver), run in runs.items() if name == case}
-
-
-def _stated(case: str) -> float:
-    return STATED_DRIFT.get(case.rpartition("_")[2], np.nan)
-
-
-def _compare_case(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
-    return xr.merge([_drifts(runs, stated), _differences(runs), _problem(runs)])
+def _by_case(trajectories: Mapping[str, xr.Dataset]) -> dict[str, dict[str, xr.Dataset]]:
+    """Return the runs of each case by solver."""
+    found: dict[str, dict] = {}
+    for name, run in trajectories.items():
+        case, solver = name.split(".")
+        found.setdefault(case, {})[solver] = run
+    return found
 
 
 def _drifts(runs: Mapping[str, xr.Dataset], stated: float) -> xr.Dataset:
@@ -156,60 +124,72 @@ def _differences(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
     )
 
 
-def _compare_sweeps(sweeps: Mapping[str, tuple[xr.Dataset, xr.Dataset]]) -> xr.Dataset:
+def _compare_sweeps(
+    first: Mapping[str, xr.Dataset], second: Mapping[str, xr.Dataset]
+) -> xr.Dataset:
     """Return the relative difference of the pair's swept l2 norms, by sweep and half-width."""
     found = []
-    for first, second in sweeps.values():
-        off = abs(second["l2"] / first["l2"] - 1).sel(quantity="pair", drop=True)
-        if off.sizes["half_width"] != first.sizes["half_width"]:
+    for one, other in zip(first.values(), second.values(), strict=True):
+        off = abs(other["l2"] / one["l2"] - 1).sel(quantity="pair", drop=True)
+        if off.sizes["half_width"] != one.sizes["half_width"]:
             raise ValueError("the two solvers' sweeps differ in their half-widths")
         found.append(off.to_dataset(name="sweep_difference"))
-    data = _stack(found, "sweep", list(sweeps))
+    data = _stack(found, "sweep", list(first))
     return data.assign(
         largest_sweep_difference=data["sweep_difference"].max("half_width"),
         median_sweep_difference=data["sweep_difference"].median("half_width"),
     )
 
 
-def trust(
-    runs: Runs,
+def trust_solvers(
+    trajectories: Mapping[str, xr.Dataset],
     references: Mapping[str, xr.Dataset],
-    decimal: tuple[xr.Dataset, xr.Dataset] | None = None,
-    proved: Mapping[str, xr.Dataset] | None = None,
+    decimal: Mapping[str, xr.Dataset] = {},
+    proved: Mapping[str, xr.Dataset] = {},
+    proofs: Mapping[str, xr.Dataset] = {},
 ) -> xr.Dataset:
     """Return by case and solver how far the norms are from the reference's, and from when on.
 
-    A run that does not solve its reference's problem has no horizon: there it is NaN. `decimal`
-    holds the references from data as printed (a tenth, say) and from the doubles next to them, and
-    `proved` curves with a proven bound, which is beside the runs where it is of their problem.
+    The names of `trajectories` are "case.solver". A run that does not solve its reference's problem
+    has no horizon: there it is NaN. `decimal` holds the reference from data as printed (a tenth,
+    say) and the one from the doubles next to them. `proved` holds computed curves with a proven
+    bound, and `proofs` those that are kept; the bound counts where it is of the run's problem.
     """
-    cases = list(dict.fromkeys(case for case, _ in runs))
-    by_case = [
-        _trust_case(_by_solver(runs, case), references[case], (proved or {}).get(case))
-        for case in cases
+    by_case, certified = _by_case(trajectories), {**proved, **proofs}
+    found = [
+        _trust_case(runs, references[case], certified.get(case)) for case, runs in by_case.items()
     ]
-    data = _stack(by_case, "case", cases).assign(size=("level", list(LEVELS.values())))
-    if decimal is not None:
-        apart = difference(*decimal)
+    data = _stack(found, "case", list(by_case)).assign(size=("level", list(LEVELS.values())))
+    if decimal:
+        apart = difference(*decimal.values())
         times = [float(divergence_time(apart, level)) for level in (DIGITS, VISIBLE)]
         data["decimal_size"] = "decimal_level", [DIGITS, VISIBLE]
         data["decimal_horizon"] = "decimal_level", times
     title = "Until when each solver's norms are those of the reference"
-    return _described(data, TRUSTED, runs, title)
+    return _described(data, TRUSTED, trajectories, title)
 
 
 def _trust_case(
     runs: Mapping[str, xr.Dataset], reference: xr.Dataset, proved: xr.Dataset | None
 ) -> xr.Dataset:
-    errors = [_error(run, reference) for run in runs.values()]
+    errors = [
+        difference(run, reference)
+        if is_of_same_case(run, reference)
+        else difference(run, run) * np.nan
+        for run in runs.values()
+    ]
     apart = xr.concat(errors, xr.Variable("solver", list(runs)))
     times = [divergence_time(apart, level) for level in LEVELS.values()]
-    horizon = xr.concat(times, xr.Variable("level", list(LEVELS)))
-    known = {"known_until": known_until(apart), "run_end": _end(runs)}
-    bound = _proven_bound(next(iter(runs.values())), proved)
-    until = known_until(bound.where(bound <= VISIBLE))
-    found = apart.to_dataset().assign(horizon=horizon, **known)
-    return xr.merge([found.assign(proven_bound=bound, proved_until=until), _problem(runs)])
+    run = next(iter(runs.values()))
+    bound = _proven_bound(run, proved)
+    found = apart.to_dataset().assign(
+        horizon=xr.concat(times, xr.Variable("level", list(LEVELS))),
+        known_until=known_until(apart),
+        run_end=float(run["tau"][-1]),
+        proven_bound=bound,
+        proved_until=known_until(bound.where(bound <= VISIBLE)),
+    )
+    return xr.merge([found, _problem(runs)])
 
 
 def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
@@ -218,16 +198,6 @@ def _proven_bound(run: xr.Dataset, proved: xr.Dataset | None) -> xr.DataArray:
         return xr.full_like(run["tau"], np.nan)
     known = proved[["bound", *NORMS]].reindex(tau=run["tau"], method="nearest", tolerance=1e-9)
     return known["bound"] / min(float(known[name].max("tau").min()) for name in NORMS)
-
-
-def _end(runs: Mapping[str, xr.Dataset]) -> float:
-    return float(next(iter(runs.values()))["tau"][-1])
-
-
-def _error(run: xr.Dataset, reference: xr.Dataset) -> xr.DataArray:
-    if is_of_same_case(run, reference):
-        return difference(run, reference)
-    return difference(run, run) * np.nan
 
 
 def _problem(runs: Mapping[str, xr.Dataset]) -> xr.Dataset:
@@ -240,7 +210,7 @@ def _stack(parts: list[xr.Dataset], dimension: str, names: list[str]) -> xr.Data
     return xr.concat(parts, xr.Variable(dimension, names), join="outer")
 
 
-def _described(data: xr.Dataset, names: Mapping, runs: Runs, title: str) -> xr.Dataset:
+def _described(data: xr.Dataset, names: Mapping, runs: Mapping, title: str) -> xr.Dataset:
     """Return a dataset with its long names, and with what all runs have in common."""
     for name, long_name in names.items():
         if name in data:

@@ -1,7 +1,7 @@
 """The paper's solvers in numbers: energy, agreement with each other and with the references."""
 
 import math
-from collections.abc import Iterable
+from itertools import product
 
 import xarray
 
@@ -20,7 +20,6 @@ def tabulate_solvers(solvers: str, trust: str, table: str, trust_table: str) -> 
 
 def energy_part(data: xarray.Dataset) -> list[str]:
     """Return the largest drift early and by the end, beside the order that the paper states."""
-    spans = [str(span) for span in data["span"].values]
     ends = [[f"{float(until):g}" for until in sorted(set(one.values))] for one in data["until"].T]
     early, end = (" or ".join(each) for each in ends)
     words = (
@@ -31,24 +30,17 @@ def energy_part(data: xarray.Dataset) -> list[str]:
     for name in data["case"].values:
         case = data.sel(case=name)
         drifts = [
-            " / ".join(f"{float(case['largest_drift'].sel(solver=s, span=at)):.1e}" for at in spans)
-            for s in data["solver"].values
+            " / ".join(f"{drift:.1e}" for drift in one.values)
+            for one in case["largest_drift"].transpose("solver", "span")
         ]
-        rows.append((name, *_claimed(case, spans, drifts)))
+        stated, claimed = "none: another case", "no claim"
+        if not math.isnan(case["stated_drift"]):
+            kept = zip(("early", "to the end"), case["kept"].sel(solver="ode45"), strict=True)
+            claimed = ", ".join(word if holds else f"not {word}" for word, holds in kept)
+            stated = f"{float(case['stated_drift']):.0e}"
+        rows.append((name, stated, *drifts, claimed))
     head = ("case", "paper", *data["solver"].values, "ode45 as claimed")
     return ["## Conservation of the energy", words, markdown(head, rows)]
-
-
-def _claimed(case: xarray.Dataset, spans: list[str], drifts: list[str]) -> list[str]:
-    """Return the drifts with the order that the paper states, if it states one of this case."""
-    if math.isnan(float(case["stated_drift"])):
-        return ["none: another case", *drifts, "no claim"]
-    kept = [int(case["kept"].sel(solver="ode45", span=span)) for span in spans]
-    said = [
-        word if holds else f"not {word}"
-        for word, holds in zip(("early", "to the end"), kept, strict=True)
-    ]
-    return [f"{float(case['stated_drift']):.0e}", *drifts, ", ".join(said)]
 
 
 def agreement_part(data: xarray.Dataset) -> list[str]:
@@ -62,7 +54,11 @@ def agreement_part(data: xarray.Dataset) -> list[str]:
     for name in data["case"].values:
         case = data.sel(case=name)
         pairs = zip(case["divergence_time"].values, case["largest_difference"].values, strict=True)
-        rows.append((name, *(f"{_time(time, '.1f')} ({largest:.0e})" for time, largest in pairs)))
+        told = [
+            f"{'never' if time == math.inf else f'{time:.1f}'} ({largest:.0e})"
+            for time, largest in pairs
+        ]
+        rows.append((name, *told))
     head = ("case", *data["pair"].values)
     return ["## Agreement of the trajectories", words, markdown(head, rows)]
 
@@ -74,15 +70,15 @@ def sweep_part(data: xarray.Dataset) -> list[str]:
         "half-widths, relative to the first solver's value. Points of a chaotic sweep differ by "
         "chance: the ledger holds them to the ensemble."
     )
-    found = [data[f"{name}_sweep_difference"] for name in ("largest", "median")]
     rows = []
-    for sweep in data["sweep"].values:
-        for window in data["window"].values:
-            cells = [
-                _both(one.sel(sweep=sweep, window=window, statistic=statistic) for one in found)
-                for statistic in ("max", "mean")
-            ]
-            rows.append((sweep, window, *cells))
+    for sweep, window in product(data["sweep"].values, data["window"].values):
+        cells = []
+        for statistic in ("max", "mean"):
+            found = data.sel(sweep=sweep, window=window, statistic=statistic)
+            values = [float(found[f"{name}_sweep_difference"]) for name in ("largest", "median")]
+            told = " / ".join(f"{value:.1e}" for value in values)
+            cells.append("not swept" if any(map(math.isnan, values)) else told)
+        rows.append((sweep, window, *cells))
     head = ("sweep", "window", "maximum: largest / median", "mean: largest / median")
     return ["## Agreement of the sweeps", words, markdown(head, rows)]
 
@@ -102,15 +98,3 @@ def trust_part(data: xarray.Dataset) -> list[str]:
     ]
     head = ("case", "solver", *(f"off by {float(size):.2%}" for size in data["size"]))
     return ["# Until when the solvers can be trusted", words, markdown(head, rows)]
-
-
-def _both(found: Iterable[xarray.DataArray]) -> str:
-    """Return two numbers, or that the sweep has no such window."""
-    values = [float(one) for one in found]
-    if any(map(math.isnan, values)):
-        return "not swept"
-    return " / ".join(f"{value:.1e}" for value in values)
-
-
-def _time(time: float, digits: str) -> str:
-    return "never" if time == math.inf else f"{time:{digits}}"
