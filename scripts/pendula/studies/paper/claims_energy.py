@@ -32,19 +32,24 @@ def drifts(trajectories, size: str) -> Finding:
     )
     measured = absolute | {f"{name}_relative": value for name, value in relative.items()}
     measured |= {"cases_within_tenfold": tenfold, "cases_within_tenfold_relative": tenfold_relative}
-    limits = [_drift_limits(cases, size, end, suffix) for suffix in ("", "_relative")]
-    held = [tuple(limit.holds(measured) for limit in pair) for pair in limits]
+    allowed, limits = ORDER.value * STATED_DRIFT[size], []
+    for suffix, of in (("", ""), ("_relative", " / |H(0)|")):
+        says = f"largest |H - H(0)|{of} to tau ="
+        early = [f"{case}_early{suffix}" for case in cases]
+        whole = [f"{case}{suffix}" for case in cases]
+        limits.append(AtMost(allowed, *early, says=f"{says} {EARLY:g}"))
+        limits.append(AtMost(allowed, *whole, says=f"{says} {end:g}"))
+    held = [limit.holds(measured) for limit in limits]
     fails = f"|H - H(0)| keeps to {ORDER.value:g} times that order {kept}"
     divided = (
         f"|H - H(0)| / |H(0)| keeps to it {kept_relative}; with a factor of 10 the first does so to"
         f" the end in {tenfold} of {len(cases)} cases, and the second in {tenfold_relative}"
     )
-    if held[0] != held[1]:
+    if held[:2] != held[2:]:
         return undecided(measured, f"{fails}, and {divided}; the paper does not say which it means")
-    early, whole = held[0]
-    if early and not whole:
+    if held[0] and not held[1]:
         return undecided(measured, f"{fails}, and the paper does not say at which time it ends")
-    return judge(measured, AllOf(*limits[0], *limits[1]), fails=f"{fails}, and {divided}")
+    return judge(measured, AllOf(*limits), fails=f"{fails}, and {divided}")
 
 
 def _kept(trajectories, size: str, relative: bool) -> tuple[dict[str, float], str]:
@@ -62,19 +67,6 @@ def _kept(trajectories, size: str, relative: bool) -> tuple[dict[str, float], st
         for case, time in until.items()
     )
     return measured, ", ".join(said)
-
-
-def _drift_limits(cases, size: str, end: float, suffix: str) -> list[AtMost]:
-    """Return the limits on the drift to EARLY and to the end, by one of both readings."""
-    allowed, drifted = ORDER.value * STATED_DRIFT[size], "|H - H(0)|"
-    drifted += " / |H(0)|" if suffix else ""
-    return [
-        AtMost(allowed, *names, says=f"largest {drifted} to tau = {to:g}")
-        for names, to in (
-            ([f"{case}_early{suffix}" for case in cases], EARLY),
-            ([f"{case}{suffix}" for case in cases], end),
-        )
-    ]
 
 
 def of_high_order(names: tuple[str, ...]) -> Control:

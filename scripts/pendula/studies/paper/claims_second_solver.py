@@ -42,6 +42,8 @@ TEXT = {"fig5": ("[10, 50]", ("l2", "linf")), "fig6": ("[10, 70]", ("l2",))}
 NORMS = ("l2", "linf")
 CAPTION = {"fig5": "[10, 50]", "fig6": "[10, 40]"}
 """The windows over which their captions average."""
+REGULAR = ("largest_regular", "beyond_step_error", "at_half_step")
+"""What is measured of the regular cases: the difference, what the step's error leaves, at half."""
 SECOND, SECOND_SWEEPS = by("crank_nicolson", (*SMALL, *LARGE)), by("crank_nicolson", SWEEPS)
 
 
@@ -107,8 +109,8 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
 )
 def second_solver(*datasets) -> Finding:
     (lyapunov, members, steps), count = datasets[-3:], len(SECOND)
-    steps, chances, off = steps.sel(scheme="crank_nicolson"), [], {}
-    measured = {"largest_regular": 0.0, "beyond_step_error": 0.0, "at_half_step": 0.0}
+    chances, off = [], {}
+    measured = dict.fromkeys(REGULAR, 0.0)
     pairs = zip(datasets[:count], datasets[count : 2 * count], strict=True)
     chaos = are_chaotic(lyapunov, datasets[:count])
     for (first, second), is_chaotic in zip(pairs, chaos, strict=True):
@@ -117,14 +119,13 @@ def second_solver(*datasets) -> Finding:
         if is_chaotic:
             if np.isfinite(time):
                 chances.append(of_most(late_chances(second, members, case, time)))
-        else:
-            at = steps.sel(case=case)
-            off[case] = float(apart.max())
-            beyond = off[case] - float(at["step_error"])
-            half = float(at["scheme_difference"].sel(step=0.5 * at.attrs["configured_step"]))
-            found = {"largest_regular": off[case], "beyond_step_error": beyond}
-            for name, value in (found | {"at_half_step": half}).items():
-                measured[name] = max(measured[name], value)
+            continue
+        at = steps.sel(case=case, scheme="crank_nicolson")
+        off[case] = float(apart.max())
+        half = float(at["scheme_difference"].sel(step=0.5 * at.attrs["configured_step"]))
+        beyond = off[case] - float(at["step_error"])
+        for name, value in zip(REGULAR, (off[case], beyond, half), strict=True):
+            measured[name] = max(measured[name], value)
     measured["chance"] = together(chances)
     criterion = AllOf(
         Below(SEEN, "beyond_step_error", says="difference of regular runs beyond the step's error"),
@@ -135,7 +136,7 @@ def second_solver(*datasets) -> Finding:
             says="chance of a case whose norms are mostly as far from their ensemble",
         ),
     )
-    return judge(measured, criterion, _caveat(off, measured, datasets[-1]))
+    return judge(measured, criterion, _caveat(off, measured, steps))
 
 
 def _caveat(regular: dict[str, float], measured, schemes) -> str:
@@ -182,12 +183,8 @@ def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
 
 
 @once
-def chances_of(name: str, second, ensembles, statistic: str, window: str):
-    """Return the chance that a draw is as far from the mean as the second solver, and the norms.
-
-    Chances are (norm, half_width) of the norms that the text draws, the norms all of NORMS. Where
-    the second solver has draws too, means are compared, and the norms are those of the first draw.
-    """
+def _chances_of(name: str, second, ensembles, statistic: str, window: str):
+    """Return the chances of `swept_chances` by half-width, (norm, half_width), and the norms."""
     drawn = ensembles.sel(sweep=name, quantity="pair", statistic=statistic, window=window)
     second = second.sel(quantity="pair", statistic=statistic, window=window)
     drawn = drawn.dropna("half_width", subset=["l2_mean"])
@@ -200,35 +197,25 @@ def chances_of(name: str, second, ensembles, statistic: str, window: str):
     for norm in TEXT[name[:4]][1]:
         first = drawn[f"{norm}_mean"].values, drawn[f"{norm}_deviation"].values, members
         if "draw" in second.dims:
-            chances.append(chance_of_means(moments(second[norm]), first))
+            chances.append(chance_of_means(_moments(second[norm]), first))
         else:
             chances.append(chance_of_draw(second[norm].values, *first))
     norms = second.isel(draw=0) if "draw" in second.dims else second
     return np.stack(chances), [norms[norm].values for norm in NORMS]
 
 
-def moments(draws) -> tuple[np.ndarray, np.ndarray, int]:
-    """Return mean, deviation and number of draws."""
+def _moments(draws) -> tuple[np.ndarray, np.ndarray, int]:
     return draws.mean("draw").values, draws.std("draw", ddof=1).values, draws.sizes["draw"]
 
 
 def swept_chances(name: str, second, ensembles, statistic: str, window: str) -> list[float]:
     """Return by distinct run the chance that a draw is as far from the mean as the second solver.
 
-    The chance of a run is that of the least of its norms and half-widths, by Bonferroni's bound.
+    The chance of a run is that of the least of the norms that the text draws and of its
+    half-widths, by Bonferroni's bound. Where the second solver has draws too, means are compared.
     """
-    found, norms = chances_of(name, second, ensembles, statistic, window)
+    found, norms = _chances_of(name, second, ensembles, statistic, window)
     return [together(found[:, places]) for places in distinct_runs(norms)]
-
-
-@once
-def off_means(name: str, second, ensembles, window: str) -> float:
-    """Return the largest relative difference of l2 from the ensemble's mean, means over time."""
-    at = {"quantity": "pair", "statistic": "mean", "window": window}
-    mean = ensembles["l2_mean"].sel(sweep=name, **at)
-    l2 = second["l2"].sel(at)
-    l2 = l2.mean("draw") if "draw" in l2.dims else l2
-    return float(abs(l2 / mean - 1.0).max())
 
 
 def readings(name: str) -> dict[str, tuple[str, str]]:
@@ -239,7 +226,7 @@ def readings(name: str) -> dict[str, tuple[str, str]]:
 def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
     """Return the chances of a chaotic sweep by the reading of the text and by that of the caption.
 
-    With them comes the largest relative difference from the mean of the ensemble, by the caption.
+    With them comes how far off l2 is at most, relative to the mean of the ensemble, by the caption.
     """
     if name not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {name}")
@@ -248,7 +235,10 @@ def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
         if window not in ensembles["window"].values or window not in second["window"].values:
             raise UndecidableError(f"{name} or its ensemble has no window {window}")
         found[reading] = swept_chances(name, second, ensembles, statistic, window)
-    found["off"] = [off_means(name, second, ensembles, CAPTION[name[:4]])]
+    at = {"quantity": "pair", "statistic": "mean", "window": CAPTION[name[:4]]}
+    l2 = second["l2"].sel(at)
+    l2 = l2.mean("draw") if "draw" in l2.dims else l2
+    found["off"] = [float(abs(l2 / ensembles["l2_mean"].sel(sweep=name, **at) - 1.0).max())]
     return found
 
 
@@ -268,21 +258,18 @@ def coverage(name: str, second, ensembles) -> str:
     between = [w for w in widths if w not in known and known[0] < w < known[-1]]
     if not between:
         return said
-    sides = {w: (known[known < w][-1], known[known > w][0]) for w in between}
-    means = {w: [float(drawn.sel(half_width=side)) for side in sides[w]] for w in between}
-    beyond = {w: _beyond(float(run.sel(half_width=w)), means[w]) for w in between}
-    worst = max(beyond, key=beyond.get)
-    (first, last), (low, high) = sides[worst], means[worst]
+    off = {}
+    for width in between:
+        value = float(run.sel(half_width=width))
+        sides = known[known < width][-1], known[known > width][0]
+        means = [float(drawn.sel(half_width=side)) for side in sides]
+        nearer = min(means, key=lambda mean: abs(mean - value))
+        beyond = max(min(means) - value, value - max(means)) / nearer  # negative in between
+        off[beyond] = width, value, means[0], sides[0], means[1], sides[1]
     return (
-        f"{said} (furthest off of the others: M = {worst} with l2 = "
-        f"{float(run.sel(half_width=worst)):.3g}, beside means of {low:.3g} at M = {first} and "
-        f"{high:.3g} at M = {last})"
+        "{} (furthest off of the others: M = {} with l2 = {:.3g}, beside means of {:.3g} at M = {}"
+        " and {:.3g} at M = {})".format(said, *off[max(off)])
     )
-
-
-def _beyond(value: float, means: list[float]) -> float:
-    """Return by which part of the nearer mean a value lies beyond both; negative in between."""
-    return max(min(means) - value, value - max(means)) / min(means, key=lambda m: abs(m - value))
 
 
 def of_most(chances: list[np.ndarray]) -> float:
@@ -339,14 +326,13 @@ def chance_by_step(name: str, steps) -> float:
     for statistic, window in readings(name).values():
         at = {"quantity": "pair", "statistic": statistic, "window": window}
         for norm in TEXT[name[:4]][1]:
-            found.append(chance_of_means(*(moments(run[norm].sel(at)) for run in (own, finer))))
+            found.append(chance_of_means(*(_moments(run[norm].sel(at)) for run in (own, finer))))
     return together(found)
 
 
 def without_finer_steps(steps):
-    """Return the runs of the sweep by the assumed step in the place of those by finer ones."""
-    first, *finer = steps["finer_step"].values
-    return repeat("finer_step", first, at=finer, names="l2")(steps)
+    """Return the runs of the sweep by the assumed step in the place of those by the finer one."""
+    return repeat("finer_step", *steps["finer_step"].values, names="l2")(steps)
 
 
 @claim(
@@ -389,21 +375,17 @@ def second_solver_sweeps(*datasets) -> Finding:
             level[f"largest_{name}"] = regular_difference(first, second)
     measured = {"largest_regular": max(level.values(), default=0.0), **level}
     for reading in ("text", "caption"):
-        every = [chance for found in drawn.values() for chance in found[reading]]
+        chances = {name: found[reading] for name, found in drawn.items()}
+        every = [chance for one in chances.values() for chance in one]
         measured |= {f"chance_{reading}": together(every), f"runs_{reading}": len(every)}
-        for name, found in drawn.items():
-            measured[f"chance_{reading}_{name}"] = together(found[reading])
+        measured |= {f"chance_{reading}_{name}": together(one) for name, one in chances.items()}
     measured |= {f"off_{name}": found["off"][0] for name, found in drawn.items()}
     measured |= {f"chance_by_step_{name}": chance for name, chance in finer.items()}
-    said = "chance of the furthest distinct run from the ensembles, by"
     regular_agree = Below(
         SEEN, "largest_regular", says="largest difference of a point of a regular sweep"
     )
-    criterion = AllOf(
-        regular_agree,
-        Above(SIGNIFICANT, "chance_text", says=f"{said} the text"),
-        Above(SIGNIFICANT, "chance_caption", says=f"{said} the caption"),
-    )
+    said = "chance of the furthest distinct run from the ensembles, by the"
+    likely = [Above(SIGNIFICANT, f"chance_{by}", says=f"{said} {by}") for by in ("text", "caption")]
     held = f"there are ensembles at {' and '.join(covered)}"
     apart = _swept_apart(measured, drawn, held)
     by_step = any(chance <= SIGNIFICANT.value for chance in finer.values())
@@ -414,7 +396,7 @@ def second_solver_sweeps(*datasets) -> Finding:
             f"the paper gives no step, and the one that is assumed decides: {apart}; by a quarter"
             f" of it the means are others (chance {means})",
         )
-    return judge(measured, criterion, held if drawn else "", apart)
+    return judge(measured, AllOf(regular_agree, *likely), held if drawn else "", apart)
 
 
 def _swept_apart(measured, drawn: dict[str, dict], held: str) -> str:
@@ -425,13 +407,11 @@ def _swept_apart(measured, drawn: dict[str, dict], held: str) -> str:
         if name.startswith("largest_fig") and off >= SEEN.value
     ]
     for name, found in drawn.items():
-        chances = {
-            words: together(found[reading])
-            for reading, words in (("text", "maxima of the text"), ("caption", "caption's means"))
-        }
-        low = {words: chance for words, chance in chances.items() if chance <= SIGNIFICANT.value}
+        words = {"text": "maxima of the text", "caption": "caption's means"}
+        chances = {said: together(found[reading]) for reading, said in words.items()}
+        low = {said: chance for said, chance in chances.items() if chance <= SIGNIFICANT.value}
         if low:
-            told = " and ".join(f"{chance:.2g} by the {words}" for words, chance in low.items())
+            told = " and ".join(f"{chance:.2g} by the {said}" for said, chance in low.items())
             parts.append(
                 f"{name} by the second solver is not likely to come from the ensembles, with a "
                 f"chance of {told}, which are up to {100 * found['off'][0]:.2g} % off"
