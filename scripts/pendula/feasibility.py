@@ -33,6 +33,9 @@ def find_obstacle(problem: Problem) -> str | None:
     parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
     peak = float(parts.max(initial=0.0))  # NaN where there is one
     span = float(problem.end_time)
+    if problem.is_own:  # whose rates are what its author says
+        found = _find_in_steps(problem.solver, span) or _find_in_tolerances(problem.solver, peak)
+        return found and found[1]
     found = find_fault(problem.constants, peak, span, problem.solver, problem.mu)
     return found and found[1]
 

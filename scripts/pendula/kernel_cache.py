@@ -79,6 +79,18 @@ def _is_private(place: Path | int) -> bool:
     )
 
 
+def keep_source(name: str, text: str) -> Path:
+    """Return a file that holds the text of a generated module, by which its kernels are kept."""
+    folder = (kept_in() or Path(tempfile.gettempdir()) / f"pendula-{os.getpid()}") / "sources"
+    file = folder / _digest(text) / name
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(file)
+    return file
+
+
 def folder_of(function: Callable, root: Path | None) -> Path | None:
     """Return the folder below `root` for the module of a function, by its text and that of all that
     it imports; None if there is no root."""

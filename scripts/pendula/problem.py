@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from pendula.ends import ends_of
+from pendula.model import Model
 
 AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 """The amplitude equations (4), and Newton's equations (1) of the pendula."""
@@ -53,8 +54,9 @@ class Problem:
 
     `model` names the equations: "amplitudes" are (4), "pendula" are (1). The second ones have one
     more constant, `mu`. Data and times are those of (4) for either: pendula start from the angles
-    and velocities that (3) makes of A and B. Time is the slow time tau. `initial` is complex, of
-    shape (2, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest.
+    and velocities that (3) makes of A and B. Time is the slow time tau. A traced model in place of
+    a name has `parameters` and no `constants`; time and data are its own. `initial` is complex, of
+    shape (component, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest.
     `half_width` is M, the chain has the sites -M..M; None stands for a chain without ends.
     `snapshot_every` keeps the size of each component at every site at each so many outputs; 0 keeps
     none.
@@ -63,7 +65,7 @@ class Problem:
     such ends, and where mu is missing or means nothing.
     """
 
-    constants: Constants
+    constants: Constants | None
     half_width: int | None
     boundary: str
     initial: np.ndarray = field(repr=False)
@@ -71,15 +73,19 @@ class Problem:
     output_step: float
     solver: Mapping[str, Any]  # {"name": ..., **controls}
     snapshot_every: int = 0
-    model: str = AMPLITUDES
+    model: str | Model = AMPLITUDES
+    parameters: Mapping[str, Any] = field(default_factory=dict)  # of a traced model
     mu: float | None = None  # of the pendula: the size of their angles
 
     def __post_init__(self):
-        require_model(self.model, self.mu, self.constants.omega)
+        if not self.is_own:
+            require_model(self.model, self.mu, self.constants.omega)
         ends_of(self.boundary)
         initial = np.array(self.initial, complex)
-        if initial.ndim != 2 or len(initial) != 2 or initial.shape[1] % 2 == 0:
-            raise ValueError(f"data of A and B on an odd number of sites, not {initial.shape}")
+        fields = self.model.fields if self.is_own else ("A", "B")
+        if initial.ndim != 2 or len(initial) != len(fields) or initial.shape[1] % 2 == 0:
+            what = " and ".join(fields)
+            raise ValueError(f"data of {what} on an odd number of sites, not {initial.shape}")
         if self.half_width is not None:
             require_inside(initial.shape[1] // 2, self.half_width)
         initial.flags.writeable = False
@@ -91,17 +97,29 @@ class Problem:
         """Return the problem that a mapping of plain values describes (see `plain`)."""
         rest = {key: value for key, value in values.items() if key not in Constants.__annotations__}
         initial = on_sites(rest.pop("initial"))
+        if isinstance(rest.get("model"), Mapping):
+            model = Model.of_text(**rest.pop("model"))
+            return cls(constants=None, initial=initial, model=model, **rest)
         return cls(constants=Constants.of(values), initial=initial, **rest)
+
+    @property
+    def is_own(self) -> bool:
+        """Whether the equations are a traced model."""
+        return isinstance(self.model, Model)
 
     def plain(self) -> dict[str, Any]:
         """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
 
-        Problems of (4) name no model, as it was when there was no other.
+        Problems of (4) name no model, as it was when there was no other. That of a traced model is
+        its name and its text.
         """
+        if self.is_own:
+            model = {"name": self.model.name, "text": self.model.text}
+            equations = {"model": model, "parameters": dict(self.parameters)}
+        else:
+            other = {"model": self.model, "mu": self.mu} if self.model != AMPLITUDES else {}
+            equations = vars(self.constants) | other
         return {
-            "epsilon": self.constants.epsilon,
-            "gamma": self.constants.gamma,
-            "omega": self.constants.omega,
             "half_width": self.half_width,
             "boundary": self.boundary,
             "initial": by_site(self.initial),
@@ -109,7 +127,7 @@ class Problem:
             "output_step": self.output_step,
             "solver": dict(self.solver),
             "snapshot_every": self.snapshot_every,
-            **({"model": self.model, "mu": self.mu} if self.model != AMPLITUDES else {}),
+            **equations,
         }
 
     def changed(self, **changes) -> "Problem":
@@ -125,7 +143,7 @@ class Problem:
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """A and B on the whole chain at tau = 0, complex of shape (2, N)."""
+        """The fields on the whole chain at tau = 0, complex of shape (component, N)."""
         return place(self.initial, self.half_width)
 
     @property
@@ -158,10 +176,10 @@ def output_times(end_time: float, output_step: float) -> np.ndarray:
 
 
 def place(initial: np.ndarray, half_width: int) -> np.ndarray:
-    """Return amplitudes (2, 2M + 1): `initial` (2, 2r + 1) on the sites -r..r, zero elsewhere."""
+    """Return amplitudes (., 2M + 1): `initial` (., 2r + 1) on the sites -r..r, zero elsewhere."""
     reach = initial.shape[1] // 2
     require_inside(reach, half_width)
-    amplitudes = np.zeros((2, 2 * half_width + 1), complex)
+    amplitudes = np.zeros((len(initial), 2 * half_width + 1), complex)
     amplitudes[:, half_width - reach : half_width + reach + 1] = initial
     return amplitudes
 
@@ -175,7 +193,8 @@ def require_inside(site: int, half_width: int) -> None:
 def on_sites(initial: Mapping[int, tuple[complex, complex]]) -> np.ndarray:
     """Return data {site: (A, B)} as an array of (2, 2r + 1) amplitudes on the sites -r..r."""
     reach = max(map(abs, initial), default=0)
-    amplitudes = np.zeros((2, 2 * reach + 1), complex)
+    fields = max(map(len, initial.values()), default=2)
+    amplitudes = np.zeros((fields, 2 * reach + 1), complex)
     for site, pair in initial.items():
         amplitudes[:, reach + site] = pair
     return amplitudes

@@ -46,23 +46,47 @@ def close(chain, y):
 
 
 @kernel
+def seen_at(chain, site, sites):
+    """Return the site, counted from 0, whose value stands at `site`; -1 where one at rest does."""
+    if 0 <= site < sites:
+        return site
+    end = chain.left if site < 0 else chain.right
+    if end == FREE:
+        return -1 - site if site < 0 else 2 * sites - 1 - site
+    if end == PERIODIC:
+        return site + sites if site < 0 else site - sites
+    return -site if end == MIRROR else -1
+
+
+@kernel
+def widen(chain, y, wide):
+    """Write the rows of `y` into `wide`, which has more ghost columns, and fill these."""
+    sites = y.shape[1] - 2
+    reach = (wide.shape[1] - sites) // 2
+    for row in range(y.shape[0]):
+        for j in range(wide.shape[1]):
+            site = seen_at(chain, j - reach, sites)
+            wide[row, j] = y[row, 1 + site] if site >= 0 else 0.0
+
+
+@kernel
 def can_be_tiled(chain):
     """Return whether tiles of the chain may take a step one by one: the two ends of a ring meet."""
     return chain.left != PERIODIC
 
 
-def at_every_site(rule):
+def at_every_site(rule, rows=2):
     """Return the function that applies `rule(chain, states, re, j, dy)` to all sites.
 
-    It goes through both components, a vector of sites at a time where a row is as long as that. The
-    last block of a row then overlaps the one before and writes the same bits again, which costs
-    less than a remainder that goes site by site.
+    It goes through both components, or takes so many `rows` at once, a vector of sites at a time
+    where a row is as long as that. The last block of a row then overlaps the one before and writes
+    the same bits again, which costs less than a remainder that goes site by site.
     """
 
     @inlined_by_llvm
     def walk(chain, states, dy, width):
         last = dy.shape[1] - 1 - width  # the column at which the last block starts
-        for re in range(0, dy.shape[0], 2):
+        for re in range(0, dy.shape[0], rows):
             for j in range(1, dy.shape[1] - 1, width):
                 rule(chain, states, re, min(j, last), dy)
 

@@ -21,9 +21,9 @@ from pendula.integrators.taylor import (
     block_start,
     ghosts_start,
 )
-from pendula.simd import fill, keep_lanes, left_neighbours, load, right_neighbours, store
+from pendula.simd import LANES, fill, keep_lanes, left_neighbours, load, right_neighbours, store
 
-from .chain import MIRROR
+from .chain import MIRROR, seen_at
 
 # --- The ends of the chain: `close` of `amplitudes`, one order at a time ------------------------
 # The padding of a last block holds what its ghost holds, in every order: so it never exceeds what
@@ -70,6 +70,41 @@ def close_order(chain, series, k, at_left, at_right):
                 close_left_end(chain, m, first, last, sites, ghosts + LEFT + part)
 
 
+def close_widely(reach):
+    """Return what fills ghosts and padding of an order where equations look `reach` sites far."""
+
+    @inlined_by_llvm
+    def value_at(chain, series, start, site):
+        sites = (series.blocks - 1) * LANES + series.sites_in_last
+        at = seen_at(chain, site, sites)
+        return series.memory[start + at // LANES * BLOCK_SIZE + at % LANES] if at >= 0 else 0.0
+
+    @inlined_by_llvm
+    def close(chain, series, k, at_left, at_right):
+        m, kept = series.memory, series.sites_in_last
+        sites = (series.blocks - 1) * LANES + kept
+        for component in range(series.components):
+            ghosts = ghosts_start(series, component)
+            for part in range(X, Y + 1, Y - X):
+                start = block_start(series, component, 0) + k * ORDER_STRIDE + part
+                last = start + (series.blocks - 1) * BLOCK_SIZE
+                if at_right:
+                    end = value_at(chain, series, start, sites)
+                    store(m, last, keep_lanes(load(m, last), kept, end))
+                    for i in range(reach):
+                        lane, value = kept + i, value_at(chain, series, start, sites + i)
+                        if lane < LANES:
+                            m[last + lane] = value
+                        else:
+                            m[ghosts + RIGHT + part + lane - LANES] = value
+                if at_left:
+                    for i in range(1, reach + 1):
+                        value = value_at(chain, series, start, -i)
+                        m[ghosts + LEFT + part + LANES - i] = value
+
+    return close
+
+
 # --- Neighbours ---------------------------------------------------------------------------------
 
 
@@ -107,11 +142,11 @@ GROUP = 4
 """Blocks that take an order together in a wave: 17 groups of them fit into the cache."""
 
 
-def in_waves(write_next_order):
+def in_waves(write_next_order, close_order=close_order):
     """Return the function that continues a series, given the rule for one order of some blocks.
 
     write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 of the
-    blocks `first` to `last` - 1 of each component.
+    blocks `first` to `last` - 1 of each component, and `close_order` fills what lies beyond ends.
     """
 
     @uncached

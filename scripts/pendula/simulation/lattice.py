@@ -44,8 +44,8 @@ def choose_ends(boundary: str, reduction: Reduction) -> tuple[int, int]:
 
 
 def pack(amplitudes: np.ndarray, reduction: Reduction) -> np.ndarray:
-    """Return (2, N) amplitudes as a real state with ghost columns, reduced by `reduction`."""
-    kept = amplitudes[: 1 if reduction.synchronised else 2]
+    """Return amplitudes (component, N) as a real state with ghost columns, reduced."""
+    kept = amplitudes[:1] if reduction.synchronised else amplitudes
     if reduction.even:
         kept = kept[:, kept.shape[1] // 2 :]
     y = np.zeros((2 * len(kept), kept.shape[1] + 2))

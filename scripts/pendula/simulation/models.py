@@ -10,12 +10,13 @@ import numpy as np
 
 from pendula.models.amplitudes import Chain
 from pendula.models.pendula import angles_of, make_pendula, swings_of, times_of
-from pendula.numerics.elementary import complex_of
+from pendula.numerics.elementary import complex_of, modulus
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
 from . import pendula_solvers, solvers
-from .lattice import Reduction, choose_ends, pack, unfold, unpack
-from .observables import blank_angle_record, blank_record
+from .lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unfold, unpack
+from .observables import blank_record, blank_state_record
+from .own_models import conserved_in, make_system, solvers_of
 from .solvers import Solver
 
 
@@ -25,7 +26,7 @@ class Model(NamedTuple):
     The functions that take a `reduction` see to the part of the chain that is integrated.
     """
 
-    components: tuple[str, str]
+    components: tuple[str, ...]
     parts: tuple[str, str]  # of a component: the two rows of a state
     solvers: Mapping[str, Solver]
     system: Callable[[Problem, Reduction], Any]  # the parameters of the kernels
@@ -38,6 +39,7 @@ class Model(NamedTuple):
     record: Callable[[int, int, int, int, bool], Any]
     collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]
     """From record, final state and reduction to what `Trajectory` holds of the whole chain."""
+    find_reduction: Callable[[np.ndarray], Reduction] = find_reduction
 
 
 # --- The amplitudes -----------------------------------------------------------------------------
@@ -103,8 +105,46 @@ MODELS = {
         slow=lambda problem, time: 0.5 * problem.mu * problem.mu * time,
         # tolerances are those of the amplitudes, so that they mean the same at any mu
         atol=lambda problem: 2.0 * problem.mu,
-        record=blank_angle_record,
+        record=blank_state_record,
         collect=_collect_pendula,
     ),
 }
 """The models by name."""
+
+
+# --- Models of a user's own ---------------------------------------------------------------------
+
+
+def _collect_own(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[str, np.ndarray]:
+    parts = np.array([y[part::2, 1:-1] for part in (0, 1)])
+    values = (
+        np.abs(record.snapshots[0])
+        if problem.model.second_order
+        else modulus(complex_of(*record.snapshots))
+    )
+    return {
+        "energy": record.energy,
+        "modulus": values,
+        "final": parts if problem.model.second_order else complex_of(*parts),
+        "snapshots": record.snapshots,
+        "conserved": conserved_in(problem, record.snapshots),
+    }
+
+
+def model_of(problem: Problem) -> Model:
+    """Return the model of a problem; a traced one is compiled when it is run."""
+    if not problem.is_own:
+        return MODELS[problem.model]
+    return Model(
+        components=problem.model.fields,
+        parts=("value", "rate") if problem.model.second_order else ("re", "im"),
+        solvers=solvers_of(problem),
+        system=lambda problem, cut: make_system(problem),
+        start=lambda problem, cut: pack(problem.amplitudes, cut),
+        times=lambda problem: problem.times,
+        slow=lambda problem, time: time,
+        atol=lambda problem: 1.0,
+        record=blank_state_record,
+        collect=_collect_own,
+        find_reduction=lambda amplitudes: WHOLE,
+    )

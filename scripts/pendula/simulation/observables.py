@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.compiled import inlined_by_llvm, kernel
+from pendula.compiled import inlined_by_llvm, kernel, uncached
 from pendula.models.amplitudes import energy_with_scratch, modulus2
 from pendula.models.chain import MIRROR
 from pendula.simd import largest_magnitude
@@ -71,9 +71,10 @@ def norms_by(square):
         for k in range(last + 1):
             for j in range(1, y.shape[1] - 1):
                 squares[k, j] = square(y, 2 * k, j)
-        # the same one twice where one component stands for both
-        first_sum, last_sum = sums_over_chain(chain, squares[0], squares[last])
-        record.l2[0, i], record.l2[last, i] = sqrt(first_sum), sqrt(last_sum)
+        for one in range(0, last + 1, 2):
+            other = min(one + 1, last)  # the same one twice where there is no other
+            sum_of_one, sum_of_other = sums_over_chain(chain, squares[one], squares[other])
+            record.l2[one, i], record.l2[other, i] = sqrt(sum_of_one), sqrt(sum_of_other)
         for k in range(last + 1):
             record.linf[k, i] = sqrt(largest_magnitude(squares[k, 1:-1]))
 
@@ -95,32 +96,32 @@ def observe(chain, y, i, record):
         record.energy[i] = energy_with_scratch(chain, y, record.scratch)
 
 
-# --- Of the pendula -----------------------------------------------------------------------------
+# --- Of pendula, and of models of a user's own --------------------------------------------------
 
 
-class AngleRecord(NamedTuple):
-    """The arrays that a run of the pendula fills; `every` = 0 keeps no snapshots."""
+class StateRecord(NamedTuple):
+    """The arrays that a run fills which keeps whole states; `every` = 0 keeps none."""
 
-    linf: np.ndarray  # (component, time), of the angles
+    linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     energy: np.ndarray  # empty: what is driven conserves none
-    snapshots: np.ndarray  # (part, component, site, snapshot), angles and velocities
+    snapshots: np.ndarray  # (part, component, site, snapshot)
     every: int
-    scratch: np.ndarray  # (2, column)
+    scratch: np.ndarray  # (component, column), two rows at least
 
 
-def blank_angle_record(
+def blank_state_record(
     components: int, sites: int, times: int, every: int, energy: bool = False
-) -> AngleRecord:
+) -> StateRecord:
     """Return empty arrays for a run of `times` outputs, with snapshots at each `every`-th."""
     snapshots = (times - 1) // every + 1 if every else 0
-    return AngleRecord(
+    return StateRecord(
         np.empty((components, times)),
         np.empty((components, times)),
         np.empty(0),
         np.empty((2, components, sites, snapshots)),
         every,
-        np.empty((2, sites + 2)),
+        np.empty((max(2, components), sites + 2)),
     )
 
 
@@ -129,15 +130,21 @@ def square_of_angle(y, row, j):
     return y[row, j] * y[row, j]
 
 
-write_norms_of_angles = norms_by(square_of_angle)
+def observe_states(square):
+    """Return what keeps the norms of square(y, row, j) and whole states."""
+    write_norms = norms_by(square)
+
+    @uncached
+    def observe(system, y, i, record):
+        """Reduce the state `y` to the observables of output `i`."""
+        write_norms(system, y, i, record)
+        if record.every > 0 and i % record.every == 0:
+            for k in range(y.shape[0] // 2):
+                for part in range(2):
+                    for j in range(1, y.shape[1] - 1):
+                        record.snapshots[part, k, j - 1, i // record.every] = y[2 * k + part, j]
+
+    return observe
 
 
-@kernel
-def observe_angles(pendula, y, i, record):
-    """Reduce the state `y` of the pendula to the observables of output `i`."""
-    write_norms_of_angles(pendula, y, i, record)
-    if record.every > 0 and i % record.every == 0:
-        for k in range(y.shape[0] // 2):
-            for part in range(2):
-                for j in range(1, y.shape[1] - 1):
-                    record.snapshots[part, k, j - 1, i // record.every] = y[2 * k + part, j]
+observe_angles, observe_fields = observe_states(square_of_angle), observe_states(modulus2)

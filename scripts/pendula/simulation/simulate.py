@@ -1,6 +1,7 @@
 """From a problem to its trajectory: by one run, or by runs at ever finer tolerance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,8 +12,8 @@ from pendula.measures.difference import norm_difference
 from pendula.problem import Problem
 
 from .interrupts import interruptible
-from .lattice import Reduction, find_reduction, unfold
-from .models import MODELS
+from .lattice import Reduction, unfold
+from .models import model_of
 
 FINEST, REFINEMENT = 1e-15, 1e-2
 """The tightest tolerance that `auto` tries, and the factor from each tolerance to the next."""
@@ -39,6 +40,8 @@ class Trajectory(NamedTuple):
     solver: dict[str, Any]  # {"name": ..., **controls} of the run
     snapshots: np.ndarray | None = None
     """Of the pendula: angles and velocities, (part, component, site, snapshot)."""
+    conserved: Mapping[str, np.ndarray] = MappingProxyType({})
+    """Of a model of a user's own: its conserved quantities, each (snapshot,)."""
 
 
 def simulate(
@@ -54,7 +57,7 @@ def simulate(
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, reduction)
     if reduction is None:
-        reduction = find_reduction(problem.amplitudes)
+        reduction = model_of(problem).find_reduction(problem.amplitudes)
     times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
     return _collect(problem, times, record, y, reduction, outcome)
 
@@ -71,11 +74,12 @@ def integrate(
     obstacle = find_obstacle(problem)
     if obstacle:
         raise _stopped(problem, 0.0, obstacle)
-    model = MODELS[problem.model]
+    model = model_of(problem)
     name = problem.solver["name"]
     if name not in model.solvers:
         known = ", ".join(model.solvers)
-        raise IntegrationError(f"{name} does not take the {problem.model}: these do: {known}")
+        whose = problem.model.name if problem.is_own else f"the {problem.model}"
+        raise IntegrationError(f"{name} does not take {whose}: these do: {known}")
     method = model.solvers[name]
     y = model.start(problem, reduction)
     times = model.times(problem)
@@ -115,7 +119,7 @@ def _collect(
         l2=unfold(record.l2, both),
         outcome=outcome,
         solver=dict(problem.solver),
-        **MODELS[problem.model].collect(problem, record, y, reduction),
+        **model_of(problem).collect(problem, record, y, reduction),
     )
 
 

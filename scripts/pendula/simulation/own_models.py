@@ -1,0 +1,156 @@
+"""Runs of models of a user's own: kernels generated from the trace, and what they are given."""
+
+from functools import cache
+
+import numpy as np
+
+from pendula.ends import ends_of, kind_of
+from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
+from pendula.model import Model, evaluate
+from pendula.models.generated import System, load_text, module_text, parts_of_rates
+from pendula.problem import Problem
+from pendula.simd import LANES
+
+from .solvers import ITERATED, Solver
+
+SOLVERS = """
+
+# --- Solvers ------------------------------------------------------------------------------------
+
+from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
+from pendula.simulation.observables import observe_angles, observe_fields
+
+"""
+RUN = """
+solve_{name} = {method}({rule}, {observe}{time})
+
+
+@kernel
+def run_{name}(system, y, times, controls, work, record, stop):
+    return solve_{name}(system, y, times, controls, work, record, stop)
+
+"""
+
+
+def solvers_text(model: Model) -> str:
+    """Return the runs of a model by all solvers that take it."""
+    observe = "observe_angles" if model.second_order else "observe_fields"
+    time = ", at_time=at_time" if model.driven else ""
+    methods = [("taylor", "taylor.build", "continue_series")]
+    methods += [(name, f"{name}.build", "rates") for name in ("dop853", "ode45")]
+    if model.second_order:
+        methods.append(("kahan_li", "kahan_li.build", "rates"))
+    if not model.driven:
+        methods.append(("crank_nicolson", "crank_nicolson.build", "rates"))
+    return SOLVERS + "".join(
+        RUN.format(name=name, method=method, rule=rule, observe=observe, time=time)
+        for name, method, rule in methods
+    )
+
+
+@cache
+def kernels_of(model: Model, site_dependent: frozenset[str]):
+    """Return the generated module of a model some of whose parameters depend on the site."""
+    text = module_text(model.rates, model.reach, site_dependent) + solvers_text(model)
+    return load_text(text)
+
+
+def solvers_of(problem: Problem) -> dict[str, Solver]:
+    """Return the solvers that take the model of a problem."""
+    made = kernels_of(problem.model, site_dependent(problem))
+    explicit = ("rtol", "atol")
+    controls = {
+        "taylor": (explicit, made.WORK),
+        "dop853": (explicit, dop853.WORK),
+        "ode45": (explicit, ode45.WORK),
+        "kahan_li": (("step",), kahan_li.WORK),
+        "crank_nicolson": (ITERATED, crank_nicolson.WORK),
+    }
+    return {
+        name: Solver(getattr(made, f"run_{name}"), *given)
+        for name, given in controls.items()
+        if hasattr(made, f"run_{name}")
+    }
+
+
+def parameters_of(problem: Problem) -> dict:
+    """Return the value of each parameter: a number, or an array (site,) of one for each site.
+
+    Raises ValueError where a list has another length than the chain.
+    """
+    sites = np.arange(-problem.half_width, problem.half_width + 1)
+    found = {**problem.model.parameters, **problem.parameters}
+    for name, value in found.items():
+        value = np.asarray(value(sites) if callable(value) else value, float)
+        if value.shape not in ((), sites.shape):
+            raise ValueError(f"parameter {name} has {value.size} values for {sites.size} sites")
+        found[name] = value if value.ndim else float(value)
+    return found
+
+
+def site_dependent(problem: Problem) -> frozenset[str]:
+    """Return the names of the parameters that depend on the site."""
+    return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
+
+
+def make_system(problem: Problem):
+    """Return what the kernels of a model take for its parameters, at time 0."""
+    model, values = problem.model, parameters_of(problem)
+    end = kind_of(problem.boundary)
+    parts = parts_of_rates(model.rates, site_dependent(problem))
+
+    def leaf(one):
+        if one.operation == "number":
+            return one.operands[0]
+        name, by = one.operands
+        value = values[name]
+        return value if np.ndim(value) == 0 else moved(value, by, problem.boundary)
+
+    constants = map(float, evaluate(parts.constants, leaf))
+    at_sites = np.zeros((max(1, len(parts.at_sites)), problem.sites + 2 + 2 * LANES))
+    for row, value in enumerate(evaluate(parts.at_sites, leaf)):
+        at_sites[row, 1 : 1 + problem.sites] = value
+    rows = 2 * len(model.fields)
+    wide = np.zeros((rows, problem.sites + 2 * model.reach))
+    clocks = (0.0,) * 2 * len(parts.clocks)
+    return System(tuple(constants), clocks, at_sites, wide, end, end)
+
+
+def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the sums over the chain of the densities of a model, each (snapshot,).
+
+    `snapshots` are (part, component, site, snapshot). The sums go on beyond ends at rest as far as
+    densities look, so that the bonds to them count.
+    """
+    densities, values = problem.model.conserved, parameters_of(problem)
+    reach = max((density.reach for density in densities.values()), default=0)
+    margin = reach if problem.boundary == "dirichlet" else 0
+    sees = ends_of(problem.boundary).sees
+    how = {"constant_values": 0.0} if sees is None else {}
+    mode = "constant" if sees is None else {(0, -1): "symmetric", (-1, 0): "wrap"}[sees]
+    wide = [(0, 0), (0, 0), (margin + reach, margin + reach), (0, 0)]
+    padded = np.pad(snapshots, wide, mode, **how)
+    count = snapshots.shape[2] + 2 * margin
+
+    def leaf(one):
+        if one.operation == "number":
+            return one.operands[0]
+        by = one.operands[-1]
+        if one.operation == "field":
+            component, part, _ = one.operands
+            return padded[part, component, reach + by : reach + by + count]
+        value = values[one.operands[0]]
+        if np.ndim(value) == 0:
+            return value
+        return np.pad(moved(value, by, problem.boundary), margin, "edge")[:, None]
+
+    totals = [np.sum(density, axis=0) for density in evaluate(densities.values(), leaf)]
+    return dict(zip(densities, totals, strict=True))
+
+
+def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
+    """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
+    places = np.arange(values.size) + by
+    if boundary == "periodic":
+        return values[places % values.size]
+    return values[np.clip(places, 0, values.size - 1)]

@@ -1,0 +1,119 @@
+"""Traced models against plain NumPy and SciPy: random polynomials, sines, drives, disorder."""
+
+from functools import reduce
+
+import numpy as np
+import pytest
+from pendula.model import Model, conj, shift
+from pendula.problem import Problem
+from pendula.simulation.simulate import simulate
+from scipy.integrate import solve_ivp
+
+TIGHT = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
+
+
+def problem(model, initial, boundary, solver="taylor", end_time=1.0, **parameters):
+    """Return the problem of a traced model on as many sites as `initial` (field, site) has."""
+    return Problem(
+        constants=None, half_width=initial.shape[1] // 2, boundary=boundary, initial=initial,
+        end_time=end_time, output_step=0.25, model=model, parameters=parameters,
+        solver={"name": solver, "rtol": 1e-13, "atol": 1e-13, "step": 0.01}, snapshot_every=1,
+    )  # fmt: skip
+
+
+def beside(values, by, boundary):
+    """Return the values (site,) at the sites n + by."""
+    mode = {"dirichlet": "constant", "free": "symmetric", "periodic": "wrap"}[boundary]
+    return np.pad(values, 7, mode)[7 + by : 7 + by + values.size]
+
+
+def polynomial(seed, fields, reach):
+    """Return random terms of each field's rate: a coefficient, a parameter, and its factors."""
+    rng = np.random.default_rng(seed)
+
+    def factor():
+        return rng.integers(fields), rng.random() < 0.5, rng.integers(-reach, reach + 1)
+
+    def term():
+        number = complex(*rng.uniform(-0.7, 0.7, 2)) if rng.random() < 0.7 else 1.0
+        return number, rng.choice(["a", "b"]), [factor() for _ in range(rng.integers(1, 4))]
+
+    return [[term() for _ in range(4)] for _ in range(fields)]
+
+
+def traced(terms):
+    """Return the model of random terms."""
+
+    def i_dt(p, *fields):
+        def one(number, parameter, factors):
+            found = [
+                shift(conj(fields[f]) if conjugated else fields[f], int(by))
+                for f, conjugated, by in factors
+            ]
+            return reduce(lambda a, b: a * b, found, number * getattr(p, str(parameter)))
+
+        return [sum(one(*term) for term in row) for row in terms]
+
+    names = tuple(f"u{i}" for i in range(len(terms)))
+    return Model(fields=names, parameters={"a": 0.7, "b": -0.4}, i_dt=i_dt)
+
+
+def rate(terms, boundary, parameters):
+    """Return du/dt of random terms, in plain NumPy, of a flat state."""
+
+    def slope(_, flat):
+        fields = flat.reshape(len(terms), -1)
+        rows = []
+        for row in terms:
+            total = 0
+            for number, parameter, factors in row:
+                found = number * parameters[parameter]
+                for f, conjugated, by in factors:
+                    values = beside(fields[f], by, boundary)
+                    found = found * (values.conj() if conjugated else values)
+                total = total + found
+            rows.append(-1j * total)
+        return np.ravel(rows)
+
+    return slope
+
+
+@pytest.mark.parametrize(
+    ("seed", "fields", "reach", "boundary", "half_width"),
+    [(1, 1, 1, "free", 10), (2, 2, 2, "dirichlet", 11), (3, 3, 1, "periodic", 2)],
+)
+def test_random_polynomials_equal_scipy_on_numpy(seed, fields, reach, boundary, half_width):
+    terms, sites = polynomial(seed, fields, reach), 2 * half_width + 1
+    initial = 0.2 * np.random.default_rng(seed).normal(size=(fields, sites, 2)) @ (1.0, 1j)
+    disorder = np.linspace(0.2, 1.0, sites)
+    found = simulate(problem(traced(terms), initial, boundary, b=disorder)).final
+    slope = rate(terms, boundary, {"a": 0.7, "b": disorder})
+    expected = solve_ivp(slope, (0.0, 1.0), initial.ravel(), **TIGHT).y[:, -1]
+    np.testing.assert_allclose(found, expected.reshape(initial.shape), rtol=0, atol=1e-9)
+
+
+def pendulum(p, x):
+    """A driven chain with a sine of each angle and of each bond, and a force of its own."""
+    bond = p.bond * np.sin(x.right - x)
+    drive = p.strength * np.cos(p.frequency * p.t + 0.3)
+    return (bond - bond.left) - np.sin(x) + drive * x + 0.1 * p.t - p.force
+
+
+@pytest.mark.parametrize("solver", ["taylor", "dop853", "kahan_li"])
+def test_sines_drives_and_functions_of_time_equal_scipy(solver):
+    numbers = {"bond": 0.5, "strength": 0.4, "frequency": 2.2, "force": 0.05}
+    model = Model(fields="x", parameters=numbers, d2_dt2=pendulum)
+    initial = np.random.default_rng(4).normal(size=(1, 13, 2)) @ (1.0, 1j)
+
+    def slope(t, flat):
+        x, v = flat.reshape(2, -1)
+        bond = 0.5 * np.sin(beside(x, 1, "free") - x)
+        before = 0.5 * np.sin(x - beside(x, -1, "free"))
+        drive = 0.4 * np.cos(2.2 * t + 0.3)
+        return np.ravel([v, (bond - before) - np.sin(x) + drive * x + 0.1 * t - 0.05])
+
+    start = np.ravel([initial[0].real, initial[0].imag])
+    expected = solve_ivp(slope, (0.0, 2.0), start, **TIGHT).y[:, -1]
+    found = simulate(problem(model, initial, "free", solver, end_time=2.0)).final[:, 0]
+    error = 1e-9 if solver != "kahan_li" else 1e-8
+    np.testing.assert_allclose(found.ravel(), expected, rtol=0, atol=error)
