@@ -126,8 +126,9 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
     said = " and ".join(NORMS[name] for name in norms)
-    pair = "(x, y)" if panel.attrs.get("model") == "pendula" else "(A, B)"
-    axes.set_ylabel(f"{said} of ${pair}${style.name_units(panel[norms[0]])}")
+    pair = "$(x, y)$" if panel.attrs.get("model") == "pendula" else "$(A, B)$"
+    pair = "all fields" if "model_text" in panel.attrs else pair
+    axes.set_ylabel(f"{said} of {pair}{style.name_units(panel[norms[0]])}")
     axes.set_title(style.name_case(panel), loc="left")
 
 

@@ -106,9 +106,10 @@ def _draw_strip(axes: Axes, case: xr.Dataset, name: str, strip: Strip) -> None:
 
 
 def _draw_curves(axes: Axes, curves: xr.DataArray, colours: dict) -> None:
-    for component in curves["component"].values:
-        curve = curves.sel(component=component).dropna("tau")
-        axes.plot(curve["tau"], curve, color=colours[component], label=f"${component}$", alpha=0.9)
+    for i, component in enumerate(curves["component"].values):
+        curve, colour = curves.sel(component=component).dropna("tau"), colours.get(component)
+        look = {"color": colour or f"C{i}", "label": f"${component}$", "alpha": 0.9}
+        axes.plot(curve["tau"], curve, **look)
 
 
 def _draw_bands(axes: Axes, bands: xr.DataArray, colours: dict) -> None:
@@ -127,7 +128,8 @@ def diverges(case: xr.Dataset) -> bool:
 def name_legend(figure: Figure, components: Sequence[str], mark: str = "") -> None:
     """Put one legend above all: the components, and in words what the dashed line marks."""
     lines = [
-        Line2D([], [], color=style.COLOURS[one], label=f"${one}$", lw=1.6) for one in components
+        Line2D([], [], color=style.COLOURS.get(one, f"C{i}"), label=f"${one}$", lw=1.6)
+        for i, one in enumerate(components)
     ]
     if mark:
         dashed = DIVERGED | {"lw": 1.0}

@@ -142,8 +142,8 @@ def name_case(case: xr.Dataset) -> str:
 def name_initial(initial: str) -> str:
     """Return initial data, as datasets keep them ({site: [A, B]}), as written in a panel."""
     sites = read_initial(initial)
-    if len(sites) != 1:
-        return f"data on {len(sites)} sites"
+    if [len(values) for values in sites.values()] != [2]:
+        return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
     ((site, (a, b)),) = sites.items()
     return rf"$(A_{{{site}}}, B_{{{site}}}) = ({_name_number(a)}, {_name_number(b)})$"
 
@@ -162,7 +162,7 @@ def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
         coords="minimal",
         compat="override",
     )
-    omegas = [float(data.attrs["omega"]) for data in datasets]
+    omegas = [float(data.attrs.get("omega", "nan")) for data in datasets]
     initials = [data.attrs["initial"] for data in datasets]
     return stacked.assign(omega=(dim, omegas), initial=(dim, initials))
 
