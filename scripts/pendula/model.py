@@ -439,7 +439,7 @@ class Model:
         text: str = "",
     ):
         self.fields = (fields,) if isinstance(fields, str) else tuple(fields)
-        self.parameters, self.name = dict(parameters), name
+        self.parameters, self.name, self.in_file = dict(parameters), name, False
         self.second_order = d2_dt2 is not None
         functions = [one for one in (i_dt, d2_dt2, conserved) if one is not None]
         self.text = text or "\n".join(_source_of(function) for function in functions)
@@ -471,7 +471,13 @@ class Model:
             raise ModelError(f"{path} cannot be read: {error}") from None
         return cls.of_text(Path(path).name, text)
 
+    @property
+    def plain(self):
+        """What of_text takes by name, if the model has a file; else the model itself."""
+        return {"name": self.name, "text": self.text} if self.in_file else self
+
     @classmethod
+    @cache
     def of_text(cls, name: str, text: str) -> "Model":
         """Return the model of the text of a file, which is run under that name."""
         given: dict[str, Any] = {}
@@ -483,13 +489,10 @@ class Model:
         if absent:
             raise ModelError(f"{name} has no {' and no '.join(absent)}")
         functions = {key: given.get(key) for key in ("i_dt", "d2_dt2", "conserved")}
-        return cls(
-            fields=given["fields"],
-            parameters=given["parameters"],
-            name=name,
-            text=text,
-            **functions,
-        )
+        given = {key: given[key] for key in ("fields", "parameters")}
+        model = cls(**given, **functions, name=name, text=text)
+        model.in_file = True
+        return model
 
     def _called(self, function: Callable, symbols: list[Value]) -> Any:
         try:
@@ -507,6 +510,26 @@ class Model:
     def driven(self) -> bool:
         """Whether the equations depend on the time."""
         return any(one.operation == "time" for one in in_order(self.rates))
+
+    def rate(self, parameters: Mapping[str, Any], peak: float) -> float:
+        """Return a bound of the rates at which fields of the size `peak` turn or grow."""
+        given = {name: value for name, value in self.parameters.items() if not callable(value)}
+        sizes = {name: float(np.abs(value).max()) for name, value in (given | parameters).items()}
+
+        def size(one: Node) -> float:
+            if one.operation == "number":
+                return one.operands[0]
+            return (
+                peak
+                if one.operation == "field"
+                else sizes.get(one.operands[0] if one.operands else "", 1.0)
+            )
+
+        rows = np.zeros(len(self.rates))
+        for found in [one for one in in_order(self.rates) if one.operation == "field"]:
+            change = derivative(list(self.rates), lambda one, found=found: number(one is found))
+            rows += np.abs(evaluate(change, size))
+        return float(rows.max())
 
     def tangent(self) -> "Model":
         """Return the model of a solution and a small perturbation of it: twice the fields."""

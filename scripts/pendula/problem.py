@@ -97,9 +97,9 @@ class Problem:
         """Return the problem that a mapping of plain values describes (see `plain`)."""
         rest = {key: value for key, value in values.items() if key not in Constants.__annotations__}
         initial = on_sites(rest.pop("initial"))
-        if isinstance(rest.get("model"), Mapping):
-            model = Model.of_text(**rest.pop("model"))
-            return cls(constants=None, initial=initial, model=model, **rest)
+        if isinstance(model := rest.get("model"), Mapping | Model):
+            model = model if isinstance(model, Model) else Model.of_text(**model)
+            return cls(**{**rest, "constants": None, "initial": initial, "model": model})
         return cls(constants=Constants.of(values), initial=initial, **rest)
 
     @property
@@ -114,8 +114,7 @@ class Problem:
         its name and its text.
         """
         if self.is_own:
-            model = {"name": self.model.name, "text": self.model.text}
-            equations = {"model": model, "parameters": dict(self.parameters)}
+            equations = {"model": self.model.plain, "parameters": dict(self.parameters)}
         else:
             other = {"model": self.model, "mu": self.mu} if self.model != AMPLITUDES else {}
             equations = vars(self.constants) | other
@@ -133,8 +132,9 @@ class Problem:
     def changed(self, **changes) -> "Problem":
         """Return the problem with other values; those of `constants` may be given by name."""
         named = {name: changes.pop(name) for name in Constants.__annotations__ if name in changes}
-        constants = replace(changes.pop("constants", self.constants), **named)
-        return replace(self, constants=constants, **changes)
+        if named:
+            changes["constants"] = replace(changes.get("constants", self.constants), **named)
+        return replace(self, **changes)
 
     @property
     def sites(self) -> int:

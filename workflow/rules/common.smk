@@ -165,10 +165,10 @@ def kernels(*solvers):
 def own_kernels(case, solver=None):
     """Return the kernels that a case waits for.
 
-    Those of the pendula are compiled by the first job that needs them, and others wait for it.
+    Those of other equations are compiled by the first job that needs them, and others wait for it.
     """
     given = SETTINGS.cases[case]
-    return [] if given.model == "pendula" else kernels(solver or given.solver.name)
+    return [] if given.model != "amplitudes" else kernels(solver or given.solver.name)
 
 
 def committed(**files):

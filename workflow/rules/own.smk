@@ -1,6 +1,8 @@
 # Cases and sweeps of one's own: figures, checks, and a report, as for those of the paper. Their names
 # are free, so all lies in results/own.
 
+CHECKING = ["taylor", "dop853"]  # solvers that check a case
+
 
 rule own:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
@@ -11,7 +13,9 @@ rule own:
 use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
-        kernels=kernels("taylor", "dop853"),
+        kernels=lambda wildcards: [
+            file for solver in CHECKING for file in own_kernels(wildcards.case, solver)
+        ],
         run="<results>/trajectories/{case}.nc",
     pathvars:
         made="own/cases/<own_case>.checks",

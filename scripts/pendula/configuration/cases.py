@@ -67,8 +67,11 @@ def _nearest_snapshots(outputs: int, every: int, step: float) -> str:
     return f"the nearest that do are {below * step:.12g} and {above * step:.12g}"
 
 
-def _sites(given: Any) -> Any:
-    """Return initial data by the number of their site; refuse a site that stands twice."""
+def sites_of(given: Any, most: int | None = 2) -> Any:
+    """Return initial data by the number of their site; refuse a site that stands twice.
+
+    A site has at most so many values.
+    """
     if not isinstance(given, Mapping):
         raise fault(f"is {shown(given)}, not data by site such as {{0: [1, 0.1]}}")
     found: dict = {}
@@ -76,7 +79,7 @@ def _sites(given: Any) -> Any:
         site = as_whole(key)
         if site in found and len(found) < len(given):
             raise fault(f"the site {site} stands twice, as a number and as a word")
-        if isinstance(pair, list | tuple) and len(pair) > 2:
+        if isinstance(pair, list | tuple) and most and len(pair) > most:
             raise fault(f"site {site} has {len(pair)} values; give two, A and B")
         if not isinstance(pair, list | tuple):
             raise fault(f"site {site} has {shown(pair)}; give two values, [A, B]")
@@ -85,7 +88,7 @@ def _sites(given: Any) -> Any:
 
 
 Initial = Annotated[
-    dict[Whole, tuple[Complex, Complex]], BeforeValidator(_sites), Field(min_length=1)
+    dict[Whole, tuple[Complex, Complex]], BeforeValidator(sites_of), Field(min_length=1)
 ]
 
 

@@ -12,6 +12,7 @@ from math import inf
 from typing import NamedTuple
 
 from pendula.feasibility import Obstacle
+from pendula.model import Model
 
 HOUR, YEAR, GIGABYTE = 3600.0, 365.25 * 24 * 3600.0, 1e9
 WORTH_SAYING = 180.0
@@ -120,7 +121,8 @@ def with_checks(problem: Mapping) -> Cost:
     they are the amplitudes.
     """
     other = other_than(problem["solver"]["name"])
-    plain = {key: value for key, value in problem.items() if key not in ("mu", "model")}
+    keys = ("mu",) if "parameters" in problem else ("mu", "model")
+    plain = {key: value for key, value in problem.items() if key not in keys}
     again = {"solver": {"name": other, "rtol": TIGHTEST[other]}, "snapshot_every": 0}
     if problem.get("mu"):
         rest = [plain | {"solver": {"name": "taylor", "rtol": TIGHTEST["taylor"]}}]
@@ -168,7 +170,11 @@ def fastest_rate(problem: Mapping) -> float:
     The chain at rest is unstable where the frequency of a wave is less than twice the drive.
     Pendula swing at a rate of 1 in t, whatever their slow motion does.
     """
-    peak = max(max(abs(a), abs(b)) for a, b in problem["initial"].values())
+    peak = max(max(map(abs, values)) for values in problem["initial"].values())
+    if "parameters" in problem:
+        model = problem["model"]
+        model = Model.of_text(**model) if isinstance(model, Mapping) else model
+        return model.rate(problem["parameters"], peak)
     if problem.get("mu"):
         mu = problem["mu"]
         return (SWING + 2.0 * mu * peak) * 2.0 / (mu * mu)
@@ -188,6 +194,8 @@ def integrated_pairs(problem: Mapping) -> float:
     Where A = B only one component is, which counts half.
     """
     initial, half_width = problem["initial"], problem["half_width"]
+    if "parameters" in problem:
+        return (2 * half_width + 1) * 0.5 * max(map(len, initial.values()))
     even = all(initial.get(-site, (0, 0)) == pair for site, pair in initial.items())
     together = all(a == b for a, b in initial.values())
     return (half_width + 1 if even else 2 * half_width + 1) * (0.5 if together else 1.0)

@@ -27,6 +27,8 @@ SURPRISES = {
     ),
 }
 """Numbers that YAML reads otherwise than people do."""
+OF_MODELS = ".py"
+"""How the names of files end that hold equations."""
 PLAIN = ("str", "int", "float", "bool", "null", "seq", "map", "merge", "timestamp", "value")
 """The tags of YAML that a configuration may have; others would make objects of programs."""
 WHOLE = ("initial", "lengths", "end_times", "between")
@@ -195,9 +197,30 @@ def merge(below: Mapping, above: Mapping) -> dict:
     return found
 
 
+def with_texts(configuration: dict, folder: Path) -> dict:
+    """Return a configuration with the name and the text of each file that is named as a model.
+
+    Raises ConfigurationError where there is no such file; `folder` is where paths start.
+    """
+    cases = configuration.get("cases")
+    if not isinstance(cases, dict):
+        return configuration
+    found = dict(cases)
+    for name, case in cases.items():
+        path = case.get("model") if isinstance(case, dict) else None
+        if isinstance(path, str) and path.endswith(OF_MODELS):
+            try:
+                text = (folder / path).read_text(encoding="utf-8")
+            except (OSError, UnicodeDecodeError) as error:
+                why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+                raise ConfigurationError(f"cases.{name}.model: {folder / path}: {why}") from None
+            found[name] = {**case, "model": {"name": Path(path).name, "text": text}}
+    return {**configuration, "cases": found}
+
+
 def gather(files: list[Path], given: Mapping) -> dict:
     """Return what files hold, each laid over those before it, and `given` over all."""
     found: dict = {}
     for path in files:
-        found = merge(found, read(path))
-    return merge(found, given)
+        found = merge(found, with_texts(read(path), Path(path).parent))
+    return merge(found, with_texts(dict(given), Path()))

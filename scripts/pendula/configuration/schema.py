@@ -10,10 +10,11 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from pendula.problem import AMPLITUDES, name_window
+from pendula.problem import AMPLITUDES, PENDULA, name_window
 
 from . import cost
-from .cases import Case, is_multiple
+from .cases import is_multiple
+from .own_models import AnyCase
 from .solvers import Solver, Solvers, with_controls
 from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
 
@@ -80,7 +81,7 @@ class Limits(Model):
 class Configuration(Model):
     """Cases, sweeps and the solvers' controls; `messages` adds a section for each study."""
 
-    cases: Annotated[dict[Name, Case], Field(min_length=1)]
+    cases: Annotated[dict[Name, AnyCase], Field(min_length=1)]
     sweeps: dict[Name, Sweep] = {}
     solvers: Solvers = Solvers()
     limits: Limits = Limits()
@@ -134,7 +135,8 @@ class Configuration(Model):
     def _not_amplitudes(self, key: str, name: str) -> Faults:
         """Yield the fault of a case of the pendula where only the amplitudes have a meaning."""
         if self.cases[name].model != AMPLITUDES:
-            yield key, f"case {name!r} is of the pendula, and this is about the amplitude equations"
+            whose = "the pendula" if self.cases[name].model == PENDULA else "a model of your own"
+            yield key, f"case {name!r} is of {whose}, and this is about the amplitude equations"
 
     def excess(self, key: str, costs: list[cost.Cost], times: float = 1.0) -> Faults:
         """Yield `key` and why, if the runs of a study, each made `times` times, cost too much."""

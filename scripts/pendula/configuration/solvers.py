@@ -75,6 +75,10 @@ OF_PENDULA = ("taylor", "dop853", "ode45", "kahan_li", "auto")
 """The solvers that take Newton's equations."""
 OF_AMPLITUDES = ("taylor", "dop853", "ode45", "crank_nicolson", "delfour_fortin_payre", "auto")
 """The solvers that take the amplitude equations."""
+OF_OWN_MODELS = ("taylor", "dop853", "ode45", "auto")
+"""The solvers that take any model of a user's own."""
+OF_SECOND_ORDER = ("kahan_li",)
+"""Those that take such models of second order in time, too."""
 
 
 class Solvers(Model):

@@ -1,12 +1,13 @@
 """Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
 
+import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from pendula.problem import PENDULA, Constants, Problem, name_window, write_initial
-from pendula.simulation.models import MODELS
+from pendula.simulation.models import MODELS, model_of
 from pendula.simulation.simulate import Trajectory
 from pendula.simulation.sweep import STATISTICS, Sweep
 
@@ -23,11 +24,14 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
     """Return the contents of the dataset on a run of `problem`."""
     driven = problem.model == PENDULA
-    variables = (_pendula_variables if driven else trajectory_variables)(
-        trajectory, problem.snapshot_every
-    )
+    if problem.is_own:
+        variables = _own_variables(problem, trajectory)
+    else:
+        variables = (_pendula_variables if driven else trajectory_variables)(
+            trajectory, problem.snapshot_every
+        )
     attributes = describe_run(name, problem, trajectory.solver)
-    what = "Norms of the angles" if driven else "Norms and energy"
+    what = "Norms of the angles" if driven else "Norms" if problem.is_own else "Norms and energy"
     title = f"{what} of {name} against time, by {trajectory.solver['name']}"
     return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
 
@@ -70,10 +74,31 @@ def _pendula_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str,
     return variables | {"component": OF_PENDULA, "site": sites} | final_state(trajectory)
 
 
+def _own_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
+    """Return norms, moduli, what is conserved, and the state at the end, of a user's own model."""
+    variables = trajectory_variables(trajectory, problem.snapshot_every)
+    del variables["energy"]
+    variables["component"] = Variable(("component",), list(problem.model.fields), "field")
+    sites = np.arange(-problem.half_width, problem.half_width + 1)
+    variables |= {"site": Variable(("site",), sites), **final_state(trajectory)}
+    if problem.model.second_order:
+        grid, about = ("part", "component", "site"), "value of a field, and its rate"
+        variables["part"] = Variable(("part",), ["value", "rate"], about)
+        variables["final"] = Variable(grid, trajectory.final, f"{about}, at the end time")
+    if trajectory.conserved and problem.snapshot_every:
+        kept, values = list(trajectory.conserved), np.array([*trajectory.conserved.values()])
+        grid = ("conserved_quantity", "snapshot")
+        variables |= {
+            "conserved_quantity": Variable(grid[:1], kept, "conserved quantity"),
+            "conserved": Variable(grid, values, "sum of its density over the chain"),
+        }
+    return variables
+
+
 def final_state(trajectory: Trajectory) -> dict[str, Variable]:
     """Return the state at the end time: amplitudes, or angles and velocities of the pendula."""
     grid = ("part", "component", "site")
-    if not np.iscomplexobj(trajectory.final):
+    if trajectory.final.ndim == 3:
         parts = Variable(("part",), list(PARTS), f"{NAMES['part']}, x + i x'")
         about = f"{NAMES['final']}, as angle and velocity of a pendulum"
         return {"part": parts, "final": Variable(grid, trajectory.final, about, "rad")}
@@ -92,7 +117,7 @@ def sweep_contents(
     axes = ("half_width", "quantity", "statistic", "window")
     variables = {
         "half_width": Variable(("half_width",), np.asarray(half_widths)),
-        "quantity": Variable(("quantity",), [*MODELS[problem.model].components, "pair"]),
+        "quantity": Variable(("quantity",), [*model_of(problem).components, "pair"]),
         "statistic": Variable(("statistic",), list(STATISTICS)),
         "window": Variable(("window",), [name_window(window) for window in windows]),
         "l2": Variable(axes, sweep.l2),
@@ -112,6 +137,10 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
     """Return the attributes that say what was solved, and by which controls."""
     values = problem.plain()
     plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
+    if problem.is_own:
+        numbers = {k: v for k, v in problem.model.parameters.items() if not callable(v)}
+        plain["parameters"] = json.dumps(numbers | values["parameters"])
+        plain |= {"model": problem.model.name, "model_text": problem.model.text}
     return {
         "case": name,
         **plain,

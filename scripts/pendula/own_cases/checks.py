@@ -27,6 +27,7 @@ from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 
+from .models import FEWEST_STEPS, SEED, check_conserved, follow_own
 from .pendula import check_pendula
 
 TITLE = "A case beside the paper's statements"
@@ -80,8 +81,6 @@ def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Da
 
 # --- Sensitivity ----------------------------------------------------------------------------------
 
-FEWEST_STEPS, SEED = 64, 20170817
-
 
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
@@ -95,7 +94,7 @@ def follow(problem: Problem) -> Growth:
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
     """Return the rate at which tangent vectors grow, whether that is chaos, and when digits end."""
     try:
-        growth = follow(problem)
+        growth = (follow_own if problem.is_own else follow)(problem)
     except IntegrationError as error:
         return xr.Dataset(attrs={"sensitivity_refusal": str(error)})
     tau, log_growth, size = growth.tau, growth.log_growth[0], growth.size
@@ -201,6 +200,10 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     again = run_again(problem, run)
     if problem.model == PENDULA:
         data = xr.merge([again, check_pendula(problem, run)], combine_attrs="drop_conflicts")
+        return data.assign_attrs({**run.attrs, **data.attrs})
+    if problem.is_own:
+        parts = [again, measure_sensitivity(problem), check_conserved(run, TITLE)]
+        data = xr.merge(parts, combine_attrs="drop_conflicts")
         return data.assign_attrs({**run.attrs, **data.attrs})
     solver = {
         key.removeprefix("second_"): again.attrs[key]

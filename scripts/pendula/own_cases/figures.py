@@ -1,5 +1,6 @@
 """Figures of a user's cases and sweeps: like the paper's, with every parameter in the titles."""
 
+import json
 from collections.abc import Mapping
 
 import numpy as np
@@ -12,7 +13,7 @@ from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
 from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
-from pendula.problem import PENDULA
+from pendula.problem import PENDULA, read_initial
 from pendula.studies.theory.bounds import check_sweeps
 
 from .pendula import check_sweep
@@ -28,6 +29,10 @@ LONGEST = 46
 
 def name_parameters(attributes: Mapping) -> str:
     """Return the constants of the equations, and the half-width where there is only one."""
+    if "model_text" in attributes:
+        numbers = json.loads(attributes["parameters"]).items()
+        given = ", ".join(f"{k} {v:.4g}" for k, v in numbers if not isinstance(v, list))
+        return f"{attributes['model']}: {given}"[:LONGEST]
     symbols = {"omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M"}
     symbols |= {"mu": r"\mu"}
     known = {symbol: attributes[key] for key, symbol in symbols.items() if key in attributes}
@@ -36,6 +41,9 @@ def name_parameters(attributes: Mapping) -> str:
 
 def name_data(attributes: Mapping) -> str:
     """Return the initial data, or the number of sites if they do not fit into a title."""
+    if "model_text" in attributes:
+        count = len(read_initial(attributes["initial"]))
+        return f"data on {count} site{'s' * (count > 1)}"
     named = style.name_initial(attributes["initial"])
     return named if len(named) <= LONGEST else "data on 1 site"
 
@@ -75,10 +83,12 @@ def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
 
 @style.styled
 def draw_spacetime(data: xr.Dataset) -> Figure:
-    """Draw |A_n| left and |B_n| right, on one scale of colours."""
+    """Draw |A_n| left and |B_n| right, or all fields of a model, on one scale of colours."""
     figure = style.new_figure(style.DOUBLE, 2.5)
-    row = figure.subplots(1, 2, sharex=True, sharey=True)
-    panels.draw_moduli(figure, row, data, [name_parameters(data.attrs), name_data(data.attrs)])
+    count = data.sizes["component"]
+    row = figure.subplots(1, count, sharex=True, sharey=True, squeeze=False)[0]
+    names = [name_parameters(data.attrs), name_data(data.attrs), *[""] * count]
+    panels.draw_moduli(figure, row, data, names[:count])
     for axes in row:
         axes.set_xlabel(r"$\tau$")
     row[0].set_ylabel("site $n$")
@@ -133,5 +143,7 @@ def draw_with_checks(
     style.save(draw_sweep(drawn), drawn, *figure)
     if swept.attrs.get("model") == PENDULA:
         save(checks, check_sweep(name, swept))
+    elif "model_text" in swept.attrs:
+        save(checks, xr.Dataset(attrs={"case": name}))
     else:
         save(checks, xr.Dataset.from_dict(check_sweeps({name: swept})))

@@ -1,5 +1,6 @@
 """The report on a user's cases and sweeps: figures, checks and parameters, all from datasets."""
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -68,9 +69,12 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
     """Return what the page shows of the case: parameters, figures, answers and numbers."""
     link, source = f"own/cases/{name}.checks.nc", f"trajectories/{name}.nc"
     run, checks = read(folder / source), read(folder / link)
-    of_pendula = _is_of_pendula(run.attrs)
-    answers = (_of_pendula if of_pendula else _of_amplitudes)(checks, bool(run["linf"].any()))
+    of_pendula, own = _is_of_pendula(run.attrs), _is_own(run.attrs)
+    answer = _of_own_model if own else _of_pendula if of_pendula else _of_amplitudes
+    answers = answer(checks, bool(run["linf"].any()))
     what = ("angles x (red) and y" if of_pendula else "A (red) and B") + " (blue)"
+    if own:
+        what = ", ".join(map(str, run["component"].values))
     caption = (
         f"Norms of {what} against τ, ℓ∞ left and ℓ² right. Where the case runs by another method "
         "differ visibly, a dashed line marks it and the other run is shown below."
@@ -82,7 +86,7 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
         )
     moduli = (
         "Amplitudes √(x² + (dx/dt / ω)²) of the angles over sites and time, x<sub>n</sub> left and "
-        "y<sub>n</sub> right." if of_pendula
+        "y<sub>n</sub> right." if of_pendula else f"Moduli of {what} over sites and time." if own
         else "Moduli over sites and time, |A<sub>n</sub>| left and |B<sub>n</sub>| right."
     )  # fmt: skip
     return {
@@ -99,6 +103,11 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
 def _figure(link: str, caption: str, name: str, folder: Path) -> Figure:
     return Figure(picture(folder / link, f"{name}: {caption.partition('. ')[0]}", link),
                   told(caption))  # fmt: skip
+
+
+def _is_own(attributes: Mapping[str, Any]) -> bool:
+    """Return whether a dataset is of a model of the user's own."""
+    return "model_text" in attributes
 
 
 def _is_of_pendula(attributes: Mapping[str, Any]) -> bool:
@@ -144,9 +153,27 @@ def _of_pendula(checks, moves: bool) -> list[list[str]]:
     ]
 
 
+def _of_own_model(checks, moves: bool) -> list[list[str]]:
+    """Return questions and answers on a case of a model of the user's own."""
+    if not moves:
+        return [["motion", "the chain is at rest and stays so"]]
+    drifts = checks.get("conserved_drift", [])
+    return [
+        _trust(checks),
+        _chaotic(checks),
+        *([f"change of {one['conserved_quantity'].item()}, over its largest size", number(one)]
+          for one in drifts),
+    ]  # fmt: skip
+
+
+def _chaotic(checks) -> list[str]:
+    lost = checks.attrs.get("sensitivity_refusal", "")
+    return ["chaotic", f"unknown: {lost}" if lost else "yes" if checks["chaotic"] else "no"]
+
+
 def _of_amplitudes(checks, moves: bool) -> list[list[str]]:
     """Return questions and answers on a case of the amplitude equations."""
-    decided, lost = _decided(checks), checks.attrs.get("sensitivity_refusal", "")
+    decided = _decided(checks)
     stable = {True: "unstable", False: "no growing mode"}
     rows = [
         ["Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]],
@@ -170,7 +197,7 @@ def _of_amplitudes(checks, moves: bool) -> list[list[str]]:
     balance = "followed" if decided["balanced"] else "could not be followed by the second method"
     return [
         _trust(checks),
-        ["chaotic", f"unknown: {lost}" if lost else "yes" if checks["chaotic"] else "no"],
+        _chaotic(checks),
         *rows,
         ["Lemma 2, growth of P" + ("" if decided["driven"] else " (not driven)"), growth],
         ["Lemma 2, balance of P", balance],
@@ -211,34 +238,39 @@ def _sweep(name: str, case: str, folder: Path) -> dict[str, Any]:
     link, drawn = f"own/sweeps/{name}.checks.nc", f"own/sweeps/{name}.nc"
     swept, checks = read(folder / f"sweeps/{name}.nc"), read(folder / link)
     panel = read(folder / drawn).isel(panel=0)
-    of_pendula = _is_of_pendula(swept.attrs)
+    of_pendula, is_own = _is_of_pendula(swept.attrs), _is_own(swept.attrs)
+    pair = "all fields" if is_own else f"the pair {'(x, y), in rad,' if of_pendula else '(A, B)'}"
     read_as = [f"{STATISTICS[how]} {window}" for how, window in
                zip(panel["statistic"].values, panel["window"].values, strict=True)]  # fmt: skip
     caption = (
-        f"Norms of the pair {'(x, y), in rad,' if of_pendula else '(A, B)'} against the half-width "
-        f"M, ℓ∞ left and ℓ² right. Full marks: {read_as[0]}; hollow ones: the second window."
+        f"Norms of {pair} against the half-width M, ℓ∞ left and ℓ² right. "
+        f"Full marks: {read_as[0]}; hollow ones: the second window."
     )
     rows = []
     for width in panel["half_width"].values:
-        at, own = panel.sel(half_width=width), checks.sel(half_width=width)
+        at, last = panel.sel(half_width=width), []
         values = [value for norm in NORMS for value in at[norm].values]
-        last = (own["swept_angle"] if of_pendula
-                else (own["swept_observed"] / own["best"]).squeeze())  # fmt: skip
+        if not is_own:
+            own = checks.sel(half_width=width)
+            last = [own["swept_angle"] if of_pendula
+                    else (own["swept_observed"] / own["best"]).squeeze()]  # fmt: skip
         rows.append([exact(width), *(Quote(number(v), drawn) for v in values),
-                     Quote(number(last), link)])  # fmt: skip
+                     *(Quote(number(one), link) for one in last)])  # fmt: skip
+    answers, last_column = [], []
     if of_pendula:
-        answer = ("chains on which a pendulum goes over the top", Quote(
-            number(checks["swept_over"]), link))  # fmt: skip
-    else:
+        last_column = ["largest angle in rad"]
+        answers.append(("chains on which a pendulum goes over the top", Quote(
+            number(checks["swept_over"]), link)))  # fmt: skip
+    elif not is_own:
+        last_column = ["largest P over its bound"]
         holds = bool(checks["swept_ratio"] <= 1.0 + SLACK)
-        answer = ("Theorems 1 to 3", "hold" if holds else TOO_LARGE)
-    head = ["M", *(f"{norm} {how}" for norm in NORMS.values() for how in read_as),
-            "largest angle in rad" if of_pendula else "largest P over its bound"]  # fmt: skip
+        answers.append(("Theorems 1 to 3", "hold" if holds else TOO_LARGE))
+    head = ["M", *(f"{norm} {how}" for norm in NORMS.values() for how in read_as), *last_column]
     return {
         "parameters": Table(f"The sweep over the case {case}, from sweeps/{name}.nc",
                             ("parameter", "value"), parameters(swept.attrs)),
         "picture": _figure(f"own/sweeps/{name}.png", caption, name, folder),
-        "answers": Table("What the checks say", ("question", "answer"), [answer]),
+        "answers": Table("What the checks say", ("question", "answer"), answers),
         "numbers": Table(f"Norms by half-width; after two runs of the case differ, those of "
                          f"samples, from {drawn}", head, rows),
     }  # fmt: skip
@@ -257,14 +289,20 @@ def exact(value: Any) -> str:
 def parameters(attributes: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the parameters of a problem and of its solver as rows of a table."""
     rows = [("model", EQUATIONS)] if _is_of_pendula(attributes) else []
+    names, at_rest = "A, B", "x = y" if _is_of_pendula(attributes) else "A = B"
+    if _is_own(attributes):
+        names, at_rest = "fields", "every field"
+        rows = [("model", attributes["model"])]
+        rows += [(key, exact(one)) for key, one in json.loads(attributes["parameters"]).items()]
     rows += [(sign, exact(attributes[key])) for key, sign in _SIGNS.items() if key in attributes]
-    at_rest = "x = y" if _is_of_pendula(attributes) else "A = B"
     rows.append(("ends of the chain", ends_of(attributes["boundary"]).words.format(at_rest)))
     sites = read_initial(attributes["initial"])
     if len(sites) > FEW:
-        rows.append(("A, B at the start", f"on {len(sites)} sites, in the dataset's attributes"))
+        rows.append(
+            (f"{names} at the start", f"on {len(sites)} sites, in the dataset's attributes")
+        )
     else:
-        rows += [(f"A, B at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
+        rows += [(f"{names} at site {site}".replace("-", MINUS), ", ".join(map(exact, pair)))
                  for site, pair in sites.items()]  # fmt: skip
     times = (exact(attributes["end_time"]), exact(attributes["output_step"]))
     rows.append(("end time τ, output step", ", ".join(times)))

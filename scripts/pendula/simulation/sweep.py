@@ -43,7 +43,7 @@ def sweep(
         if half_width < enough:
             own = problem.changed(half_width=half_width, snapshot_every=0)
             trajectory = simulate(own, energy=False)
-            if _is_inside(trajectory):
+            if not problem.is_own and _is_inside(trajectory):
                 enough, inside = half_width, trajectory
         l2.append(_over_windows(trajectory.tau, pair_l2(trajectory), windows))
         linf.append(_over_windows(trajectory.tau, pair_linf(trajectory), windows))
@@ -60,14 +60,12 @@ def _is_inside(trajectory: Trajectory) -> bool:
 
 def pair_l2(trajectory: Trajectory) -> np.ndarray:
     """Return the l2 norms of A, of B, and of the pair (A, B), each against time."""
-    a, b = trajectory.l2
-    return np.array([a, b, np.sqrt(a * a + b * b)])
+    return np.array([*trajectory.l2, np.sqrt(np.add.reduce(trajectory.l2 * trajectory.l2))])
 
 
 def pair_linf(trajectory: Trajectory) -> np.ndarray:
     """Return the l-infinity norms of A, of B, and of the pair, each against time."""
-    a, b = trajectory.linf
-    return np.array([a, b, np.maximum(a, b)])
+    return np.array([*trajectory.linf, np.maximum.reduce(trajectory.linf)])
 
 
 def _over_windows(tau: np.ndarray, series: np.ndarray, windows) -> np.ndarray:
