@@ -14,6 +14,7 @@ _HOMES = {
         *("draw_norms", "draw_spacetime", "draw_sweep"),
     ),
     "datasets.netcdf": ("read", "DatasetError"),
+    "model": ("Model", "ModelError"),
     "configuration.files": ("ConfigurationError",),
     "simulation.simulate": ("IntegrationError",),
 }

@@ -15,13 +15,19 @@ from pydantic import ValidationError
 from pendula.configuration.files import ConfigurationError, list_faults
 from pendula.configuration.messages import in_words, load
 from pendula.datasets.netcdf import as_xarray
-from pendula.datasets.trajectories import final_state, sweep_contents, trajectory_contents
+from pendula.datasets.trajectories import (
+    describe_run,
+    final_state,
+    sweep_contents,
+    trajectory_contents,
+)
 from pendula.own_cases.checks import check_run
 
-from .configuration import cases, cost, values
+from .configuration import cases, cost, own_models, values
+from .configuration.own_models import is_own
 from .configuration.schema import Limits
 from .configuration.solvers import with_controls
-from .problem import PENDULA, Problem, by_site, write_initial
+from .problem import AMPLITUDES, Problem
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
@@ -50,6 +56,10 @@ class Case(cases.Case):
         the expansion (3) makes of `initial`.
     mu: the small parameter of (3); angles have the size of 2 mu A.
 
+    A `pendula.Model`, or the path of its file, may stand for the model. The case then has
+    `parameters` in place of epsilon, gamma, omega and mu: {name: a number, or one for each site},
+    and `initial` has a value for each field.
+
     Raises ConfigurationError, with every fault in words.
 
     >>> Case(omega=-4).half_width
@@ -60,6 +70,10 @@ class Case(cases.Case):
       omega: is missing
       omgea: is not a known key; did you mean 'omega'?
     """
+
+    def __new__(cls, /, **keys):
+        """Return a case of the kind that its model asks for."""
+        return super().__new__(OwnCase if is_own(keys.get("model")) else cls)
 
     def __init__(self, /, **keys):
         try:
@@ -74,6 +88,10 @@ class Case(cases.Case):
         10
         """
         return Case(**{**self.model_dump(), **keys})
+
+
+class OwnCase(own_models.OwnCase, Case):
+    """A case of a model of one's own."""
 
 
 def _affordable(case: Case, hours: float | None) -> None:
@@ -102,13 +120,13 @@ def _announce(takes: cost.Cost) -> None:
 
 # What a run keeps of its case, and what decides its trajectory.
 OF_ONE_RUN = ("model", "mu", "epsilon", "gamma", "omega", "half_width", "boundary", "initial")
-OF_ONE_RUN += ("end_time",)
+OF_ONE_RUN += ("end_time", "parameters", "model_text")
 
 
 def _require_run_of(case: Case, run: xr.Dataset) -> None:
     """Raise ConfigurationError unless a run was made of a case, by whatever solver."""
     problem = Problem.of(case.shown_problem())
-    made_of = {**problem.plain(), "initial": write_initial(by_site(problem.initial))}
+    made_of = describe_run("", problem, problem.solver)
     other = [key for key in OF_ONE_RUN if run.attrs.get(key) != made_of.get(key)]
     if other:
         raise ConfigurationError(
@@ -221,7 +239,7 @@ def check(case: Case, run=None):
     """
     _require(case, Case, "a case, such as Case(omega=8)")
     run = simulate(case) if run is None else run
-    kept = "final" if case.model == PENDULA else "energy"
+    kept = "energy" if case.model == AMPLITUDES else "final"
     _require(run, xr.Dataset, RUN, "linf", "l2", kept, "tau")
     _require_run_of(case, run)
     return check_run(Problem.of(case.shown_problem()), run)

@@ -45,7 +45,10 @@ def _as_model(value: Any) -> Traced:
 class OwnCase(Case):
     """An initial-value problem of traced equations: data and parameters as the model names them."""
 
-    omega: Number = 0.0
+    omega: Annotated[Number, Field(exclude=True)] = 0.0
+    epsilon: Annotated[Number, Field(exclude=True)] = 0.0
+    gamma: Annotated[Number, Field(exclude=True)] = 0.0
+    mu: Annotated[None, Field(exclude=True)] = None
     initial: Annotated[
         dict[Whole, tuple[Complex, ...]],
         BeforeValidator(partial(sites_of, most=None)),
@@ -97,10 +100,7 @@ class OwnCase(Case):
 
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed."""
-        values = super().problem(**changes)
-        parameters = {**values.pop("parameters")}
-        rest = {key: value for key, value in values.items() if key not in OF_THE_PAPER}
-        return {**rest, "model": self.model.plain, "parameters": parameters}
+        return {**super().problem(**changes), "model": self.model.plain}
 
 
 def _of_its_kind(value: Any, handler) -> Case:

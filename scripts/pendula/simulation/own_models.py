@@ -6,7 +6,8 @@ import numpy as np
 
 from pendula.ends import ends_of, kind_of
 from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
-from pendula.model import Model, evaluate
+from pendula.model import Model, derivative, evaluate, in_order, number
+from pendula.models.chain import seen_at
 from pendula.models.generated import System, load_text, module_text, parts_of_rates
 from pendula.problem import Problem
 from pendula.simd import LANES
@@ -146,6 +147,46 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
 
     totals = [np.sum(density, axis=0) for density in evaluate(densities.values(), leaf)]
     return dict(zip(densities, totals, strict=True))
+
+
+def linearisation(problem: Problem, state: np.ndarray) -> np.ndarray:
+    """Return the matrix of the equations linearised at a state, at time 0.
+
+    `state` is complex of shape (field, site). Rows and columns are (row of the state, site),
+    flattened: real and imaginary parts of each field, or its value and its rate.
+    """
+    model, values = problem.model, parameters_of(problem)
+    sites = state.shape[1]
+    parts = np.stack([state.real, state.imag], axis=1).reshape(-1, sites)
+
+    def value(one):
+        if one.operation in ("number", "time"):
+            return one.operands[0] if one.operands else 0.0
+        by = one.operands[-1]
+        if one.operation == "parameter":
+            found = values[one.operands[0]]
+            return found if np.ndim(found) == 0 else moved(found, by, problem.boundary)
+        component, part, _ = one.operands
+        return seen(parts[2 * component + part], by)
+
+    def places(by):
+        kinds = System((), (), None, None, *2 * (kind_of(problem.boundary),))
+        return np.array([seen_at.py_func(kinds, n + by, sites) for n in range(sites)])
+
+    def seen(row, by):
+        at = places(by)
+        return np.where(at >= 0, row[at], 0.0)
+
+    matrix = np.zeros((len(parts), sites, len(parts), sites))
+    for leaf in [one for one in in_order(model.rates) if one.operation == "field"]:
+        component, part, by = leaf.operands
+        at = places(by)
+        inside = np.flatnonzero(at >= 0)
+        slopes = derivative(list(model.rates), lambda one, leaf=leaf: number(one is leaf))
+        for row, slope in enumerate(evaluate(slopes, value)):
+            slope = np.broadcast_to(slope, sites)
+            matrix[row, inside, 2 * component + part, at[inside]] += slope[inside]
+    return matrix.reshape(len(parts) * sites, -1)
 
 
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:

@@ -1,0 +1,89 @@
+"""The examples of docs/own_models.md against what is published, or exact, of each of them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pendula.problem import Problem
+from pendula.simulation.own_models import linearisation
+from pendula.simulation.simulate import simulate
+
+FOLDER = Path(__file__).parents[2] / "docs/models"
+
+
+def problem(name, initial, boundary="dirichlet", half_width=10, end_time=5.0, **parameters):
+    """Return the problem of an example from data {site: (field, ...)}."""
+    path = FOLDER / f"{name}.py"
+    return Problem.of({
+        "model": {"name": path.name, "text": path.read_text(encoding="utf-8")},
+        "parameters": parameters, "half_width": half_width, "boundary": boundary,
+        "initial": initial, "end_time": end_time, "output_step": 0.5, "snapshot_every": 1,
+        "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-13},
+    })  # fmt: skip
+
+
+def growth(given, state):
+    """Return the largest rate of growth of a perturbation of a steady state."""
+    return np.linalg.eigvals(linearisation(given, state)).real.max()
+
+
+@pytest.mark.parametrize(("omega", "epsilon"), [(3.0, 0.1), (-2.0, 0.3)])
+def test_rest_of_the_hamiltonian_chain_is_stable_below_the_published_threshold(omega, epsilon):
+    """Chernyavsky and Pelinovsky, arXiv 1605.06455: the infinite chain's is the limit of these."""
+    sines = np.sin(np.arange(1, 22) * np.pi / 44.0) ** 2
+    threshold = np.abs(omega - 4.0 * epsilon * sines).min()
+    rest = np.zeros((2, 21), complex)
+    for gamma, grows in ((0.999 * threshold, False), (1.001 * threshold, True)):
+        numbers = {"omega": omega, "epsilon": epsilon, "gamma": gamma}
+        given = problem("chernyavsky_pelinovsky", {0: (0, 0)}, **numbers)
+        assert (growth(given, rest) > 1e-3) == grows
+
+
+def test_power_of_a_damped_chain_decays_at_the_exact_rate():
+    run = simulate(problem("damped", {0: (1.5,), 1: (0.3j,)}, gamma=0.2))
+    np.testing.assert_allclose(run.l2[0] ** 2, 2.34 * np.exp(-0.4 * run.tau), rtol=1e-12)
+
+
+def soliton(epsilon, gamma):
+    """Return the problem of the on-site soliton that continues sqrt(detuning + gamma), itself."""
+    given = problem("parametric", {0: (0,)}, epsilon=epsilon, gamma=gamma)
+    state = np.zeros((1, 21), complex)
+    state[0, 10] = np.sqrt(1.0 + gamma)
+    for _ in range(20):
+        u = state[0].real
+        padded = np.pad(u, 1)
+        second = padded[2:] - 2.0 * u + padded[:-2]
+        residual = -epsilon * second + (1.0 + gamma) * u - u**3
+        slope = -linearisation(given, state)[21:, :21]  # of y' = -residual
+        state[0] = u - np.linalg.solve(slope, residual)
+    return given, state
+
+
+def test_on_site_soliton_under_parametric_drive_loses_stability_as_published():
+    """Syafwan, Susanto and Cox, Phys. Rev. E 81 (2010) 026207: at a fifth of the detuning, as
+    the coupling vanishes: its frequency 2 sqrt(gamma (1 + gamma)) then meets the waves."""
+    thresholds = []
+    for epsilon in (0.01, 0.005):
+        low, high = 0.1, 0.2
+        assert growth(*soliton(epsilon, low)) < 1e-6 < 1e-4 < growth(*soliton(epsilon, high))
+        while high - low > 1e-4:
+            middle = 0.5 * (low + high)
+            grows = growth(*soliton(epsilon, middle)) > 1e-4
+            low, high = (low, middle) if grows else (middle, high)
+        thresholds.append(low)
+    assert abs(2.0 * thresholds[1] - thresholds[0] - 0.2) < 1e-3
+    assert abs(thresholds[1] - 0.2) < 0.01
+
+
+def test_long_range_coupling_has_the_exact_waves_on_a_ring():
+    given = problem("disorder_and_long_range", {0: (0,)}, "periodic", disorder=0.0)
+    found = np.sort(np.linalg.eigvals(linearisation(given, np.zeros((1, 21)))).imag)
+    angles = 2.0 * np.pi * np.arange(21) / 21.0
+    waves = sum(2.0 * (np.cos(m * angles) - 1.0) / m**3 for m in range(1, 6))
+    np.testing.assert_allclose(found, np.sort([*waves, *-waves]), rtol=0, atol=1e-12)
+
+
+def test_disorder_and_long_range_coupling_conserve_the_power():
+    run = simulate(problem("disorder_and_long_range", {0: (1.5,)}))
+    np.testing.assert_allclose(run.conserved["P"], 2.25, rtol=1e-12)
+    assert run.modulus[0, 0, -1] != run.modulus[0, -1, -1]  # disorder is not even
