@@ -80,15 +80,24 @@ def _is_private(place: Path | int) -> bool:
 
 
 def keep_source(name: str, text: str) -> Path:
-    """Return a file that holds the text of a generated module, by which its kernels are kept."""
-    folder = (kept_in() or Path(tempfile.gettempdir()) / f"pendula-{os.getpid()}") / "sources"
-    file = folder / _digest(text) / name
-    if not file.exists() or file.read_text(encoding="utf-8") != text:
-        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(file)
+    """Return the file of a generated module, whose text names its kernels; unwritten if none are
+    kept."""
+    root = kept_in()
+    file = (root or Path("generated")) / "sources" / _digest(text) / name
+    if root and (not file.exists() or file.read_text(encoding="utf-8") != text):
+        try:
+            _write_source(file, text)
+        except OSError:  # kernels cannot be kept either, and those who keep them say so
+            file = Path(tempfile.mkdtemp(prefix="pendula-")) / name
+            file.write_text(text, encoding="utf-8")
     return file
+
+
+def _write_source(file: Path, text: str) -> None:
+    file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
+    partial.write_text(text, encoding="utf-8")
+    partial.replace(file)
 
 
 def folder_of(function: Callable, root: Path | None) -> Path | None:

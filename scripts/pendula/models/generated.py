@@ -28,6 +28,7 @@ from pendula.model import (
     CONSTANT,
     LEAVES,
     MOTION,
+    Model,
     ModelError,
     Node,
     add,
@@ -55,6 +56,12 @@ from pendula.models.series import close_widely, in_waves, sides_of
 from pendula.simd import LANES, define_shift, fill, left_neighbours, load, right_neighbours, store
 
 '''
+CONTINUE = """
+@kernel
+def continue_series(system, series):
+    continue_in_waves(system, series)
+"""
+WRITE_CLOCKS = "    write_clocks(system, series.memory, spare_start(series))\n"
 MOST_ROWS = 64
 """Sines whose rates hold the sine of a neighbour, and so on, would need ever more rows."""
 
@@ -314,8 +321,9 @@ def carried(i: int) -> Node:
 class Series:
     """The text of the rule that continues the series of a model."""
 
-    def __init__(self, model_rates: tuple[Node, ...], names: Names):
-        rates, self.found = with_carried(list(model_rates))
+    def __init__(self, model_rates: tuple[Node, ...], names: Names, alike: bool = False):
+        self.alike = alike
+        rates, self.found = with_carried(list(model_rates[:2] if alike else model_rates))
         nodes = doubled_out([*rates, *(part for pair in self.found for part in pair)])
         self.components, self.names = len(rates) // 2, names
         self.rates = nodes[: len(rates)]
@@ -329,6 +337,8 @@ class Series:
             for operand in product.operands:
                 if not (operand.operation == "field" and operand.operands[2] == 0):
                     self.kept.setdefault(operand, len(self.kept))
+        if alike:
+            require_alike(model_rates, [*self.kept])
         self.partial: dict[Node, int] = {}  # sums of products that are not kept
         more = max(0, len(self.kept) - self.components)
         self.spare = more * (ORDER + 1)  # vectors of a block beside its own
@@ -345,12 +355,17 @@ class Series:
             return f"i{i} + ({order}) * ORDER_STRIDE + EXTRA"
         return f"s + ({(i - self.components) * (ORDER + 1)} + {order}) * LANES"
 
-    def partial_place(self, one: Node) -> str:
-        """Return where a sum of products of an odd order waits for its last terms."""
+    def partial_place(self, one: Node, even: bool) -> str:
+        """Return where a sum of products of an odd order waits for its last terms.
+
+        The places of the order after it are free until then.
+        """
         if one in self.kept:
-            return self.place(one, "k + 1")
+            return self.place(one, "k + 1" if even else "k")
         i = self.partial.setdefault(one, len(self.partial))
-        return f"s + {self.spare + i} * LANES"
+        if i < len(self.rates):
+            return f"i{i // 2} + (k + {1 + even}) * ORDER_STRIDE + {'XY'[i % 2]}"
+        return f"s + {self.spare + i - len(self.rates)} * LANES"
 
     # --- The coefficient of order k
 
@@ -499,10 +514,11 @@ class Series:
         """Return the expression of the coefficient of order k."""
         if is_sum_of_products(one):
             if even:
-                code(f"store(m, {self.partial_place(one)}, {self._linear(code, one, 'next')})")
+                code(
+                    f"store(m, {self.partial_place(one, even)}, {self._linear(code, one, 'next')})"
+                )
                 return self._linear(code, one, "now")
-            before = self.place(one, "k") if one in self.kept else self.partial_place(one)
-            return f"load(m, {before}) + {self._linear(code, one, 'last')}"
+            return f"load(m, {self.partial_place(one, even)}) + {self._linear(code, one, 'last')}"
         if one.level == CONSTANT:
             numbers = self._constant(one)
             return (
@@ -577,16 +593,25 @@ class Series:
     def text(self, reach: int, clocks: int) -> str:
         """Return the functions that continue the series."""
         (shares, even), (_, odd) = self.body(True), self.body(False)
-        size = f"{self.spare + len(self.partial)} * LANES"
-        places = [
-            f"            i{c} = block_start(series, {c}, block)" for c in range(self.components)
+        size = f"{self.spare + max(0, len(self.partial) - len(self.rates))} * LANES"
+        here = {0: "component", 1: "series.components - 1 - component"}
+        here = here if self.alike else {c: str(c) for c in range(self.components)}
+        start = "(component * series.blocks + block)" if self.alike else "block"
+        begin = [
+            "        for block in range(first, last):",
+            f"            s = d + {clocks} * (ORDER + 1) + {start} * SPARE",
+            *(f"            i{c} = block_start(series, {at}, block)" for c, at in here.items()),
+            *(
+                f"            left{c}, _, right{c} = sides_of(series, k, {at}, block)"
+                for c, at in here.items()
+            ),
         ]
-        sides = [
-            f"            left{c}, _, right{c} = sides_of(series, k, {c}, block)"
-            for c in range(self.components)
-        ]
-        place = f"            s = d + {clocks} * (ORDER + 1) + block * SPARE"
-        loop = "        for block in range(first, last):"
+        work = ["    if k % 2 == 0:", *shares, *begin, *even, "    else:", *shares, *begin, *odd]
+        if self.alike:
+            work = [
+                "    for component in range(series.components):",
+                *("    " + line for line in work),
+            ]
         return "\n".join([
             f"SPARE = {size}",
             '"""Numbers of a block beside those of its fields."""',
@@ -597,14 +622,28 @@ class Series:
             "def write_next_order(system, series, k, first, last):",
             "    m, d, share = series.memory, spare_start(series), 1.0 / (k + 1)",
             "    at_start = 1.0 if k == 0 else 0.0",
-            "    if k % 2 == 0:",
-            *shares, loop, *places, place, *sides, *even,
-            "    else:",
-            *shares, loop, *places, place, *sides, *odd,
+            *work,
             "", "",
             "continue_in_waves = in_waves(write_next_order"
             + (f", close_widely({reach}))" if reach > 1 else ")"), "", "",
         ])  # fmt: skip
+
+
+def require_alike(rates: tuple[Node, ...], kept: list[Node]) -> None:
+    """Raise ModelError unless two fields move alike, and each of what is kept is of one field.
+
+    One rule then serves both fields, and one of them alone where the two are the same.
+    """
+
+    def exchanged(one: Node) -> Node:
+        if one.operation != "field":
+            return one
+        component, part, by = one.operands
+        return node("field", 1 - component, part, by)
+
+    mixed = any(part.operation == "field" and part.operands[0] for part in in_order(kept))
+    if mixed or rebuilt(rates, exchanged) != [*rates[2:], *rates[:2]]:
+        raise ModelError("the two fields do not obey the same equation with their names exchanged")
 
 
 SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
@@ -646,11 +685,19 @@ def clocks_text(parts: Parts, names: Names) -> str:
         "@inlined_by_llvm",
         "def write_clocks(system, m, d):",
         *(series or ["    pass"]), "", "",
-        "@kernel",
-        "def continue_series(system, series):",
-        "    write_clocks(system, series.memory, spare_start(series))",
-        "    continue_in_waves(system, series)", "", "",
-    ])  # fmt: skip
+    ]) + CONTINUE.replace("    cont", WRITE_CLOCKS + "    cont")  # fmt: skip
+
+
+def series_text(model: Model) -> str:
+    """Return the text of the series of two fields that move alike, driven by no time.
+
+    The system has the parameters of the model by their names.
+    """
+    parts = parts_of_rates(model.rates, frozenset())
+    names = Names(parts)
+    names.constants = {one: f"system.{one.operands[0]}" for one in parts.constants}
+    series = Series(model.rates, names, alike=True).text(model.reach, 0)
+    return HEAD + series + CONTINUE
 
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
