@@ -65,7 +65,7 @@ def test_every_function_that_a_rule_calls_is_there_with_a_docstring():
 def test_a_job_rests_on_the_modules_that_its_function_reaches():
     assert {
         *("__init__.py", "models/__init__.py", "models/amplitudes.py", "compiled.py"),
-        *("models/amplitudes_series.py", "simulation/simulate.py", "datasets/netcdf.py"),
+        *("models/amplitudes.py", "simulation/simulate.py", "datasets/netcdf.py"),
         *("integrators/dop853_coefficients.py",),
     } <= files_behind("pendula.studies.paper.runs.run_case")
 

@@ -2,7 +2,6 @@
 
 A model is a file such as this one (see docs/own_models.md):
 
-    from pendula.model import abs2, lap
     fields = ("u",)
     parameters = {"epsilon": 1.0, "gamma": 0.1}
     def i_dt(p, u):
@@ -17,7 +16,7 @@ and a sum with zero is no operation: neither changes a bit.
 
 import inspect
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from functools import cache, cached_property
 from pathlib import Path
@@ -593,8 +592,3 @@ def _placed(error: Exception, place: str, text: str, name: str = "") -> str:
     line = frames[-1].line if frames else ""
     line = line or (lines[at - 1] if at <= len(lines) else "")
     return f"{name or place}, line {at}: {what}\n    {line.strip()}"
-
-
-def parameter_leaves(nodes: Iterable[Node]) -> Iterator[Node]:
-    """Yield the parameters that expressions hold."""
-    return (one for one in in_order(nodes) if one.operation == "parameter")

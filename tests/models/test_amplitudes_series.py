@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from oracle import BOUNDARIES, boundaries, chains, constants, power_series
 from pendula.compiled import kernel
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER, WORK, lay_out, write_state
-from pendula.models.amplitudes import Chain
-from pendula.models.amplitudes_series import continue_series
+from pendula.models.amplitudes import Chain, continue_series
 from pendula.models.series import CACHED_BLOCKS
 from pendula.simd import LANES
 from pendula.simulation.lattice import Reduction, choose_ends, find_reduction, pack, unpack

@@ -95,7 +95,8 @@ class OwnCase(Case):
 
     def obstacles(self, solver: Any = None, span: float = 0.0) -> list[tuple[str, str]]:
         """Return why the run could not reach its end; what shows in the data alone is known."""
-        largest = max(abs(z) for values in self.initial.values() for z in values)
+        values = [z for values in self.initial.values() for z in values]
+        largest = max(max(abs(z.real), abs(z.imag)) for z in values)
         return [] if np.isfinite(largest * largest) else [("initial", "the squares overflow")]
 
     def problem(self, **changes) -> dict:

@@ -3,8 +3,9 @@
     i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
                   + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
 
-and the same with A and B exchanged. What stands here: the right-hand side, its mean over
-a step for `delfour_fortin_payre`, and the energy. A state has the rows Re A, Im A, Re B,
+and the same with A and B exchanged. What stands here: the equations as a traced model,
+from which their power series follow, the right-hand side in kernels that other forms share, its
+mean over a step for `delfour_fortin_payre`, and the energy. A state has the rows Re A, Im A, Re B,
 Im B, or the first two alone where A = B (see `chain`). Whoever changes an order of operations here
 changes every result (tests/test_same_bits.py).
 """
@@ -15,8 +16,10 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.ends import DIRICHLET, PERIODIC
+from pendula.model import Model, Value, abs2, conj, lap
 
 from .chain import MIRROR, at_every_site, close
+from .generated import load_text, series_text
 
 
 class Chain(NamedTuple):
@@ -38,6 +41,24 @@ def chain_of_tile(chain, at_left_end, at_right_end):
     left = chain.left if at_left_end else DIRICHLET
     right = chain.right if at_right_end else DIRICHLET
     return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
+
+
+# --- The equations as a traced model, and their power series, which is generated from it --------
+
+
+def i_dt(p, a: Value, b: Value) -> list[Value]:
+    """Return i dA_n/dtau and i dB_n/dtau."""
+    return [
+        p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u)) + 0.5 * abs2(u) * u
+        for u, v in ((a, b), (b, a))
+    ]
+
+
+EQUATIONS = Model(
+    fields=("A", "B"), parameters=dict.fromkeys(("epsilon", "gamma", "omega"), 1.0), i_dt=i_dt
+)
+continue_series = load_text(series_text(EQUATIONS)).continue_series
+"""Writes the coefficients of all orders from those of order 0, given a chain and a series."""
 
 
 # --- The right-hand side at one site, or at a vector of sites -----------------------------------

@@ -12,7 +12,7 @@ sites keeps x, v and s; behind the ghosts lie the D_k, and then the cosines of a
 the chain and order of the work are those of `series`; `m` is the memory of a series, and `i` always
 the place at which a block begins, `o` that at which its cosines do.
 
-Orders go in pairs, as in `amplitudes_series`: the pass over an even order k also sums the products
+Orders go in pairs, as in `generated`: the pass over an even order k also sums the products
 of order k + 1, but for those that hold its unknown coefficients.
 """
 

@@ -15,19 +15,21 @@ from pendula.datasets.checks import table, variable
 from pendula.datasets.netcdf import as_xarray
 from pendula.datasets.trajectories import trajectory_contents
 from pendula.feasibility import SMALLEST_ERROR
+from pendula.integrators import DONE, FAULTS
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.numerics.elementary import log, modulus, square_modulus
-from pendula.problem import PENDULA, Problem
-from pendula.simulation.lattice import find_reduction
+from pendula.problem import PENDULA, Problem, output_times
+from pendula.simulation.interrupts import interruptible
+from pendula.simulation.lattice import WHOLE, find_reduction
+from pendula.simulation.models import model_of
 from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.studies.chaos.lyapunov import ROUNDING, amplification, predict, random_tangent
-from pendula.studies.chaos.tangent_dynamics import STEP, Growth, grow
+from pendula.studies.chaos.tangent_dynamics import STEP, TOLERANCE, Growth, grow
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 
-from .models import FEWEST_STEPS, SEED, check_conserved, follow_own
 from .pendula import check_pendula
 
 TITLE = "A case beside the paper's statements"
@@ -81,6 +83,8 @@ def _compared(run: xr.Dataset, second: xr.Dataset, apart: xr.DataArray) -> xr.Da
 
 # --- Sensitivity ----------------------------------------------------------------------------------
 
+FEWEST_STEPS, SEED = 64, 20170817
+
 
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
@@ -89,6 +93,38 @@ def follow(problem: Problem) -> Growth:
     tangent = random_tangent(problem.sites, "even" if even else None, rng)
     step = min(STEP, problem.end_time / FEWEST_STEPS)
     return grow(problem, tangent[None], problem.end_time, even, step)
+
+
+def follow_own(problem: Problem) -> Growth:
+    """Return the growth of a random small perturbation, by the derivative of the traced equations.
+
+    It is integrated beside the solution and made of unit length again at equal steps. Raises
+    IntegrationError where dop853 gives up.
+    """
+    shape = problem.amplitudes.shape
+    drawn = np.random.default_rng(SEED).normal(size=(2, *shape))
+    both = np.concatenate([problem.amplitudes, drawn[0] + 1j * drawn[1]])
+    solver = {"name": "dop853", "rtol": TOLERANCE, "atol": TOLERANCE}
+    tangent = problem.model.tangent()
+    twin = problem.changed(model=tangent, initial=both, snapshot_every=0, solver=solver)
+    model = model_of(twin)
+    system, y, method = model.system(twin, WHOLE), model.start(twin, WHOLE), model.solvers["dop853"]
+    tau = output_times(problem.end_time, min(STEP, problem.end_time / FEWEST_STEPS))
+    work, record = method.room_for(system, y), model.record(len(both), shape[1], 2, 0)
+    controls = (TOLERANCE, TOLERANCE)
+    solution, change = y[: 2 * shape[0]], y[2 * shape[0] :]
+    lengths, sizes = np.ones(tau.size), np.empty(tau.size)
+    for i in range(tau.size):
+        if i > 0:
+            given = (system, y, tau[i - 1 : i + 1], controls, work, record)
+            outcome = interruptible(method.run, *given)
+            if outcome.status != DONE:
+                raise IntegrationError(f"it could not be followed: {FAULTS[outcome.status]}")
+        length = np.sqrt(np.sum(change[:, 1:-1] ** 2))
+        lengths[i] = length if i > 0 else 1.0
+        change /= length
+        sizes[i] = np.sqrt(np.sum(solution[:, 1:-1] ** 2))
+    return Growth(tau, log(lengths).cumsum()[None], sizes)
 
 
 def measure_sensitivity(problem: Problem) -> xr.Dataset:
@@ -187,6 +223,20 @@ def beside_statements(problem: Problem, run: xr.Dataset, solver: dict) -> xr.Dat
     """Return what the paper states about a case, beside its trajectory."""
     numbers = beside_bounds(run) | at_rest(problem) | balance(problem, run, solver)
     return xr.Dataset.from_dict(table(TITLE, {}, **numbers))
+
+
+def check_conserved(run: xr.Dataset, title: str) -> xr.Dataset:
+    """Return by how much each conserved quantity drifts, relative to its largest size."""
+    if "conserved" not in run:
+        return xr.Dataset()
+    values = run["conserved"].values
+    drift = np.abs(values - values[:, :1]).max(axis=1)
+    sizes = np.abs(values).max(axis=1)
+    drift = np.where(sizes > 0, drift / np.where(sizes > 0, sizes, 1.0), 0.0)
+    about = "largest change of a conserved quantity, relative to its largest size"
+    names = {"conserved_quantity": run["conserved_quantity"].values}
+    described = variable(drift, ("conserved_quantity",), about)
+    return xr.Dataset.from_dict(table(title, names, conserved_drift=described))
 
 
 # --- All checks -----------------------------------------------------------------------------------

@@ -14,22 +14,16 @@ from pendula.simd import LANES
 
 from .solvers import ITERATED, Solver
 
-SOLVERS = """
-
-# --- Solvers ------------------------------------------------------------------------------------
-
-from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
-from pendula.simulation.observables import observe_angles, observe_fields
-
-"""
+USED = {
+    "pendula.integrators": "crank_nicolson, dop853, kahan_li, ode45",
+    "pendula.simulation.observables": "observe_angles, observe_fields",
+}
+"""What the runs of a generated module take from the library."""
 RUN = """
 solve_{name} = {method}({rule}, {observe}{time})
-
-
 @kernel
 def run_{name}(system, y, times, controls, work, record, stop):
     return solve_{name}(system, y, times, controls, work, record, stop)
-
 """
 
 
@@ -43,7 +37,8 @@ def solvers_text(model: Model) -> str:
         methods.append(("kahan_li", "kahan_li.build", "rates"))
     if not model.driven:
         methods.append(("crank_nicolson", "crank_nicolson.build", "rates"))
-    return SOLVERS + "".join(
+    head = [f"\nfrom {module} import {names}\n" for module, names in USED.items()]
+    return "".join(head) + "".join(
         RUN.format(name=name, method=method, rule=rule, observe=observe, time=time)
         for name, method, rule in methods
     )

@@ -15,10 +15,10 @@ from pendula.integrators import (
 )
 from pendula.models.amplitudes import (
     chain_of_tile,
+    continue_series,
     midpoint_rates,
     rates,
 )
-from pendula.models.amplitudes_series import continue_series
 from pendula.models.chain import can_be_tiled
 
 from .lattice import aligned
