@@ -1,3 +1,5 @@
+"""A. Chernyavsky and D. E. Pelinovsky, arXiv 1605.06455."""
+
 from pendula.model import abs2, conj, lap
 
 fields = "u", "v"

@@ -1,3 +1,5 @@
+"""The discrete nonlinear Schroedinger equation with damping."""
+
 from pendula.model import abs2, lap
 
 fields = "u"

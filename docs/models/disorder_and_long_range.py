@@ -1,3 +1,5 @@
+"""A chain with a random potential and a coupling that falls with the cube of the distance."""
+
 from numpy.random import default_rng
 from pendula.model import abs2, shift
 

@@ -1,3 +1,5 @@
+"""M. Syafwan, H. Susanto and S. M. Cox, Phys. Rev. E 81 (2010) 026207."""
+
 from pendula.model import abs2, conj, lap
 
 fields = "u"

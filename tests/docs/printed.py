@@ -1,8 +1,8 @@
 """The blocks of README and docs/ in the order in which a reader meets them, and how they are run.
 
 A block without a word after its fence holds commands. A block `text` shows what these commands
-print; "..." stands where two runs print different words. A block `yaml` is a file, and its first
-line names the file. A block `pycon` is a session of Python. A comment `<!-- fails -->`
+print; "..." stands where two runs print different words. A block `yaml` or `python` is a file, and
+its first line names the file. A block `pycon` is a session of Python. A comment `<!-- fails -->`
 above a block says that its commands must fail.
 """
 
@@ -22,7 +22,8 @@ from pendula.configuration.files import merge
 
 FENCED = re.compile(r"(?:^<!-- ([\w ]+) -->\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SNAKEMAKE = re.compile(r"snakemake( |$)")
-KINDS = ("", "text", "yaml", "pycon")
+FILES = ("yaml", "python")
+KINDS = ("", "text", "pycon", *FILES)
 BASELINE = "tests/baseline/"
 MADE_ONCE = ("reference", "proofs", "speed", "quoted")
 """What of the baseline no acceptance writes."""
@@ -73,8 +74,8 @@ def blocks(project: Path, page: str) -> list[Block]:
 
 
 def file_of(block: Block) -> str:
-    """Return the name of the file that a block of YAML is."""
-    (name,) = re.findall(r"\A# (\w+\.yaml)$", block.text, re.MULTILINE)
+    """Return the name of the file that a block is."""
+    (name,) = re.findall(r"\A# (\w+\.(?:yaml|py))$", block.text, re.MULTILINE)
     return name
 
 
@@ -143,7 +144,7 @@ class Reader:
         """Run a block as it is printed. Every page starts in the folder of the clone."""
         if block.page != self.page:
             self.page, self.folder = block.page, self.clone
-        if block.kind == "yaml":
+        if block.kind in FILES:
             (self.folder / file_of(block)).write_text(block.text, encoding="utf-8")
             return Done(0, "")
         if block.kind == "pycon":

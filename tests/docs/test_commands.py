@@ -18,6 +18,7 @@ import pytest
 import yaml
 from helpers import MY_BASELINE, ROOT, snakemake
 from printed import (
+    FILES,
     KINDS,
     Block,
     Done,
@@ -86,7 +87,7 @@ def played(request, made_once, full_run) -> dict[str, Done]:
             assert accepted.returncode == 0, accepted.stderr
         else:
             accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
-        tried = [block for block in ALL if block in RUN or block.kind == "yaml"]
+        tried = [block for block in ALL if block in RUN or block.kind in FILES]
         reader = Reader(clone)
         run = {
             block.name: reader.play(PLAYED.get(block, block))
@@ -145,12 +146,11 @@ def test_what_a_page_shows_follows_a_command_that_is_run():
     assert [output.name for command, output in OUTPUTS if command not in RUN] == []
 
 
-@pytest.mark.parametrize(
-    "block", [b for b in ALL if b.kind == "yaml"], ids=lambda block: block.name
-)
+@pytest.mark.parametrize("block", [b for b in ALL if b.kind in FILES], ids=lambda block: block.name)
 def test_a_file_that_is_to_be_saved_is_used_on_its_page(block):
     commands = [other.text for other in PRINTED[block.page] if other.kind == ""]
-    assert any(file_of(block) in command for command in commands)
+    texts = [*commands, *(other.text for other in PRINTED[block.page] if other.kind == "yaml")]
+    assert any(file_of(block) in text.partition("\n")[2] for text in map("\n{}".format, texts))
 
 
 def test_what_is_not_run_exists_and_has_a_reason():
