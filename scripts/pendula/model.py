@@ -18,7 +18,7 @@ import inspect
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -142,26 +142,30 @@ BUILD = {"neg": neg, "add": add, "sub": sub, "mul": mul}
 """What makes a node of its operands, where that may simplify it."""
 
 
-def rebuilt(nodes: Iterable[Node], leaf: Callable[[Node], Node]) -> list[Node]:
-    """Return the same expressions with other leaves."""
+def rebuilt(nodes: Iterable[Node], change: Callable[[Node, list[Node]], Node | None]) -> list[Node]:
+    """Return the expressions with another node in the place of some.
+
+    change(node, operands) is given each node and its new operands; where it returns None, the node
+    stays what it is, of these operands.
+    """
     made: dict[Node, Node] = {}
     for one in in_order(nodes):
-        if one.operation in LEAVES:
-            made[one] = leaf(one)
-        else:
-            operands = [made[operand] for operand in one.operands]
-            build = BUILD.get(one.operation)
-            made[one] = build(*operands) if build else node(one.operation, *operands)
+        operands = [] if one.operation in LEAVES else [made[a] for a in one.operands]
+        new = change(one, operands)
+        if new is None:
+            build = BUILD.get(one.operation, partial(node, one.operation))
+            new = one if one.operation in LEAVES else build(*operands)
+        made[one] = new
     return [made[one] for one in nodes]
 
 
 def shifted(a: Node, by: int) -> Node:
     """Return the expression at the site n + `by`."""
 
-    def moved(leaf: Node) -> Node:
-        if leaf.operation in ("number", "time"):
-            return leaf
-        return node(leaf.operation, *leaf.operands[:-1], leaf.operands[-1] + by)
+    def moved(one: Node, _) -> Node | None:
+        if one.operation not in ("field", "parameter"):
+            return None
+        return node(one.operation, *one.operands[:-1], one.operands[-1] + by)
 
     return rebuilt([a], moved)[0]
 

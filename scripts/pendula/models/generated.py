@@ -24,14 +24,15 @@ import numpy as np
 from pendula.integrators.taylor import ORDER
 from pendula.kernel_cache import keep_source
 from pendula.model import (
+    BUILD,
     CLOCK,
     CONSTANT,
     LEAVES,
     MOTION,
+    ZERO,
     Model,
     ModelError,
     Node,
-    add,
     derivative,
     in_order,
     is_number,
@@ -41,8 +42,9 @@ from pendula.model import (
     number,
     rebuilt,
     shifted,
-    sub,
 )
+
+TWO = number(2.0)
 
 USED = {
     "pendula.compiled": "inlined_by_llvm, kernel",
@@ -91,13 +93,14 @@ def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
 
     def visit(one: Node) -> None:
         if one.level == CONSTANT and not is_number(one):
-            names = {leaf.operands[0] for leaf in in_order([one]) if leaf.operation == "parameter"}
+            names = {part.operands[0] for part in parameters_in(one)}
             (at_sites if names & site_dependent else constants)[one] = None
         elif one.level == CLOCK and one.operation in ("sin", "cos", "time"):
             clocks[one] = None
-            if one.operation != "time":
-                for found in affine(one.operands[0]):
-                    visit(found)
+            for found in () if one.operation == "time" else affine(one.operands[0]):
+                if {part.operands[0] for part in parameters_in(found)} & site_dependent:
+                    raise ModelError("the sine of an angle that depends on time and site")
+                visit(found)
         elif one.operation not in LEAVES:
             for operand in one.operands:
                 visit(operand)
@@ -113,11 +116,16 @@ def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> P
     return parts_of([*rates, *(one for pair in found for one in pair)], site_dependent)
 
 
+def parameters_in(expression: Node) -> list[Node]:
+    """Return the parameters that an expression holds."""
+    return [one for one in in_order([expression]) if one.operation == "parameter"]
+
+
 def affine(angle: Node) -> tuple[Node, Node]:
     """Return frequency and phase of an angle that grows steadily with the time."""
     time = node("time")
     frequency = derivative([angle], lambda one: number(one is time))[0]
-    phase = rebuilt([angle], lambda one: number(0.0) if one is time else one)[0]
+    phase = rebuilt([angle], lambda one, _: ZERO if one is time else None)[0]
     if frequency.level > CONSTANT:
         raise ModelError("a sine or cosine of the time must be of frequency times p.t plus phase")
     return frequency, phase
@@ -169,7 +177,7 @@ def sum_text(a: str, b: str, scalar: tuple[bool, bool], minus: bool) -> str:
 # --- Rates --------------------------------------------------------------------------------------
 
 
-def rates_text(rows: tuple[Node, ...], names: Names, reach: int, driven: bool) -> str:
+def rates_text(rows: tuple[Node, ...], names: Names, reach: int) -> str:
     """Return the functions that write the rates of a state of so many rows."""
     code = Code(1)
     offset = reach - 1
@@ -233,28 +241,22 @@ def rates_text(rows: tuple[Node, ...], names: Names, reach: int, driven: bool) -
 
 def doubled_out(nodes: list[Node]) -> list[Node]:
     """Return expressions with squares as twice half of them, and factors of two moved outwards."""
-    made: dict[Node, Node] = {}
 
     def twice(one: Node) -> bool:
-        return one.operation == "mul" and one.operands[0] is number(2.0)
+        return one.operation == "mul" and one.operands[0] is TWO
 
-    for one in in_order(nodes):
-        if one.operation in LEAVES:
-            made[one] = one
-            continue
-        operands = [made[operand] for operand in one.operands]
-        a, b = operands[0], operands[-1]
-        if one.operation == "mul" and a is b and one.level == MOTION:
-            made[one] = mul(number(2.0), node("half_square", a))
-        elif one.operation == "mul" and is_number(a) and twice(b):
-            made[one] = mul(number(2.0 * a.operands[0]), b.operands[1])
-        elif one.operation in ("add", "sub") and twice(a) and twice(b):
-            build = add if one.operation == "add" else sub
-            made[one] = mul(number(2.0), build(a.operands[1], b.operands[1]))
-        else:
-            build = {"add": add, "sub": sub, "mul": mul, "neg": neg}.get(one.operation)
-            made[one] = build(*operands) if build else node(one.operation, *operands)
-    return [made[one] for one in nodes]
+    def change(one: Node, operands: list[Node]) -> Node | None:
+        if one.operation == "mul":
+            a, b = operands
+            if a is b and one.level == MOTION:
+                return mul(TWO, node("half_square", a))
+            if is_number(a) and twice(b):
+                return mul(number(2.0 * a.operands[0]), b.operands[1])
+        if one.operation in ("add", "sub") and all(map(twice, operands)):
+            return mul(TWO, BUILD[one.operation](*(a.operands[1] for a in operands)))
+        return None
+
+    return rebuilt(nodes, change)
 
 
 def is_product(one: Node) -> bool:
@@ -280,22 +282,13 @@ def with_carried(rates: list[Node]) -> tuple[list[Node], list[tuple[Node, Node]]
     """
     angles: list[Node] = []
 
-    def replaced(nodes: list[Node]) -> list[Node]:
-        made: dict[Node, Node] = {}
-        for one in in_order(nodes):
-            if one.operation in LEAVES or one.level < MOTION:
-                made[one] = one
-            elif one.operation in ("sin", "cos"):
-                angle = one.operands[0]
-                if angle not in angles:
-                    angles.append(angle)
-                made[one] = carried(2 * angles.index(angle) + (one.operation == "cos"))
-            else:
-                operands = [made[operand] for operand in one.operands]
-                made[one] = {"add": add, "sub": sub, "mul": mul, "neg": neg}[one.operation](
-                    *operands
-                )
-        return [made[one] for one in nodes]
+    def leaf(one: Node, operands: list[Node]) -> Node | None:
+        if one.level < MOTION or one.operation not in ("sin", "cos"):
+            return None
+        angle = one.operands[0]
+        if angle not in angles:
+            angles.append(angle)
+        return carried(2 * angles.index(angle) + (one.operation == "cos"))
 
     def flow(one: Node) -> Node:
         if one.operation == "field":
@@ -303,10 +296,10 @@ def with_carried(rates: list[Node]) -> tuple[list[Node], list[tuple[Node, Node]]
             return shifted(rates[2 * component + part], by)
         return number(one.operation == "time")
 
-    made, found = replaced(rates), []
+    made, found = rebuilt(rates, leaf), []
     while len(found) < 2 * len(angles):
         i = len(found) // 2
-        angle, speed = replaced([angles[i], derivative([angles[i]], flow)[0]])
+        angle, speed = rebuilt([angles[i], derivative([angles[i]], flow)[0]], leaf)
         found += [(angle, mul(carried(2 * i + 1), speed)), (angle, neg(mul(carried(2 * i), speed)))]
         if len(found) > MOST_ROWS:
             raise ModelError("the sine of what depends on neighbours needs ever more of them")
@@ -369,8 +362,8 @@ class Series:
 
     # --- The coefficient of order k
 
-    def body(self, even: bool) -> list[str]:
-        """Return the statements that write order k + 1 of a block."""
+    def body(self, even: bool) -> tuple[list[str], list[str]]:
+        """Return the factors of an order, and the statements that write order k + 1 of a block."""
         code = Code(3)
         level: dict[Node, int] = {}
         for one in in_order([*self.rates, *self.flows, *self.kept]):
@@ -393,8 +386,7 @@ class Series:
             else:
                 to = self.place(carried(i - len(self.rates)), "k + 1")
             code(f"store(m, {to}, {found})")
-        names_of_shares = [f"{name} = {text}" for text, name in shares.items()]
-        return ["        " + line for line in names_of_shares], code.lines
+        return [f"        {name} = {text}" for text, name in shares.items()], code.lines
 
     def _carry_start(self, code: Code, even: bool) -> None:
         """Write sines and cosines at order 0, from their angles."""
@@ -514,18 +506,14 @@ class Series:
         """Return the expression of the coefficient of order k."""
         if is_sum_of_products(one):
             if even:
-                code(
-                    f"store(m, {self.partial_place(one, even)}, {self._linear(code, one, 'next')})"
-                )
+                later = self._linear(code, one, "next")
+                code(f"store(m, {self.partial_place(one, even)}, {later})")
                 return self._linear(code, one, "now")
             return f"load(m, {self.partial_place(one, even)}) + {self._linear(code, one, 'last')}"
         if one.level == CONSTANT:
             numbers = self._constant(one)
-            return (
-                f"at_start * {numbers}"
-                if one in self.names.at_sites
-                else (f"fill(at_start * {numbers})")
-            )
+            at_sites = one in self.names.at_sites
+            return f"at_start * {numbers}" if at_sites else f"fill(at_start * {numbers})"
         if one in self.names.clocks:
             return f"fill(m[d + {self.names.clocks[one]} * (ORDER + 1) + k])"
         match one.operation, *one.operands:
@@ -635,9 +623,9 @@ def require_alike(rates: tuple[Node, ...], kept: list[Node]) -> None:
     One rule then serves both fields, and one of them alone where the two are the same.
     """
 
-    def exchanged(one: Node) -> Node:
+    def exchanged(one: Node, _) -> Node | None:
         if one.operation != "field":
-            return one
+            return None
         component, part, by = one.operands
         return node("field", 1 - component, part, by)
 
@@ -706,7 +694,7 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
     names = Names(parts)
     return "".join([
         HEAD,
-        rates_text(rates, names, reach, bool(parts.clocks)),
+        rates_text(rates, names, reach),
         Series(rates, names).text(reach, len(parts.clocks)),
         clocks_text(parts, names),
     ])  # fmt: skip
