@@ -510,6 +510,20 @@ class Model:
         return max(1, *(rate.reach for rate in self.rates))
 
     @cached_property
+    def even(self) -> bool:
+        """Whether the equations are the same, to the last bit, with left and right exchanged."""
+
+        def ordered(one: Node, operands: list[Node]) -> Node | None:
+            return node("add", *sorted(operands, key=id)) if one.operation == "add" else None
+
+        def reflected(one: Node, operands: list[Node]) -> Node | None:
+            if one.operation == "field":
+                return leaf(*one.operands[:-1], -one.operands[-1])
+            return ordered(one, operands)
+
+        return rebuilt(self.rates, reflected) == rebuilt(self.rates, ordered)
+
+    @cached_property
     def driven(self) -> bool:
         """Whether the equations depend on the time."""
         return any(one.operation == "time" for one in in_order(self.rates))

@@ -4,8 +4,9 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from pendula.model import Model, conj, shift
+from pendula.model import Model, abs2, conj, shift
 from pendula.problem import Problem
+from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from scipy.integrate import solve_ivp
 
@@ -90,6 +91,23 @@ def test_random_polynomials_equal_scipy_on_numpy(seed, fields, reach, boundary, 
     slope = rate(terms, boundary, {"a": 0.7, "b": disorder})
     expected = solve_ivp(slope, (0.0, 1.0), initial.ravel(), **TIGHT).y[:, -1]
     np.testing.assert_allclose(found, expected.reshape(initial.shape), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
+def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
+    """Equations that look two sites far, on chains whose half ends inside a block."""
+
+    def i_dt(p, u):
+        return p.a * (shift(u, 2) + shift(u, -2)) + (abs2(u.right) + abs2(u.left)) * u
+
+    model = Model(fields="u", parameters={"a": 0.7}, i_dt=i_dt)
+    assert model.even and not Model(fields="u", parameters={}, i_dt=lambda p, u: u.right).even
+    half = np.random.default_rng(3).normal(size=(1, 10, 2)) @ (0.5, 0.5j)
+    given = problem(model, np.concatenate([half[:, :0:-1], half], axis=1), boundary)
+    runs = [simulate(given, kept) for kept in (None, WHOLE)]
+    assert runs[0].final[0, 0] == runs[0].final[0, -1]
+    for name in ("final", "l2", "linf", "snapshots"):
+        np.testing.assert_array_equal(*(getattr(run, name) for run in runs))
 
 
 def pendulum(p, x):

@@ -30,7 +30,7 @@ def find_reduction(amplitudes: np.ndarray) -> Reduction:
     """Return the symmetries of the data: exact ones only, so that nothing is approximated."""
     return Reduction(
         even=amplitudes.shape[1] > 1 and np.array_equal(amplitudes, amplitudes[:, ::-1]),
-        synchronised=np.array_equal(amplitudes[0], amplitudes[1]),
+        synchronised=np.array_equal(amplitudes[0], amplitudes[-1]),
     )
 
 

@@ -14,9 +14,9 @@ from pendula.numerics.elementary import complex_of, modulus
 from pendula.problem import AMPLITUDES, PENDULA, Constants, Problem
 
 from . import pendula_solvers, solvers
-from .lattice import WHOLE, Reduction, choose_ends, find_reduction, pack, unfold, unpack
+from .lattice import Reduction, choose_ends, find_reduction, pack, unfold, unpack
 from .observables import blank_record, blank_state_record
-from .own_models import conserved_in, make_system, solvers_of
+from .own_models import conserved_in, find_reduction_of_own, make_system, solvers_of
 from .solvers import Solver
 
 
@@ -39,7 +39,7 @@ class Model(NamedTuple):
     record: Callable[[int, int, int, int, bool], Any]
     collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]
     """From record, final state and reduction to what `Trajectory` holds of the whole chain."""
-    find_reduction: Callable[[np.ndarray], Reduction] = find_reduction
+    find_reduction: Callable[[Problem], Reduction]
 
 
 # --- The amplitudes -----------------------------------------------------------------------------
@@ -92,6 +92,7 @@ MODELS = {
         atol=lambda problem: 1.0,
         record=blank_record,
         collect=_collect_amplitudes,
+        find_reduction=lambda problem: find_reduction(problem.amplitudes),
     ),
     PENDULA: Model(
         components=("x", "y"),
@@ -107,6 +108,7 @@ MODELS = {
         atol=lambda problem: 2.0 * problem.mu,
         record=blank_state_record,
         collect=_collect_pendula,
+        find_reduction=lambda problem: find_reduction(problem.amplitudes),
     ),
 }
 """The models by name."""
@@ -116,18 +118,15 @@ MODELS = {
 
 
 def _collect_own(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[str, np.ndarray]:
-    parts = np.array([y[part::2, 1:-1] for part in (0, 1)])
-    values = (
-        np.abs(record.snapshots[0])
-        if problem.model.second_order
-        else modulus(complex_of(*record.snapshots))
-    )
+    parts = np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)])
+    snapshots = np.array([unfold(part, cut) for part in record.snapshots])
+    real = problem.model.second_order
     return {
         "energy": record.energy,
-        "modulus": values,
-        "final": parts if problem.model.second_order else complex_of(*parts),
-        "snapshots": record.snapshots,
-        "conserved": conserved_in(problem, record.snapshots),
+        "modulus": np.abs(snapshots[0]) if real else modulus(complex_of(*snapshots)),
+        "final": parts if real else complex_of(*parts),
+        "snapshots": snapshots,
+        "conserved": conserved_in(problem, snapshots),
     }
 
 
@@ -139,12 +138,12 @@ def model_of(problem: Problem) -> Model:
         components=problem.model.fields,
         parts=("value", "rate") if problem.model.second_order else ("re", "im"),
         solvers=solvers_of(problem),
-        system=lambda problem, cut: make_system(problem),
+        system=make_system,
         start=lambda problem, cut: pack(problem.amplitudes, cut),
         times=lambda problem: problem.times,
         slow=lambda problem, time: time,
         atol=lambda problem: 1.0,
         record=blank_state_record,
         collect=_collect_own,
-        find_reduction=lambda amplitudes: WHOLE,
+        find_reduction=find_reduction_of_own,
     )

@@ -12,6 +12,7 @@ from pendula.models.generated import System, load_text, module_text, parts_of_ra
 from pendula.problem import Problem
 from pendula.simd import LANES
 
+from .lattice import Reduction, choose_ends, find_reduction
 from .solvers import ITERATED, Solver
 
 USED = {
@@ -89,10 +90,20 @@ def site_dependent(problem: Problem) -> frozenset[str]:
     return frozenset(name for name, value in parameters_of(problem).items() if np.ndim(value))
 
 
-def make_system(problem: Problem):
+def find_reduction_of_own(problem: Problem) -> Reduction:
+    """Return whether half of the chain has the bits of the whole.
+
+    It has where data, equations and parameters are the same with left and right exchanged.
+    """
+    alike = problem.model.even and not site_dependent(problem)
+    even = alike and problem.half_width >= 2 * problem.model.reach
+    return Reduction(even and find_reduction(problem.amplitudes).even, synchronised=False)
+
+
+def make_system(problem: Problem, reduction: Reduction):
     """Return what the kernels of a model take for its parameters, at time 0."""
     model, values = problem.model, parameters_of(problem)
-    end = kind_of(problem.boundary)
+    sites = problem.half_width + 1 if reduction.even else problem.sites
     parts = parts_of_rates(model.rates, site_dependent(problem))
 
     def leaf(one):
@@ -107,9 +118,11 @@ def make_system(problem: Problem):
     for row, value in enumerate(evaluate(parts.at_sites, leaf)):
         at_sites[row, 1 : 1 + problem.sites] = value
     rows = 2 * len(model.fields)
-    wide = np.zeros((rows, problem.sites + 2 * model.reach))
+    wide = np.zeros((rows, sites + 2 * model.reach))
     clocks = (0.0,) * 2 * len(parts.clocks)
-    return System(tuple(constants), clocks, at_sites, wide, end, end)
+    return System(
+        tuple(constants), clocks, at_sites, wide, *choose_ends(problem.boundary, reduction)
+    )
 
 
 def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarray]:

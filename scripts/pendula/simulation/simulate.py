@@ -57,7 +57,7 @@ def simulate(
     if problem.solver["name"] == "auto":
         return _simulate_to_error(problem, reduction)
     if reduction is None:
-        reduction = model_of(problem).find_reduction(problem.amplitudes)
+        reduction = model_of(problem).find_reduction(problem)
     times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
     return _collect(problem, times, record, y, reduction, outcome)
 
