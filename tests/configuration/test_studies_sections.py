@@ -55,11 +55,11 @@ def test_a_fault_deep_in_a_study_is_named_with_its_place_and_the_nearest_key(pla
 
 def leaves(kind, place=""):
     """Yield each type of a single value inside a type, and its place: a model's keys below it."""
-    if isinstance(kind, type) and issubclass(kind, BaseModel):
-        for key, field in kind.model_fields.items():
+    bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
+    if isinstance(bare, type) and issubclass(bare, BaseModel):
+        for key, field in bare.model_fields.items():
             yield from leaves(field.rebuild_annotation(), f"{place}.{key}")
         return
-    bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
     parts = [] if get_origin(bare) is Literal else get_args(bare)
     for part in parts:
         yield from leaves(part, place)

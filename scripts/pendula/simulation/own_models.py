@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from pendula.ends import ends_of, kind_of
+from pendula.ends import PERIODIC, ends_of, kind_of
 from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
 from pendula.model import Model, derivative, evaluate, in_order, number
 from pendula.models.chain import seen_at
@@ -133,8 +133,8 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
     """
     densities, values = problem.model.conserved, parameters_of(problem)
     reach = max((density.reach for density in densities.values()), default=0)
-    margin = reach if problem.boundary == "dirichlet" else 0
     sees = ends_of(problem.boundary).sees
+    margin = reach if sees is None else 0
     how = {"constant_values": 0.0} if sees is None else {}
     mode = "constant" if sees is None else {(0, -1): "symmetric", (-1, 0): "wrap"}[sees]
     wide = [(0, 0), (0, 0), (margin + reach, margin + reach), (0, 0)]
@@ -200,6 +200,6 @@ def linearisation(problem: Problem, state: np.ndarray) -> np.ndarray:
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
     """Return the values at the sites n + by; beyond an end that of the last site, or of a ring."""
     places = np.arange(values.size) + by
-    if boundary == "periodic":
+    if kind_of(boundary) == PERIODIC:
         return values[places % values.size]
     return values[np.clip(places, 0, values.size - 1)]
