@@ -22,9 +22,7 @@ BESIDE = 0.05
 """How far from the turning point of the daughter the pitchfork is looked for, in units of gamma."""
 
 
-def kept(
-    dimensions: tuple[str, ...], values, words: str, digits: int | None = DIGITS
-) -> Variable:  # fmt: skip
+def kept(dimensions, values, words: str, digits: int | None = DIGITS) -> Variable:
     """Return a variable rounded to so many significant digits, or as it is if they are None."""
     if digits is None:
         return Variable(dimensions, values, words)

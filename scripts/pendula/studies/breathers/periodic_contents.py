@@ -1,6 +1,6 @@
 """The dataset of periodic breathers: families, their stability, and where multipliers collide."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -66,23 +66,20 @@ def periodic_contents(
     frequencies = sorted(frequencies)
     given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     table = _blank_table(len(omegas), len(frequencies))
-    for j, constants in enumerate(given):
-        for i, family in enumerate(periodic.FAMILIES):
-            found, above = [], None
-            for breather in periodic.family_of(constants, family, frequencies, half_widths):
-                at = (..., i, j, frequencies.index(breather.frequency))
-                spectra = spectra_of(breather)
-                _add_breather(table, at, breather, spectra)
-                # within the waves, those of a finite chain collide
-                if breather.frequency > waves.highest(constants):
-                    _add_instability(table, at, (breather, spectra), above)
-                found.append(breather)
-                above = breather, spectra
-            for k, instant in enumerate(periodic.INSTANTS if found else ()):
-                frequency, least = periodic.least_power(found, instant)
-                table["least_power_frequency"][k, i, j], table["least_power"][k, i, j] = (
-                    frequency, least
-                )  # fmt: skip
+    for (i, j), found in _families(given, frequencies, half_widths):
+        above = None
+        for breather in found:
+            at = (..., i, j, frequencies.index(breather.frequency))
+            spectra = spectra_of(breather)
+            _add_breather(table, at, breather, spectra)
+            # within the waves, those of a finite chain collide
+            if breather.frequency > waves.highest(breather.constants):
+                _add_instability(table, at, (breather, spectra), above)
+            above = breather, spectra
+        for k, instant in enumerate(periodic.INSTANTS if found else ()):
+            frequency, least = periodic.least_power(found, instant)
+            table["least_power_frequency"][k, i, j] = frequency
+            table["least_power"][k, i, j] = least
     table["growth"] = table["parity_growth"].max(axis=0)
     variables = {
         "part": PARTS,
@@ -102,6 +99,13 @@ def periodic_contents(
     }
     about = {"epsilon": epsilon, "gamma": gamma, "residual": periodic.TOLERANCE}
     return variables, {"title": "Periodic breathers localised at one pair", **about}
+
+
+def _families(given: list[Constants], frequencies, half_widths) -> Iterator[tuple]:
+    """Yield (family, omega) as numbers, and the breathers there from the highest frequency down."""
+    for j, constants in enumerate(given):
+        for i, family in enumerate(periodic.FAMILIES):
+            yield (i, j), [*periodic.family_of(constants, family, frequencies, half_widths)]
 
 
 def _blank_table(omegas: int, frequencies: int) -> dict[str, np.ndarray]:
@@ -184,14 +188,13 @@ def perturbed_contents(
     frequencies = sorted(frequencies)
     shape = (2, len(periodic.FAMILIES), len(omegas), len(frequencies))
     lowest, highest = np.full(shape, np.nan), np.full(shape, np.nan)
-    for j, omega in enumerate(omegas):
-        constants = Constants(epsilon=epsilon, gamma=gamma, omega=omega)
-        for i, family in enumerate(periodic.FAMILIES):
-            for breather in periodic.family_of(constants, family, frequencies, half_widths):
-                if not growth_of(breather, spectra_of(breather))[1]:
-                    at = (..., i, j, frequencies.index(breather.frequency))
-                    given = change, end_time, tolerance
-                    lowest[at], highest[at] = perturbed.range_of_power(breather, *given)
+    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
+    for (i, j), found in _families(given, frequencies, half_widths):
+        for breather in found:
+            if not growth_of(breather, spectra_of(breather))[1]:
+                at = (..., i, j, frequencies.index(breather.frequency))
+                run = perturbed.range_of_power(breather, change, end_time, tolerance)
+                lowest[at], highest[at] = run
     over, said = ("span", *OVER), "value of P on the central pair, in a tenth of the run"
     variables = {
         **_coordinates(omegas, frequencies),
