@@ -37,11 +37,9 @@ from pendula.simulation.solvers import SOLVERS
 
 HALF_PERIODS = 24
 STRIDE = np.pi / 6.0
-"""The phase that one run covers on the way to the next instant at which the amplitude is real.
-
-Once the tangent of its phase is at most LARGEST_TANGENT, the phase that is left is known.
-"""
+"""The phase that one run covers on the way to the next instant at which the amplitude is real."""
 LARGEST_TANGENT = 1.2
+"""Once the tangent of the phase is smaller, the phase that is left is known."""
 MOST_STRIDES = 20
 """A leading amplitude that is not real again after so many steps does not rotate."""
 SLOWEST = 0.5
@@ -129,10 +127,7 @@ def _reach_crossing(follower: Follower, lead: int, rate: float) -> bool:
 
 
 def _phase_left(z: complex) -> float | None:
-    """Return by how much the phase of `z` has to fall until it is real, if that is little.
-
-    The tangent is turned into an angle to three per cent.
-    """
+    """Return by how much the phase of `z` must fall until it is real, to 3 %, if that is little."""
     if not 0.0 < z.imag * z.real < LARGEST_TANGENT * z.real * z.real:
         return None
     tangent = z.imag / z.real
@@ -142,7 +137,7 @@ def _phase_left(z: complex) -> float | None:
 WAVES = 4.0
 """P at the centre that waves explain, over the mean P of a pair outside, see the module's text."""
 INSTANTS = 0.01
-"""By how much of its amplitudes a pair may miss itself since its instants are not exact."""
+"""Relative error of a pair that stems from its instants, which are not exact."""
 
 
 def unreturned(found: Crossings, waves: float) -> float:
@@ -160,7 +155,7 @@ def unreturned(found: Crossings, waves: float) -> float:
 # --- Families -------------------------------------------------------------------------------------
 
 NODES = 4
-"""So many of the known frequencies around one, or all if there are fewer, give its breather."""
+"""Breathers are interpolated between so many known frequencies, or all if there are fewer."""
 BEYOND = 2.0
 """Over the highest known frequency. Far above the bands a family depends on 1 / lambda smoothly."""
 

@@ -11,11 +11,10 @@ def bands(constants: Constants) -> list[tuple[float, float]]:
 
     Where kappa^2 < 4 gamma^2 a wave of A - B grows and has no frequency: the band starts at 0.
     """
-    ends = np.abs([constants.omega - 4.0 * constants.epsilon, constants.omega])
-    least = 0.0 if constants.omega * (constants.omega - 4.0 * constants.epsilon) < 0 else ends.min()
-    squares = np.array([least, ends.max()]) ** 2 - 4.0 * constants.gamma**2
-    low, high = np.sqrt(np.maximum(0.0, squares))
-    return [(float(least), float(ends.max())), (float(low), float(high))]
+    kappas = np.array([constants.omega - 4.0 * constants.epsilon, constants.omega])
+    ends = np.array([0.0 if kappas.prod() < 0.0 else np.abs(kappas).min(), np.abs(kappas).max()])
+    low, high = np.sqrt(np.maximum(0.0, ends**2 - 4.0 * constants.gamma**2))
+    return [(float(ends[0]), float(ends[1])), (float(low), float(high))]
 
 
 def highest(constants: Constants) -> float:
@@ -39,7 +38,7 @@ def free_intervals(constants: Constants) -> list[tuple[float, float]]:
     for low, high in bands(constants):
         # from this multiple on the bands, divided by it and by the next odd one, overlap
         last = int(2.0 * low / (high - low)) + 2
-        taken += [(low / m, high / m) for m in range(1, last + 2, 2)]
+        taken += [(low / m, high / m) for m in range(1, last, 2)]
         taken.append((0.0, high / last))
     free, reached = [], 0.0
     for low, high in sorted(taken):
