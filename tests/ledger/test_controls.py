@@ -106,7 +106,8 @@ def test_a_row_says_whether_it_rests_on_its_cutoff(rows, growth, verdict, moved)
 def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
     refuse, silent = Control("wrong", {}), Control("outside", {}, undecided=True)
     assert passes(refuse, grows(1.0)) and not passes(silent, grows(1.0))
-    assert not passes(refuse, grows(math.nan))
+    half_known = judge({"x": 1.5, "y": math.nan}, Below(1.0, "x", "y"))
+    assert not passes(refuse, grows(math.nan)) and not passes(refuse, half_known)
     unknown = undecided({}, "there is no such bound")
     assert passes(silent, unknown) and not passes(refuse, unknown)
     assert [one.must for one in (refuse, silent)] == ["be refused", "not be decided"]

@@ -5,7 +5,7 @@ that confirms is taken back, for every claim alike: reductions that skip NaN wou
 a dataset is unknown, and a line through two points is no law.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -60,23 +60,16 @@ def _missing(name: str, dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
     several = [along for along in ("case", "sweep") if along in dataset.indexes]
     read = {along: [one for one in dataset[along].values if one in on] for along in several}
     dataset = dataset.sel(read) if any(read.values()) else dataset
-    return [*_unknown(name, dataset), *_few(name, dataset)]
+    spared = _words_on(name, NO_NUMBER)
+    unknown = [
+        f"{variable} is unknown in part"
+        for variable, values in dataset.data_vars.items()
+        if not any(fnmatchcase(str(variable), pattern) for pattern in spared)
+        if values.dtype.kind in "fc" and np.isnan(values.values).any()
+    ]
+    few = [one for one in _words_on(name, SERIES) if dataset.sizes.get(one, FEWEST) < FEWEST]
+    return [*unknown, *(f"{along} has fewer than {FEWEST} samples" for along in few)]
 
 
-def _of(name: str, by_dataset: Mapping[str, str]) -> list[str]:
-    """Return the words on a dataset."""
+def _words_on(name: str, by_dataset: Mapping[str, str]) -> list[str]:
     return " ".join(w for like, w in by_dataset.items() if fnmatchcase(name, like)).split()
-
-
-def _unknown(name: str, dataset: xr.Dataset) -> Iterator[str]:
-    patterns = _of(name, NO_NUMBER)
-    for variable, values in dataset.data_vars.items():
-        spared = any(fnmatchcase(str(variable), pattern) for pattern in patterns)
-        if not spared and values.dtype.kind in "fc" and np.isnan(values.values).any():
-            yield f"{variable} is unknown in part"
-
-
-def _few(name: str, dataset: xr.Dataset) -> Iterator[str]:
-    for along in _of(name, SERIES):
-        if dataset.sizes.get(along, FEWEST) < FEWEST:
-            yield f"{along} has fewer than {FEWEST} samples"

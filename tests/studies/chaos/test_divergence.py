@@ -59,6 +59,11 @@ def test_published_exponents_are_those_of_an_even_and_an_odd_vector(measured):
 def test_chaotic_runs_diverge_when_predicted_and_regular_ones_do_not(measured):
     cases, growth, _ = measured
     found = lyapunov.divergence_times(cases, [1e-4, 1e-7], growth)
+    tau, even, l2 = (growth[name].values for name in ("tau", "log_growth", "l2"))
+    log = lyapunov.amplification(tau, even[1, 0], l2[1])
+    made = lyapunov.measure_divergence(cases["fig4_large"], [1e-4, 1e-7]).early / np.exp(log[8])
+    seen = [lyapunov.predict(tau, log, each) for each in made]  # errors at tau = 2
+    np.testing.assert_array_equal(found["divergence_predicted"].values[1], seen)
     regular, chaotic = found["divergence_predicted"].values
     assert np.isinf(regular).all() and np.isinf(found["divergence_measured"].values[0]).all()
     assert chaotic[0] < chaotic[1] < found["divergence_rounding"].values[1]

@@ -44,6 +44,14 @@ def test_the_spread_is_the_variance_and_its_error_that_of_repetitions():
     assert errors.mean() == pytest.approx(variances.std() / variances.mean(), rel=0.2)
 
 
+def test_the_error_of_a_spread_is_that_of_the_jackknife():
+    values = np.array([0.0, 1.0, 3.0, 7.0])
+    without = np.array([np.delete(values, i).var(ddof=1) for i in range(4)])
+    found = members.measure_spread(np.repeat(values[:, None], 2, axis=1))
+    assert found.variance == pytest.approx(values.var(ddof=1))
+    assert found.error * found.variance == pytest.approx(np.sqrt(3.0 * without.var()))
+
+
 def test_the_ratio_of_widths_is_root_two_where_independent_halves_are_added():
     left, right = np.random.default_rng(2).normal(size=(2, 64, 400))
     even, uneven = members.measure_spread(2 * left), members.measure_spread(left + right)

@@ -1,8 +1,8 @@
 """What the paper says of chaotic figures against time, of ensembles in place of single runs.
 
-One run is one draw, and what it shows need not hold for the next. So each sentence is put to all
-members of two ensembles, even in n as the true solution is, and uneven as an ordinary solver makes
-it. A sentence holds where the confidence limits of both ensembles keep the criterion.
+One run is one draw, and what it shows need not hold for the next. So each sentence is tested on
+two ensembles, even in n as the true solution is, and uneven as an ordinary solver makes it. A
+sentence holds where the confidence limits of both satisfy the criterion.
 """
 
 from collections.abc import Callable
@@ -314,10 +314,7 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
     on=BOTH,
 )
 def ensemble_fig4_alike(members) -> Finding:
-    """Compare the difference of the means with the band over which single runs scatter.
-
-    A difference is seen where it is wider than that: each panel shows one run.
-    """
+    """Each panel shows one run, so that a difference is seen where it is wider than their band."""
     earlier, later = (fig4_differences(members, "l2", window) for window in (EARLIER, LATER))
     ends = named(distance(earlier), "high", "earlier") | named(distance(later), "high", "later")
     bands = members["relative_width"].sel(case="fig4_large")

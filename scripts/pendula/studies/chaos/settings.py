@@ -1,4 +1,4 @@
-"""What the configuration says of chaos: which cases, how long, at which tolerance, which seeds."""
+"""Section `chaos` of the configuration: cases, lengths of runs, tolerances and seeds."""
 
 from typing import Annotated, Literal
 
