@@ -10,6 +10,7 @@ import pendula
 import pytest
 import xarray as xr
 from pendula import notebook
+from pendula.configuration.messages import load
 from pendula.datasets.netcdf import read
 from pendula.own_cases import figures
 from simulate_own import as_the_workflow_writes
@@ -67,8 +68,6 @@ def test_the_final_state_has_the_norms_of_the_end(run):
 
 
 def test_a_case_has_the_defaults_of_the_yaml():
-    from pendula.configuration.messages import load
-
     configured = load({"cases": {"mine": SHORT}})
     assert pendula.Case(**SHORT).shown_problem() == configured.shown_problem("mine")
 
@@ -85,18 +84,14 @@ def test_faults_are_told_in_words_and_all_at_once():
         pendula.Case(omega=1, half_width=1, initial={5: (1, 0)})
 
 
-def test_a_changed_case_is_checked_anew(case):
-    assert case.changed(omega=8).omega == 8
-    with pytest.raises(pendula.ConfigurationError, match="half_width: is -1"):
-        case.changed(half_width=-1)
-
-
 def test_a_sweep_needs_no_fitting_half_width_of_its_case(case):
     peaks = pendula.sweep(case, [2, 4], [(1, 2)], "wider")
     assert dict(peaks.sizes) == {"half_width": 2, "quantity": 3, "statistic": 2, "window": 1}
     assert peaks.attrs["case"] == "wider" and peaks.attrs["end_time"] == 2
     with pytest.raises(pendula.ConfigurationError, match="does not run forward"):
         pendula.sweep(case, [2, 4], [(2, 1)])
+    with pytest.raises(ValueError, match=r"there is no window '\[1, 3\]'; known are \[1, 2\]"):
+        pendula.draw_sweep(peaks, "[1, 3]")
 
 
 def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
@@ -137,6 +132,7 @@ def test_a_missing_file_and_an_impossible_run_are_told_in_words(tmp_path):
         (lambda c, r: pendula.draw_norms(r, r), "the dataset has no divergence_time"),
         (lambda c, r: pendula.draw_spacetime(None), "and not empty"),
         (lambda c, r: pendula.draw_sweep(r), "a sweep, as `sweep` returns it; the dataset"),
+        (lambda c, r: c.changed(half_width=-1), "half_width: is -1"),
         (lambda c, r: c.changed(omga=8), "omga: is not a known key; did you mean 'omega'"),
         (lambda c, r: pendula.Case(omega=None), "omega: is empty, not a number"),
         (lambda c, r: pendula.Case(omega=1, initial={0: (1, 2, 3)}), "site 0 has 3 values"),
@@ -150,33 +146,21 @@ def test_what_cannot_be_done_is_told_before_anything_runs(call, words, case, run
     assert isinstance(told.value, pendula.ConfigurationError)
 
 
-def test_a_window_that_no_sweep_has_is_told(case):
-    peaks = pendula.sweep(case, range(2, 5), [(1, 2)])
-    with pytest.raises(ValueError, match=r"there is no window '\[1, 3\]'; known are \[1, 2\]"):
-        pendula.draw_sweep(peaks, "[1, 3]")
-
-
 def test_a_long_run_says_first_what_it_takes(case, monkeypatch, capsys):
     monkeypatch.setattr(pendula.notebook.cost, "WORTH_SAYING", 1e-6)
     pendula.simulate(case)
     assert capsys.readouterr().out == "the run takes less than a second and 1 MB of memory\n"
 
 
-def test_numbers_of_numpy_are_numbers(case):
+def test_numbers_of_numpy_are_numbers():
     given = pendula.Case(omega=np.float64(8), half_width=np.int64(3), initial={np.int64(0): (1, 0)})
     assert given.half_width == 3 and type(given.omega) is float
 
 
-def test_a_notebook_is_given_a_picture(run):
-    assert pendula.draw_norms(run)._repr_png_().startswith(b"\x89PNG")
-
-
-def test_a_run_by_another_solver_is_checked_too(case, run):
-    assert pendula.check(case.changed(solver="dop853"), run)["divergence_time"] == np.inf
-
-
-def test_the_second_run_is_drawn_where_it_diverges_only(run, case):
-    checks = pendula.check(case, run)
-    assert len(pendula.draw_norms(run, checks).axes) == 2
+def test_a_run_by_any_solver_is_checked_and_the_second_one_is_drawn_where_it_diverges(run, case):
+    checks = pendula.check(case.changed(solver="dop853"), run)
+    assert checks["divergence_time"] == np.inf
+    drawn = pendula.draw_norms(run, checks)
+    assert len(drawn.axes) == 2 and drawn._repr_png_().startswith(b"\x89PNG")
     checks["divergence_time"] = xr.full_like(checks["divergence_time"], 1.0)
     assert len(figures.draw_norms(figures.gather_norms(run, checks)).axes) == 4

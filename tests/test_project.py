@@ -2,6 +2,7 @@
 
 import ast
 import io
+import json
 import re
 import tokenize
 import tomllib
@@ -160,17 +161,14 @@ def imports_in(tree) -> list[str]:
 
 def test_a_record_has_the_imports_that_python_finds():
     """Not everything is parsed, so that what is left out must hold no import."""
-    modules = sources.SCRIPTS.rglob("*.py")
-    texts = {module: module.read_text(encoding="utf-8") for module in modules}
-    assert len(texts) > 100
-    parsed = {module: ast.parse(text) for module, text in texts.items()}
-    read = {module: sources._tree_of(text) for module, text in texts.items()}
-    assert [one for one in texts if imports_in(read[one]) != imports_in(parsed[one])] == []
-    assert sum(map(size, read.values())) < 0.2 * sum(map(size, parsed.values()))
-
-
-def size(tree) -> int:
-    return sum(1 for _ in sources._statements(tree))
+    sizes = []
+    for module in sources.SCRIPTS.rglob("*.py"):
+        text = module.read_text(encoding="utf-8")
+        trees = sources._tree_of(text), ast.parse(text)
+        assert imports_in(trees[0]) == imports_in(trees[1]), module
+        sizes.append([sum(1 for _ in sources._statements(tree)) for tree in trees])
+    read, whole = map(sum, zip(*sizes, strict=True))
+    assert len(sizes) > 100 and read < 0.2 * whole
 
 
 @pytest.mark.parametrize(
@@ -179,11 +177,10 @@ def size(tree) -> int:
         *("if a: import job", "import os; import job", "import os, \\\n    job\n"),
         *("from pendula import (\n    problem,  # why\n    compiled,\n)", "import  job"),
         *("from pendula import *", "from .  import style", "x = 1; from . import style"),
-        *('"""Say import once."""\nimport job', "\timport job", "import job  # the import"),
+        *('"""Say import once."""\nimport job', "def f():\n\timport job", "import job  # this"),
     ],
 )
 def test_an_import_of_any_shape_is_found(text):
-    text = f"def f():\n{text}" if text.startswith("\t") else text
     assert imports_in(sources._tree_of(text)) == imports_in(ast.parse(text)) != []
 
 
@@ -255,19 +252,41 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
     assert len(set(found)) == 4
 
 
-def uses_of_snakemake(tree: ast.AST) -> int:
-    return sum(isinstance(n, ast.Name) and n.id == "snakemake" for n in ast.walk(tree))
-
-
 def test_the_library_does_not_know_snakemake():
     for path in (sources.SCRIPTS / "pendula").rglob("*.py"):
-        text = path.read_text()
-        assert "snakemake" not in text or not uses_of_snakemake(ast.parse(text)), path
+        if "snakemake" in (text := path.read_text()):
+            names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
+            assert "snakemake" not in names, path
 
 
-def test_ci_finds_the_test_command_of_the_readme():
-    """The command stands alone between the mark and the end of its block."""
+@pytest.mark.parametrize(
+    ("mark", "last", "script"), [("test", "-m pytest", "run"), ("run", "&& snakemake", "figures")]
+)
+def test_ci_gives_the_commands_of_the_readme(mark, last, script):
+    """Each command stands alone between its mark and the end of its block."""
     text = (ROOT / "README.md").read_text()
-    (block,) = re.findall(r"<!-- test command -->\n```\n(.*?)\n```", text)
-    assert block.startswith("python3 -m venv") and block.endswith("-m pytest")
-    assert "<!-- test command -->" in (ROOT / ".ci/run").read_text()
+    (block,) = re.findall(rf"<!-- {mark} command -->\n```\n(.*?)\n```", text)
+    assert block.startswith("python3 -m venv") and block.endswith(last)
+    assert f"<!-- {mark} command -->" in (ROOT / ".ci" / script).read_text()
+
+
+def test_the_workflow_on_figures_keeps_its_page_and_has_actions_that_cannot_change():
+    workflow = yaml.safe_load((ROOT / ".github/workflows/figures.yml").read_text())
+    steps = workflow["jobs"]["figures"]["steps"]
+    assert any(step.get("run") == ".ci/figures" for step in steps)
+    assert steps[-1]["if"] == "always()" and "results/figure_diff" in steps[-1]["with"]["path"]
+    used = [step["uses"] for step in steps if "uses" in step]
+    assert all(re.fullmatch(r"actions/[\w-]+@[0-9a-f]{40}", action) for action in used)
+
+
+def test_the_container_has_the_python_and_the_pins_of_the_other_environments():
+    recipe = (ROOT / "workflow/envs/Containerfile").read_text()
+    conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
+    (python,) = [str(word) for word in conda["dependencies"] if str(word).startswith("python ")]
+    (base,) = re.findall(r"^ARG BASE=\S+/python:([\d.]+)-slim-\w+$", recipe, re.MULTILINE)
+    assert python == f"python ={base}" and "FROM ${BASE}" in recipe
+    assert "COPY environment.txt /project/environment.txt" in recipe
+    assert re.findall(r"pip install (.*)", recipe) == ["--no-cache-dir -r /project/environment.txt"]
+    (words,) = re.findall(r"^ENTRYPOINT (\[.*\])$", recipe, re.MULTILINE)
+    assert json.loads(words)[1:] == ["-m", "snakemake", "--directory", "/out"]
+    assert '-v "$PWD/out:/out"' in (ROOT / "docs/cluster.md").read_text()
