@@ -38,9 +38,16 @@ QUOTED = ROOT / "tests/baseline/quoted"
 
 def keep_unbounded(results: Path, folder: Path) -> None:
     """Keep exponents, fronts and powers of the long study of the chain without ends."""
-    runs = {name: read(results / f"long/unbounded/{name}.nc") for name in GIVEN["cases"]}
-    omegas = read(results / "long/unbounded/omegas.nc")
-    kept = _cases(runs) | _omegas(omegas, read(results / "unbounded/thermal.nc"))
+    long = results / "long/unbounded"
+    rows = [_case(read(long / f"{name}.nc")) for name in GIVEN["cases"]]
+    kept = {
+        "case": Variable(("case",), GIVEN["cases"], "case of the paper, on a chain without ends"),
+        **{
+            name: Variable(("case",), [row[name][0] for row in rows], title)
+            for name, (_, title) in rows[0].items()
+        },
+        **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
+    }
     solver = GIVEN["long"]["solver"]
     about = {"solver": solver["name"], "solver_rtol": solver["rtol"], "solver_atol": solver["rtol"]}
     title = "The long study of the chain without ends, reduced to what the documents quote"
@@ -87,15 +94,6 @@ def _exponent(run: xr.Dataset, variant: int = 0):
     tau = run["tau"].values
     start = tau[-1] * 0.5**OCTAVES
     return fit_exponent(tau, values, start), fit_line(tau, values[:1] ** 2, start).relative
-
-
-def _cases(runs: dict[str, xr.Dataset]) -> dict[str, Variable]:
-    rows = [_case(run) for run in runs.values()]
-    named = {"case": Variable(("case",), list(runs), "case of the paper, on a chain without ends")}
-    return named | {
-        name: Variable(("case",), [row[name][0] for row in rows], title)
-        for name, (_, title) in rows[0].items()
-    }
 
 
 def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
@@ -174,18 +172,11 @@ def keep_breathers(results: Path, folder: Path) -> None:
         **{name: _as_it_is(spread[name]) for name in shares},
         **_nearness(fates),
     }
-    sizes = {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
     about = {name: fates.attrs[name] for name in TERMS}
+    about |= {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
+    about |= {"members": spread.attrs["members"], "margin": MARGIN}
     title = "The long study of breathers, reduced to what the documents quote and a figure shows"
-    _write(
-        folder / "breathers.nc",
-        title,
-        kept,
-        **about,
-        **sizes,
-        members=spread.attrs["members"],
-        margin=MARGIN,
-    )
+    _write(folder / "breathers.nc", title, kept, **about)
 
 
 AXES = ("a0", "b0", "turned_a0", "phase")

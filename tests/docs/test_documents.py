@@ -14,6 +14,7 @@ import facts
 import numpy as np
 import pytest
 import render
+import study_errors
 from held_digits import blurred, unlike
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -154,6 +155,21 @@ def test_no_page_prints_a_digit_that_the_file_behind_it_does_not_hold(baseline):
             if unlike(text, after[name])} == {}  # fmt: skip
 
 
+def test_accepted_results_reach_the_error_that_each_part_of_a_study_needs(baseline):
+    reached = study_errors.errors(baseline)
+    needed = {study: study_errors.given(study)["needs"] for study in reached}
+    assert {study: needed[study].keys() for study in needed} == {
+        study: reached[study].keys() for study in reached
+    }
+    pairs = {
+        (study, part): (error, needed[study][part])
+        for study, errors in reached.items()
+        for part, error in errors.items()
+    }
+    assert len(pairs) > 30
+    assert {part: pair for part, pair in pairs.items() if not 0.0 < pair[0] < pair[1]} == {}
+
+
 @pytest.mark.parametrize(
     ("before", "after", "moved"),
     [
@@ -196,19 +212,14 @@ def test_the_readme_is_one_page_and_leads_to_every_document():
         assert page.name == "README.md" or f"(docs/{page.name})" in text
 
 
-def task_pages() -> list[Path]:
-    """Return the pages that the README lists below "To do something"."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    listed = text[text.index("To do something:") : text.index("To know more:")]
-    return [ROOT / name for name in re.findall(r"\((docs/\w+\.md)\)", listed)]
-
-
-@pytest.mark.parametrize("page", task_pages(), ids=lambda page: page.name)
-def test_a_page_for_a_task_is_short_and_has_what_a_reader_looks_for(page):
-    text = page.read_text(encoding="utf-8")
-    headings = re.findall("^## (.*)$", text, re.MULTILINE)
-    assert {"Commands", "What you see", "What can go wrong"} <= set(headings)
-    assert headings[-1] == "What can go wrong" and len(text.splitlines()) <= 90
+def test_a_page_for_a_task_is_short_and_has_what_a_reader_looks_for():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    listed = readme[readme.index("To do something:") : readme.index("To know more:")]
+    for name in re.findall(r"\((docs/\w+\.md)\)", listed):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        headings = re.findall("^## (.*)$", text, re.MULTILINE)
+        assert {"Commands", "What you see", "What can go wrong"} <= set(headings), name
+        assert headings[-1] == "What can go wrong" and len(text.splitlines()) <= 90, name
 
 
 def test_the_readme_names_every_figure():
