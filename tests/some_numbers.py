@@ -15,7 +15,7 @@ import xarray
 from helpers import chosen
 from made_up_unbounded import named
 from pendula.datasets.netcdf import read, save, write
-from pendula.numerics.search import maximise
+from pendula.numerics.search import maximise_all
 from pendula.problem import Constants
 from pendula.studies.certified.proved_breathers import breathers_contents
 from pendula.studies.theory.checks import run_check
@@ -42,10 +42,10 @@ def searched() -> xarray.Dataset:
     """Return the path of a search on a curved ridge, which one bit can send another way."""
 
     def ridge(points: np.ndarray) -> np.ndarray:
-        x, y = points.T
+        x, y = np.moveaxis(points, -1, 0)
         return -(100.0 * (y - x * x) * (y - x * x) + (1.0 - x) * (1.0 - x))
 
-    point, _, history = maximise(ridge, np.array([-1.0, 1.0]), 0.5, 60, 12, 1)
+    (point,), _, (history,) = maximise_all(ridge, np.array([[-1.0, 1.0]]), 0.5, 60, 12, [1])
     return named(xarray.Dataset({"point": ("axis", point), "history": ("generation", history)}))
 
 

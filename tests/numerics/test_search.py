@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 from pendula.numerics.draws import normal
-from pendula.numerics.search import maximise, maximise_all, settings
+from pendula.numerics.search import maximise_all, settings
+
+
+def maximise(objective, start, *given):
+    """Return best point, best value and best values so far of one search of points (size, n)."""
+    *given, seed = given
+    found = maximise_all(lambda points: objective(points[0])[None], start[None], *given, [seed])
+    return [part[0] for part in found]
 
 
 def hill(points):

@@ -48,28 +48,15 @@ def settings(n: int, size: int) -> Settings:
     return Settings(weights, mu, path_sigma, damping, path_c, rank_one, rank_mu, length)
 
 
-def maximise(objective, start: np.ndarray, spread: float, generations: int, size: int, seed):
-    """Return (best point, best value, best value after each generation).
-
-    `objective` maps points (size, n) to values (size,). Starts from `start` with steps of
-    `spread` in every direction.
-    """
-    found = maximise_all(
-        lambda points: objective(points[0])[None],
-        np.asarray(start, float)[None],
-        *(spread, generations, size, [seed]),
-    )
-    point, value, history = (part[0] for part in found)
-    return point, float(value), history
-
-
 def maximise_all(
     objective, starts: np.ndarray, spread: float, generations: int, size: int, seeds: Sequence
 ):
-    """Return the same of several searches side by side, each with the bits that it has alone.
+    """Return the best points, the best values, and these after each generation, of each search.
 
-    `starts` are (search, n), and `objective` maps points (search, size, n) to values (search,
-    size). The searches share every call, which for a few numbers costs more than computing them.
+    Searches run side by side, each with the bits that it has alone. They begin from `starts`
+    (search, n) with steps of `spread` in every direction; `objective` maps points (search, size, n)
+    to values (search, size). They share every call, which for a few numbers costs more than
+    computing them.
     """
     rngs = [np.random.default_rng(seed) for seed in seeds]
     mean, (count, n) = np.array(starts, float), np.shape(starts)
