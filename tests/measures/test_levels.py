@@ -14,29 +14,45 @@ from pendula.measures.levels import (
 WIDTHS = np.array([5.0, 10.0, 20.0, 40.0, 80.0])
 
 
-def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end():
-    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.01])) == 20.0
-    assert levelling(WIDTHS, np.array([3.0, 2.0, 3.0, 3.0, 3.0])) == 20.0
-    assert levelling(WIDTHS, np.full(5, 7.0)) == 5.0
-    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.1])) == np.inf
-    assert levelling(WIDTHS, np.array([1.0, 2.0, 3.0, 3.0, 3.1]), tolerance=0.1) == 20.0
+@pytest.mark.parametrize(
+    ("values", "more", "found"),
+    [
+        ([1.0, 2.0, 3.0, 3.0, 3.01], {}, 20.0),
+        ([3.0, 2.0, 3.0, 3.0, 3.0], {}, 20.0),
+        ([7.0, 7.0, 7.0, 7.0, 7.0], {}, 5.0),
+        ([1.0, 2.0, 3.0, 3.0, 3.1], {}, np.inf),
+        ([1.0, 2.0, 3.0, 3.0, 3.1], {"tolerance": 0.1}, 20.0),
+        ([1.25, 1.0, 1.0, 1.0, 1.0], {"tolerance": 0.25}, 5.0),  # by just the tolerance
+        ([1.0, 2.0, 2.5, 3.0, 3.0], {}, np.inf),  # two values that agree are no level ...
+        ([1.0, 2.0, 2.5, 3.0, 3.0], {"least": 2}, 40.0),  # ... unless two are enough
+        ([1.0, 2.0, 10.0, 10.04, 10.08], {}, np.inf),  # by less than the tolerance a step
+    ],
+)
+def test_a_curve_is_level_from_where_all_that_follows_is_like_its_end(values, more, found):
+    assert levelling(WIDTHS, np.array(values), **more) == found
 
 
-def test_two_values_that_agree_are_no_level_unless_two_are_enough():
-    rising = np.array([1.0, 2.0, 2.5, 3.0, 3.0])
-    assert levelling(WIDTHS, rising) == np.inf
-    assert levelling(WIDTHS, rising, least=2) == 40.0
+@pytest.mark.parametrize(
+    ("means", "errors", "more", "found"),
+    [
+        ([1.0, 2.0, 2.9, 3.1, 3.0], [0.1] * 5, {}, 20.0),
+        ([1.0, 2.0, 2.9, 3.1, 3.0], [0.01] * 5, {}, np.inf),
+        ([1.0, 2.0, 2.9, 3.1, 3.0], [1.0] * 5, {}, 5.0),
+        ([9.0, 10.0, 0.0, 0.0, 0.0], [3.0, 3.0, 3.0, 3.0, 4.0], {}, 5.0),  # by just the noise
+        ([9.0, 10.0, 0.0, 0.0, 0.0], [3.0, 3.0, 3.0, 3.0, 4.0], {"apart": 1.9}, 20.0),
+        ([1.0, 2.0, 3.0, 4.0, 4.0], [0.01] * 5, {}, np.inf),
+        ([1.0, 2.0, 3.0, 4.0, 4.0], [0.01] * 5, {"least": 2}, 40.0),
+        ([1.0, 2.0, 3.0, 3.2, 3.4], [0.1] * 5, {}, np.inf),
+    ],
+)
+def test_means_are_level_where_their_errors_hide_the_rest(means, errors, more, found):
+    given = np.array(means), np.array(errors)
+    assert levelling_of_means(WIDTHS, *given, **{"apart": 2.0} | more) == found
 
 
-def test_means_are_level_where_their_errors_hide_the_rest():
-    means = np.array([1.0, 2.0, 2.9, 3.1, 3.0])
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1), 2.0) == 20.0
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0) == np.inf
-    assert levelling_of_means(WIDTHS, means, np.full(5, 1.0), 2.0) == 5.0
-
-
-def test_the_range_is_relative_to_the_mean():
+def test_the_range_is_relative_to_the_size_of_the_mean():
     assert relative_range(np.array([1.0, 2.0, 3.0])) == 1.0
+    assert relative_range(np.array([-1.0, -2.0, -3.0])) == 1.0
 
 
 def test_bands_and_moments_are_those_over_the_members():
@@ -48,32 +64,8 @@ def test_bands_and_moments_are_those_over_the_members():
     np.testing.assert_allclose(found["error"][0], 1.0)
 
 
-def test_what_differs_by_just_the_tolerance_is_level():
-    assert levelling(WIDTHS, np.array([1.25, 1.0, 1.0, 1.0, 1.0]), tolerance=0.25) == 5.0
-    means, errors = np.array([9.0, 10.0, 0.0, 0.0, 0.0]), np.array([3.0, 3.0, 3.0, 3.0, 4.0])
-    assert levelling_of_means(WIDTHS, means, errors, 2.0) == 5.0
-    assert levelling_of_means(WIDTHS, means, errors, 1.9) == 20.0
-
-
-def test_the_last_two_means_alone_are_level_where_two_are_enough():
-    means = np.array([1.0, 2.0, 3.0, 4.0, 4.0])
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0) == np.inf
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.01), 2.0, least=2) == 40.0
-
-
-def test_a_range_is_positive_where_the_mean_is_negative():
-    assert relative_range(np.array([-1.0, -2.0, -3.0])) == 1.0
-
-
 def test_correlations_are_numpys_and_zero_where_nothing_changes():
     one, other = np.random.default_rng(1).normal(size=(2, 50))
     assert correlation(one, other) == pytest.approx(np.corrcoef(one, other)[0, 1])
     assert correlation(one, -3.0 * one + 1.0) == pytest.approx(-1.0)
     assert correlation(one, np.full(50, 2.0)) == correlation(np.full(50, 2.0), one) == 0.0
-
-
-def test_a_drift_by_less_than_the_tolerance_a_step_is_measured_from_the_last_value():
-    drifting = np.array([1.0, 2.0, 10.0, 10.04, 10.08])
-    assert levelling(WIDTHS, drifting) == np.inf
-    means = np.array([1.0, 2.0, 3.0, 3.2, 3.4])
-    assert levelling_of_means(WIDTHS, means, np.full(5, 0.1), 2.0) == np.inf
