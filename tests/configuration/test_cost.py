@@ -126,13 +126,17 @@ def test_the_checks_of_an_own_case_count_and_those_of_the_paper_are_not_made():
         load({"cases": {"mine": long}})
 
 
-def test_checks_take_a_second_run_and_a_tangent_vector():
+def test_checks_take_a_second_run_and_a_tangent_vector_and_auto_several_runs():
     """Both by dop853 here, whose vector is carried beside the solution: twice the work."""
     given = problem(omega=-4.0, half_width=200)
     again = problem(omega=-4.0, half_width=200, solver={"name": "dop853", "rtol": 1e-13})
     carried = again | {"solver": {"name": "dop853", "rtol": 1e-9}}
     own, second, tangent = (estimate(one).seconds for one in (given, again, carried))
     assert with_checks(given).seconds == pytest.approx(own + second + 2.0 * tangent)
+    tried = [1e-8, 1e-10, 1e-12, 1e-14, 1e-15]  # by `auto`, each with the outputs anew
+    runs = [estimate(problem(solver={"name": "taylor", "rtol": one})).seconds for one in tried]
+    auto = estimate(problem(solver={"name": "auto", "error": 1e-8})).seconds
+    assert auto == pytest.approx(sum(runs))
     pendula = problem(model="pendula", mu=0.1)
     assert estimate(pendula).seconds < with_checks(pendula).seconds
 
