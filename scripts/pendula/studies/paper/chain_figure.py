@@ -25,14 +25,18 @@ def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset
     turned = np.asarray(angles) * cos(np.pi * offsets[:, None] / (pairs + 1))
     strings = _project(place, np.array([-OVERHANG, DEPTH + OVERHANG]), 0)
     pivots = _project(place, np.array([0, DEPTH]), 0)
+
+    def hang(turned: np.ndarray) -> np.ndarray:
+        return _project(place, np.array([0, DEPTH]) + LENGTH * sin(turned), -LENGTH * cos(turned))
+
     hung = ("offset", "pendulum", "axis")
     link = ("link", "pendulum", "point", "axis")
     return xr.Dataset(
         {
             "string": (("offset", "end", "axis"), strings, _about("ends of a common string")),
             "pivot": (hung, pivots, _about("point from which a pendulum hangs")),
-            "bob": (hung, _hang(place, turned), _about("bob of a pendulum")),
-            "rest": (hung, _hang(place, 0 * turned), _about("bob of a pendulum at rest")),
+            "bob": (hung, hang(turned), _about("bob of a pendulum")),
+            "rest": (hung, hang(0 * turned), _about("bob of a pendulum at rest")),
             "spring": (link, pivots[:-1, :, None] + _coil(), _about("torsional spring")),
         },
         {
@@ -50,11 +54,6 @@ def _about(title: str) -> dict[str, str]:
 def _project(along: np.ndarray, back: np.ndarray, up: np.ndarray | float) -> np.ndarray:
     """Return points on the page: what lies farther back is shown higher and to the right."""
     return np.stack(np.broadcast_arrays(along + 0.6 * back, up + 0.42 * back), axis=-1)
-
-
-def _hang(place: np.ndarray, turned: np.ndarray) -> np.ndarray:
-    back = np.array([0, DEPTH]) + LENGTH * sin(turned)
-    return _project(place, back, -LENGTH * cos(turned))
 
 
 def _coil() -> np.ndarray:
@@ -78,7 +77,13 @@ def draw(data: xr.Dataset) -> Figure:
     for string in data["string"].values:
         axes.plot(*string.T, color="black", linewidth=1.2)
     _draw_row(axes, data.sel(pendulum="x"))
-    _name_couplings(axes, data)
+    coil = data["spring"].isel(link=-1, pendulum=1)
+    spring = [float(coil[:, 0].mean()), float(coil[:, 1].max())]
+    string = data["string"].isel(offset=0, end=1).values
+    names = {"springs: coupling $C$": spring, "common strings: coupling $D(t)$": string}
+    line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2}
+    for name, point in names.items():
+        axes.annotate(name, point, (point[0], string[1] + 0.25), ha="center", arrowprops=line)
     return figure
 
 
@@ -96,18 +101,3 @@ def _draw_row(axes: Axes, row: xr.Dataset) -> None:
         # on the side to which the pendulum is turned, away from its dashed place of rest
         side, ha = (1, "left") if bob[0] >= rest[0] else (-1, "right")
         axes.annotate(name, bob, (7 * side, 0), textcoords="offset points", ha=ha, va="center")
-
-
-def _name_couplings(axes: Axes, data: xr.Dataset) -> None:
-    coil = data["spring"].isel(link=-1, pendulum=1)
-    spring = [float(coil[:, 0].mean()), float(coil[:, 1].max())]
-    string = data["string"].isel(offset=0, end=1).values
-    names = {"springs: coupling $C$": spring, "common strings: coupling $D(t)$": string}
-    for name, point in names.items():
-        axes.annotate(
-            name,
-            point,
-            (point[0], string[1] + 0.25),
-            ha="center",
-            arrowprops={"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2},
-        )

@@ -75,8 +75,9 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     run = f"one run by {SOLVER_NAMES[case['solver'].item()]}"
     known = bool(case["true_l2"].notnull().any())
     if known and not strips.diverges(case):
-        label = f"{run}; the reference lies under it{_as_far_as_known(case)}"
-        return [Strip("", label, under="true_")]
+        ends = [float(case[k].dropna("tau", how="all")["tau"].max()) for k in ("true_l2", "l2")]
+        until = rf" to $\tau = {ends[0]:g}$" if ends[0] < ends[1] else ""
+        return [Strip("", f"{run}; the reference lies under it{until}", under="true_")]
     found = [Strip("", run)]
     if known:
         found.append(Strip("true_", "reference, in multiprecision"))
@@ -84,14 +85,6 @@ def _strips(case: xr.Dataset) -> list[Strip]:
         runs = f"{int(case['members'])} runs from almost equal data"
         found.append(Strip("band_", f"{runs}: median, and 5 to 95 %"))
     return found
-
-
-def _as_far_as_known(case: xr.Dataset) -> str:
-    """Return where the reference ends, in words, if the run goes on after it."""
-    end, known = (
-        float(case[name].dropna("tau", how="all")["tau"].max()) for name in ("l2", "true_l2")
-    )
-    return rf" to $\tau = {known:g}$" if known < end else ""
 
 
 def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
@@ -183,6 +176,17 @@ BAND_AND_DASHES = {
 }
 
 
+def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
+    """Return the largest of the values up to each time.
+
+    A difference of oscillating curves falls to zero again and again, and fills a panel with ink.
+    Its largest value so far never falls, and it passes the visible part at the divergence time.
+    """
+    values = values.transpose(..., "tau")
+    largest = values.copy(data=np.maximum.accumulate(values.values, axis=-1))
+    return largest.assign_attrs(long_name=long_name, units="1")
+
+
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
     """Return the largest drift of the energy up to each time, and the one that the paper states."""
     drift = _so_far(solvers["drift"], "largest drift of the energy up to this time")
@@ -215,17 +219,6 @@ def gather_agreement(solvers: xr.Dataset) -> xr.Dataset:
     return drawn.assign(largest_so_far=_so_far(solvers["difference"], DIFFERENCE))
 
 
-def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
-    """Return the largest of the values up to each time.
-
-    A difference of oscillating curves falls to zero again and again, and fills a panel with ink.
-    Its largest value so far never falls, and it passes the visible part at the divergence time.
-    """
-    values = values.transpose(..., "tau")
-    largest = values.copy(data=np.maximum.accumulate(values.values, axis=-1))
-    return largest.assign_attrs(long_name=long_name, units="1")
-
-
 @style.styled
 def draw_agreement(data: xr.Dataset) -> Figure:
     """Draw one panel a case, one line a pair, a mark where the pair's curves visibly differ."""
@@ -235,10 +228,10 @@ def draw_agreement(data: xr.Dataset) -> Figure:
 def _draw_agreement(axes: Axes, case: xr.Dataset) -> None:
     visible = float(case["visible"])
     for pair in case["pair"].values:
-        label = " / ".join(SOLVER_NAMES[solver] for solver in pair.split(" - "))
-        one, look = case.sel(pair=pair), _look(pair.split(" - ")[1])
-        _draw_difference(axes, one["largest_so_far"], label=label, **look)
-        _mark(axes, one["divergence_time"], visible, **look)
+        one, solvers = case.sel(pair=pair), pair.split(" - ")
+        label = " / ".join(SOLVER_NAMES[solver] for solver in solvers)
+        mark = float(one["divergence_time"]), visible
+        _draw_difference(axes, one["largest_so_far"], label, _look(solvers[1]), mark)
     _draw_visible(axes, visible)
 
 
@@ -247,13 +240,16 @@ def _look(solver: str) -> dict:
     return look | BAND_AND_DASHES.get(solver, {})
 
 
-def _draw_difference(axes: Axes, difference: xr.DataArray, **look) -> None:
+def _draw_difference(axes: Axes, difference: xr.DataArray, label: str, look: dict, mark) -> None:
+    """Draw a curve and its mark at a point (tau, height), or where the curve ends if that is None.
+
+    A mark at an infinite time is not seen.
+    """
     curve = panels.positive(difference)
-    axes.plot(curve["tau"], curve, markevery=[], **look)
-
-
-def _mark(axes: Axes, time: xr.DataArray, height: float | xr.DataArray, **look) -> None:
-    axes.plot(float(time), float(height), **look, markeredgecolor="white", zorder=3)
+    axes.plot(curve["tau"], curve, markevery=[], label=label, **look)
+    at_end = mark is None
+    point = (float(curve["tau"][-1]), float(curve[-1])) if at_end else mark
+    axes.plot(*point, **look, markeredgecolor="white", zorder=3, clip_on=not at_end)
 
 
 def _draw_visible(axes: Axes, visible: float) -> None:
@@ -285,16 +281,11 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         axes.text(0.5, 0.5, UNKNOWN, ha="center", transform=axes.transAxes, fontsize=7)
     for solver in case["solver"].values:
         one = case.sel(solver=solver, level="visible")
-        look = _look(solver)
-        _draw_difference(axes, one["largest_so_far"], label=SOLVER_NAMES[solver], **look)
-        curve = panels.positive(one["largest_so_far"])
-        if np.isfinite(one["horizon"]) or not curve.size:
-            _mark(axes, one["horizon"], visible, **look)
-        else:
-            _mark(axes, curve["tau"][-1], curve[-1], **look, clip_on=False)
+        time, error = float(one["horizon"]), one["largest_so_far"]
+        mark = (time, visible) if np.isfinite(time) or not (error > 0).any() else None
+        _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark)
     if np.isfinite(case["proved_until"]):
         bound = case["largest_bound"].sel(tau=slice(case["proved_until"]))
-        _draw_difference(axes, bound, label="proven bound", **PROVEN)
-        _mark(axes, bound["tau"][-1], bound[-1], **PROVEN, clip_on=False)
+        _draw_difference(axes, bound, "proven bound", PROVEN, None)
     _draw_visible(axes, visible)
     axes.set_ylim(1e-17, 3.0)
