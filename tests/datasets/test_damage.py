@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from oracle import SOLVERS
+from pendula.datasets import netcdf
 from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import DatasetError, Variable, read, readable, save, write
-from pendula.datasets.seal import LENGTH
 from pendula.datasets.trajectories import sweep_contents, trajectory_contents
 from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import sweep
@@ -86,7 +86,7 @@ def test_the_seal_is_the_same_for_the_same_content_however_it_is_written(dataset
 
 def test_a_dataset_cut_anywhere_is_refused(dataset):
     content = dataset.read_bytes()
-    for kept in (0, 1, 100, len(content) // 2, len(content) - LENGTH - 1):
+    for kept in (0, 1, 100, len(content) // 2, len(content) - netcdf.LENGTH - 1):
         dataset.write_bytes(content[:kept])
         with pytest.raises(DatasetError, match=r"a\.nc is damaged .* delete it and run snakemake"):
             read(dataset)

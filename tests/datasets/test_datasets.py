@@ -119,28 +119,6 @@ def test_a_full_disk_leaves_no_file_and_keeps_the_old_one(tmp_path):
     assert read(path).attrs["case"] == "old"
 
 
-def test_a_dataset_is_read_as_xarray_reads_it(tmp_path):
-    path = tmp_path / "some.nc"
-    words = np.array([["one", "three"], ["", "ö"]])
-    variables = {
-        "case": Variable(("case",), np.array(["fig2", "fig3_small"])),
-        "tau": Variable(("tau",), np.arange(2000.0)),
-        "whole": Variable((), 3, "a single number"),
-        "word": Variable((), "alone", "a single word"),
-        "words": Variable(("case", "kind"), words, "some words"),
-        "empty": Variable(("case",), np.array(["", ""]), "no words"),
-        "l2": Variable(("case", "tau"), np.full((2, 2000), np.nan)),
-        "seconds": Variable(("case",), np.array([1.5, np.inf]), "time of a run", "s"),
-    }
-    write(path, variables, {"title": "some", "members": 3, "sizes": [1.0, 2.0]})
-    mine, other = read(path), xr.load_dataset(path)
-    xr.testing.assert_identical(mine, other)
-    assert list(mine.variables) == list(other.variables)
-    for name in other.variables:
-        assert mine[name].dtype == other[name].dtype
-        assert mine[name].encoding.items() <= other[name].encoding.items()
-
-
 def test_what_another_program_has_packed_is_unpacked(tmp_path):
     path = tmp_path / "packed.nc"
     data = xr.Dataset({"l2": ("tau", [0.5, np.nan, 1.5])}, {"tau": [0.0, 1.0, 2.0]})

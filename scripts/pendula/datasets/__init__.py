@@ -68,18 +68,10 @@ def not_written(path: str | Path, error: Exception) -> DatasetError:
     why = getattr(error, "strerror", None) or error
     if not os.access(there, os.W_OK):
         return DatasetError(f"could not write {path}: {why}; make {there} writable, and run again")
-    free, total = (f"{size / 1e6:.1f} MB" for size in _disk(there))
+    usage = shutil.disk_usage(there)
+    free, total = (f"{size / 1e6:.1f} MB" for size in (usage.free, usage.total))
+    disk = next(place for place in (there, *there.parents) if os.path.ismount(place))
     return DatasetError(
-        f"could not write {path}: {why} (is the disk full? {_mount(there)} has {free} of {total} "
-        "left); make room there, and run again"
+        f"could not write {path}: {why} (is the disk full? {disk} has {free} of {total} left); "
+        "make room there, and run again"
     )
-
-
-def _disk(folder: Path) -> tuple[int, int]:
-    usage = shutil.disk_usage(folder)
-    return usage.free, usage.total
-
-
-def _mount(folder: Path) -> Path:
-    """Return the folder at which the disk of this folder begins."""
-    return next(place for place in (folder, *folder.parents) if os.path.ismount(place))

@@ -1,7 +1,7 @@
 """JSON results with a checksum, so that a changed byte is told before anything reads a number.
 
-A dataset has its checksum after the last byte of HDF5 (`seal`). JSON allows nothing after its end,
-so that the checksum is the last entry of the object: the SHA-256 of all bytes before it.
+A dataset has its checksum after the last byte of HDF5 (see `netcdf`). JSON allows nothing after its
+end, so that the checksum is the last entry of the object: the SHA-256 of all bytes before it.
 """
 
 import json

@@ -1,10 +1,18 @@
 """netCDF-4 datasets: every variable has a name for people and units, every file is whole.
 
 Writing needs netCDF4 alone, so that a simulation does not pay for importing xarray.
+
+Each file ends with a seal, by which a bit that a disk gives back wrong is found. HDF5 keeps a
+checksum of an array of numbers where it is asked for one, so that any reader is told of a changed
+number. It keeps none of words, of single numbers, and of the tables that say where the pieces of an
+array lie; where such a table is damaged, the library of HDF5 may crash. So the last line of a file,
+which HDF5 does not look at, holds the SHA-256 of all bytes before it, and is compared before HDF5
+opens the file.
 """
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,7 +21,10 @@ import numpy as np
 
 from . import DatasetError, complete_or_absent, not_written
 from .registry import complete, describe
-from .seal import check, seal
+
+MARK = b"\nSHA-256 of all bytes before this line: "
+LENGTH = len(MARK) + 64 + 1
+"""Bytes of the seal: the mark, 64 hexadecimal digits and the end of the line."""
 
 
 class Variable(NamedTuple):
@@ -28,17 +39,32 @@ class Variable(NamedTuple):
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping) -> None:
     """Write a dataset; a fault (a full disk, say) leaves no file, and its message names it."""
+    with (
+        _sealed(path) as partial,
+        netCDF4.Dataset(partial, "w", format="NETCDF4") as file,
+    ):
+        file.setncatts(complete(attributes, Path(path).stem))
+        for name, variable in variables.items():
+            _write_variable(file, name, variable)
+
+
+@contextmanager
+def _sealed(path: str | Path) -> Iterator[Path]:
+    """Yield a path to write to; if that succeeds, add the seal, and rename the file to `path`."""
     try:
         with complete_or_absent(path) as partial:
-            with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-                file.setncatts(complete(attributes, Path(path).stem))
-                for name, variable in variables.items():
-                    _write_variable(file, name, variable)
-            seal(partial)
+            yield partial
+            seal = _seal(partial.read_bytes())
+            with open(partial, "ab") as file:
+                file.write(seal)
     except DatasetError:
         raise
     except (OSError, RuntimeError) as error:
         raise not_written(path, error) from error
+
+
+def _seal(content: bytes) -> bytes:
+    return MARK + sha256(content).hexdigest().encode() + b"\n"
 
 
 def as_xarray(variables: Mapping[str, Variable], attributes: Mapping):
@@ -72,21 +98,12 @@ def save(path: str | Path, dataset) -> None:
         variable.encoding["_FillValue"] = None
         if _has_checksum(variable.values):
             variable.encoding |= {"fletcher32": True, "contiguous": False}
-    try:
-        with complete_or_absent(path) as partial:
-            stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
-            seal(partial)
-    except DatasetError:
-        raise
-    except (OSError, RuntimeError) as error:
-        raise not_written(path, error) from error
+    with _sealed(path) as partial:
+        stated.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
 
 
 def _has_checksum(values: np.ndarray) -> bool:
-    """Return whether HDF5 can keep a checksum of the values: of words and single numbers it cannot.
-
-    These, and all else in a file, are covered by the line that `seal` adds.
-    """
+    """Return whether HDF5 can keep a checksum of the values: not of words and single numbers."""
     return values.ndim > 0 and values.size > 0 and values.dtype.kind in "biuf"
 
 
@@ -120,75 +137,21 @@ def read(path: str | Path):
     if not path or Path(path).is_dir():
         raise DatasetError(f"{str(path) or 'an empty path'} is a folder: name a dataset in it")
     with readable(path):
-        found = _read_plainly(path)
-        return xarray.load_dataset(path, engine="netcdf4") if found is None else found
-
-
-DECODED = (
-    *("_FillValue", "missing_value", "scale_factor", "add_offset", "_Unsigned", "calendar"),
-    *("coordinates", "bounds", "grid_mapping", "dtype", "_Encoding", "least_significant_digit"),
-)
-"""Attributes by which a file of another program says that its numbers stand for others."""
-TIMES = (" since ", "day", "hour", "minute", "second")
-"""Units of times: xarray makes dates or spans of time of some of them."""
-
-
-def _read_plainly(path: str | Path):
-    """Return the xarray.Dataset of a file whose variables are what they say, else None.
-
-    So are all that `write` and `save` write. xarray's own way, which finds out how each variable is
-    encoded and reads it when it is asked for, takes twice as long.
-    """
-    import xarray
-
-    with netCDF4.Dataset(path) as file:
-        file.set_auto_maskandscale(False)
-        file.set_auto_chartostring(False)
-        holders = [file, *file.variables.values()]
-        attributes = [{name: one.getncattr(name) for name in one.ncattrs()} for one in holders]
-        if any(_needs_decoding(one) for one in attributes) or any(map(_is_special, holders[1:])):
-            return None
-        pairs = zip(file.variables.items(), attributes[1:], strict=True)
-        variables = {name: _variable(one, about) for (name, one), about in pairs}
-    coordinates = {name: one for name, one in variables.items() if one.dims == (name,)}
-    values = {name: one for name, one in variables.items() if name not in coordinates}
-    return xarray.Dataset(values, coordinates, attributes[0])
-
-
-def _needs_decoding(attributes: Mapping[str, Any]) -> bool:
-    units = str(attributes.get("units", ""))
-    return any(name in attributes for name in DECODED) or any(word in units for word in TIMES)
-
-
-def _is_special(variable: netCDF4.Variable) -> bool:
-    return variable.dtype is not str and variable.dtype.kind not in "biuf"
-
-
-def _variable(found: netCDF4.Variable, attributes: dict[str, Any]):
-    """Return an xarray.Variable with the compression of the file, with which it may be kept."""
-    import xarray
-
-    if found.dtype is str:
-        words = np.asarray(found[...], object)
-        words = words.astype(f"U{max(map(len, words.ravel()), default=1) or 1}")
-        return xarray.Variable(found.dimensions, words, attributes, {"dtype": words.dtype})
-    chunks = found.chunking()
-    pieces = {"contiguous": True} if chunks == "contiguous" else {"chunksizes": tuple(chunks)}
-    encoding = {**found.filters(), "contiguous": False, **pieces}
-    encoding |= {"dtype": found.dtype, "original_shape": found.shape}
-    values = np.asarray(found[...])
-    return xarray.Variable(found.dimensions, values, attributes, encoding)
+        return xarray.load_dataset(path, engine="netcdf4")
 
 
 @contextmanager
 def readable(path: str | Path) -> Iterator[None]:
     """Check the file's seal, and raise DatasetError, which says the way out, for all that fails.
 
-    A damaged file can hold an unreadable name or an impossible size, for which libraries have many
-    kinds of errors.
+    A file without a seal is left to HDF5, since other programs write such files. A damaged file can
+    hold an unreadable name or an impossible size, for which libraries have many kinds of errors.
     """
     try:
-        check(path)
+        content = Path(path).read_bytes()
+        written, line = content[:-LENGTH], content[-LENGTH:]
+        if line.startswith(MARK) and line != _seal(written):
+            raise DatasetError("its content is not the one that was written")
         yield
     except FileNotFoundError:
         raise DatasetError(f"{path} is missing: run snakemake to make it") from None

@@ -23,15 +23,12 @@ Contents = tuple[dict[str, Variable], dict[str, Any]]
 
 def trajectory_contents(name: str, problem: Problem, trajectory: Trajectory) -> Contents:
     """Return the contents of the dataset on a run of `problem`."""
-    driven = problem.model == PENDULA
-    if problem.is_own:
-        variables = _own_variables(problem, trajectory)
-    else:
-        variables = (_pendula_variables if driven else trajectory_variables)(
-            trajectory, problem.snapshot_every
-        )
+    variables, what = trajectory_variables(trajectory, problem.snapshot_every), "Norms and energy"
+    if problem.model == PENDULA:
+        variables, what = _of_pendula(variables, trajectory), "Norms of the angles"
+    elif problem.is_own:
+        variables, what = _of_own_model(variables, problem, trajectory), "Norms"
     attributes = describe_run(name, problem, trajectory.solver)
-    what = "Norms of the angles" if driven else "Norms" if problem.is_own else "Norms and energy"
     title = f"{what} of {name} against time, by {trajectory.solver['name']}"
     return variables, {"title": title, **attributes, **count_work([trajectory.outcome])}
 
@@ -46,41 +43,38 @@ def trajectory_variables(trajectory: Trajectory, snapshot_every: int) -> dict[st
         "energy": Variable(("tau",), trajectory.energy),
     }
     if snapshot_every:
-        reach = trajectory.modulus.shape[1] // 2
         grid = ("component", "site", "snapshot")
         variables |= {
-            "site": Variable(("site",), np.arange(-reach, reach + 1)),
+            "site": _sites(trajectory.modulus.shape[1]),
             "snapshot_tau": Variable(("snapshot",), trajectory.tau[::snapshot_every]),
             "modulus": Variable(grid, trajectory.modulus.astype(np.float32)),
         }
     return variables
 
 
-def _pendula_variables(trajectory: Trajectory, snapshot_every: int) -> dict[str, Variable]:
-    """Return the same of pendula: norms of the angles, no energy, and the state at the end."""
-    variables = trajectory_variables(trajectory, snapshot_every)
+def _sites(count: int) -> Variable:
+    return Variable(("site",), np.arange(-(count // 2), count // 2 + 1))
+
+
+def _of_pendula(variables: dict[str, Variable], trajectory: Trajectory) -> dict[str, Variable]:
+    """Return variables of pendula: norms of the angles, no energy, and the state at the end."""
     del variables["energy"]
-    whose = {
-        "linf": ", of the angles",
-        "l2": ", of the angles",
-        "modulus": ": the angle to which a pendulum swings",
-    }
+    whose = dict.fromkeys(("linf", "l2"), ", of the angles")
+    whose["modulus"] = ": the angle to which a pendulum swings"
     for name in variables.keys() & whose:
-        one = variables[name]
         about = f"{NAMES[name]}{whose[name]}"
-        variables[name] = Variable(one.dimensions, one.values, about, "rad")
-    reach = trajectory.final.shape[-1] // 2
-    sites = Variable(("site",), np.arange(-reach, reach + 1))
+        variables[name] = variables[name]._replace(long_name=about, units="rad")
+    sites = _sites(trajectory.final.shape[-1])
     return variables | {"component": OF_PENDULA, "site": sites} | final_state(trajectory)
 
 
-def _own_variables(problem: Problem, trajectory: Trajectory) -> dict[str, Variable]:
+def _of_own_model(
+    variables: dict[str, Variable], problem: Problem, trajectory: Trajectory
+) -> dict[str, Variable]:
     """Return norms, moduli, what is conserved, and the state at the end, of a user's own model."""
-    variables = trajectory_variables(trajectory, problem.snapshot_every)
     del variables["energy"]
     variables["component"] = Variable(("component",), list(problem.model.fields), "field")
-    sites = np.arange(-problem.half_width, problem.half_width + 1)
-    variables |= {"site": Variable(("site",), sites), **final_state(trajectory)}
+    variables |= {"site": _sites(2 * problem.half_width + 1), **final_state(trajectory)}
     if problem.model.second_order:
         grid, about = ("part", "component", "site"), "value of a field, and its rate"
         variables["part"] = Variable(("part",), ["value", "rate"], about)
@@ -126,7 +120,7 @@ def sweep_contents(
     if problem.model == PENDULA:
         for norm in ("l2", "linf"):
             about = f"{NAMES[norm]}, of the angles"
-            variables[norm] = Variable(axes, variables[norm].values, about, "rad")
+            variables[norm] = variables[norm]._replace(long_name=about, units="rad")
     attributes = describe_run(name, problem, problem.solver)
     del attributes["half_width"]
     title = f"Norms of {name} against the half-width, by {problem.solver['name']}"
