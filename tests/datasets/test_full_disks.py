@@ -7,8 +7,10 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from pendula.datasets import DatasetError, complete_or_absent
+from pendula.datasets.netcdf import Variable, write
 
 
 @pytest.fixture
@@ -30,6 +32,14 @@ def test_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):
     ):
         partial.write_text("x" * 10_000)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_dataset_on_a_full_disk_keeps_the_old_one(tmp_path, full_disk):
+    path = tmp_path / "a.nc"
+    path.write_bytes(b"old")
+    with pytest.raises(DatasetError, match=r"could not write .*a\.nc.*disk full"):
+        write(path, {"many": Variable(("n",), np.random.rand(100_000), "many")}, {})
+    assert [p.name for p in tmp_path.iterdir()] == ["a.nc"] and path.read_bytes() == b"old"
 
 
 def test_a_figure_on_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):

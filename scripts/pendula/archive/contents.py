@@ -91,19 +91,11 @@ def names_in(text: str) -> list[str]:
 
 def dump_configuration(configuration: dict) -> bytes:
     """Return the configuration of a run as YAML, sorted by key, so that it can be run again."""
-    return yaml.dump(_plain(configuration), Dumper=_Plain, allow_unicode=True).encode()
-
-
-class _Plain(yaml.SafeDumper):
-    """Writes a value that stands in two places twice, not as an alias."""
-
-    def ignore_aliases(self, data) -> bool:
-        """Return True for every value."""
-        return True
+    return yaml.safe_dump(_plain(configuration), allow_unicode=True).encode()
 
 
 def _plain(value):
-    """Return mappings and sequences of any kind as dictionaries and lists."""
+    """Return new dictionaries and lists: YAML would write one that occurs twice as an alias."""
     if isinstance(value, dict):
         return {key: _plain(entry) for key, entry in value.items()}
     return [_plain(entry) for entry in value] if isinstance(value, list | tuple) else value
@@ -118,14 +110,9 @@ def pack(archive: Path, folder: str, members: Mapping[str, Content]) -> None:
         gzip.GzipFile("", "wb", 6, raw, mtime=MADE) as zipped,
         tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
     ):
-        for name in sorted(members):
-            _add(tar, f"{folder}/{name}", members[name])
-
-
-def _add(tar: tarfile.TarFile, name: str, content: Content) -> None:
-    """Add one file that belongs to nobody."""
-    runs = isinstance(content, Path) and content.stat().st_mode & 0o100
-    data = content if isinstance(content, bytes) else content.read_bytes()
-    entry = tarfile.TarInfo(name)
-    entry.size, entry.mtime, entry.mode = len(data), MADE, 0o755 if runs else 0o644
-    tar.addfile(entry, io.BytesIO(data))
+        for name, content in sorted(members.items()):
+            runs = isinstance(content, Path) and content.stat().st_mode & 0o100
+            data = content if isinstance(content, bytes) else content.read_bytes()
+            entry = tarfile.TarInfo(f"{folder}/{name}")  # belongs to nobody
+            entry.size, entry.mtime, entry.mode = len(data), MADE, 0o755 if runs else 0o644
+            tar.addfile(entry, io.BytesIO(data))

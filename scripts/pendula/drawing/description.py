@@ -38,7 +38,8 @@ LINE = 220
 
 def describe(figure: Figure, data: xr.Dataset) -> dict[str, Any]:
     """Return the description of a figure that has been drawn, and of the data that it shows."""
-    bars = {bar for axes in figure.axes for bar in _colour_bars(axes)}
+    mapped = (artist for axes in figure.axes for artist in (*axes.images, *axes.collections))
+    bars = {artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)}
     parts = {
         "data": digest(data),
         "size_in_inches": [_round(length) for length in figure.get_size_inches()],
@@ -69,17 +70,16 @@ def as_text(description: Any, indent: int = 0) -> str:
     return f"{opening}\n{margin} {inner}\n{margin}{closing}"
 
 
-def _colour_bars(axes: Axes) -> list[Axes]:
-    mapped = [*axes.images, *axes.collections]
-    return [artist.colorbar.ax for artist in mapped if getattr(artist, "colorbar", None)]
-
-
 def _panel(axes: Axes, is_bar: bool) -> dict[str, Any]:
     titles = [axes.get_title(loc) for loc in ("left", "center", "right")]
+    grid = axes.get_subplotspec()
     drawn = {
         "title": " | ".join(filter(None, titles)),
         "kind": "colour bar" if is_bar else "panel",
-        "place_in_grid": _place(axes),
+        # left, bottom, right and top in the grid, before margins are made for text
+        "place_in_grid": [round(x, 3) for x in grid.get_position(axes.figure).extents]
+        if grid
+        else [],
     }
     if axes.axison:
         drawn |= {"x": _axis(axes.xaxis), "y": _axis(axes.yaxis)}
@@ -93,12 +93,6 @@ def _panel(axes: Axes, is_bar: bool) -> dict[str, Any]:
         "texts": [_text(text) for text in axes.texts],
     }
     return _without_empty(drawn)
-
-
-def _place(axes: Axes) -> list[float]:
-    """Return left, bottom, right and top in the grid, before margins are made for text."""
-    place = axes.get_subplotspec()
-    return [] if place is None else [round(x, 3) for x in place.get_position(axes.figure).extents]
 
 
 def _axis(axis: Axis) -> dict[str, Any]:
@@ -195,23 +189,17 @@ def _colours(colours: Iterable, artist: Artist) -> str:
 
 
 def _text(text: Text) -> dict[str, Any]:
+    """Return a text, where it stands, and what its position is given in."""
     found = {"text": text.get_text(), "colour": to_hex(text.get_color())}
     if isinstance(text, Annotation):
-        point = {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}
-        beside = [_round(x) for x in text.get_position()]
-        return found | point | {"stands_at": beside, "off": str(text.anncoords)}
-    return found | {
-        "stands_at": [_round(x) for x in text.get_position()],
-        "off": _frame(text),
-    }
-
-
-def _frame(text: Text) -> str:
-    """Return what the position of a text is given in."""
-    if text.axes is None:
-        return "figure fraction"
-    known = {"data": text.axes.transData, "axes fraction": text.axes.transAxes}
-    return next((name for name, frame in known.items() if frame is text.get_transform()), "other")
+        found |= {"points_at": [_round(x) for x in text.xy], "of": str(text.xycoords)}
+        off = str(text.anncoords)
+    elif text.axes is None:
+        off = "figure fraction"
+    else:
+        frames = {"data": text.axes.transData, "axes fraction": text.axes.transAxes}
+        off = next((k for k, frame in frames.items() if frame is text.get_transform()), "other")
+    return found | {"stands_at": [_round(x) for x in text.get_position()], "off": off}
 
 
 def _ranges(x: np.ndarray, y: np.ndarray) -> dict[str, list[float]]:

@@ -7,7 +7,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
@@ -23,30 +22,27 @@ TICKS = [a * 10**k for k in range(5) for a in (1, 2, 5)]
 
 
 def draw_cases(data: xr.Dataset, draw_panel: Callable[[Axes, xr.Dataset], None], label: str):
-    """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above."""
-    figure = style.new_figure(style.DOUBLE, 4.0)
-    drawn = _case_panels(figure, data)
-    for axes, case in zip(drawn, data["case"].values, strict=True):
-        draw_panel(axes, data.sel(case=case))
-        axes.set_xlim(0, float(data["tau"].max()))
-        if axes.get_subplotspec().is_first_col():
-            axes.set_ylabel(label)
-    style.name_legend(figure, *drawn)
-    return figure
+    """Return a figure with a panel for each case, drawn by `draw_panel`, and one legend above.
 
-
-def _case_panels(figure: Figure, data: xr.Dataset) -> list[Axes]:
-    """Return one panel for each case: a column for each figure of the paper, small data above."""
-    count = data.sizes["case"]
+    Each figure of the paper has a column, with small data above.
+    """
+    figure, count = style.new_figure(style.DOUBLE, 4.0), data.sizes["case"]
     grid = figure.subplots(min(count, 2), -(-count // 2), sharex=True, sharey=True, squeeze=False)
     for axes in grid.T.flat[count:]:
         axes.set_visible(False)
-    for axes, case in zip(grid.T.flat, data["case"].values, strict=False):
-        axes.set_title(style.name_case(data.sel(case=case)), loc="left")
+    drawn = list(grid.T.flat[:count])
+    for axes, name in zip(drawn, data["case"].values, strict=True):
+        case = data.sel(case=name)
+        axes.set_title(style.name_case(case), loc="left")
         axes.set_yscale("log")
+        draw_panel(axes, case)
+        axes.set_xlim(0, float(data["tau"].max()))
+        if axes.get_subplotspec().is_first_col():
+            axes.set_ylabel(label)
     for axes in grid[-1]:
         axes.set_xlabel(r"$\tau$")
-    return list(grid.T.flat[:count])
+    style.name_legend(figure, *drawn)
+    return figure
 
 
 def positive(curve: xr.DataArray) -> xr.DataArray:
@@ -62,26 +58,23 @@ def over_time(run: xr.Dataset) -> xr.Dataset:
 
 def draw_moduli(figure: Figure, row: np.ndarray, case: xr.Dataset, names: list[str]) -> None:
     """Draw |A_n| and |B_n| of one case, each under its name, on one scale of colours."""
-    peak = float(case["modulus"].max())
-    for axes, component, name in zip(row, case["component"].values, names, strict=True):
-        image = _draw_modulus(axes, case["modulus"].sel(component=component), peak)
-        axes.set_title(f"$|{component}_n|$,  {name}", loc="left")
+    moduli = case["modulus"].transpose("component", "site", "snapshot_tau")
+    peak = float(moduli.max()) or 1.0
+    extent = (*_edges(moduli["snapshot_tau"].values), *_edges(moduli["site"].values))
+    for axes, modulus, name in zip(row, moduli, names, strict=True):
+        image = axes.imshow(
+            modulus,
+            extent=extent,
+            origin="lower",
+            aspect="auto",
+            interpolation="nearest",
+            cmap="inferno",
+            norm=PowerNorm(0.5, vmin=0, vmax=peak),  # else one bright site blackens the rest
+        )
+        axes.set_title(f"$|{modulus['component'].item()}_n|$,  {name}", loc="left")
     bar = figure.colorbar(image, ax=row.tolist(), pad=0.015, aspect=18)
-    units = case["modulus"].attrs.get("units", "1")
+    units = moduli.attrs.get("units", "1")
     bar.set_label(f"modulus ({'' if units == '1' else f'{units}, '}square-root scale)")
-
-
-def _draw_modulus(axes: Axes, modulus: xr.DataArray, peak: float) -> AxesImage:
-    modulus = modulus.transpose("site", "snapshot_tau")
-    return axes.imshow(
-        modulus,
-        extent=(*_edges(modulus["snapshot_tau"].values), *_edges(modulus["site"].values)),
-        origin="lower",
-        aspect="auto",
-        interpolation="nearest",
-        cmap="inferno",
-        norm=PowerNorm(0.5, vmin=0, vmax=peak or 1.0),  # else one bright site blackens the rest
-    )
 
 
 def _edges(centres: np.ndarray) -> tuple[float, float]:
@@ -121,7 +114,12 @@ def draw_sweep(axes: Axes, panel: xr.Dataset) -> None:
             axes.plot(dots["half_width"], dots, **_sweep_look(name, reading))
     for name in norms if "members" in panel else ():
         for reading in panel["reading"].values:
-            _draw_bars(axes, panel.sel(reading=reading), name)
+            bars = panel[[f"{name}_mean", f"{name}_deviation"]].sel(reading=reading)
+            bars = bars.dropna("half_width")
+            if bars.sizes["half_width"]:
+                middles, halves = bars.data_vars.values()
+                beside = BESIDE * bars["half_width"]
+                axes.errorbar(beside, middles, halves, elinewidth=0.8, **BAR)
     half_width_axis(axes)
     axes.set_ylim(0, 1.08 * axes.dataLim.ymax or 1.0)
     axes.set_xlabel("half-width $M$  ($N = 2M + 1$ sites)")
@@ -138,14 +136,6 @@ def half_width_axis(axes: Axes, ticks: Sequence[float] = TICKS) -> None:
     axes.xaxis.set_major_locator(FixedLocator(ticks))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-
-
-def _draw_bars(axes: Axes, panel: xr.Dataset, name: str) -> None:
-    bars = panel[[f"{name}_mean", f"{name}_deviation"]].dropna("half_width")
-    if not bars.sizes["half_width"]:
-        return
-    middles, halves = bars[f"{name}_mean"], bars[f"{name}_deviation"]
-    axes.errorbar(BESIDE * bars["half_width"], middles, halves, elinewidth=0.8, **BAR)
 
 
 def _sweep_look(name: str, reading: str) -> dict:

@@ -144,12 +144,9 @@ def name_initial(initial: str) -> str:
     sites = read_initial(initial)
     if [len(values) for values in sites.values()] != [2]:
         return f"data on {len(sites)} site{'s' * (len(sites) > 1)}"
-    ((site, (a, b)),) = sites.items()
-    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({_name_number(a)}, {_name_number(b)})$"
-
-
-def _name_number(number: complex) -> str:
-    return f"{number:g}" if number.imag else f"{number.real:g}"
+    ((site, pair),) = sites.items()
+    a, b = (f"{number if number.imag else number.real:g}" for number in pair)
+    return rf"$(A_{{{site}}}, B_{{{site}}}) = ({a}, {b})$"
 
 
 def join(datasets: list[xr.Dataset], names: list[str], dim: str) -> xr.Dataset:
