@@ -76,18 +76,14 @@ def compare(
         findings.append(Finding("configuration", Status.DIFFERENT, says))
     order = list(Status)
     findings.sort(key=lambda each: (order.index(each.status), each.name))
-    return Verdict(_judged(record, any_bits), findings)
-
-
-def _judged(record: Mapping[str, Any], any_bits: bool) -> str:
-    """Return in words by which measure a run is judged."""
+    other = "; ".join(unlike_settings(record["environment"], environment()))
+    why = "bits=any asks for it" if any_bits else f"the environment is another: {other}"
+    judged = f"Numbers with other bits are compared up to the horizon of trust, because {why}."
+    if not (other or any_bits):
+        judged = "The environment is the accepted one, so every file must have the accepted bits."
     if not record["files"]:
-        return "No run has been accepted as the baseline."
-    unlike = "; ".join(unlike_settings(record["environment"], environment()))
-    if not (unlike or any_bits):
-        return "The environment is the accepted one, so every file must have the accepted bits."
-    why = "bits=any asks for it" if any_bits else f"the environment is another: {unlike}"
-    return f"Numbers with other bits are compared up to the horizon of trust, because {why}."
+        judged = "No run has been accepted as the baseline."
+    return Verdict(judged, findings)
 
 
 class _Comparison:

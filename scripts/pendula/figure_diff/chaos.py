@@ -96,7 +96,6 @@ def _times(variable: xr.Variable, data: xr.Dataset) -> np.ndarray | float:
     for dimension in variable.dims:
         for name in (dimension, f"{dimension}_tau"):
             if name.endswith("tau") and name in data and data[name].dims == (dimension,):
-                return data[name].values.reshape(
-                    [-1 if d == dimension else 1 for d in variable.dims]
-                )
+                shape = [-1 if d == dimension else 1 for d in variable.dims]
+                return data[name].values.reshape(shape)
     return np.inf

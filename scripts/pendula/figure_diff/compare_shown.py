@@ -132,10 +132,8 @@ def compare_picture(new: Path, same_bytes: bool, described: Status) -> tuple[Sta
         return Status.DAMAGED, fault
     mark = MARK.search(content)
     if not (mark and text.exists() and mark[1].decode() == fingerprint(text.read_text("utf-8"))):
-        return (
-            Status.DIFFERENT,
-            "was not written with its description: it is stale, or of another figure",
-        )
+        stale = "was not written with its description: it is stale, or of another figure"
+        return Status.DIFFERENT, stale
     if same_bytes:
         return Status.IDENTICAL, ""
     if described.is_fault:
