@@ -33,19 +33,12 @@ def contain_curves(
     proofs: Mapping[str, xr.Dataset],
     references: Mapping[str, xr.Dataset],
 ) -> xr.Dataset:
-    """Return `contain` of curves that were proved in this run, and of `proofs` that are kept."""
-    return contain(runs, {**proved, **proofs}, references)
-
-
-def contain(
-    runs: Mapping[str, xr.Dataset],
-    certified: Mapping[str, xr.Dataset],
-    references: Mapping[str, xr.Dataset],
-) -> xr.Dataset:
     """Return by case and curve until when the printed line contains the true curve.
 
-    Cases that are not in `certified` have no theorem; a reference of another problem is none.
+    The datasets are by case: curves `proved` in this run, and `proofs` that are committed. Cases in
+    neither have no theorem, and a reference of another problem decides nothing.
     """
+    certified = {**proved, **proofs}
     cases = [_of_case(run, certified.get(name), references[name]) for name, run in runs.items()]
     data = xr.concat(cases, xr.Variable("case", list(runs)))
     for name, long_name in WORDS.items():
@@ -54,15 +47,21 @@ def contain(
 
 
 def _of_case(run: xr.Dataset, proved: xr.Dataset | None, reference: xr.Dataset) -> xr.Dataset:
-    half = half_lines(run)
-    known = is_of_same_case(run, reference)
-    off = distance(run, proved) if proved is not None else np.inf * _curves(run)
-    apart = abs(_curves(run) - _curves(at_times(reference, run["tau"])))
+    half, known = half_lines(run), is_of_same_case(run, reference)
+    curves = _curves(run)
+    off = distance(run, proved) if proved is not None else np.inf * curves
+    apart = abs(curves - _curves(at_times(reference, run["tau"])))
+
+    def until(distances: xr.DataArray) -> xr.DataArray:
+        """Return the last tau up to which no distance is larger than half of a line."""
+        inside = (distances <= half).astype(int).cumprod("tau")
+        return run["tau"].where(inside == 1).max("tau")
+
     return xr.Dataset(
         {
             "half_line": half,
-            "contained_until": _until(off, half).where(np.isfinite(off).any("tau")),
-            "measured_until": _until(apart, half).where(known),
+            "contained_until": until(off).where(np.isfinite(off).any("tau")),
+            "measured_until": until(apart).where(known),
             "largest_distance": off.max("tau"),
             "run_end": float(run["tau"][-1]),
             "omega": float(run.attrs["omega"]),
@@ -92,9 +91,3 @@ def distance(run: xr.Dataset, proved: xr.Dataset) -> xr.DataArray:
         return np.inf * _curves(run)
     known = proved[[*NORMS, "bound"]].reindex(tau=run["tau"])
     return (abs(_curves(run) - _curves(known)) + known["bound"].drop_attrs()).fillna(np.inf)
-
-
-def _until(off: xr.DataArray, half: xr.DataArray) -> xr.DataArray:
-    """Return the last tau up to which no distance is larger than half of a line."""
-    inside = (off <= half).astype(int).cumprod("tau")
-    return off["tau"].where(inside == 1).max("tau")
