@@ -17,7 +17,8 @@ g(P) = -H lies between them. Proof: the root is at most `high` by continuity; g 
 interval that reaches to the top, since g is concave, and `low` is not in it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -32,11 +33,11 @@ from pendula.problem import Constants, Problem
 from . import balls
 
 HALVINGS = 100
-"""Of the interval of a root: more than a double can tell."""
+"""Of the interval of a root: more than a double resolves."""
 
 
 class Parameters(NamedTuple):
-    """The constants of the equations as balls."""
+    """The constants of the equations as balls, around the printed decimals."""
 
     epsilon: arb
     gamma: arb
@@ -44,7 +45,6 @@ class Parameters(NamedTuple):
 
     @classmethod
     def of(cls, constants: Constants) -> "Parameters":
-        """Return the balls of the printed decimals."""
         return cls(*(balls.decimal(getattr(constants, name)) for name in cls._fields))
 
     @property
@@ -72,18 +72,12 @@ def energy(k: Parameters, boundary: str, amplitudes: np.ndarray) -> arb:
     for own in (a, b):
         squares = [_square(z) for z in own]
         total += sum((x * x / 4 + k.omega * x for x in squares), arb(0))
-        total -= k.epsilon * sum(_bonds(own, boundary), arb(0))
-    drive = sum((((z - w) * (z - w)).real for z, w in zip(a, b, strict=True)), arb(0))
+        # with the bonds to the resting neighbours of the ends
+        chain = {DIRICHLET: [acb(0), *own, acb(0)], FREE: own, PERIODIC: [*own, own[0]]}
+        bonds = pairwise(chain[kind_of(boundary)])
+        total -= k.epsilon * sum((_square(after - before) for before, after in bonds), arb(0))
     # A B + c.c. - (A^2 + B^2 + c.c.) / 2 = -Re (A - B)^2
-    return total - k.gamma * drive
-
-
-def _bonds(own: list[acb], boundary: str) -> list[arb]:
-    """Return |A_{n+1} - A_n|^2 of all bonds, those to resting neighbours of the ends included."""
-    chain = {
-        DIRICHLET: [acb(0), *own, acb(0)], FREE: own, PERIODIC: [*own, own[0]]
-    }[kind_of(boundary)]  # fmt: skip
-    return [_square(after - before) for before, after in pairwise(chain)]
+    return total - k.gamma * sum((((z - w) * (z - w)).real for z, w in zip(a, b, strict=True)), 0)
 
 
 def _square(z: acb) -> arb:
@@ -92,7 +86,7 @@ def _square(z: acb) -> arb:
 
 def power(amplitudes: np.ndarray) -> arb:
     """Return P of complex amplitudes."""
-    parts = np.concatenate([amplitudes.real.ravel(), amplitudes.imag.ravel()])
+    parts = [*amplitudes.real.ravel(), *amplitudes.imag.ravel()]
     return sum((balls.decimal(x) * balls.decimal(x) for x in parts), arb(0))
 
 
@@ -106,12 +100,9 @@ def threshold(k: Parameters, sites: int | None) -> arb:
     if sites is None:
         band = (arb.min(arb(0), 4 * k.epsilon), arb.max(arb(0), 4 * k.epsilon))
         return arb.max(arb(0), arb.max(band[0] - k.omega, k.omega - band[1])) / 2
-    edges = (arb(n) / (2 * sites + 2) for n in range(1, sites + 1))
-    curvatures = (4 * k.epsilon * x.sin_pi() * x.sin_pi() for x in edges)
-    least = None
-    for one in (abs(curvature - k.omega) / 2 for curvature in curvatures):
-        least = one if least is None else arb.min(least, one)
-    return least
+    waves = (arb(n) / (2 * sites + 2) for n in range(1, sites + 1))
+    distances = (abs(4 * k.epsilon * x.sin_pi() * x.sin_pi() - k.omega) / 2 for x in waves)
+    return reduce(arb.min, distances)
 
 
 def coercivity(k: Parameters, p: arb) -> arb:
@@ -147,11 +138,8 @@ def widened(k: Parameters, depth: arb) -> arb | None:
     return low.union(high)
 
 
-# --- What the study of the theory stored ----------------------------------------------------------
-
-
 class Enclosed(NamedTuple):
-    """One constant: where the study keeps it, under which name, of what, and its ball."""
+    """One constant: where the study of the theory keeps it, under which name, and its ball."""
 
     dataset: str
     variable: str
@@ -160,10 +148,13 @@ class Enclosed(NamedTuple):
 
     @property
     def label(self) -> str:
-        """The constant in words."""
-        said = ", ".join(f"{key} {value:g}" if key != "case" else str(value)
-                         for key, value in self.of.items())  # fmt: skip
-        return f"{self.variable} of {said}" if said else self.variable
+        """The constant as the report shows it."""
+        of = (f"{key} {value:g}" if key != "case" else str(value) for key, value in self.of.items())
+        return f"{self.variable} of {', '.join(of)}" if self.of else self.variable
+
+
+def _enclosed(dataset: str, of: Mapping, values: Mapping[str, arb | None]) -> list[Enclosed]:
+    return [Enclosed(dataset, name, of, x) for name, x in values.items() if x is not None]
 
 
 def of_cases(problems: Mapping[str, Problem]) -> list[Enclosed]:
@@ -184,10 +175,6 @@ def of_cases(problems: Mapping[str, Problem]) -> list[Enclosed]:
                 values["widened"] = widened(k, -h)
         found += _enclosed("checks/cases", {"case": case}, values)
     return found
-
-
-def _enclosed(dataset: str, of: Mapping, values: Mapping[str, arb | None]) -> list[Enclosed]:
-    return [Enclosed(dataset, name, of, x) for name, x in values.items() if x is not None]
 
 
 def of_region(constants: Constants, pair: Sequence, sites: int) -> list[Enclosed]:
@@ -215,17 +202,15 @@ def of_printed_constant(constants: Constants, amplitude: float, longest: int) ->
     With gamma in the bound, as printed, it is negative from some number of sites on; with 2 gamma
     it is not. Both follow from the signs of balls.
     """
-    k, sizes = Parameters.of(constants), range(1, longest + 1, 2)
+    k, x = Parameters.of(constants), balls.decimal(amplitude)
     found, failing = [], []
-    for sites in sizes:
+    for sites in range(1, longest + 1, 2):
         wave = amplitude * (1.0 - 2.0 * (np.arange(sites) % 2))
-        amplitudes = np.stack([wave, -wave]).astype(complex)
-        h, x = energy(k, "dirichlet", amplitudes), balls.decimal(amplitude)
+        h = energy(k, "dirichlet", np.stack([wave, -wave]).astype(complex))
         quartic = sites * x * x * x * x  # of each component
         for name, drive in (("printed", 1), ("corrected", 2)):
             constant = abs(k.omega) + drive * k.gamma + 4 * k.epsilon
-            linear = 2 * constant * arb(sites).sqrt() * quartic.sqrt()
-            margin = h - (quartic / 2 - linear)
+            margin = h - (quartic / 2 - 2 * constant * arb(sites).sqrt() * quartic.sqrt())
             found.append(Enclosed("checks/theorem_3_constant", name, {"sites": sites}, margin))
             if name == "printed" and margin < 0:
                 failing.append(sites)
@@ -233,49 +218,17 @@ def of_printed_constant(constants: Constants, amplitude: float, longest: int) ->
     return [*found, Enclosed("checks/theorem_3_constant", "smallest", {}, smallest)]
 
 
-def of_thresholds(
-    epsilon: float, omegas: Sequence[float], sites: int, dataset: str, names: tuple[str, str]
-) -> list[Enclosed]:
-    """Enclose gamma_0 of N sites, and of the infinite chain or the difference of the two.
-
-    `names` are those of the two in the dataset; the second one is the difference if it is
-    called `finite_gap`.
-    """
+def of_thresholds(check: str, epsilon: float, omegas: Iterable, sites: int) -> list[Enclosed]:
+    """Enclose gamma_0 of N sites, and of the infinite chain or by how much it is smaller there."""
     found = []
     for omega in map(float, omegas):
         k = Parameters.of(Constants(epsilon=epsilon, gamma=0.0, omega=omega))
         finite, infinite = threshold(k, sites), threshold(k, None)
-        second = finite - infinite if names[1] == "finite_gap" else infinite
-        for name, ball in zip(names, (finite, second), strict=True):
-            found.append(Enclosed(dataset, name, {"omega": omega}, ball))
-    return found
-
-
-def all_of_them(problems: Mapping[str, Problem], theory: Mapping[str, Mapping]) -> list[Enclosed]:
-    """Enclose what the cases and these arguments of checks lead to.
-
-    `theory` has the arguments of the checks `theorem_2_case`, `theorem_3_constant`, `threshold`
-    and `chart` as the configuration states them. Other ends than resting ones change the chart's
-    thresholds, which are then left out.
-    """
-    region, printed = theory["theorem_2_case"], theory["theorem_3_constant"]
-    waves, chart = theory["threshold"], theory["chart"]
-    found = [
-        *of_cases(problems),
-        *of_region(Constants.of(region["constants"]), region["pair"], region["sites"]),
-        *of_printed_constant(
-            Constants.of(printed["constants"]), printed["amplitude"], printed["longest"]
-        ),
-        *of_thresholds(
-            waves["epsilon"], waves["omegas"], waves["sites"], "checks/threshold",
-            ("threshold", "finite_gap"),
-        ),
-    ]  # fmt: skip
-    if kind_of(chart["boundary"]) == DIRICHLET:
-        grid = chart["omegas"]
-        omegas = np.linspace(grid["first"], grid["last"], grid["points"])
-        names = ("finite_threshold", "infinite_threshold")
-        found += of_thresholds(chart["epsilon"], omegas, chart["sites"], "checks/chart", names)
+        if check == "chart":
+            values = {"finite_threshold": finite, "infinite_threshold": infinite}
+        else:
+            values = {"threshold": finite, "finite_gap": finite - infinite}
+        found += _enclosed(f"checks/{check}", {"omega": omega}, values)
     return found
 
 
@@ -290,26 +243,42 @@ def farthest(ball: arb, stored: float) -> float:
     return balls.upper(abs(arb(stored) - ball) / (size if size > 1 else arb(1)))
 
 
-def constants_contents(
+def enclose_checks(
     problems: Mapping[str, Problem], theory: Mapping[str, Mapping], datasets: Mapping
 ) -> Contents:
     """Return each constant as stored, between the doubles that its ball lies between.
 
-    `datasets` are those of the study `theory` by their names below results/.
+    `theory` has the arguments of the checks `theorem_2_case`, `theorem_3_constant`, `threshold` and
+    `chart` as the configuration states them, and `datasets` what they stored. Other boundary
+    conditions than Dirichlet's change the chart's thresholds, which are then left out.
     """
+    region, printed = theory["theorem_2_case"], theory["theorem_3_constant"]
+    waves, chart = theory["threshold"], theory["chart"]
     with balls.precision():
-        found = all_of_them(problems, theory)
+        found = [
+            *of_cases(problems),
+            *of_region(Constants.of(region["constants"]), region["pair"], region["sites"]),
+            *of_printed_constant(
+                Constants.of(printed["constants"]), printed["amplitude"], printed["longest"]
+            ),
+            *of_thresholds("threshold", waves["epsilon"], waves["omegas"], waves["sites"]),
+        ]
+        if kind_of(chart["boundary"]) == DIRICHLET:
+            grid = chart["omegas"]
+            omegas = np.linspace(grid["first"], grid["last"], grid["points"])
+            found += of_thresholds("chart", chart["epsilon"], omegas, chart["sites"])
+        kept = [datasets[one.dataset.removeprefix("checks/")][one.variable] for one in found]
         stored = [
-            float(datasets[one.dataset][one.variable].sel(dict(one.of)).item()) for one in found
+            float(data.sel(dict(one.of)).item()) for one, data in zip(found, kept, strict=True)
         ]
         off = [farthest(one.ball, value) for one, value in zip(found, stored, strict=True)]
-        ends = [(balls.lower(one.ball), balls.upper(one.ball)) for one in found]
+        lows, highs = ([end(one.ball) for one in found] for end in (balls.lower, balls.upper))
     of = ("constant",)
     variables = {
         "constant": Variable(of, [f"{one.dataset}: {one.label}" for one in found], "constant"),
         "stored": Variable(of, stored, "the constant as the study of the theory stored it"),
-        "lower": Variable(of, [low for low, _ in ends], "lower bound of the constant"),
-        "upper": Variable(of, [high for _, high in ends], "upper bound of the constant"),
+        "lower": Variable(of, lows, "lower bound of the constant"),
+        "upper": Variable(of, highs, "upper bound of the constant"),
         "stored_error": Variable(
             of,
             off,
@@ -317,11 +286,3 @@ def constants_contents(
         ),
     }
     return variables, {"title": "Constants of the theorems in balls", "bits": balls.BITS}
-
-
-def enclose_checks(
-    problems: Mapping[str, Problem], theory: Mapping[str, Mapping], datasets: Mapping
-) -> Contents:
-    """Return `constants_contents` of the study's checks, which are given by their own names."""
-    below = {f"checks/{name}": data for name, data in datasets.items()}
-    return constants_contents(problems, theory, below)
