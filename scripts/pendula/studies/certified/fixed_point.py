@@ -116,14 +116,9 @@ def follow(state: list[list[int]], chain: Chain, order: int) -> Iterator[list[St
             now = end(terms)
         yield steps
         state = now
-        if pieces > 1 and _smaller(steps, pieces, order):
-            pieces -= 1
-
-
-def _smaller(steps: list[Step], pieces: int, order: int) -> bool:
-    """Return whether longer steps would have done, as far as their last terms tell."""
-    last = max(abs(own[-1]) for step in steps for part in step.terms for own in part)
-    return max(last, 1) * pieces**order <= LAST_TERM * (pieces - 1) ** order
+        last = max(abs(own[-1]) for step in steps for part in step.terms for own in part)
+        if max(last, 1) * pieces**order <= LAST_TERM * (pieces - 1) ** order:
+            pieces -= 1  # longer steps would have done, judged by their last terms
 
 
 def end(terms: Series) -> list[list[int]]:
@@ -137,14 +132,14 @@ def taylor(state: list[list[int]], chain: Chain, step: Fraction, order: int) -> 
     x, y = ([[value] for value in part] for part in state)
     halves: list[list[int]] = [[] for _ in range(count)]
     for k in range(order):
-        field = linear([[own[k] for own in x], [own[k] for own in y]], chain)
+        q, exact = scaled_linear([[own[k] for own in x], [own[k] for own in y]], chain)
         factor = step / (k + 1)
         for n in range(count):
             own_x, own_y, half = x[n], y[n], halves[n]
             half.append(_square(own_x, own_y, k) >> (bits + 1))
             back = half[::-1]
-            real = field[0][n] + (sum(map(mul, back, own_x)) >> bits)
-            imaginary = field[1][n] + (sum(map(mul, back, own_y)) >> bits)
+            real = exact[0][n] // q + (sum(map(mul, back, own_x)) >> bits)
+            imaginary = exact[1][n] // q + (sum(map(mul, back, own_y)) >> bits)
             # i A' = F: Re A' = Im F and Im A' = -Re F
             own_x.append(imaginary * factor.numerator // factor.denominator)
             own_y.append(-real * factor.numerator // factor.denominator)
@@ -160,12 +155,6 @@ def _square(x: list[int], y: list[int], k: int) -> int:
     if k % 2 == 0:
         total += x[k // 2] ** 2 + y[k // 2] ** 2
     return total
-
-
-def linear(values: list[list[int]], chain: Chain) -> list[list[int]]:
-    """Return the linear terms of (4), rounded to units."""
-    q, exact = scaled_linear(values, chain)
-    return [[value // q for value in part] for part in exact]
 
 
 def scaled_linear(values, chain: Chain) -> tuple[int, list[list]]:
@@ -219,6 +208,5 @@ def jump(state: list[list[int]], after: Step, chain: Chain) -> float:
 def doubles(step: Step, chain: Chain, order: int) -> np.ndarray:
     """Return the terms to an order as nearest doubles, (order, part, component, site)."""
     unit = 2**chain.bits
-    found = np.array([[[value / unit for value in own] for own in part] for part in step.terms])
-    found = np.moveaxis(found, 2, 0)
-    return found[: order + 1].reshape(-1, 2, 2, chain.sites)
+    found = [[[value / unit for value in own[: order + 1]] for own in part] for part in step.terms]
+    return np.moveaxis(np.array(found), 2, 0).reshape(-1, 2, 2, chain.sites)

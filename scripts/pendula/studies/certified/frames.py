@@ -63,7 +63,6 @@ Rounding of the bound itself: sums, products and roots of numbers that are not n
 `regular`, with the factor `UP` each step.
 """
 
-from collections.abc import Iterator
 from fractions import Fraction
 from math import sqrt
 from typing import NamedTuple
@@ -275,59 +274,39 @@ def times(left: np.ndarray, right: np.ndarray) -> np.ndarray:
 # --- The curve at its outputs ---------------------------------------------------------------------
 
 
-class Output(NamedTuple):
-    """The curve at an output, and how far the true solution can be from it."""
-
-    state: np.ndarray  # doubles, (part, component, site) of the whole chain
-    parts: np.ndarray  # as in PARTS
-    exponent: float  # logarithm of what a unit error has become
-
-
 def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> Certified:
     """Return the curve at the outputs, with its proven distance to the solution.
 
     The coefficients are in units of 2^-bits, and the polynomials of the given order. Raises
     NotEvenError and StepError.
     """
-    found = list(follow_outputs(problem, bits, order, outputs_per_frame))
-    states = np.array([one.state for one in found])
-    squares = states[:, 0] ** 2 + states[:, 1] ** 2  # (time, component, site)
+    chain = half_chain(problem, bits)
+    state, off = start(problem, chain)
+    tube = begin(chain, off)
+    steps_between = follow(state, chain, order)
+    states, parts, exponents = [], [], []
+    for count, tau in enumerate(problem.times.tolist()):
+        for step in whole(next(steps_between)) if count else ():
+            tube = advance(tube, step, chain, jump(state, step, chain))
+            state = end(step.terms)
+        half = np.array([[value / 2**bits for value in part] for part in state])
+        half = half.reshape(2, 2, chain.sites)
+        states.append(np.concatenate([half[..., :0:-1], half], axis=-1))
+        *grown, unit_error = distances(tube)
+        late = float(abs(Fraction(tau) - count * chain.interval))  # tau is a double
+        parts.append(round_up([*grown, evaluation(states[-1], np.array(grown), chain, late)]))
+        exponents.append(float(log(round_up(unit_error))))
+        if count and count % outputs_per_frame == 0:
+            tube = reframe(tube)
+    squares = np.array(states)[:, 0] ** 2 + np.array(states)[:, 1] ** 2  # (time, component, site)
     return Certified(
         problem.times,
         np.sqrt(squares.max(axis=2)).T,
         np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T,
-        np.array([one.parts for one in found]).T,
-        np.array([one.exponent for one in found]),
-        states,
+        np.array(parts).T,
+        np.array(exponents),
+        np.array(states),
     )
-
-
-def follow_outputs(problem: Problem, bits: int, order: int, per_frame: int) -> Iterator[Output]:
-    """Yield the start and every further output up to the end of the problem."""
-    chain = half_chain(problem, bits)
-    state, off = start(problem, chain)
-    tube = begin(chain, off)
-    yield _output(state, tube, chain, 0.0)
-    steps_between = follow(state, chain, order)
-    for count in range(1, len(problem.times)):
-        for step in whole(next(steps_between)):
-            tube = advance(tube, step, chain, jump(state, step, chain))
-            state = end(step.terms)
-        late = float(abs(Fraction(float(problem.times[count])) - count * chain.interval))
-        yield _output(state, tube, chain, late)
-        if count % per_frame == 0:
-            tube = reframe(tube)
-
-
-def _output(state: list[list[int]], tube: Tube, chain: Chain, late: float) -> Output:
-    """Return an output, whose time as a double is `late` after or before the end of a step."""
-    unit = 2**chain.bits
-    half = np.array([[value / unit for value in part] for part in state])
-    half = half.reshape(2, 2, chain.sites)
-    whole = np.concatenate([half[..., :0:-1], half], axis=-1)
-    found = distances(tube)
-    parts = [*found[:UNIT_ERROR], evaluation(whole, found[:UNIT_ERROR], chain, late)]
-    return Output(whole, round_up(np.array(parts)), float(log(round_up(found[UNIT_ERROR]))))
 
 
 def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) -> float:
@@ -345,7 +324,7 @@ def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) 
     return UP * (12.0 * UNIT * norm + moved) + TINY
 
 
-def round_up(values: np.ndarray) -> np.ndarray:
-    """Return the numbers with DIGITS binary digits, rounded up: nothing hangs on those behind."""
+def round_up(values) -> np.ndarray:
+    """Return numbers with DIGITS binary digits, rounded up."""
     mantissa, exponent = np.frexp(values)
     return np.ldexp(np.ceil(mantissa * 2.0**DIGITS), exponent - DIGITS)
