@@ -107,30 +107,24 @@ def find_rates(states: np.ndarray, problem: Problem, form: Form) -> np.ndarray:
 
     On a ring it is the crude one, since the matrix has entries in its corners there.
     """
-    crude = crude_rates(states, form)
+    crude, constants = crude_rates(states, form), problem.constants
     if kind_of(problem.boundary) == PERIODIC:
         return crude
+    size = abs(constants.omega) + 4 * abs(constants.epsilon) + 2 * abs(constants.gamma)
     found = crude.copy()
     for first in range(0, len(states), CHUNK):
         own = slice(first, first + CHUNK)
-        found[own] = crude[own] * _sharpen(states[own], crude[own], problem, form)
+        quadratic, change = bands(states[own], problem, form)
+        largest = np.max(states[own, 0] ** 2 + states[own, 1] ** 2, axis=(1, 2))
+        low, high = np.zeros(len(largest)), np.ones(len(largest))
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            rates = middle * crude[own]
+            shift = 2.0**-40 * size * (rates + 1.5 * largest)
+            proven = _is_positive(rates * quadratic - change, shift)
+            low, high = np.where(proven, low, middle), np.where(proven, middle, high)
+        found[own] *= np.where(crude[own] > SMALLEST, high, 1.0)
     return UP * found
-
-
-def _sharpen(states: np.ndarray, crude: np.ndarray, problem: Problem, form: Form) -> np.ndarray:
-    """Return the factors of the crude rates that Cholesky's method proves."""
-    quadratic, change = bands(states, problem, form)
-    largest = np.max(states[:, 0] ** 2 + states[:, 1] ** 2, axis=(1, 2))
-    constants = problem.constants
-    size = abs(constants.omega) + 4 * abs(constants.epsilon) + 2 * abs(constants.gamma)
-    low, high = np.zeros(len(states)), np.ones(len(states))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        rates = middle * crude
-        shift = 2.0**-40 * size * (rates + 1.5 * largest)
-        proven = _is_positive(rates * quadratic - change, shift)
-        low, high = np.where(proven, low, middle), np.where(proven, middle, high)
-    return np.where(crude > SMALLEST, high, 1.0)
 
 
 def _is_positive(band: np.ndarray, shift: np.ndarray) -> np.ndarray:
@@ -156,58 +150,33 @@ def bands(states: np.ndarray, problem: Problem, form: Form) -> tuple[np.ndarray,
     end) and the drive. V acts on each site and component by itself.
     """
     sign, sites = form.sign, states.shape[-1]
-    epsilon = problem.constants.epsilon
-    here, turned = _on_sites(problem), _turned(states)
+    epsilon, gamma, omega = problem.constants
+    s = np.zeros((4, 4, sites, 1))  # on each site, (row, column, site, 1)
+    own = np.full(sites, omega - 2.0 * epsilon)
+    if kind_of(problem.boundary) == FREE:
+        own[0] += epsilon
+        own[-1] += epsilon
+    for row, drive in enumerate((gamma, -gamma, gamma, -gamma)):
+        s[row, row, :, 0] = own - drive
+        s[row, (row + 2) % 4, :, 0] = drive
+    x, y = (np.moveaxis(states[:, part], 0, -1) for part in (0, 1))  # (component, site, state)
+    square, real, imaginary = x * x + y * y, x * x - y * y, 2.0 * x * y
+    v = np.zeros((4, 4, *x.shape[1:]))  # on each site, (row, column, site, state)
+    for c in (0, 1):
+        v[2 * c, 2 * c] = 0.5 * imaginary[c]
+        v[2 * c, 2 * c + 1] = square[c] - 0.5 * real[c]
+        v[2 * c + 1, 2 * c] = -(square[c] + 0.5 * real[c])
+        v[2 * c + 1, 2 * c + 1] = -0.5 * imaginary[c]
+    product = sum(s[:, k, None] * v[None, k] for k in range(4))
     quadratic = np.zeros((4 * sites, BAND + 1, 1))
     change = np.zeros((4 * sites, BAND + 1, len(states)))
     for j in range(4):
         for i in range(4):
             if i >= j:
-                quadratic[j::4, i - j] = sign * here[i, j]
-                change[j::4, i - j] = 0.5 * sign * _symmetric(here, turned, i, j)
+                quadratic[j::4, i - j] = sign * s[i, j]
+                change[j::4, i - j] = 0.5 * sign * (product[i, j] + product[j, i])
             if 4 + i - j <= BAND and sites > 1:
-                between = turned[i, j, :-1] + turned[j, i, 1:]
+                between = v[i, j, :-1] + v[j, i, 1:]
                 change[j : 4 * (sites - 1) : 4, 4 + i - j] = 0.5 * sign * epsilon * between
         quadratic[j : 4 * (sites - 1) : 4, 4] = sign * epsilon
     return quadratic, change
-
-
-def _on_sites(problem: Problem) -> np.ndarray:
-    """Return what S holds on each site, (row, column, site, 1)."""
-    epsilon, gamma = problem.constants.epsilon, problem.constants.gamma
-    own = np.full(problem.sites, problem.constants.omega - 2.0 * epsilon)
-    if kind_of(problem.boundary) == FREE:
-        own[0] += epsilon
-        own[-1] += epsilon
-    here = np.zeros((4, 4, problem.sites, 1))
-    for row, drive in enumerate((gamma, -gamma, gamma, -gamma)):
-        here[row, row, :, 0] = own - drive
-        here[row, (row + 2) % 4, :, 0] = drive
-    return here
-
-
-def _turned(states: np.ndarray) -> np.ndarray:
-    """Return what V holds on each site, (row, column, site, state)."""
-    x, y = (np.moveaxis(states[:, part], 0, -1) for part in (0, 1))  # (component, site, state)
-    square, real, imaginary = x * x + y * y, x * x - y * y, 2.0 * x * y
-    turned = np.zeros((4, 4, *x.shape[1:]))
-    for c in (0, 1):
-        turned[2 * c, 2 * c] = 0.5 * imaginary[c]
-        turned[2 * c, 2 * c + 1] = square[c] - 0.5 * real[c]
-        turned[2 * c + 1, 2 * c] = -(square[c] + 0.5 * real[c])
-        turned[2 * c + 1, 2 * c + 1] = -0.5 * imaginary[c]
-    return turned
-
-
-def _symmetric(here: np.ndarray, turned: np.ndarray, i: int, j: int) -> np.ndarray:
-    """Return the entry of S V + V^T S on a site; S joins a row to itself and to the other pendulum.
-
-    V joins the rows of one pendulum.
-    """
-    total = 0.0
-    for k in range(4):
-        if (k - i) % 2 == 0 and k // 2 == j // 2:
-            total = total + here[i, k] * turned[k, j]
-        if (k - j) % 2 == 0 and k // 2 == i // 2:
-            total = total + turned[k, i] * here[k, j]
-    return total + np.zeros_like(turned[0, 0])
