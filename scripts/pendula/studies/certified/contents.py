@@ -30,7 +30,7 @@ def curve_contents(
         form, proof = find_form(problem.constants), regular.prove(problem, curve)
         about |= {"least_form": float(form.m1), "largest_form": float(form.m2)}
     except NotDefiniteError as reason:
-        proof = regular.leave_unproved(problem, curve)
+        proof = regular.leave_unproved(curve)
         about["not_certified"] = str(reason)
     solver = {"name": "polynomials", "order": len(curve.terms) - 1, "step": curve.step}
     described = {**_describe(name, problem, solver), **about}

@@ -58,7 +58,7 @@ import numpy as np
 from pendula.problem import Problem
 
 from .norm import UP, Form, decimal, find_form, find_rates, up
-from .polynomials import Curve, add_up, find_curve, linear
+from .polynomials import Curve, add_up, linear
 
 UNIT = 2.0**-53
 TINY = 1e-140
@@ -89,19 +89,9 @@ class Certified(NamedTuple):
 class Proof(NamedTuple):
     """A curve, and how far it can be from the solution of its problem."""
 
-    problem: Problem
     curve: Curve
     errors: np.ndarray  # in the l2 norm, (step, end of interval, part), parts as in GROWING
     exponents: np.ndarray  # (interval + 1,), the integral of the rate
-
-
-def certify(problem: Problem, curve: Curve | None = None) -> Certified:
-    """Return a curve and its proven distance to the solution of a problem, at the output times.
-
-    Raises NotDefiniteError where Omega lies in the interval where no norm is kept.
-    """
-    proof = prove(problem, find_curve(problem) if curve is None else curve)
-    return norms_at(proof, problem.times)
 
 
 def prove(problem: Problem, curve: Curve) -> Proof:
@@ -117,14 +107,14 @@ def prove(problem: Problem, curve: Curve) -> Proof:
     }
     errors = _accumulate(inputs, growth, sizes, form, curve.step)
     exponents = np.concatenate([[0.0], np.cumsum(growth)])
-    return Proof(problem, curve, UP * errors / sqrt(form.m1), exponents)
+    return Proof(curve, UP * errors / sqrt(form.m1), exponents)
 
 
-def leave_unproved(problem: Problem, curve: Curve) -> Proof:
-    """Return an infinite distance, as where no norm is kept."""
+def leave_unproved(curve: Curve) -> Proof:
+    """Return an infinite distance, for problems whose linear flow conserves no norm."""
     steps = curve.terms.shape[1]
     errors = np.full((steps, SAMPLES + 1, len(GROWING)), np.inf)
-    return Proof(problem, curve, errors, np.full(steps * SAMPLES + 1, np.inf))
+    return Proof(curve, errors, np.full(steps * SAMPLES + 1, np.inf))
 
 
 class Sizes(NamedTuple):
@@ -162,11 +152,9 @@ def _strength(problem: Problem) -> float:
 
 def _start(curve: Curve, problem: Problem) -> np.ndarray:
     """Return the distance of the curve's start from the printed data, in the first step alone."""
-    off = Fraction(0)
-    for part, own in enumerate((problem.amplitudes.real, problem.amplitudes.imag)):
-        for place in np.argwhere((own != 0) | (curve.terms[0, 0, part] != 0)):
-            x = float(curve.terms[(0, 0, part, *place)])
-            off += (decimal(own[tuple(place)]) - Fraction(x)) ** 2
+    given = np.stack([problem.amplitudes.real, problem.amplitudes.imag])
+    pairs = zip(given.ravel(), curve.terms[0, 0].ravel(), strict=True)
+    off = sum((decimal(x) - Fraction(float(start))) ** 2 for x, start in pairs)
     entering = np.zeros(curve.terms.shape[1])
     entering[0] = UP * sqrt(off)
     return entering
@@ -213,7 +201,8 @@ def _rounding(curve: Curve, problem: Problem, sizes: Sizes) -> np.ndarray:
     total = np.zeros(terms.shape[1])
     for k in range(len(terms) - 1):
         half_squares[k] = _half_square(terms, k)
-        field = step * (linear(terms[k], problem) + _times(half_squares, terms, k))
+        cube = sum(half_squares[j] * terms[k - j] for j in range(k + 1))
+        field = step * (linear(terms[k], problem) + cube)
         following = (k + 1) * terms[k + 1]
         # i (x + i y) = -y + i x
         missed = np.stack([-following[:, 1], following[:, 0]], axis=1) - field
@@ -231,13 +220,6 @@ def _half_square(terms: np.ndarray, k: int) -> np.ndarray:
     if k % 2 == 0:
         total += 0.5 * (terms[k // 2] * terms[k // 2])
     return total[:, :1] + total[:, 1:]
-
-
-def _times(half_squares: np.ndarray, terms: np.ndarray, k: int) -> np.ndarray:
-    total = np.zeros_like(terms[0])
-    for j in range(k + 1):
-        total += half_squares[j] * terms[k - j]
-    return total
 
 
 # --- How errors grow ------------------------------------------------------------------------------
@@ -325,7 +307,11 @@ def _accumulate(inputs, growth: np.ndarray, sizes: Sizes, form: Form, step: floa
 
 def norms_at(proof: Proof, tau: np.ndarray) -> Certified:
     """Return the norms at any times of the run, and the parts of their bound."""
-    index, theta = _places(proof.curve, tau)
+    # Exact: the step is a power of two. A time and the start of its step, if that is not zero, are
+    # within a factor of two (P. H. Sterbenz, Floating-Point Computation, 1974).
+    step, steps = proof.curve.step, proof.curve.terms.shape[1]
+    index = np.minimum((tau / step).astype(int), steps - 1)
+    theta = (tau - index * step) / step
     interval = np.ceil(theta * SAMPLES).astype(int)
     states, off = evaluate(proof.curve.terms[:, index], theta[:, None, None, None])
     squares = states[:, 0] ** 2 + states[:, 1] ** 2  # (time, component, site)
@@ -336,17 +322,6 @@ def norms_at(proof: Proof, tau: np.ndarray) -> Certified:
     # squares, the at most 16 levels of the sum, and the root: 12 roundings of the norm or fewer
     parts[-1] = UP * (_norms(off, 1) + 12.0 * UNIT * _norms(states, 1))
     return Certified(tau, linf, l2, parts, proof.exponents[index * SAMPLES + interval], states)
-
-
-def _places(curve: Curve, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the step in which each time lies, and theta in it; both are exact.
-
-    The step is a power of two. A time and the start of its step, if that is not zero, are within a
-    factor of two, so that their difference is exact (P. H. Sterbenz, Floating-Point Computation,
-    1974).
-    """
-    index = np.minimum((tau / curve.step).astype(int), curve.terms.shape[1] - 1)
-    return index, (tau - index * curve.step) / curve.step
 
 
 def tree_sum(values: np.ndarray) -> np.ndarray:
