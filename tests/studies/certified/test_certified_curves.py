@@ -369,7 +369,7 @@ def test_what_is_quadratic_in_the_error_is_that_of_the_cubic_term():
 
 
 def test_norms_are_off_by_twelve_roundings_beside_that_of_the_sum():
-    curve, given = short_curve(steps=1)
+    curve, _ = short_curve(steps=1)
     curve.terms[1:] = 0.0
     found = norms_at(regular.leave_unproved(curve), np.zeros(1))
     size = np.linalg.norm(curve.terms[0])
