@@ -34,19 +34,20 @@ def within(value: float, radius: float) -> arb:
 
 def upper(ball: arb) -> float:
     """Return a double that is not below any number of the ball."""
-    return _outward(ball.upper(), 1)
+    return _outward(ball.upper(), math.inf)
 
 
 def lower(ball: arb) -> float:
     """Return a double that is not above any number of the ball."""
-    return _outward(ball.lower(), -1)
+    return _outward(ball.lower(), -math.inf)
 
 
-def _outward(end: arb, side: int) -> float:
-    """Return the double next to an exact number, not on its inner side."""
+def _outward(end: arb, side: float) -> float:
+    """Return the double next to an exact number, on its side towards `side`."""
     if not end.is_finite():
-        return side * math.inf
+        return side
     rational = end.fmpq()
     exact = Fraction(int(rational.p), int(rational.q))
     near = float(exact)
-    return near if (Fraction(near) - exact) * side >= 0 else math.nextafter(near, side * math.inf)
+    inside = near < exact if side > 0 else near > exact
+    return math.nextafter(near, side) if inside else near

@@ -34,6 +34,19 @@ def make_certificate(problem: Problem) -> dict[str, Any]:
     rates = find_rates(sample(curve), problem, find_form(problem.constants))
     per_step = (len(rates) - 1) // len(bounds)
     constants = problem.constants
+    terms = np.moveaxis(curve.terms, 2, 3) * 2.0**BITS  # (order, step, component, part, site)
+    steps = []
+    for j, bound in enumerate(bounds):
+        rows = terms[:, j].reshape(len(terms), 4, -1)  # Re A, Im A, Re B, Im B
+        own = rates[per_step * j : per_step * (j + 1) + 1]
+        steps.append(
+            {
+                "terms": [[[int(x) for x in row] for row in term] for term in rows],
+                # one more, as states at the ends of steps are rounded
+                "rates": [ceil(rate * 2.0**RATE_BITS) + 1 for rate in own],
+                "bound": ceil(2.0**BOUND_BITS * bound * (1.0 + SLACK * (j + 1))),
+            }
+        )
     return {
         "what": "i A_n' = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n + gamma (conj B_n - "
         "conj A_n) + |A_n|^2 A_n / 2, the same with A and B exchanged, A = B = 0 beyond the ends",
@@ -48,26 +61,8 @@ def make_certificate(problem: Problem) -> dict[str, Any]:
         "bits": BITS,
         "rate_bits": RATE_BITS,
         "bound_bits": BOUND_BITS,
-        "steps": [
-            {
-                "terms": [_whole(terms) for terms in curve.terms[:, j]],
-                "rates": _rates(rates[per_step * j : per_step * (j + 1) + 1]),
-                "bound": ceil(2.0**BOUND_BITS * bound * (1.0 + SLACK * (j + 1))),
-            }
-            for j, bound in enumerate(bounds)
-        ],
+        "steps": steps,
     }
-
-
-def _whole(terms: np.ndarray) -> list[list[int]]:
-    """Return the terms of one order as integers: rows Re A, Im A, Re B, Im B."""
-    rows = np.swapaxes(terms, 0, 1).reshape(4, -1)
-    return [[int(x) for x in row] for row in rows * 2.0**BITS]
-
-
-def _rates(rates: np.ndarray) -> list[int]:
-    """Return rates in their units, a little larger, as states at the ends of steps are rounded."""
-    return [ceil(rate * 2.0**RATE_BITS) + 1 for rate in rates]
 
 
 def write_certificate(certificate: str, problem: Mapping[str, Any]) -> None:

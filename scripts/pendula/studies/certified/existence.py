@@ -107,17 +107,22 @@ def prove(chain: Chain, s: float, state: np.ndarray, infinite: bool = True) -> P
 
 def estimate(chain: Chain, s: float, u: list[arb], infinite: bool) -> Estimates:
     """Return the numbers of 1, 3 and 4 for exact u on the sites -M..M, components in turn."""
-    k, miss, size = slope(chain, s, u), residual(chain, s, u), len(u)
+    k, size = slope(chain, s, u), len(u)
     epsilon, away = abs(balls.decimal(chain.epsilon)), distance(chain, s)
     if infinite and not 2 * epsilon < away:
         raise RefusedError("the outside does not contract: Omega lies in a band of waves")
-    n, ends = _near_inverse(k), _ends(size) if infinite else ()
-    left = _moduli(_unit(size) - n * k) * _columns([1] * size)
+    try:
+        n = k.inv().mid()  # N
+    except ZeroDivisionError:
+        raise RefusedError("the slope of the equations has no inverse there") from None
+    # indices of both components on the sites -M and M
+    ends = (0, size // 2 - 1, size // 2, size - 1) if infinite else ()
+    unit = arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+    left = _moduli(unit - n * k) * arb_mat([[1]] * size)
     # row sums of |N E|, |N_ij u_j| and |N|
-    marked = [ends.count(j) for j in range(size)]
-    sums = _moduli(n) * _columns(marked, [abs(x) for x in u], [1] * size)
+    sums = _moduli(n) * arb_mat([[ends.count(j), abs(x), 1] for j, x in enumerate(u)])
     z = _largest(left[i, 0] + epsilon * sums[i, 0] for i in range(size))
-    eta = _largest(abs(x) for x in (n * miss).entries())
+    eta = _largest(abs(x) for x in (n * residual(chain, s, u)).entries())
     bent, plain = (_largest(sums[i, column] for i in range(size)) for column in (1, 2))
     if infinite:
         z = _largest([z, 2 * epsilon / away])
@@ -159,14 +164,6 @@ def distance(chain: Chain, s: float) -> arb:
     return arb.min(*moduli)
 
 
-def _near_inverse(k: arb_mat) -> arb_mat:
-    """Return N, exact numbers near to the inverse of K."""
-    try:
-        return k.inv().mid()
-    except ZeroDivisionError:
-        raise RefusedError("the slope of the equations has no inverse there") from None
-
-
 def radii(estimates: Estimates) -> tuple[float, float]:
     """Return r and R of the theorem, each shown by its inequalities.
 
@@ -200,21 +197,8 @@ def _decay(chain: Chain, s: float, r: arb) -> float:
     return balls.upper(ratio / (1 + (1 - ratio * ratio).sqrt()))
 
 
-def _unit(size: int) -> arb_mat:
-    return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
-
-
 def _moduli(matrix: arb_mat) -> arb_mat:
     return arb_mat(matrix.nrows(), matrix.ncols(), [abs(x) for x in matrix.entries()])
-
-
-def _columns(*columns: list) -> arb_mat:
-    return arb_mat(list(map(list, zip(*columns, strict=True))))
-
-
-def _ends(size: int) -> tuple[int, ...]:
-    """Return the indices of both components on the sites -M and M."""
-    return 0, size // 2 - 1, size // 2, size - 1
 
 
 def _largest(values) -> arb:

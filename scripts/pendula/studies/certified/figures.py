@@ -2,7 +2,6 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pendula.drawing import style
@@ -21,23 +20,17 @@ LEAST = 1e-25
 
 
 def gather_curves(curves: list[xr.Dataset]) -> xr.Dataset:
-    """Return bounds, parts and distances to the references of several cases over time."""
-    names = ["bound", "bound_parts", "reference_distance"]
-    drawn = [_so_far(curve[names].assign_attrs(curve.attrs)) for curve in curves]
+    """Return bounds and parts of several cases over time, and the known distances up to each."""
+    drawn = []
+    for curve in curves:
+        known = np.fmax.accumulate(curve["reference_distance"].values)  # which falls to no zero
+        words = "largest distance of a norm to that of the reference, up to this time"
+        one = curve[["bound", "bound_parts"]].assign_attrs(curve.attrs)
+        drawn.append(one.assign(distance_so_far=("tau", known, {"long_name": words, "units": "1"})))
     stacked = style.join(drawn, [curve.attrs["case"] for curve in curves], "case")
-    for name in stacked.data_vars:
-        stacked[name].attrs = drawn[0][name].attrs if name in drawn[0] else stacked[name].attrs
+    for name in drawn[0].data_vars:
+        stacked[name].attrs = drawn[0][name].attrs
     return stacked
-
-
-def _so_far(curve: xr.Dataset) -> xr.Dataset:
-    """Return the dataset with the largest distance up to each time, which falls to no zero."""
-    apart = curve["reference_distance"]
-    known = np.fmax.accumulate(apart.values)
-    words = "largest distance of a norm to that of the reference, up to this time"
-    return curve.drop_vars("reference_distance").assign(
-        distance_so_far=("tau", known, {"long_name": words, "units": "1"})
-    )
 
 
 @style.styled
@@ -47,7 +40,17 @@ def draw_curves(data: xr.Dataset) -> Figure:
     panels = figure.subplots(1, data.sizes["case"], sharey=True, squeeze=False)[0]
     for letter, axes, name in zip("abcdef", panels, data["case"].values, strict=False):
         case = data.sel(case=name)
-        _draw_bound(axes, case)
+        axes.set_yscale("log")
+        tau, known = case["tau"], case["distance_so_far"]
+        axes.plot(tau, case["bound"], color="0.7", lw=3.2, label="proven bound, the sum of")
+        for part, (colour, label) in PART_LOOKS.items():
+            values = case["bound_parts"].sel(bound_part=part)
+            axes.plot(tau, values.where(values > 0), color=colour, lw=0.9, label=label)
+        axes.set_ylim(LEAST, None)
+        axes.plot(
+            tau, known.where(known > 0), color="black", dashes=(1, 1), lw=1.1,
+            label="distance to the reference",
+        )  # fmt: skip
         axes.set_title(f"({letter}) {style.name_case(case)}", loc="left")
         axes.set_xlabel(r"$\tau$")
         axes.set_xlim(0, float(data["tau"][-1]))
@@ -55,18 +58,3 @@ def draw_curves(data: xr.Dataset) -> Figure:
     lines = panels[0].get_lines()
     figure.legend(handles=lines, loc="outside upper center", ncols=4, columnspacing=1.6)
     return figure
-
-
-def _draw_bound(axes: Axes, case: xr.Dataset) -> None:
-    axes.set_yscale("log")
-    tau = case["tau"]
-    axes.plot(tau, case["bound"], color="0.7", lw=3.2, label="proven bound, the sum of")
-    for part, (colour, label) in PART_LOOKS.items():
-        values = case["bound_parts"].sel(bound_part=part)
-        axes.plot(tau, values.where(values > 0), color=colour, lw=0.9, label=label)
-    axes.set_ylim(LEAST, None)
-    known = case["distance_so_far"]
-    axes.plot(
-        tau, known.where(known > 0), color="black", dashes=(1, 1), lw=1.1,
-        label="distance to the reference",
-    )  # fmt: skip

@@ -7,7 +7,7 @@ import numpy as np
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import COMPONENTS, Contents
-from pendula.models.pairs import FAMILIES, Family
+from pendula.models.pairs import FAMILIES
 
 from . import balls, existence, spectra
 from .states import Chain, Verdict, find_state
@@ -20,8 +20,7 @@ PROVED = {
 }
 """What `existence.Proof` holds, in its order; rounded to the safe side."""
 REFUSED = existence.Proof(radius=np.inf, unique=0.0, contraction=np.inf, decay=np.inf)
-STABLE = {
-    "long_name": "whether the state on the finite chain is proved stable or unstable",
+FLAGS = {
     "flag_values": np.array([int(one) for one in Verdict], np.int8),
     "flag_meanings": " ".join(one.name.lower() for one in Verdict),
 }
@@ -40,24 +39,28 @@ def breathers_contents(
     kept, chain = half_widths["block"], half_widths["chain"]
     found = [_proved(gamma, half_widths, one) for one in proofs]
     refused = [_proved(gamma, {"block": kept}, one) for one in wrong]
-    of = ("proof",)
+    of, of_wrong = ("proof",), ("wrong_proof",)
+
+    def numbers(names: Mapping[str, str]) -> dict[str, Variable]:
+        """Return what is proved of all states, by name and in words."""
+        return {
+            name: Variable(of, [one[name] for one in found], words) for name, words in names.items()
+        }
+
     variables = {
         "component": COMPONENTS,
         "site": Variable(("site",), np.arange(kept + 1)),
         "chain_site": Variable(("chain_site",), np.arange(chain + 1), "site of the finite chain"),
         **_labels(of, proofs, ""),
-        **{name: Variable(of, [one[name] for one in found], said) for name, said in PROVED.items()},
-        "chain_radius": Variable(
-            of, [one["chain_radius"] for one in found], "the same radius on the finite chain"
-        ),
+        **numbers(PROVED | {"chain_radius": "the same radius on the finite chain"}),
         "stable": Variable(
-            of, np.array([one["stable"] for one in found], np.int8), STABLE["long_name"],
-            attributes={key: STABLE[key] for key in ("flag_values", "flag_meanings")},
+            of, np.array([one["stable"] for one in found], np.int8),
+            "whether the state on the finite chain is proved stable or unstable", attributes=FLAGS,
         ),
-        **{
-            name: Variable(of, [one[name] for one in found], f"{end} of the fastest rate of growth")
-            for name, end in (("growth_low", "lower bound"), ("growth_high", "upper bound"))
-        },
+        **numbers({
+            "growth_low": "lower bound of the fastest rate of growth",
+            "growth_high": "upper bound of the fastest rate of growth",
+        }),
         **{
             f"{prefix}amplitude": Variable(
                 (*of, "component", f"{prefix}site"),
@@ -67,17 +70,17 @@ def breathers_contents(
             for prefix, place in (("", "infinite chain"), ("chain_", "finite chain"))
         },
         "proof_refusal": Variable(of, [one["refusal"] for one in found], "why nothing is proved"),
-        **_labels(("wrong_proof",), wrong, "wrong_"),
+        **_labels(of_wrong, wrong, "wrong_"),
         "tested_omega": Variable(
-            ("wrong_proof",), [float(one["tested_at"]) for one in wrong],
+            of_wrong, [float(one["tested_at"]) for one in wrong],
             "detuning Omega at which the wrong state is tested",
         ),
         "wrong_radius": Variable(
-            ("wrong_proof",), [one["radius"] for one in refused],
+            of_wrong, [one["radius"] for one in refused],
             "radius that is proved of the wrong state, infinite if it is refused",
         ),
         "wrong_refusal": Variable(
-            ("wrong_proof",), [one["refusal"] for one in refused], "why the wrong state is refused"
+            of_wrong, [one["refusal"] for one in refused], "why the wrong state is refused"
         ),
     }  # fmt: skip
     title = "Steady breathers whose existence and stability are proved"
@@ -99,6 +102,7 @@ def _labels(of: tuple[str], proofs: Sequence[Mapping], prefix: str) -> dict[str,
 def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dict:
     """Return what is proved of one state, by the names of the dataset."""
     (family,) = (one for one in FAMILIES if one.name == given["family"])
+    s = family.drive(gamma)
     found = {"stable": Verdict.UNDECIDED, "growth_low": 0.0, "growth_high": np.inf}
     for name, prefix in (("block", ""), ("chain", "chain_")):
         if name not in half_widths:
@@ -106,7 +110,10 @@ def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dic
         chain = Chain(float(given["epsilon"]), gamma, float(given["omega"]), half_widths[name])
         state = find_state(chain, family)
         tested = chain._replace(omega=float(given.get("tested_at", chain.omega)))
-        proof, why = _proof(tested, family, state, infinite=name == "block")
+        try:
+            proof, why = existence.prove(tested, s, state, infinite=name == "block"), ""
+        except existence.RefusedError as error:
+            proof, why = REFUSED, str(error)
         found |= {f"{prefix}{key}": value for key, value in zip(PROVED, proof, strict=True)}
         found[f"{prefix}refusal"] = why
         found[f"{prefix}amplitude"] = state
@@ -114,13 +121,3 @@ def _proved(gamma: float, half_widths: Mapping[str, int], given: Mapping) -> dic
             spectrum = spectra.decide(tested, family, state, proof.radius)
             found |= zip(("stable", "growth_low", "growth_high"), spectrum, strict=True)
     return found
-
-
-def _proof(
-    chain: Chain, family: Family, state: np.ndarray, infinite: bool
-) -> tuple[existence.Proof, str]:
-    """Return what is proved, and no words, or nothing and why."""
-    try:
-        return existence.prove(chain, family.drive(chain.gamma), state, infinite), ""
-    except existence.RefusedError as why:
-        return REFUSED, str(why)

@@ -92,34 +92,36 @@ def judge(boxes: list[acb] | None, zero: bool) -> Spectrum:
 
 
 def eigenvalues(block: arb_mat) -> list[acb] | None:
+    """Return a box around each eigenvalue, None if they cannot be isolated."""
     try:
         return acb_mat(block).eig(algorithm="rump")
-    except ValueError:  # not isolated
+    except ValueError:
         return None
 
 
 def blocks(chain: Chain, family: Family, u: list[list[arb]], even: bool) -> list:
     """Return the blocks of S on even or odd perturbations, each with whether it acts on sums."""
     drive = balls.decimal(family.drive(chain.gamma))
-    first = 0 if even else 1
-    a, b = ([one * one for one in row[first:]] for row in u)
-    zero = arb(0)
-    if family.kind != "asymmetric":
-        sums, differences = (_square(chain, [a], one, even) for one in (zero, 2 * drive))
-        return [(sums, True), (differences, False)]
-    return [(_square(chain, [a, b], drive, even), False)]
-
-
-def _square(chain: Chain, squares: list[list[arb]], drive: arb, even: bool) -> arb_mat:
-    """Return -L K; `drive` stands on the diagonal of s (1 - X), and -drive beside it if two."""
-    lower = _operator(chain, squares, drive, 0.5, even)
-    return -(lower * _operator(chain, squares, -drive, 1.5, even))
+    a, b = ([one * one for one in row[0 if even else 1 :]] for row in u)
+    if family.kind == "asymmetric":
+        parts = [([a, b], drive, False)]
+    else:
+        parts = [([a], arb(0), True), ([a], 2 * drive, False)]
+    found = []
+    for squares, own, sums in parts:
+        lower = _operator(chain, squares, own, 0.5, even)
+        upper = _operator(chain, squares, -own, 1.5, even)
+        found.append((-(lower * upper), sums))
+    return found
 
 
 def _operator(
     chain: Chain, squares: list[list[arb]], drive: arb, weight: float, even: bool
 ) -> arb_mat:
-    """Return epsilon D + Omega + weight u^2 + drive (1 - X), with `weight` exact."""
+    """Return epsilon D + Omega + weight u^2 + drive (1 - X), with `weight` exact.
+
+    For sums or differences alone, `drive` is already multiplied by 1 - X: 0 or 2 s.
+    """
     epsilon, omega = balls.decimal(chain.epsilon), balls.decimal(chain.omega)
     sites = len(squares[0])
     flat = [one for row in squares for one in row]
