@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 import yaml
 from helpers import ROOT
-from pendula.configuration.messages import STUDIES, load
-from pendula.problem import Problem
 from pendula.studies.certified.certificate import make_certificate
+from problems import problem_of
 
 CHECKER = ROOT / "scripts/check_certificate.py"
 COMMITTED = ROOT / "tests/baseline/proofs/short_case.json"
@@ -40,12 +39,8 @@ def test_a_stranger_needs_nothing_but_python(tmp_path):
 
 
 def test_the_committed_certificate_is_what_the_library_makes(committed):
-    files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
-    raw = {k: v for file in files for k, v in yaml.safe_load(file.read_text()).items()}
-    settings = load(raw)
-    given = settings.certified.certificate
-    short = {"half_width": given.half_width, "end_time": given.end_time}
-    assert make_certificate(Problem.of({**settings.problem(given.case), **short})) == committed
+    given = yaml.safe_load((ROOT / "config/certified.yaml").read_text())["certified"]["certificate"]
+    assert make_certificate(problem_of(given.pop("case"), **given)) == committed
 
 
 @pytest.fixture

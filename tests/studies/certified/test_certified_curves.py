@@ -6,7 +6,7 @@ from helpers import ROOT
 from oracle import laplacian
 from pendula.datasets.netcdf import as_xarray, read
 from pendula.models.linear_chain import flow
-from pendula.problem import Constants, Problem, on_sites, read_initial
+from pendula.problem import Constants
 from pendula.studies.certified import norm, regular
 from pendula.studies.certified.contents import curve_contents
 from pendula.studies.certified.figures import draw_curves, gather_curves
@@ -20,19 +20,13 @@ from pendula.studies.certified.norm import (
 )
 from pendula.studies.certified.polynomials import Curve, StepError, add_up, find_curve, linear
 from pendula.studies.certified.regular import PARTS, norms_at, prove
+from problems import make_problem, problem_of
 
 
-def problem(omega=-4.0, half_width=4, end_time=2.0, boundary="dirichlet", scale=1.0, **constants):
-    given = {"epsilon": 1.0, "gamma": 1.0, "omega": omega, **constants}
-    return Problem(
-        constants=Constants(**given),
-        half_width=half_width,
-        boundary=boundary,
-        initial=scale * np.array([[0.2, 1.0, 0.1j], [0.0, 0.1, 0.0]]),
-        end_time=end_time,
-        output_step=0.025,
-        solver={"name": "polynomials"},
-    )
+def problem(omega=-4.0, boundary="dirichlet", scale=1.0, epsilon=1.0, gamma=1.0, **changes):
+    data = scale * np.array([[0.2, 1.0, 0.1j], [0.0, 0.1, 0.0]])
+    given = {"half_width": 4, "end_time": 2.0, "output_step": 0.025} | changes
+    return make_problem(data, (epsilon, gamma, omega), boundary, **given)
 
 
 def certify(given, curve=None):
@@ -148,15 +142,7 @@ def test_the_bound_is_the_sum_of_its_parts_and_each_is_there():
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
 def test_no_output_is_further_from_the_reference_than_its_bound(case):
     known = read(ROOT / f"tests/baseline/reference/{case}.nc")
-    given = Problem(
-        constants=Constants.of(known.attrs),
-        half_width=int(known.attrs["half_width"]),
-        boundary=known.attrs["boundary"],
-        initial=on_sites(read_initial(known.attrs["initial"])),
-        end_time=10.0,
-        output_step=0.025,
-        solver={"name": "polynomials"},
-    )
+    given = problem_of(case, end_time=10.0)
     found = certify(given)
     assert found.bound[-1] < 1e-11
     for name in ("linf", "l2"):

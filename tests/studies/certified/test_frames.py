@@ -9,22 +9,16 @@ import yaml
 from helpers import ROOT
 from pendula.configuration.schema import PAPER_CASES
 from pendula.datasets.netcdf import read
-from pendula.problem import Constants, Problem, on_sites, read_initial
 from pendula.studies.certified import fixed_point, frames
+from pendula.studies.certified.polynomials import linear
+from problems import make_problem, problem_of
 
 BITS, ORDER = 96, 36
 
 
-def problem(half_width=2, end_time=0.6, **changes):
-    return Problem(
-        constants=Constants(epsilon=0.9, gamma=0.7, omega=-1.3),
-        half_width=half_width,
-        boundary="dirichlet",
-        initial=on_sites({0: (1.5, 0.1j)}),
-        end_time=end_time,
-        output_step=0.05,
-        solver={"name": "polynomials"},
-    ).changed(**changes)
+def problem(data=((0, 1.5, 0), (0, 0.1j, 0)), **changes):
+    given = {"half_width": 2, "end_time": 0.6, "output_step": 0.05} | changes
+    return make_problem(np.array(data), (0.9, 0.7, -1.3), **given)
 
 
 def steps_of(given, bits=BITS, order=ORDER):
@@ -90,8 +84,6 @@ def test_the_defect_is_what_a_curve_misses_of_the_equation():
 
 
 def test_the_half_chain_has_the_field_of_the_whole():
-    from pendula.studies.certified.polynomials import linear
-
     given, draws = problem(half_width=3), np.random.default_rng(1)
     chain = fixed_point.half_chain(given, BITS)
     half = draws.normal(size=(2, 2, 4))
@@ -135,13 +127,9 @@ def _raised(steps, output, place, by):
     return [*steps[:output], [first._replace(terms=terms), *rest], *steps[output + 1 :]]
 
 
-def _of(given, **changes):
-    return steps_of(given.changed(**changes))[1]
-
-
 WRONG = {
-    "a constant": lambda given, steps: _of(given, gamma=0.7 + 1e-9),
-    "the data": lambda given, steps: _of(given, initial=(1 + 1e-9) * given.initial),
+    "a constant": lambda given, steps: steps_of(given.changed(gamma=0.7 + 1e-9))[1],
+    "the data": lambda given, steps: steps_of(given.changed(initial=(1 + 1e-9) * given.initial))[1],
     "a coefficient": lambda given, steps: _raised(steps, 3, (0, 1, 5), 2 ** (BITS - 40)),
     "a jump": lambda given, steps: _raised(steps, 4, (1, 2, 0), 2 ** (BITS - 40)),
     "an interval": lambda given, steps: steps[:4] + steps[5:] + steps[-1:],
@@ -158,16 +146,6 @@ def test_a_wrong_curve_is_found_out(name, right):
     assert found > 0.99 * off
 
 
-def _in_eight(state, chain):
-    """Return eight steps that lead over the time between two outputs."""
-    steps = []
-    for _ in range(8):
-        terms = fixed_point.taylor(state, chain, chain.interval / 8, ORDER)
-        state = fixed_point.end(terms)
-        steps.append(fixed_point.Step(8, terms))
-    return steps
-
-
 UNEVEN = {
     "one left out": lambda eight: eight[:3] + eight[4:],
     "one too many": lambda eight: [*eight, eight[-1]],
@@ -179,9 +157,14 @@ UNEVEN = {
 
 @pytest.mark.parametrize("name", UNEVEN)
 def test_steps_that_do_not_cover_the_time_between_outputs_are_refused(name):
-    given = problem(end_time=0.05)
+    given, eight = problem(end_time=0.05), []
     chain = fixed_point.half_chain(given, BITS)
-    eight = _in_eight(fixed_point.start(given, chain)[0], chain)
+    state = fixed_point.start(given, chain)[0]
+    while len(eight) < 8:
+        eight.append(
+            fixed_point.Step(8, fixed_point.taylor(state, chain, chain.interval / 8, ORDER))
+        )
+        state = fixed_point.end(eight[-1].terms)
     assert bound(given, [eight]) < 1e-20
     with pytest.raises(fixed_point.StepError, match="more or less than the time"):
         certify(given, [UNEVEN[name](eight)])
@@ -234,7 +217,7 @@ def exactly_missed(terms, step, chain):
 
 
 def test_the_data_must_be_even():
-    for wrong in (problem(boundary="free"), problem(initial=on_sites({1: (1.0, 0.0)}))):
+    for wrong in (problem(boundary="free"), problem(((0, 0, 1.0), (0, 0, 0)))):
         with pytest.raises(fixed_point.NotEvenError):
             fixed_point.half_chain(wrong, BITS)
 
@@ -246,11 +229,9 @@ BY_FRAMES = [path for path in COMMITTED if "solver_bits" in read(path).attrs]
 @pytest.mark.parametrize("path", BY_FRAMES, ids=lambda path: path.stem)
 def test_no_committed_bound_is_below_the_distance_to_the_reference(path):
     one, known = read(path), read(ROOT / f"tests/baseline/reference/{path.name}")
-    count = one.sizes["tau"]
-    assert np.allclose(one["tau"], known["tau"][:count], rtol=0.0, atol=1e-9)
+    known = known.reindex(tau=one["tau"], method="nearest", tolerance=1e-9)
     for name in ("linf", "l2"):
-        assert (abs(one[name] - known[name].values[:, :count]) <= one["bound"]).all()
-    assert one["bound"][-1] < 1e-9
+        assert (abs(one[name] - known[name]) <= one["bound"]).all()
 
 
 def test_every_case_of_figs_2_to_4_is_proved_to_its_end():
@@ -267,15 +248,7 @@ def test_every_case_of_figs_2_to_4_is_proved_to_its_end():
 @pytest.mark.parametrize("path", BY_FRAMES, ids=lambda path: path.stem)
 def test_the_first_outputs_are_those_that_are_committed(path):
     one = read(path)
-    given = Problem(
-        constants=Constants.of(one.attrs),
-        half_width=int(one.attrs["half_width"]),
-        boundary=one.attrs["boundary"],
-        initial=on_sites(read_initial(one.attrs["initial"])),
-        end_time=0.05,
-        output_step=0.025,
-        solver={"name": "polynomials"},
-    )
+    given = problem_of(path.stem, end_time=0.05)
     keys = ("bits", "order", "outputs_per_frame")
     found = frames.certify(given, **{key: int(one.attrs[f"solver_{key}"]) for key in keys})
     assert (found.bound == one["bound"].values[:3]).all()

@@ -23,7 +23,7 @@ from pendula.models.pairs import FAMILIES, pair
 
 
 class WrongCurve(Model):
-    """A curve of a case, made with other constants than its own, which the proof must find out."""
+    """A curve of a case, made with other constants than its own: its bound must be large."""
 
     case: Name
     end_time: Positive
@@ -97,17 +97,13 @@ class Settings(Model):
     def faults(self, settings: Configuration) -> Faults:
         """Yield the cases that the configuration has not, and states that do not exist."""
         yield from settings.absent("cases", "curves.cases", self.curves.cases)
-        for case, frames in self.frames.items():
-            yield from _frames_faults(case, frames.end_time, settings)
+        for case, frames in self.frames.items():  # compared with a reference, and kept
+            if case not in PAPER_CASES:
+                yield "frames", f"{shown(case)} is no case of the paper: {', '.join(PAPER_CASES)}"
+            elif not is_multiple(frames.end_time, step := settings.cases[case].output_step):
+                fault = f"{frames.end_time:g} is no multiple of output_step, {step:g}"
+                yield f"frames.{case}.end_time", fault
         yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault
         yield from settings.absent("cases", "certificate.case", [self.certificate.case])
-
-
-def _frames_faults(case: str, end_time: float, settings: Configuration) -> Faults:
-    """Yield what a proof by frames cannot do: it is compared with a reference, and kept."""
-    if case not in PAPER_CASES:
-        yield "frames", f"{shown(case)} is no case of the paper: {', '.join(PAPER_CASES)}"
-    elif not is_multiple(end_time, step := settings.cases[case].output_step):
-        yield f"frames.{case}.end_time", f"{end_time:g} is no multiple of output_step, {step:g}"
