@@ -49,8 +49,11 @@ def test_each_claim_is_shown_once_and_those_that_are_not_confirmed_in_the_open()
 def test_claims_on_a_figure_are_those_of_the_paper_alone(of_rows):
     (row,) = (row for row in ROWS if row["name"] == "fig5_decreases")
     own = row | {"name": "own", "place": "Beyond the paper, Fig 5", "origin": "of this project"}
-    ledger = claims.Ledger(of_rows(row, own))
-    assert [one["name"] for one in ledger.on("Fig 5")] == [row["name"]] and not ledger.on("Fig 6")
+    both = row | {"name": "both", "place": "Section 5, Figs 2 and 5 left"}
+    ledger = claims.Ledger(of_rows(row, own, both))
+    assert [[one["name"] for one in ledger.on(figure)] for figure in (2, 5, 6)] == [
+        ["both"], ["fig5_decreases", "both"], []
+    ]  # fmt: skip
 
 
 def test_numbers_of_the_ledger_link_to_what_decides_them(of_rows):

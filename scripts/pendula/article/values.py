@@ -1,7 +1,6 @@
 """The numbers that the article quotes, by name, each read from a dataset and linked to it."""
 
 import json
-import re
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -72,15 +71,9 @@ class Numbers:
 
     def verdicts(self, figure: int) -> str:
         """Return how many of the paper's claims on a figure have each verdict."""
-        of_paper = (row for row in load(self.results) if row["origin"] == Origin.PAPER)
-        found = Counter(row["verdict"] for row in of_paper if figure in figures_of(row["place"]))
+        found = Counter(row["verdict"] for row in self.ledger.on(figure))
         told = [f"{found[one]} {words}" for one, words in VERDICTS.items() if found[one]]
         return ", ".join(told) or "none"
-
-
-def figures_of(place: str) -> set[int]:
-    """Return the figures that the place of a claim names, such as "Section 5, Figs 2 and 3"."""
-    return set(map(int, re.findall(r"\d", " ".join(re.findall(r"Figs? ([\d, and]+)", place)))))
 
 
 def gather(results: Results) -> dict[str, Any]:

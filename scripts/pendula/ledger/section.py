@@ -1,5 +1,6 @@
 """The ledger in the report: claims that are not confirmed in full, and all others folded."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -124,7 +125,8 @@ class Ledger:
         source = self._rows[claim]["decided_by"][0]
         return self._results.quote(source, self.value(claim, key), digits)
 
-    def on(self, place: str) -> list[dict]:
-        """Return the rows of the paper's claims on a place such as "Fig 5"."""
-        rows = (row for row in self._all if place in row["place"])
+    def on(self, figure: int) -> list[dict]:
+        """Return the rows of the paper's claims on a figure, whose place may be "Figs 2 and 6"."""
+        named = re.compile(rf"Figs? [\d, and]*{figure}")
+        rows = (row for row in self._all if named.search(row["place"]))
         return [row for row in rows if row["origin"] == Origin.PAPER]

@@ -64,7 +64,7 @@ def _omegas(results: Results, folder: str, names: list[str]) -> str:
 
 def _verdict(which: int, shown: str, ledger: Ledger) -> list:
     """Return a row: a figure, what it shows, and the verdicts on the claims about it."""
-    rows = ledger.on(f"Fig {which}")
+    rows = ledger.on(which)
     name = told('<a href="#figure_fig{n}">Fig {n}</a>, {shown}', n=which, shown=shown)
     verdicts = {verdict: [row["name"] for row in rows if row["verdict"] == verdict]
                 for verdict in Verdict}  # fmt: skip
