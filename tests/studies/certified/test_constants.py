@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from flint import arb
 from pendula.models import bounds, linear_chain
-from pendula.problem import Constants, Problem, on_sites
+from pendula.problem import Constants
 from pendula.studies.certified import balls, constants
 from pendula.studies.certified.constants import Parameters, farthest
 from pendula.studies.theory import errata
 from pendula.studies.theory.equations import total_energy
+from problems import make_problem
 
 HERE = Constants(epsilon=1.0, gamma=1.0, omega=-4.0)
 OTHERS = [HERE, Constants(epsilon=0.7, gamma=-0.3, omega=-2.2),
@@ -35,10 +36,7 @@ def test_the_energy_is_that_of_the_kernels(k, boundary):
 
 @pytest.mark.parametrize("k", OTHERS)
 def test_bounds_of_a_case_are_those_of_the_models(k):
-    problem = Problem(
-        constants=k, half_width=5, boundary="dirichlet", initial=on_sites({0: (0.3, "0.1j")}),
-        end_time=1.0, output_step=1.0, solver={"name": "taylor"},
-    )  # fmt: skip
+    problem = make_problem(np.array([[0, 0.3, 0], [0, 0.1j, 0]]), k, half_width=5)
     found = {one.variable: one.ball for one in constants.of_cases({"mine": problem})}
     h, start = total_energy(k, "dirichlet", problem.amplitudes), 0.1
     delta_0, c_0 = bounds.theorem_2_constants(k)
@@ -51,15 +49,10 @@ def test_bounds_of_a_case_are_those_of_the_models(k):
 
 
 def test_theorem_1_needs_its_range():
-    def variables(omega):
-        problem = Problem(
-            constants=Constants(epsilon=1.0, gamma=1.0, omega=omega), half_width=3,
-            boundary="dirichlet", initial=on_sites({0: (1.0, 0.1)}), end_time=1.0,
-            output_step=1.0, solver={"name": "taylor"},
-        )  # fmt: skip
-        return {one.variable for one in constants.of_cases({"mine": problem})}
-
-    assert "theorem_1" in variables(6.5) and "theorem_1" not in variables(6.0)
+    for omega, covered in ((6.5, True), (6.0, False)):
+        given = make_problem(np.array([[1.0], [0.1]]), (1, 1, omega))
+        names = {one.variable for one in constants.of_cases({"mine": given})}
+        assert ("theorem_1" in names) == covered
 
 
 @pytest.mark.parametrize("omega", [-4.0, 0.0, 1.3, 2.0, 5.5])
@@ -95,11 +88,8 @@ def test_a_tenth_is_not_the_double_next_to_it():
     assert constants.power(data).contains(arb(1) / 100)
 
 
-@pytest.mark.parametrize("stored", [1.01 * 4.0, np.nan, np.inf, -4.0])
-def test_a_wrong_number_is_far(stored):
-    assert farthest(arb(4), stored) > 0.009
-
-
-def test_a_small_constant_is_held_to_an_absolute_distance():
+def test_a_wrong_number_is_far_and_a_small_constant_is_held_to_an_absolute_distance():
+    for stored in (1.01 * 4.0, np.nan, np.inf, -4.0):
+        assert farthest(arb(4), stored) > 0.009
     assert farthest(arb(0), 2e-16) == pytest.approx(2e-16, rel=1e-9)
     assert farthest(arb(1000), 1001.0) == pytest.approx(1e-3, rel=1e-9)

@@ -150,6 +150,8 @@ def test_a_worse_state_has_a_larger_radius_and_a_wrong_one_is_refused():
     assert np.all(radii >= sizes) and np.all(radii < 3.0 * sizes)
     with pytest.raises(RefusedError, match="residual"):
         proved(EQUAL, state=1.3 * state)
+    with pytest.raises(RefusedError, match="zero"):
+        proved(EQUAL, state=0.0 * state)
 
 
 def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
@@ -163,37 +165,23 @@ def test_a_ball_that_is_mapped_into_itself_must_be_contracted_too():
     assert 0.342 < radius < 0.36 < 0.49 < unique < 0.658
 
 
-def test_zero_is_no_breather():
-    with pytest.raises(RefusedError, match="zero"):
-        proved(EQUAL, state=np.zeros((2, HERE.half_width + 1)))
-
-
 def test_at_a_pitchfork_there_is_no_proof():
     """A = B meets the asymmetric family at Omega = -0.5870372 (results/breathers/steady.nc)."""
     beside = HERE._replace(omega=-0.7, half_width=32)
     state = find_state(beside, EQUAL)
     assert proved(EQUAL, beside, state).radius < 1e-6
-    at = beside._replace(omega=-0.58703721)
-    with pytest.raises(RefusedError):
-        proved(EQUAL, at, with_equal_parts(at, state))
-
-
-def with_equal_parts(chain, state):
-    """Return the state with A = B: the slope of one component alone stays regular."""
-    a, sites = state[0], state.shape[1]
-    coupled = chain.epsilon * (np.eye(sites, k=1) + np.eye(sites, k=-1))
-    coupled[0, 1] *= 2.0
-    coupled += (chain.omega - 2.0 * chain.epsilon) * np.eye(sites)
+    # at the pitchfork itself the state with A = B, whose own slope stays regular
+    at, a, sites = beside._replace(omega=-0.58703721), state[0], state.shape[1]
+    linear = np.eye(sites, k=1) + np.eye(sites, k=-1) + (at.omega - 2.0) * np.eye(sites)
+    linear[0, 1] *= 2.0
     for _ in range(20):
-        a = a - np.linalg.solve(coupled + np.diag(1.5 * a * a), coupled @ a + 0.5 * a**3)
-    return np.stack([a, a])
+        a = a - np.linalg.solve(linear + np.diag(1.5 * a * a), linear @ a + 0.5 * a**3)
+    with pytest.raises(RefusedError):
+        proved(EQUAL, at, np.stack([a, a]))
 
 
-def test_a_family_that_does_not_exist_is_lost():
+def test_families_that_do_not_exist_or_end_before_the_coupling_are_lost():
     with pytest.raises(LostError, match="no pair"):
         find_state(HERE._replace(omega=-1.5), IMAGINARY)
-
-
-def test_a_step_that_leaves_the_family_is_lost():
     with pytest.raises(LostError):
         find_state(HERE._replace(epsilon=40.0), ASYMMETRIC)
