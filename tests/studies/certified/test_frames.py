@@ -269,3 +269,22 @@ def test_the_quadratic_term_adds_what_errors_and_amplitudes_of_one_size_make():
     exact = time * 0.5 * (3.0 * largest * y + y * y) * y
     assert frames._quadratic(0.0, moved, largest, time) == pytest.approx(exact, rel=1e-6, abs=0.0)
     assert np.isinf(frames._quadratic(0.0, moved, 1e3, time))
+
+
+def test_what_no_column_follows_grows_at_the_rate_of_the_linearised_flow(right):
+    _, chain, ((step, *_), *_), _ = right
+    tube = frames.begin(chain, 0.0)
+    tube = tube._replace(z=np.zeros_like(tube.z), w=np.array([1e-20, 0.0, 0.0, 0.0]))
+    p = fixed_point.doubles(step, chain, ORDER)
+    largest = np.sqrt((p**2).sum(axis=1).max(axis=(1, 2))).sum()
+    h, rate = float(chain.interval / step.pieces), 2.0 * 0.7 + 0.9 / 2.0 + largest**2 / 2.0
+    found = frames.advance(tube, step, chain, 0.0).w[0]
+    assert found == pytest.approx(1e-20 * frames.exponential(h * rate), rel=1e-6, abs=0.0)
+
+
+def test_a_distance_counts_both_halves_of_the_chain(right):
+    tube = frames.begin(right[1], 0.0)
+    z, w = np.zeros_like(tube.z), np.array([0.0, 1e-20, 0.0, 0.0])
+    z[1, 0] = 1e-20  # Re A of the site 1
+    found = frames.distances(tube._replace(z=z, w=w))
+    assert found[:2] == pytest.approx(np.sqrt(2.0) * 1e-20, rel=1e-6, abs=0.0)
