@@ -1,8 +1,8 @@
-"""A proof of a short case as a file that others can check: see scripts/certified/check_certificate.
+"""The proof of a short case as a file that others can check with scripts/check_certificate.py.
 
 All numbers are integers: coefficients in units of 2^-BITS, rates of 2^-RATE_BITS, bounds of
-2^-BOUND_BITS. The coefficients are rounded so far that the bound is hardly larger than it must be,
-and whoever changes a last digit breaks it.
+2^-BOUND_BITS. The coefficients have so few digits that the bound is close to what rounding them
+requires, and a change of a last digit breaks the proof.
 """
 
 import json
@@ -23,7 +23,7 @@ BITS = 34
 RATE_BITS, BOUND_BITS = 20, 60
 ORDER = 14
 SLACK = 1e-6
-"""Each step leaves so much more room than the one before, as a part of the bound."""
+"""By this part each bound exceeds the computed one, times the number of the step."""
 
 
 def make_certificate(problem: Problem) -> dict[str, Any]:

@@ -31,7 +31,7 @@ NEAR = Cutoff(1e-12, "a state is told to twelve digits")
     ),
 )
 def breathers_exist(proved) -> Finding:
-    """Ask for a radius of each state within which a true one lies, and for no other one near."""
+    """Require that each state has a true one within a small radius, and report the next one."""
     measured = {
         "proofs": proved.sizes["proof"],
         "largest_radius": proved["radius"].max(skipna=False),

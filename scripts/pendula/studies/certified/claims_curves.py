@@ -1,4 +1,4 @@
-"""What is proved of the curves of small data, and whether the proof notices what is wrong."""
+"""What is proved of the curves of small initial conditions."""
 
 from pendula.ledger.claim import Control, claim, runs
 from pendula.ledger.criterion import AllOf, AtMost, Finding, judge

@@ -85,7 +85,7 @@ from .fixed_point import (
     whole,
 )
 from .norm import UP
-from .regular import TINY, UNIT, Certified, exponential, tree_sum
+from .regular import TINY, UNIT, Certified, exponential, norms_of
 
 PARTS = ("start", "defect", "quadratic", "evaluation")
 ORDER = 24
@@ -298,15 +298,9 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
         exponents.append(float(log(round_up(unit_error))))
         if count and count % outputs_per_frame == 0:
             tube = reframe(tube)
-    squares = np.array(states)[:, 0] ** 2 + np.array(states)[:, 1] ** 2  # (time, component, site)
-    return Certified(
-        problem.times,
-        np.sqrt(squares.max(axis=2)).T,
-        np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T,
-        np.array(parts).T,
-        np.array(exponents),
-        np.array(states),
-    )
+    found = np.array(states)
+    parts, exponents = np.array(parts).T, np.array(exponents)
+    return Certified(problem.times, *norms_of(found), parts, exponents, found)
 
 
 def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) -> float:

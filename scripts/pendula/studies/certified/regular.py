@@ -314,14 +314,18 @@ def norms_at(proof: Proof, tau: np.ndarray) -> Certified:
     theta = (tau - index * step) / step
     interval = np.ceil(theta * SAMPLES).astype(int)
     states, off = evaluate(proof.curve.terms[:, index], theta[:, None, None, None])
-    squares = states[:, 0] ** 2 + states[:, 1] ** 2  # (time, component, site)
-    l2 = np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
-    linf = np.sqrt(squares.max(axis=2)).T
     parts = np.empty((len(PARTS), len(tau)))
     parts[:-1] = proof.errors[index, interval].T
     # squares, the at most 16 levels of the sum, and the root: 12 roundings of the norm or fewer
     parts[-1] = UP * (_norms(off, 1) + 12.0 * UNIT * _norms(states, 1))
-    return Certified(tau, linf, l2, parts, proof.exponents[index * SAMPLES + interval], states)
+    exponents = proof.exponents[index * SAMPLES + interval]
+    return Certified(tau, *norms_of(states), parts, exponents, states)
+
+
+def norms_of(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return l-infinity and l2 norms, (component, time), of (time, part, component, site)."""
+    squares = states[:, 0] ** 2 + states[:, 1] ** 2
+    return np.sqrt(squares.max(axis=2)).T, np.sqrt(tree_sum(np.moveaxis(squares, 2, 0))).T
 
 
 def tree_sum(values: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """Steady states in double precision, to be proved: families of one pair, continued in epsilon.
 
-Nothing here needs to be exact: `existence` proves that a true state is near to one that is found,
-or refuses it. Yet all is made of + - * / and sqrt in one order, so that the doubles are the same on
+Nothing here needs to be exact: `existence` proves that a true state is near to the one found, or
+rejects it. Yet all is made of + - * / and sqrt in one order, so that the doubles are the same on
 every machine. States are even in n, so the sites 0..M are kept, with the sites beyond M at rest.
 """
 
