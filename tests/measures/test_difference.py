@@ -99,9 +99,9 @@ def test_another_case_has_no_horizon():
     [(8.0, 5.0, 0.002, 5.0), (8.0, 3.0, 0.008, 1.0), (7.0, 5.0, 0.002, np.nan)],
 )
 def test_a_curve_is_proved_as_long_as_its_bound_is_not_visible(omega, end, slope, until):
-    """The bound is a part of the smallest full scale, that of B, which is 1."""
+    """The bound is a part of the smallest full scale, that of B, which is 1 in l-infinity."""
     proved = run(omega=omega).sel(tau=slice(end))
-    proved["bound"] = slope * proved["tau"]
+    proved = proved.assign(bound=slope * proved["tau"], l2=2.0 * proved["l2"])
     found = trust_solvers({"case.run": run()}, {"case": run()}, proved={"case": proved})
     bound = found["proven_bound"].sel(case="case")
     expected = slope * bound["tau"] if omega == 8.0 else np.nan * bound

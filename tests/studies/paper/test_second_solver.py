@@ -102,6 +102,7 @@ def test_one_norm_of_many_does_not_tell_runs_apart_and_most_of_them_do():
     assert claims.of_most([np.array([0.4, 0.9]), 0.5, 1e-6]) == pytest.approx(4.0 / 3.0 * 0.5)
     assert claims.of_most([0.9, 1e-3, 1e-3, 1e-4]) == pytest.approx(4.0 / 3.0 * 1e-3)
     assert claims.of_most([0.03]) == 0.03
+    assert claims.together([np.array([0.4, 0.02]), 0.5]) == pytest.approx(0.06)
 
 
 def swept(l2, dims=("half_width", "quantity", "statistic", "window")):

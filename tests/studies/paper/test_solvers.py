@@ -19,6 +19,16 @@ def test_drift_is_measured_from_the_start(trajectories, compared):
         assert np.allclose(drift, expected, rtol=1e-12, atol=0)
 
 
+def test_a_drift_is_kept_up_to_twice_the_stated_order(trajectories, swept_pairs):
+    changed = dict(trajectories)
+    for solver, drift in (("ode45", 1.9e-6), ("dop853", 2.1e-6)):
+        run = trajectories[f"fig2_small.{solver}"]
+        changed[f"fig2_small.{solver}"] = run.assign(energy=7.0 + drift * (run["tau"] == 5.0))
+    found = compare_solvers(changed, *swept_pairs).sel(case="fig2_small")
+    assert found["kept"].sel(solver="ode45").values.tolist() == [1, 1]
+    assert found["kept"].sel(solver="dop853").values.tolist() == [0, 0]
+
+
 @pytest.mark.parametrize(
     ("pair", "expected"),
     [
