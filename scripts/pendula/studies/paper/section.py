@@ -93,14 +93,14 @@ def _norms(results: Results, which: int) -> dict[str, Any]:
     caption = f"Norms of A (red) and of B (blue) against τ for Fig {which}, drawn as Fig 2."
     long_caption = told(
         "Norms of A (red) and of B (blue) against τ, ℓ∞ left and ℓ² right. A dashed line marks the "
-        "time from which the run is off its reference, which is verified in multiprecision, by "
-        "{visible} of full scale. The strips below it show the run, the reference, and the band of "
-        "{share} of the runs of a perturbed ensemble with their median. Without a dashed line the "
-        "two agree as long as both are known.",
+        "time from which the run differs from its multiprecision reference by {visible} of full "
+        "scale. The panels with such a line show the run, the reference, and the median of a "
+        "perturbed ensemble with the band that contains {share} of its runs. In panels without a "
+        "line, run and reference agree as far as both are known.",
         visible=visible,
         share=results.say(SAMPLES, percent(float(results[SAMPLES]["band_share"]))),
     )
-    head = ["case", "ℓ² of the pair", "its mean, second half", f"off by {visible} at τ",
+    head = ["case", "ℓ² of the pair", "its mean, second half", f"error {visible} at τ",
             "bounded by", "largest P over that bound", "steps"]  # fmt: skip
     return {
         "figure": results.figure(f"fig{which}", long_caption if which == 2 else caption),
@@ -129,10 +129,10 @@ def _run(results: Results, name: str) -> list:
 def _sweeps(results: Results, which: int) -> dict[str, Any]:
     caption = f"Norms of the pair against the half-width M for Fig {which}, drawn as Fig 5."
     long_caption = (
-        "Norms of the pair against the half-width M. Filled marks are maxima, of which the paper's "
-        "text speaks, and hollow marks averages, as in its caption. Bars are the mean and the "
-        "standard deviation of a perturbed ensemble of a chaotic case. Equal marks on chains "
-        "whose ends the front does not reach are one sample."
+        "Norms of the pair against the half-width M. Filled marks are maxima, as in the text of "
+        "the paper, and hollow marks averages, as in its caption. Bars are the mean and standard "
+        "deviation of a perturbed ensemble of a chaotic case. Marks on chains whose ends the front "
+        "does not reach come from the same motion, and are no independent samples."
     )
     rows = [_curve(results, name, statistic, norm)
             for name in OF_WIDTH[which] for norm in DRAWN[which]
@@ -202,8 +202,8 @@ def _samples(results: Results, which: int) -> Table:
             results.quote(SAMPLES, float(last["deviations"]), 2),
         ])  # fmt: skip
     head = ["case", "M", "runs", "mean of ℓ²", "standard deviation", "solver of the figure",
-            "its ℓ²", "off the mean, standard deviations"]  # fmt: skip
-    return Table("Perturbed ensembles on the longest chain that has one", head, rows)
+            "its ℓ²", "distance from the mean, standard deviations"]  # fmt: skip
+    return Table("Perturbed ensembles on the longest chain for which they were run", head, rows)
 
 
 # --- Space-time pictures --------------------------------------------------------------------------
@@ -217,8 +217,8 @@ def gather_motion(results: Results, ledger: Ledger) -> dict[str, Any]:
     visible = percent(float(results[TRUST]["size"].sel(level="visible")))
     caption = (
         "Moduli of A and B over sites and time, for the cases of Fig {which}. From the white "
-        "dashed line on the run is off its reference by {visible}; a case without a reference has "
-        "no line."
+        "dashed line on the run differs from its reference by {visible}; a case without a "
+        "reference has no line."
     )
     rows = []
     for source in (f"trajectories/{name}" for names in OF_TIME.values() for name in names):
