@@ -3,7 +3,7 @@
 # there is.
 from snakemake.utils import min_version
 
-min_version("9.19")
+min_version("9.20")
 
 
 include: "workflow/rules/common.smk"
