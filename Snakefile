@@ -27,11 +27,11 @@ MADE_TOGETHER = {
     "stability_chart": "Lemma 1: where the chain at rest is unstable",
     "growth_rates": "Lemma 1: how fast small motions grow where the chain at rest is unstable",
     "lyapunov": "How fast small errors grow, and until when a run can be trusted",
-    "symmetry": "How a motion that is even in n loses its evenness",
+    "symmetry": "How a symmetric motion loses its symmetry",
     "pendula_remainder": "Errors of the expansion against time and against mu, and its horizons",
-    "pendula_over_the_top": "The sea of the pendula, and who leaves it over the top",
-    "growth_law": "The chain without ends: norms against time, and the exponents that they follow",
-    "front": "The chain without ends: the speed of the front, and the bulk behind it",
+    "pendula_over_the_top": "The chaotic state of the pendula, and first passages over the top",
+    "growth_law": "The infinite chain: norms against time, and the exponents that they follow",
+    "front": "The infinite chain: the speed of the front, and the bulk behind it",
     "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
 }
 FIGURES = [
@@ -97,7 +97,7 @@ rule all:
         "<results>/live.html",
         *expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),
     message:
-        "All datasets, figures and tables are there, and the report tells of them: results/report.html"
+        "All datasets, figures and tables are there: begin with results/article.html and results/report.html"
 
 
 rule paper:
@@ -123,7 +123,7 @@ rule theory:
 
 
 rule chaos:
-    "How fast small errors grow, how evenness is lost, and ensembles of the chaotic cases"
+    "How fast small errors grow, how symmetry is lost, and ensembles of the chaotic cases"
     input:
         checks(*CHAOS_CHECKS),
         rules.chaos_figures.output,
@@ -145,10 +145,10 @@ NAMED = {
     name: (text, files_of(f"<results>/figures/{name}")) for name, text in MADE_TOGETHER.items()
 }
 LONGER_STUDIES = {
-    "sensitivity": "Which of almost equal data spread, with many members and a long scan",
+    "sensitivity": "Share of a perturbed ensemble that spreads, with many members and a long scan",
     "fates": "The map of fates on a fine grid, which takes minutes",
     "remainder": "The error of the expansion to the end of the paper's runs, which takes a minute",
-    "over_the_top": "The sea, and when pendula go over the top, with many members for long",
+    "over_the_top": "The chaotic state, and first passages over the top, with many members for long",
 }
 for name, text in LONGER_STUDIES.items():
     figure = name if name in FIGURES else f"pendula_{name}"

@@ -27,7 +27,7 @@ use rule dataset as measure_lyapunov with:
 
 
 use rule dataset as measure_symmetry with:
-    "How even data lose their evenness: by rounding, and by odd perturbations"
+    "How symmetric motions lose their symmetry: by rounding, and by odd perturbations"
     input:
         kernels=kernels("dop853"),
     pathvars:
@@ -79,7 +79,7 @@ use rule dataset as measure_members with:
 
 
 use rule dataset as measure_lifetimes with:
-    "Ensembles that tell when the central pendulum stops being localised, by its initial amplitude"
+    "Ensembles that show when the central pendulum stops being localised, by its initial amplitude"
     input:
         kernels=kernels("taylor"),
     pathvars:
@@ -134,7 +134,7 @@ use rule dataset as compare_ensembles with:
 
 
 use rule figure as ensembles with:
-    "What runs from almost equal data share, beside the paper's own"
+    "Statistics of perturbed ensembles, beside the paper's own runs"
     input:
         ensembles="<results>/checks/ensembles.nc",
         comparison="<results>/checks/ensemble_runs.nc",

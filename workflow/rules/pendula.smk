@@ -123,7 +123,7 @@ use rule figure as pendula_phases with:
 
 
 use rule figure as draw_over_the_top with:
-    "The sea of the pendula, and who leaves it over the top"
+    "The chaotic state of the pendula, and first passages over the top"
     input:
         sea="<results>/{size}pendula/sea.nc",
         over_the_top="<results>/{size}pendula/over_the_top.nc",

@@ -20,7 +20,7 @@ def sized(part, *names):
 
 
 def extent(wildcards):
-    """Return how far chains without ends are run."""
+    """Return how far infinite chains are run."""
     return SETTINGS.unbounded.long if wildcards.size else SETTINGS.unbounded.short
 
 

@@ -1,4 +1,4 @@
-# The chain without ends: does its l2 norm grow without bound in time? The short study is part of
+# The infinite chain: does its l2 norm grow without bound in time? The short study is part of
 # the full run, the long one is `snakemake unbounded`.
 UNBOUNDED = SETTINGS.unbounded
 GROWTH_CASES = ["fig4_small", "fig3_large", "fig2_large", "fig3_small"]
@@ -6,7 +6,7 @@ MAPS = [f"map_{sweep}" for sweep in PAPER_SWEEPS]
 
 
 rule unbounded:
-    "The long study of the chain without ends (takes about ten minutes): results/long/"
+    "The long study of the infinite chain (takes about ten minutes): results/long/"
     input:
         expand("<results>/long/unbounded/{name}.nc", name=[*UNBOUNDED.names, *MAPS]),
         expand(
@@ -17,7 +17,7 @@ rule unbounded:
 
 
 use rule dataset as spread with:
-    "An ensemble on the chain without ends: results/unbounded/{study}.nc"
+    "An ensemble on the infinite chain: results/unbounded/{study}.nc"
     input:
         kernels=lambda wildcards: kernels(extent(wildcards).solver.name),
     pathvars:
@@ -56,7 +56,7 @@ use rule dataset as map_windows with:
 
 
 use rule dataset as thermal with:
-    "The thermal states that the bulk of a chain without ends is compared with"
+    "The thermal states that the bulk of an infinite chain is compared with"
     pathvars:
         made="unbounded/thermal",
     params:
@@ -69,7 +69,7 @@ use rule dataset as thermal with:
 
 
 use rule dataset as measure_growth with:
-    "The chain without ends: growth laws of the norms, speeds of the front, the bulk behind it"
+    "The infinite chain: growth laws of the norms, speeds of the front, the bulk behind it"
     input:
         runs=expand("<results>/{{size}}unbounded/{case}.nc", case=GROWTH_CASES),
         omegas="<results>/{size}unbounded/omegas.nc",
@@ -86,7 +86,7 @@ use rule dataset as measure_growth with:
 
 
 use rule figure as draw_growth_law with:
-    "The chain without ends: norms against time, and the exponents of time that they follow"
+    "The infinite chain: norms against time, and the exponents of time that they follow"
     input:
         growth="<results>/{size}unbounded/growth.nc",
     pathvars:
@@ -96,7 +96,7 @@ use rule figure as draw_growth_law with:
 
 
 use rule figure as draw_front with:
-    "The chain without ends: the speed of the front, and the bulk behind it"
+    "The infinite chain: the speed of the front, and the bulk behind it"
     input:
         front="<results>/{size}unbounded/front.nc",
     pathvars:
@@ -118,7 +118,7 @@ use rule figure as draw_window_map with:
 
 
 use rule decide_claims as decide_unbounded with:
-    "The claims on chains without ends: results/tables/claims_unbounded.md"
+    "The claims on infinite chains: results/tables/claims_unbounded.md"
     input:
         datasets=[
             "<results>/breathers/sensitivity.nc",

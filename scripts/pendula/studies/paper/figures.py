@@ -82,7 +82,7 @@ def _strips(case: xr.Dataset) -> list[Strip]:
     if known:
         found.append(Strip("true_", "reference, in multiprecision"))
     if "band_l2" in case and case["band_l2"].notnull().any():
-        runs = f"{int(case['members'])} runs from almost equal data"
+        runs = f"{int(case['members'])} runs of a perturbed ensemble"
         found.append(Strip("band_", f"{runs}: median, and 5 to 95 %"))
     return found
 

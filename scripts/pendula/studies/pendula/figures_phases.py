@@ -208,7 +208,7 @@ def _draw_sea(spectrum: Axes, density: Axes, data: xr.Dataset) -> None:
     spectrum.set(xlabel="wave number $k$ (rad)", ylabel="mean $|A(k)|^2$", xlim=(0, np.pi))
     spectrum.set_ylim(0, None)
     spectrum.legend(fontsize=7, handletextpad=0.4)
-    title = rf"(a) spectrum of the sea at $\Omega = {data.attrs['omega']:g}$"
+    title = rf"(a) spectrum of the chaotic state at $\Omega = {data.attrs['omega']:g}$"
     spectrum.set_title(title, loc="left")
     density.set(xlabel="modulus $|A_n|$", ylabel="probability density")
     density.set_xlim(0, float(data["sea_modulus"].max()))
