@@ -5,7 +5,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-of_shells = ("_", "SHLVL", "OLDPWD")
+of_shells = ("_", "SHLVL", "OLDPWD", "PS1")  # bash drops PS1 where nobody types
 links = {n: os.path.realpath(f"/proc/self/fd/{n}") for n in os.listdir("/proc/self/fd")}
 told = {
     "names": [__name__, __file__, len(sys.argv), os.path.dirname(sys.argv[0])],
