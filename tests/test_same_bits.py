@@ -79,6 +79,12 @@ def test_numba_alone_compiles_and_keeps_code_of_the_same_bits(tmp_path):
     assert cold["hashes"] == warm["hashes"] == {name: COMMITTED[name] for name in solvers}
 
 
+def test_a_kernel_made_of_a_traced_model_is_kept_for_other_processes():
+    bits.run("taylor", even=True)
+    found = json.loads(output_of([sys.executable, bits.__file__, 1, "taylor"], dict(os.environ)))
+    assert found["cached"] == {"taylor": 1}
+
+
 @pytest.fixture(scope="module")
 def generic():
     """Return the machine of the most other bits; it stands before all that is made for it."""

@@ -14,6 +14,7 @@ into the constants of the terms of a rate where that costs no multiplication mor
 expression s has the rate cos(s) s', and is carried along with the fields.
 """
 
+import sys
 from collections.abc import Callable, Iterable
 from functools import cache
 from types import ModuleType
@@ -702,8 +703,13 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
 
 @cache
 def load_text(text: str) -> ModuleType:
-    """Return the module of a text, kept in a file so that its kernels can be."""
+    """Return the module of a text, kept in a file so that its kernels can be.
+
+    numba restores a kept kernel only where it can import the modules of its parts, so the module
+    has a name that follows from its text in every process.
+    """
     file = keep_source("model.py", text)
-    module = ModuleType(file.stem)
+    module = ModuleType(f"pendula_model_{file.parent.name}")
+    sys.modules[module.__name__] = module
     exec(compile(text, str(file), "exec"), module.__dict__)
     return module
