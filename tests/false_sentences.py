@@ -263,7 +263,7 @@ def figures(run: Run):
         if bool(comment) != ("Not the paper's: " in text):
             yield f"{name} and its data do not both say what is edited"
         yield from _wrong_values(run, comment, name)
-        if "the paper's data" in text and run.others(DATA):
+        if "the paper's initial conditions" in text and run.others(DATA):
             yield f"{name} names data as the paper's, and {run.others(DATA)[0]} is edited"
 
 

@@ -117,9 +117,8 @@ def horizons_in_words(trust, digits: int = 4) -> list[str]:
 def percent(part: float, digits: int = 2) -> str:
     """Return a fraction in per cent: 13 %."""
     value = 100.0 * float(part)
-    return (
-        f"{value:.0f} %".replace("-", MINUS) if abs(value) >= 10 else f"{number(value, digits)} %"
-    )
+    rounded = f"{value:.0f}".replace("-", MINUS) if abs(value) >= 10 else number(value, digits)
+    return f"{rounded}{FIRM}%"
 
 
 def span(values, digits: int = 3) -> str:

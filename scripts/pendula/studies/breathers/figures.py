@@ -214,7 +214,7 @@ def gather_fates(
     if fine is not None and bool((fates["common"] > 0).all()):
         shown = fine.sel(omega=fates["omega"])
     maps = shown[[*MAPS]].assign(fates[[*OF_CASES]])
-    about = {} if of_paper else {"marked": "the data of Figs 2 to 4"}
+    about = {} if of_paper else {"marked": "initial conditions of Figs 2 to 4"}
     return maps.assign_attrs(about, ratio=fates.attrs["ratio"])
 
 
@@ -252,7 +252,7 @@ def draw_fates(data: xr.Dataset) -> Figure:
         Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in np.unique(np.concatenate(kinds))
     ]
     paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
-                   color="black", label=data.attrs.get("marked", "the paper's data"))  # fmt: skip
+                   color="black", label=data.attrs.get("marked", "the paper's initial conditions"))  # fmt: skip
     figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)
     return figure
 

@@ -137,7 +137,8 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
     rows = [_curve(results, name, statistic, norm)
             for name in OF_WIDTH[which] for norm in DRAWN[which]
             for statistic in STATISTICS]  # fmt: skip
-    head = ["case", "norm", "smallest M", "largest", "largest M", "change", "level"]
+    head = ["case", "norm", "at the smallest M", "largest", "at the largest M", "change",
+            "level, by single runs"]  # fmt: skip
     return {
         "figure": results.figure(f"fig{which}", long_caption if which == 5 else caption),
         "numbers": Table(f"Fig {which}", head, rows),

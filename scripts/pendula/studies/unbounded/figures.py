@@ -62,7 +62,7 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     linf.set_ylim(bottom=0)
     named = {
         rate: r"$(\ell^2)^2 / \tau$",
-        rest: r"$(\ell^2)^2$ off its law (%)",
+        rest: r"$(\ell^2)^2$ / law - 1 (%)",
         exponents: r"exponent of $\tau$ in $\ell^2$",
         linf: NORMS["linf"],
     }
@@ -74,8 +74,8 @@ def draw_growth_law(data: xr.Dataset) -> Figure:
     handles, labels = rate.get_legend_handles_labels()
     bar = Line2D([], [], color="0.3", marker="|", ms=9, mew=0.9, lw=0)
     handles += [Line2D([], [], **LAW), Line2D([], [], **OFFSET), Patch(color="0.75"), bar]
-    labels += ["thermal bulk up to the front", "law with an offset (fitted)"]
-    labels += ["lowest to highest member", "95 % limits of their mean"]
+    labels += ["law: thermal state up to the front", "law plus a fitted constant"]
+    labels += ["range of the ensemble", "95 % confidence interval of the mean"]
     figure.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.4)
     return figure
 
