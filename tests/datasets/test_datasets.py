@@ -1,44 +1,32 @@
-"""Datasets are whole, described, and their faults name the file."""
+"""Datasets are whole and described, have one digest, and their faults name the file."""
 
 import re
 
 import numpy as np
 import pytest
 import xarray as xr
+from pendula.datasets.checks import rounded, variable
+from pendula.datasets.digest import digest, digest_values
 from pendula.datasets.netcdf import DatasetError, Variable, read, save, write
 from pendula.datasets.registry import NamingError
 
 SERIES = {
-    "tau": Variable(("tau",), np.arange(3.0), "slow time"),
+    "tau": Variable(("tau",), np.arange(3.0)),
     "component": Variable(("component",), ["A", "B"], "pendulum of each pair"),
-    "l2": Variable(("component", "tau"), np.ones((2, 3)), "l2 norm"),
+    "l2": Variable(("component", "tau"), np.ones((2, 3)), attributes={"significant_digits": 2}),
 }
 
 
-def test_what_is_written_is_read(tmp_path):
-    write(tmp_path / "a.nc", SERIES, {"case": "mine", "omega": 8.0})
+def test_what_is_written_is_read_with_its_descriptions(tmp_path):
+    write(tmp_path / "a.nc", SERIES, {"title": "Norms of mine", "omega": 8.0})
     data = read(tmp_path / "a.nc")
     assert data["l2"].dims == ("component", "tau") and float(data["l2"].sum()) == 6
     assert list(data["component"].values) == ["A", "B"]
-    assert data.attrs["case"] == "mine" and data["l2"].attrs["long_name"] == "l2 norm"
-    assert data["l2"].attrs["units"] == "1"
-
-
-def test_a_rounded_variable_says_its_digits(tmp_path):
-    write(tmp_path / "a.nc", {"l2": Variable((), 0.3, attributes={"significant_digits": 2})}, {})
-    assert read(tmp_path / "a.nc")["l2"].attrs["significant_digits"] == 2
-
-
-def test_every_file_says_what_it_is_and_by_what_it_was_made(tmp_path):
-    write(tmp_path / "a.nc", SERIES, {"title": "Norms of mine"})
-    attributes = read(tmp_path / "a.nc").attrs
-    assert attributes["title"] == "Norms of mine" and attributes["Conventions"].startswith("CF-")
-    assert attributes["version"] in attributes["history"]
-
-
-def test_a_name_of_the_registry_needs_no_description(tmp_path):
-    write(tmp_path / "a.nc", {"tau": Variable(("tau",), np.arange(3.0))}, {})
-    assert read(tmp_path / "a.nc")["tau"].attrs == {"long_name": "slow time", "units": "1"}
+    assert data["tau"].attrs == {"long_name": "slow time", "units": "1"}
+    assert data["l2"].attrs["significant_digits"] == 2
+    assert (data.attrs["title"], data.attrs["omega"]) == ("Norms of mine", 8.0)
+    assert data.attrs["Conventions"].startswith("CF-")
+    assert data.attrs["version"] in data.attrs["history"]
 
 
 @pytest.mark.parametrize(
@@ -52,10 +40,9 @@ def test_a_name_of_the_registry_needs_no_description(tmp_path):
 def test_a_variable_that_nobody_could_read_is_not_written(tmp_path, name, variable, fault):
     with pytest.raises(NamingError, match=fault):
         write(tmp_path / "a.nc", {name: variable}, {})
+    attributes = {"long_name": variable.long_name, "units": variable.units}
     with pytest.raises(NamingError, match=fault):
-        values = variable.values
-        attributes = {"long_name": variable.long_name, "units": variable.units}
-        save(tmp_path / "a.nc", xr.Dataset({name: ((), values, attributes)}))
+        save(tmp_path / "a.nc", xr.Dataset({name: ((), variable.values, attributes)}))
     assert not any(tmp_path.iterdir())
 
 
@@ -66,28 +53,14 @@ def test_saving_states_no_missing_value_and_leaves_the_dataset_alone(tmp_path):
     assert data.attrs == {} and data["tau"].attrs == {}
 
 
-def test_two_writes_give_the_same_bytes(tmp_path):
-    for name in ("a.nc", "b.nc"):
-        write(tmp_path / name, SERIES, {"title": "mine"})
-    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
-
-
-def test_a_damaged_file_is_named_in_full(tmp_path, monkeypatch):
+def test_a_missing_and_a_damaged_file_are_named_in_full(tmp_path, monkeypatch):
     """Jobs run in the folder of `--directory`, and the user may have a whole file of this name."""
     monkeypatch.chdir(tmp_path)
+    with pytest.raises(DatasetError, match=r"a\.nc is missing: run snakemake"):
+        read("a.nc")
     (tmp_path / "a.nc").write_bytes(b"damaged")
     with pytest.raises(DatasetError, match=f"{re.escape(str(tmp_path))}/a.nc is damaged.*delete"):
         read("a.nc")
-
-
-def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(DatasetError, match=r"none\.nc is missing: run snakemake"):
-        read(tmp_path / "none.nc")
-
-
-def test_what_others_write_is_read_too(tmp_path):
-    xr.Dataset({"mine": ("n", [1.0, 2.0])}).to_netcdf(tmp_path / "a.nc")
-    assert list(read(tmp_path / "a.nc")["mine"].values) == [1.0, 2.0]
 
 
 def test_what_another_program_has_packed_is_unpacked(tmp_path):
@@ -96,3 +69,73 @@ def test_what_another_program_has_packed_is_unpacked(tmp_path):
     packing = {"dtype": "int16", "scale_factor": 0.5, "_FillValue": -1}
     data.to_netcdf(path, encoding={"l2": packing})
     np.testing.assert_array_equal(read(path)["l2"], [0.5, np.nan, 1.5])
+
+
+# --- Values that a library decides in their last bits -------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [(123456.0, 123000.0), (-0.00123456, -0.00123), (0.0, 0.0), (np.inf, np.inf), (9.999, 10.0)],
+)
+def test_rounding_keeps_significant_digits(value, expected):
+    assert rounded(value, 3) == expected
+
+
+def test_rounded_values_keep_their_shape_and_say_their_digits():
+    values = np.array([[1.23456, 2.0], [np.nan, 1e-300 / 3.0]])
+    found = variable(values, ("x", "y"), "values", digits=3)
+    assert found["attrs"]["significant_digits"] == 3
+    np.testing.assert_array_equal(found["data"], [[1.23, 2.0], [np.nan, 3.33e-301]])
+    assert "significant_digits" not in variable(values, ("x", "y"), "values")["attrs"]
+
+
+# --- Digests -------------------------------------------------------------------------------------
+
+VALUES = np.array([[1.0, -0.0, np.inf], [np.nan, 2.5, 1e-300]])
+PLACES = ("row", "column")
+
+
+def change(place, value) -> np.ndarray:
+    values = VALUES.copy()
+    values[place] = value
+    return values
+
+
+OTHER = {
+    "last bit": (PLACES, change((0, 0), np.nextafter(1.0, 2.0))),
+    "sign of zero": (PLACES, change((0, 1), 0.0)),
+    "sign of infinity": (PLACES, change((0, 2), -np.inf)),
+    "gap filled": (PLACES, change((1, 0), 0.0)),
+    "order": (PLACES, VALUES[::-1]),
+    "precision": (PLACES, VALUES.astype(np.float32)),
+    "dimensions": (("column", "row"), VALUES),
+    "shape": (PLACES, VALUES.T),
+}
+
+
+@pytest.mark.parametrize("name", OTHER)
+def test_every_change_of_values_shows(name):
+    assert digest_values(*OTHER[name]) != digest_values(PLACES, VALUES)
+
+
+def test_letters_moved_between_words_show():
+    assert digest_values(("case",), ["ab", "c"]) != digest_values(("case",), ["a", "bc"])
+
+
+def test_the_sign_of_a_gap_and_the_order_of_bytes_do_not_show():
+    signed = change((1, 0), np.copysign(np.nan, -1))
+    assert np.signbit(signed[1, 0]) and not np.signbit(VALUES[1, 0])
+    for same in (signed, VALUES.astype(">f8"), np.asfortranarray(VALUES)):
+        assert digest_values(PLACES, same) == digest_values(PLACES, VALUES)
+
+
+def test_a_dataset_has_one_digest_in_memory_and_on_disk(tmp_path):
+    named = {"long_name": "made up", "units": "1"}
+    coordinates = {"case": ["A", "Ω"], "place": ("place", np.arange(3), named)}
+    flags = ("case", [True, False], named)
+    data = xr.Dataset({"value": (("case", "place"), VALUES, named), "flag": flags}, coordinates)
+    save(tmp_path / "data.nc", data)
+    assert digest(read(tmp_path / "data.nc")) == digest(data)
+    assert digest(data.rename(value="other")) != digest(data)
+    assert digest(data.rename(value="flag", flag="value")) != digest(data)

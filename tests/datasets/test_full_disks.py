@@ -9,8 +9,10 @@ import sys
 
 import numpy as np
 import pytest
+import xarray as xr
 from pendula.datasets import DatasetError, complete_or_absent
 from pendula.datasets.netcdf import Variable, write
+from pendula.drawing.style import new_figure, save
 
 
 @pytest.fixture
@@ -24,34 +26,28 @@ def full_disk():
     signal.signal(signal.SIGXFSZ, ignored)
 
 
-def test_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):
-    path = tmp_path / "page.html"
-    with (
-        pytest.raises(DatasetError, match=r"could not write .*/page\.html: .* MB left.*make room"),
-        complete_or_absent(path) as partial,
-    ):
+def write_text(path):
+    with complete_or_absent(path) as partial:
         partial.write_text("x" * 10_000)
-    assert not list(tmp_path.iterdir())
 
 
-def test_a_dataset_on_a_full_disk_keeps_the_old_one(tmp_path, full_disk):
-    path = tmp_path / "a.nc"
-    path.write_bytes(b"old")
-    with pytest.raises(DatasetError, match=r"could not write .*a\.nc.*disk full"):
-        write(path, {"many": Variable(("n",), np.random.rand(100_000), "many")}, {})
-    assert [p.name for p in tmp_path.iterdir()] == ["a.nc"] and path.read_bytes() == b"old"
+def write_dataset(path):
+    write(path, {"many": Variable(("n",), np.random.rand(100_000), "many")}, {})
 
 
-def test_a_figure_on_a_full_disk_leaves_nothing_and_is_named(tmp_path, full_disk):
-    import xarray as xr
-    from pendula.drawing.style import new_figure, save
-
+def write_figure(path):
     figure = new_figure(3, 2)
     figure.add_subplot().plot([0, 1], [0, 1])
-    names = ["fig.png", "fig.pdf", "fig.nc", "fig.json"]
-    with pytest.raises(DatasetError, match=r"could not write .*/fig\.(png|pdf|nc|json): "):
-        save(figure, xr.Dataset(), *(tmp_path / name for name in names))
-    assert not list(tmp_path.iterdir())
+    save(figure, xr.Dataset(), *(path.with_suffix(f".{kind}") for kind in ("png", "pdf", "a", "b")))
+
+
+@pytest.mark.parametrize("put", [write_text, write_dataset, write_figure])
+def test_a_full_disk_is_named_and_keeps_the_old_file(put, tmp_path, full_disk):
+    path = tmp_path / "a.nc"
+    path.write_bytes(b"old")
+    with pytest.raises(DatasetError, match=r"could not write .*/a\..*disk full.* left.*make room"):
+        put(path)
+    assert [p.name for p in tmp_path.iterdir()] == ["a.nc"] and path.read_bytes() == b"old"
 
 
 def test_a_file_inside_of_another_is_told_by_the_name_of_the_outer_one(tmp_path):
@@ -64,26 +60,20 @@ def test_a_file_inside_of_another_is_told_by_the_name_of_the_outer_one(tmp_path)
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
-def test_a_file_in_the_way_of_a_folder_is_named(tmp_path):
+def test_what_stands_in_the_way_is_named_and_stays(tmp_path):
     (tmp_path / "results").write_text("mine")
-    path = tmp_path / "results/figures/a.png"
-    with (
-        pytest.raises(DatasetError, match=r"a\.png: .*results is a file and no folder; move it"),
-        complete_or_absent(path) as partial,
+    (tmp_path / "a.png").mkdir()
+    for name, words in (
+        ("results/figures/b.png", r"b\.png: .*results is a file and no folder; move it"),
+        ("a.png", r"a\.png: it is a folder; move it"),
     ):
-        partial.touch()
+        with (
+            pytest.raises(DatasetError, match=words),
+            complete_or_absent(tmp_path / name) as partial,
+        ):
+            partial.touch()
     assert (tmp_path / "results").read_text() == "mine"
-
-
-def test_a_folder_in_the_way_of_a_file_is_named(tmp_path):
-    path = tmp_path / "a.png"
-    path.mkdir()
-    with (
-        pytest.raises(DatasetError, match=r"a\.png: it is a folder; move it"),
-        complete_or_absent(path) as partial,
-    ):
-        partial.touch()
-    assert list(tmp_path.iterdir()) == [path]
+    assert {path.name for path in tmp_path.iterdir()} == {"results", "a.png"}
 
 
 def test_what_a_killed_process_left_goes_and_that_of_a_living_one_stays(tmp_path):
