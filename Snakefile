@@ -65,17 +65,13 @@ include: "workflow/rules/own.smk"
 
 DATASETS = [
     *TRAJECTORIES,
-    *expand("<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS),
-    *SWEEPS,
-    *expand("<results>/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
-    *checks(*CHECKS, *(f"wrong/{name}" for name in WRONG), *CHAOS_CHECKS, *SOLVER_CHECKS),
-    *checks("hard_cases"),
+    *runs_by(*ALL_SOLVERS),
+    *(*SWEEPS, *SECOND_SWEEPS),
+    *checks(*CHECKS, *WRONG_CHECKS, *CHAOS_CHECKS, *SOLVER_CHECKS, "hard_cases"),
     *rules.breathers.input.datasets,
     *(*rules.pendula.input.datasets, rules.pendula.input.film),
-    *expand("<results>/unbounded/{name}.nc", name=[*SETTINGS.unbounded.names, *MAPS]),
-    *expand("<results>/unbounded/{name}.nc", name=["thermal", "growth", "front"]),
-    *(*PROVED_CURVES, "<results>/certified/wrong/curve.nc"),
-    *expand("<results>/certified/{name}.nc", name=["lines", "breathers", "constants"]),
+    *datasets("unbounded", *SETTINGS.unbounded.names, *MAPS, "thermal", "growth", "front"),
+    *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "lines", "breathers", "constants")),
 ]
 
 
@@ -84,8 +80,8 @@ rule all:
     default_target: True
     input:
         DATASETS,
-        expand("<results>/trajectories/{case}.nc", case=OWN_CASES),
-        expand("<results>/sweeps/{sweep}.nc", sweep=OWN_SWEEPS),
+        datasets("trajectories", *OWN_CASES),
+        datasets("sweeps", *OWN_SWEEPS),
         [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
         "<results>/claims.json",
         "<results>/controls.json",

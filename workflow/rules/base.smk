@@ -62,19 +62,3 @@ rule figure:
         "Drawing {output[0]}"
     script:
         "../../scripts/figure.py"
-
-
-use rule job as decide_claims with:
-    "Base of a part of the ledger: its claims with their verdicts, and a table to read"
-    output:
-        part="<results>/claims/<part>.json",
-        table="<results>/tables/claims_<part>.md",
-    log:
-        "<logs>/claims/<part>.log",
-    pathvars:
-        part="{part,(?!)}",
-    params:
-        makers=lambda wildcards, input: {name_of(path): maker_of(path) for path in input.datasets},
-        differs=lambda wildcards, input: concerning(DIFFERS, map(name_of, input.datasets)),
-    message:
-        "Deciding claims: {output.table}"

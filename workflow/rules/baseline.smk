@@ -16,8 +16,8 @@ def everything():
     made = {
         *rules.all.input,
         *rules.hard_cases.output,
-        *expand("results/claims/{part}.json", part=PARTS_OF_LEDGER),
-        *expand("results/tables/claims_{part}.md", part=PARTS_OF_LEDGER),
+        *expand("results/claims/{part}.json", part=LEDGER),
+        *expand("results/tables/claims_{part}.md", part=LEDGER),
     }
     kinds = (".nc", ".json", ".md", ".html", ".png", ".pdf", ".yaml")
     return sorted(path for path in made if path.endswith(kinds))

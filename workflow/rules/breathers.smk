@@ -122,18 +122,5 @@ use rule figure as draw_fates with:
 rule breathers:
     "States that stay at one pair, which data reach them, and which spread: datasets and figures"
     input:
-        datasets=expand(
-            "<results>/breathers/{name}.nc",
-            name=["steady", "periodic", "growth", "sensitivity", "fates"],
-        ),
+        datasets=datasets("breathers", "steady", "periodic", "growth", "sensitivity", "fates"),
         figures=expand("<results>/figures/{name}.png", name=["breathers", "sensitivity", "fates"]),
-
-
-use rule decide_claims as decide_breathers with:
-    "The claims on breathers: results/tables/claims_breathers.md"
-    input:
-        datasets=rules.breathers.input.datasets,
-    pathvars:
-        part="breathers",
-    params:
-        **claims_in("breathers/claims"),

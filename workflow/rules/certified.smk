@@ -17,7 +17,7 @@ use rule dataset as certify_curve with:
 rule certified:
     "The proofs of large and chaotic cases, which a full run takes as they are committed (long)"
     input:
-        expand("<results>/certified/{case}.nc", case=CERTIFIED.frames),
+        datasets("certified", *CERTIFIED.frames),
 
 
 use rule dataset as certify_by_frames with:
@@ -110,17 +110,3 @@ use rule job as certificate with:
             **certified_problem(CERTIFIED.certificate.case),
             **values_of(CERTIFIED.certificate, "half_width", "end_time"),
         },
-
-
-use rule decide_claims as decide_certified with:
-    "The claims on proofs: results/tables/claims_certified.md"
-    input:
-        datasets=[
-            *(*PROVED_CURVES, "<results>/certified/wrong/curve.nc"),
-            *expand("<results>/trajectories/{case}.nc", case=["fig2_small", "fig3_small"]),
-            "<results>/certified/breathers.nc",
-        ],
-    pathvars:
-        part="certified",
-    params:
-        **claims_in("certified/claims"),

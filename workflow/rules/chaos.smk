@@ -123,8 +123,8 @@ use rule dataset as compare_ensembles with:
     input:
         ensembles="<results>/checks/ensembles.nc",
         lyapunov="<results>/checks/lyapunov.nc",
-        runs=expand("<results>/trajectories/{case}.nc", case=ENSEMBLES.cases),
-        sweeps=expand("<results>/sweeps/{sweep}.nc", sweep=ENSEMBLES.sweeps),
+        runs=datasets("trajectories", *ENSEMBLES.cases),
+        sweeps=datasets("sweeps", *ENSEMBLES.sweeps),
     pathvars:
         made="checks/ensemble_runs",
     params:
@@ -142,16 +142,3 @@ use rule figure as ensembles with:
         made="figures/ensembles",
     params:
         call=function("pendula.studies.chaos.figures.draw_ensembles"),
-
-
-use rule decide_claims as decide_chaos with:
-    "The claims on chaos: results/tables/claims_chaos.md"
-    input:
-        datasets=[
-            *("<results>/sweeps/fig5_left.nc", "<results>/sweeps/fig6_left.nc"),
-            *("<results>/breathers/sensitivity.nc", *checks("trust", *CHAOS_CHECKS)),
-        ],
-    pathvars:
-        part="chaos",
-    params:
-        **claims_in("chaos/claims"),

@@ -76,21 +76,36 @@ if workflow.is_main_process:
 DIFFERS = differences(json.loads(SETTINGS.model_dump_json()))  # from what the claims are about
 OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
-PARTS_OF_LEDGER = ["figures", "solvers", "theory", "chaos", "breathers", "pendula"]
-PARTS_OF_LEDGER += ["unbounded", "certified"]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 SOLVER_CHECKS = ["solvers", "second_solver", "trust"]
 CHAOS_CHECKS = [
     *("lyapunov", "symmetry", "ensembles", "ensembles_uneven", "ensemble_runs"),
     *("members", "lifetimes"),
 ]
-CHECKS = [*(name for group in GROUPS.values() for name in group), *OBSERVED]
+THEORY_CHECKS = [name for group in GROUPS.values() for name in group]
+CHECKS = [*THEORY_CHECKS, *OBSERVED]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}
 SHOWN |= {n: [f"fig{n}_left", f"fig{n}_right"] for n in "56"}
 
-TRAJECTORIES = expand("<results>/trajectories/{case}.nc", case=PAPER_CASES)
-SWEEPS = expand("<results>/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS)
-PROVED_CURVES = expand("<results>/certified/{case}.nc", case=SETTINGS.certified.curves.cases)
+
+def datasets(folder, *names):
+    return [f"<results>/{folder}/{name}.nc" for name in names]
+
+
+def checks(*names):
+    return datasets("checks", *names)
+
+
+def runs_by(*solvers):
+    """Return the datasets of all cases of the paper by each of the solvers."""
+    return expand("<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=solvers)
+
+
+TRAJECTORIES = datasets("trajectories", *PAPER_CASES)
+SWEEPS = datasets("sweeps", *PAPER_SWEEPS)
+SECOND_SWEEPS = datasets("sweeps", *(f"{sweep}.crank_nicolson" for sweep in PAPER_SWEEPS))
+PROVED_CURVES = datasets("certified", *SETTINGS.certified.curves.cases)
+WRONG_CHECKS = [f"wrong/{name}" for name in WRONG]
 
 
 def one_of(names):
@@ -145,10 +160,6 @@ def figure_files(stem):
 
 def by_solvers(stem, solvers):
     return [f"{stem}.{solver}.nc" for solver in solvers]
-
-
-def checks(*names):
-    return [f"<results>/checks/{name}.nc" for name in names]
 
 
 def ensembles_of(*names):
@@ -237,8 +248,8 @@ def some_own_files(wildcards):
     of_sweep = [*FIGURE_KINDS, "checks.nc"]
     of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
     return [
-        *expand("<results>/trajectories/{case}.nc", case=OWN_CASES),
+        *datasets("trajectories", *OWN_CASES),
         *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
-        *expand("<results>/sweeps/{sweep}.nc", sweep=OWN_SWEEPS),
+        *datasets("sweeps", *OWN_SWEEPS),
         *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=of_sweep),
     ]

@@ -3,14 +3,14 @@
 # tells the faults: Snakemake would print an error of its own about a job that nobody called.
 
 
-rule figure_diff:
+use rule job as figure_diff with:
     "Datasets, figures and words against the accepted ones; fails with one line for each that differs"
     input:
         results=everything(),
-    log:
-        "<logs>/figure_diff/comparison.log",
-    conda:
-        "../envs/pinned.yaml"
+    output:
+        [],
+    pathvars:
+        made="figure_diff/comparison",
     params:
         call=function("pendula.figure_diff.comparison_page.compare_results"),
         made=lambda wildcards, input: os.path.commonpath(input.results),
@@ -22,18 +22,16 @@ rule figure_diff:
         verdict=VERDICT,
     message:
         "Comparing datasets, figures and words with the baseline"
-    script:
-        "../../scripts/call.py"
 
 
-rule accept_figures:
+use rule job as accept_figures with:
     'Takes this run as the baseline, or the files in --config accept="fig3 checks/worst"'
     input:
         results=accepted_files,
-    log:
-        "<logs>/figure_diff/acceptance.log",
-    conda:
-        "../envs/pinned.yaml"
+    output:
+        [],
+    pathvars:
+        made="figure_diff/acceptance",
     params:
         call=function("pendula.figure_diff.acceptance.accept_results"),
         made="results",
@@ -42,5 +40,3 @@ rule accept_figures:
         configuration=plain(SETTINGS),
     message:
         "Taking datasets, figures and words as the baseline"
-    script:
-        "../../scripts/call.py"

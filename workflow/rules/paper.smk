@@ -45,11 +45,9 @@ use rule figure as norms_by_half_width with:
 use rule dataset as measure_solvers with:
     "How well each solver conserves the energy, and until when pairs of them agree"
     input:
-        trajectories=expand(
-            "<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=COMPARED
-        ),
-        first=expand("<results>/sweeps/{sweep}.nc", sweep=PAPER_SWEEPS),
-        second=expand("<results>/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
+        trajectories=runs_by(*COMPARED),
+        first=SWEEPS,
+        second=SECOND_SWEEPS,
     pathvars:
         made="checks/solvers",
     params:
@@ -61,7 +59,7 @@ use rule dataset as measure_second_solver with:
     "What depends on the scheme and the step of the second solver, which the paper hardly describes"
     input:
         kernels=kernels("crank_nicolson", "delfour_fortin_payre"),
-        firsts=expand("<results>/trajectories/{case}.ode45.nc", case=PAPER_CASES),
+        firsts=runs_by("ode45"),
     pathvars:
         made="checks/second_solver",
     params:
@@ -92,9 +90,7 @@ use rule figure as solver_figures with:
 use rule dataset as measure_trust with:
     "When the norms of each solver leave those of the reference, and until when curves are proved"
     input:
-        trajectories=expand(
-            "<results>/trajectories/{case}.{solver}.nc", case=PAPER_CASES, solver=ALL_SOLVERS
-        ),
+        trajectories=runs_by(*ALL_SOLVERS),
         proved=PROVED_CURVES,
     pathvars:
         made="checks/trust",
@@ -129,29 +125,3 @@ use rule job as solver_table with:
         made="tables/solvers",
     params:
         call=function("pendula.studies.paper.tables.tabulate_solvers"),
-
-
-use rule decide_claims as decide_figures with:
-    "The claims on the paper's figures, which rest on no other solver: claims_figures.md"
-    input:
-        datasets=[*TRAJECTORIES, *SWEEPS, *checks("not_shown", "ensembles")],
-    pathvars:
-        part="figures",
-    params:
-        **claims_in("paper/claims_norms", "paper/claims_sweeps"),
-
-
-use rule decide_claims as decide_solvers with:
-    "The claims on the paper's solvers, and those that compare with others: claims_solvers.md"
-    input:
-        datasets=[
-            *(*TRAJECTORIES, *expand("<results>/trajectories/{case}.dop853.nc", case=PAPER_CASES)),
-            *SWEEPS,
-            *expand("<results>/trajectories/{case}.crank_nicolson.nc", case=PAPER_CASES),
-            *expand("<results>/sweeps/{sweep}.crank_nicolson.nc", sweep=PAPER_SWEEPS),
-            *checks("cases", "lyapunov", "ensembles", "members", *SOLVER_CHECKS),
-        ],
-    pathvars:
-        part="solvers",
-    params:
-        **claims_in("paper/claims_energy", "paper/claims_regular", "paper/claims_second_solver"),

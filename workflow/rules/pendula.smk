@@ -137,25 +137,9 @@ use rule figure as draw_over_the_top with:
 rule pendula:
     "Newton's equations beside the amplitude equations: datasets and figures"
     input:
-        datasets=expand(
-            "<results>/pendula/{name}.nc",
-            name=["threshold", "remainder", "phases", "sea", "over_the_top"],
-        ),
+        datasets=datasets("pendula", "threshold", "remainder", "phases", "sea", "over_the_top"),
         film="<results>/pendula/film.nc",
         figures=expand(
             "<results>/figures/pendula_{name}.png",
             name=["threshold", "remainder", "phases", "over_the_top"],
         ),
-
-
-use rule decide_claims as decide_pendula with:
-    "The claims on the pendula themselves: results/tables/claims_pendula.md"
-    input:
-        datasets=[
-            *rules.pendula.input.datasets,
-            *("<results>/unbounded/thermal.nc", *checks("lyapunov")),
-        ],
-    pathvars:
-        part="pendula",
-    params:
-        **claims_in("pendula/claims"),

@@ -22,7 +22,7 @@ use rule job as report with:
 use rule job as live with:
     "results/live.html: a page that integrates the cases of Figs 2 to 4, and compares their bits"
     input:
-        runs=expand("<results>/trajectories/{case}.ode45.nc", case=PAPER_CASES),
+        runs=runs_by("ode45"),
         trust="<results>/checks/trust.nc",
         lines="<results>/certified/lines.nc",
     output:

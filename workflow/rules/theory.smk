@@ -47,7 +47,7 @@ use rule check_equations as check_bounds with:
 use rule check_equations as check_wrong with:
     "The same checks of wrong statements, which the claims must refuse"
     output:
-        checks(*(f"wrong/{name}" for name in WRONG)),
+        checks(*WRONG_CHECKS),
     pathvars:
         made="checks/wrong",
     params:
@@ -101,17 +101,3 @@ use rule figure as bounds with:
         made="figures/bounds",
     params:
         call=function("pendula.studies.theory.bounds_figure.draw_bounds"),
-
-
-use rule decide_claims as decide_theory with:
-    "The claims on the paper's theory: results/tables/claims_theory.md"
-    input:
-        datasets=[
-            *(*TRAJECTORIES, *checks("lyapunov")),
-            *checks(*(name for names in GROUPS.values() for name in names), "sweeps"),
-            *checks(*(f"wrong/{name}" for name in WRONG)),
-        ],
-    pathvars:
-        part="theory",
-    params:
-        **claims_in("theory/claims"),

@@ -8,7 +8,7 @@ MAPS = [f"map_{sweep}" for sweep in PAPER_SWEEPS]
 rule unbounded:
     "The long study of the infinite chain (takes about ten minutes): results/long/"
     input:
-        expand("<results>/long/unbounded/{name}.nc", name=[*UNBOUNDED.names, *MAPS]),
+        datasets("long/unbounded", *UNBOUNDED.names, *MAPS),
         expand(
             "<results>/long/figures/{name}.{kind}",
             name=["growth_law", "front", "window_map"],
@@ -115,23 +115,3 @@ use rule figure as draw_window_map with:
         call=function("pendula.studies.unbounded.figures.draw_window_map"),
         sweeps=PAPER_SWEEPS,
         paper_ends=[paper()["sweeps"][sweep]["draw"]["max"][1] for sweep in PAPER_SWEEPS],
-
-
-use rule decide_claims as decide_unbounded with:
-    "The claims on infinite chains: results/tables/claims_unbounded.md"
-    input:
-        datasets=[
-            "<results>/breathers/sensitivity.nc",
-            *expand(
-                "<results>/unbounded/{name}.nc",
-                name=[
-                    *("fig2_large", "fig3_small", "fig3_large", "fig4_small", "omegas"),
-                    *("amplitudes", "thermal", "map_fig5_left", "map_fig5_right"),
-                    "map_fig6_left",
-                ],
-            ),
-        ],
-    pathvars:
-        part="unbounded",
-    params:
-        **claims_in("unbounded/claims"),
