@@ -1,7 +1,7 @@
 """The published step control of the explicit methods, plainly, for complex arrays.
 
 The Runge-Kutta coefficients are SciPy's, so that nothing here is shared with the library. Each
-method returns the final state and the numbers of accepted and, if any, of rejected steps.
+method returns the final state and the numbers of accepted and of rejected steps.
 """
 
 import numpy as np
@@ -86,7 +86,10 @@ def dop853(f, z, times, rtol, atol):
 
 
 def taylor(series, z, times, rtol, atol, order):
-    """Sum power series over steps that their last two terms allow (Jorba and Zou 2005)."""
+    """Sum power series over steps that their last two terms allow (Jorba and Zou 2005).
+
+    No step is rejected.
+    """
     t, end, steps = times[0], times[-1], 0
     while t < end:
         c = series(z, order)
@@ -94,4 +97,4 @@ def taylor(series, z, times, rtol, atol, order):
         radii = [(allowed / np.max(np.abs(c[p]))) ** (1 / p) for p in (order - 1, order)]
         h = min(*radii, end - t)
         z, t, steps = np.tensordot(h ** np.arange(order + 1), c, 1), t + h, steps + 1
-    return z, steps
+    return z, steps, 0

@@ -147,10 +147,3 @@ def stopped_by(output, outputs):
     """
     record = np.zeros((2, outputs))
     return record, record[0, output : output + 1].view(np.bool_)[7:8]
-
-
-def given_up(name, first=0.0):
-    """Return when a run that begins at `first` and blows up is given up, counted from there."""
-    times = np.linspace(0.0, 10.0, 41)
-    outcome = run(name, -1.0, times + first, (1e-7, 1e-9), start=3.0 + 1.0j)[2]
-    return outcome.status, outcome.time - first, outcome.steps

@@ -87,27 +87,6 @@ def test_every_site_is_owned_once_and_well_inside(sites):
     np.testing.assert_array_equal(owner, 1)
 
 
-def test_what_is_given_was_taken():
-    whole = np.arange(4.0 * 12).reshape(4, 12)
-    part, back = np.zeros((4, 7)), np.zeros((4, 12))
-    tiles.take(whole, 3, part)
-    np.testing.assert_array_equal(part[:, 1:6], whole[:, 4:9])
-    np.testing.assert_array_equal(part[:, [0, 6]], 0.0)
-    tiles.give(part, 3, 5, 7, back)
-    np.testing.assert_array_equal(back[:, 6:8], whole[:, 6:8])
-    assert np.count_nonzero(back) == 8
-
-
-@pytest.mark.parametrize(("one", "other"), [(1.0, 2.0), (2.0, 1.0), (np.inf, 1.0)])
-def test_the_worse_of_two_errors_is_the_larger(one, other):
-    assert dop853.worse(one, other) == max(one, other)
-
-
-@pytest.mark.parametrize(("one", "other"), [(np.nan, 1.0), (1.0, np.nan)])
-def test_an_error_that_is_no_number_is_never_forgotten(one, other):
-    assert np.isnan(dop853.worse(one, other))
-
-
 @pytest.mark.parametrize(
     ("sites", "count", "held"),
     [(1, 1, 1), (512, 1, 512), (513, 2, 287), (1024, 2, 542), (1025, 3, 372), (1536, 3, 542)],
@@ -115,8 +94,3 @@ def test_an_error_that_is_no_number_is_never_forgotten(one, other):
 def test_chains_are_cut_into_tiles_of_about_equal_length(sites, count, held):
     assert tiles.count_tiles(sites) == count
     assert tiles.tile_length(sites, count) == held
-
-
-def test_tiles_lie_in_their_margins_or_at_the_ends():
-    places = [tiles.tile_place(tile, 3, 1536) for tile in range(3)]
-    assert places == [(0, 0, 512), (497, 512, 1024), (994, 1024, 1536)]

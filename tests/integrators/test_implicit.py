@@ -1,0 +1,270 @@
+"""The schemes with a fixed-point iteration: their equations, order, energy, and halved steps."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import systems
+from on_chains import data_of, integrate, numbers_of
+from oracle import BOUNDARIES, SOLVERS, random_chain, slope
+from pendula.integrators import DONE, NO_CONTRACTION
+from pendula.integrators.fixed_point import PAST, extrapolate
+from pendula.simulation.lattice import find_reduction
+from pendula.simulation.simulate import IntegrationError
+
+NUMBERS = (1.0, 1.0, -4.0)
+SCHEMES = ("crank_nicolson", "implicit_midpoint", "delfour_fortin_payre")
+BEGINNING = {"crank_nicolson": 1, "implicit_midpoint": 0, "delfour_fortin_payre": 0}
+"""Right-hand sides that a first step takes before its iteration."""
+each_scheme = pytest.mark.parametrize("scheme", SCHEMES)
+
+
+def run(scheme, z, end, outputs=1, numbers=NUMBERS, boundary="dirichlet", **controls):
+    given = {"numbers": numbers, "boundary": boundary}
+    return integrate(z, SOLVERS[scheme] | controls, end, outputs, find_reduction(z), **given)
+
+
+def large():
+    return data_of("fig3_large")
+
+
+def drift_of(trajectory):
+    return np.abs(trajectory.energy - trajectory.energy[0])
+
+
+# --- What the schemes are -----------------------------------------------------------------------
+
+
+def mean_slope(scheme, z, new, boundary):
+    """Return the mean right-hand side over a step, as each scheme defines it."""
+    if scheme == "crank_nicolson":
+        return (slope(z, NUMBERS, boundary) + slope(new, NUMBERS, boundary)) / 2
+    middle = (z + new) / 2
+    found = slope(middle, NUMBERS, boundary)
+    if scheme == "delfour_fortin_payre":
+        mean_square = (np.abs(z) ** 2 + np.abs(new) ** 2) / 2
+        found += 0.5j * (np.abs(middle) ** 2 - mean_square) * middle
+    return found
+
+
+@each_scheme
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_a_step_solves_the_implicit_equation(scheme, boundary):
+    z, h = random_chain(3), 0.05
+    new = run(scheme, z, h, boundary=boundary, step=h).final
+    mean = mean_slope(scheme, z, new, boundary)
+    np.testing.assert_allclose(new, z + h * mean, atol=1e-13)
+    third = run(scheme, run(scheme, new, h, boundary=boundary, step=h).final, h,
+                boundary=boundary, step=h).final  # fmt: skip
+    at_once = run(scheme, z, 3 * h, boundary=boundary, step=h).final
+    np.testing.assert_allclose(at_once, third, atol=1e-12)
+
+
+@each_scheme
+def test_the_order_is_two_and_leads_to_the_solution(scheme):
+    steps = (0.01, 0.005, 0.0025, 0.00125)
+    finals = [run(scheme, large(), 2.0, step=h).final for h in steps]
+    changes = [np.linalg.norm(coarse - fine) for coarse, fine in pairwise(finals)]
+    assert changes[0] / changes[1] == pytest.approx(4.0, abs=0.1)
+    assert changes[1] / changes[2] == pytest.approx(4.0, abs=0.02)
+    accurate = integrate(large(), "dop853", 2.0, numbers=NUMBERS).final
+    np.testing.assert_allclose((4 * finals[3] - finals[2]) / 3, accurate, atol=1e-5)
+
+
+@each_scheme
+def test_conjugation_reverses_even_inaccurate_steps(scheme):
+    z = random_chain(2)
+    there = run(scheme, z, 2.0, step=0.02)
+    assert there.outcome.rejected == 0
+    back = np.conj(run(scheme, np.conj(there.final), 2.0, step=0.02).final)
+    np.testing.assert_allclose(back, z, atol=1e-9)
+
+
+def test_half_an_explicit_step_carries_crank_nicolson_into_the_implicit_midpoint_rule():
+    """So the two readings of the paper's words differ by a change of variables of order h."""
+    z, h, end = random_chain(5), 0.02, 3.0
+    shifted = z + h / 2 * slope(z, NUMBERS, "dirichlet")
+    other = run("implicit_midpoint", shifted, end, step=h).final
+    final = run("crank_nicolson", z, end, step=h).final
+    carried = final + h / 2 * slope(final, NUMBERS, "dirichlet")
+    np.testing.assert_allclose(carried, other, atol=1e-10)
+    unlike = np.abs(final - run("implicit_midpoint", z, end, step=h).final).max()
+    assert unlike > 1e-4
+
+
+@pytest.mark.parametrize(
+    ("case", "least", "most"),
+    [("fig2_small", 3e-5, 3.5e-5), ("fig3_small", 1.9e-5, 2.2e-5), ("fig2_large", 4e-2, 4.3e-2)],
+)
+def test_the_energy_by_crank_nicolson_drifts_by_the_square_of_the_step_and_comes_back(
+    case, least, most
+):
+    z, numbers = data_of(case), numbers_of(case)
+    drifts = [
+        drift_of(run("crank_nicolson", z, 50.0, 2000, numbers, step=h)) for h in (0.0025, 0.00125)
+    ]
+    early, whole = drifts[0][:401].max(), drifts[0].max()
+    assert least < whole < most
+    assert whole < 1.1 * early  # what does not grow from tau = 10 to 50 is no secular drift
+    assert whole / drifts[1].max() == pytest.approx(4.0, rel=0.02)
+
+
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-12, 1e-14])
+def test_delfour_fortin_and_payre_keep_the_energy_to_the_tolerance_of_the_iteration(tolerance):
+    """At most H's slope (below 1e3 here) times the tolerance a step, over 4000 steps of chaos."""
+    controls = {"numbers": numbers_of("fig4_large"), "step": 0.005, "tolerance": tolerance}
+    drift = drift_of(run("delfour_fortin_payre", large(), 20.0, 40, **controls)).max()
+    assert drift < min(4000 * 1e3 * tolerance, 1e-5)
+
+
+def test_long_steps_keep_what_the_schemes_keep():
+    """The energy, or without drive the norms, although the solution is lost."""
+    z = random_chain(5)
+    assert drift_of(run("delfour_fortin_payre", z, 20.0, 40, step=0.1)).max() < 1e-10
+    l2 = run("implicit_midpoint", z, 20.0, 40, (1.0, 0.0, -4.0), step=0.1).l2
+    np.testing.assert_allclose(l2, np.tile(l2[:, :1], l2.shape[1]), rtol=1e-11)
+
+
+# --- Steps between outputs ----------------------------------------------------------------------
+
+
+@each_scheme
+@pytest.mark.parametrize(
+    ("step", "steps"), [(1.0, 3), (0.5, 3), (0.5 / 3, 9), (0.16, 12), (0.5 / 7, 21)]
+)
+def test_outputs_are_reached_in_equal_steps_none_longer_than_asked(scheme, step, steps):
+    outcome = run(scheme, 0.1 * random_chain(1), 1.5, 3, (0.1, 0.1, 0.1), step=step).outcome
+    assert (outcome.status, outcome.time) == (DONE, 1.5)
+    assert (outcome.steps, outcome.rejected) == (steps, 0)
+
+
+@each_scheme
+def test_spans_that_round_above_a_whole_number_of_steps_take_no_further_one(scheme):
+    """In doubles 1.1 / 0.1 is above 11, and 0.3 / 0.1 below 3."""
+    z = 0.1 * random_chain(1)
+    assert [run(scheme, z, end, step=0.1).outcome.steps for end in (0.3, 1.1)] == [3, 11]
+
+
+# --- The iteration, for x' = rate x -------------------------------------------------------------
+
+
+def linear(scheme, times, controls, rate=-1.0, start=1 + 0j):
+    """Return the final x of x' = rate x, and the outcome."""
+    return systems.run(scheme, (rate, 0.0), times, controls, start)[1:]
+
+
+@each_scheme
+@pytest.mark.parametrize(
+    ("rate", "times", "lengths"),
+    [
+        (-1.0, [0.0, 0.07], [0.07]),
+        (-1.0, [0.0, 1.5, 3.0], [1.5] * 2),
+        (-1.0, [0.0, 4.0, 5.0], [1.0] * 5),  # a step of 4 is halved twice
+        (-1.0, [0.0, 3.0, 4.0], [1.5, 1.5, 1.0]),
+        (-1.0, [0.0, 1.0, 1.25], [1.0, 0.25]),
+        (-1e6, [0.0, 1e-6, 1.8e-6], [1e-6, 0.8e-6]),
+    ],
+)
+def test_each_step_divides_by_a_known_factor_whatever_the_lengths_before(
+    scheme, rate, times, lengths
+):
+    final, _ = linear(scheme, times, (times[1], 1e-13, 500), rate)
+    turns = -rate * np.array(lengths)
+    assert final.real == pytest.approx(np.prod((2 - turns) / (2 + turns)), rel=1e-10)
+
+
+@each_scheme
+@pytest.mark.parametrize(("step", "halvings"), [(1.5, 0), (3.0, 1), (6.0, 2), (13.0, 3)])
+def test_a_step_that_does_not_contract_is_halved_and_reported(scheme, step, halvings):
+    """The iteration contracts below h = 2."""
+    _, outcome = linear(scheme, [0.0, 2 * step], (step, 1e-13, 500))
+    assert (outcome.steps, outcome.rejected) == (2, 2 * halvings)
+
+
+@each_scheme
+@pytest.mark.parametrize(("amplitude", "iterations"), [(1e6, 50), (1.0, 1)])
+def test_where_halving_does_not_help_the_run_ends(scheme, amplitude, iterations):
+    with pytest.raises(IntegrationError, match=rf"^{scheme} stopped at tau = 0: .* contract"):
+        run(scheme, amplitude * random_chain(1), 1e-4, iterations=iterations)
+
+
+@each_scheme
+@pytest.mark.parametrize("times", [np.linspace(0.0, 2.0, 41), [0.0, 0.5, 2.0]])
+def test_a_solution_that_blows_up_is_reported_where_it_does(scheme, times):
+    """x' = x^2 from 1 ends at t = 1."""
+    values, _, outcome = systems.run(scheme, (0.0, 1.0), times, (0.01, 1e-12, 50), 1 + 0j)
+    assert outcome.status != DONE and outcome.rejected > 0
+    assert outcome.time == pytest.approx(1.0, abs=0.02)
+    assert outcome.time == pytest.approx(0.01 * outcome.steps, rel=1e-12)
+    np.testing.assert_array_equal(np.isfinite(values), np.asarray(times) <= outcome.time)
+
+
+@each_scheme
+def test_an_iteration_that_grows_is_given_up_at_its_third_change(scheme):
+    """The first change is that of the guess, the second may be larger by accident.
+
+    The iteration grows above h = 2, here even after all halvings.
+    """
+    _, outcome = linear(scheme, [0.0, 2.0**23], (2.0**23, 1e-13, 50))
+    assert (outcome.status, outcome.rejected) == (NO_CONTRACTION, 21)
+    assert outcome.evaluations == 21 * (3 + BEGINNING[scheme])
+
+
+@each_scheme
+def test_an_iteration_that_goes_to_and_fro_is_given_up_as_well(scheme):
+    """For h = 2 it jumps between two values; h = 1 then halves each change."""
+    _, outcome = linear(scheme, [0.0, 2.0], (2.0, 1e-13, 200))
+    assert (outcome.status, outcome.rejected) == (DONE, 1)
+    assert 3 + 2 * 40 < outcome.evaluations < 3 + 2 * 50
+
+
+@each_scheme
+def test_an_iteration_that_leaves_the_doubles_is_given_up_at_once(scheme):
+    """For x' = x^2 from 1e200 the first change is infinite, however short the step."""
+    _, _, outcome = systems.run(scheme, (0.0, 1.0), [0.0, 1.0], (1.0, 1e-12, 50), 1e200 + 0j)
+    assert (outcome.status, outcome.rejected) == (NO_CONTRACTION, 21)
+    assert outcome.evaluations == 21 * (1 + BEGINNING[scheme])
+
+
+@each_scheme
+@pytest.mark.parametrize(("most", "halvings", "iterations"), [(6, 0, 6), (5, 1, 5 + 4 + 4)])
+def test_as_many_iterations_are_made_as_are_allowed(scheme, most, halvings, iterations):
+    """Changes shrink by h / 2: from 1 / 2 below 1e-3 in six, with halves in four."""
+    _, outcome = linear(scheme, [0.0, 0.5], (0.5, 1e-3, most))
+    begun = BEGINNING[scheme] * (1 + 2 * halvings)
+    assert outcome == (DONE, 0.5, 1, halvings, iterations + begun)
+
+
+@each_scheme
+@pytest.mark.parametrize("outputs", [1, 8])
+def test_after_six_steps_of_a_smooth_solution_one_iteration_does(scheme, outputs):
+    """The guess then errs by the seventh power of the step, which is below the tolerance."""
+    costs = [
+        linear(scheme, np.linspace(0.0, 0.01 * n, outputs + 1), (0.01, 1e-9, 50))[1].evaluations
+        for n in (8, 48)
+    ]
+    assert costs[1] - costs[0] == 40
+
+
+@each_scheme
+def test_the_tolerance_is_relative_and_a_chain_at_rest_takes_one_iteration_a_step(scheme):
+    given = [0.0, 0.1, 0.4], (0.1, 1e-10, 50)
+    one, small = (linear(scheme, *given, start=scale + 0j) for scale in (1.0, 2.0**-40))
+    assert small[0] * 2.0**40 == one[0] and small[1] == one[1]
+    final, outcome = linear(scheme, [0.0, 1.0], (0.5, 1e-3, 5), start=0j)
+    assert (final, outcome) == (0j, (DONE, 1.0, 2, 0, 2 + BEGINNING[scheme]))
+
+
+def test_a_guess_is_exact_where_increments_are_a_polynomial_of_degree_five():
+    places = np.arange(6.0).reshape(2, 3)
+    past, new = np.full((PAST, 2, 3), np.nan), np.zeros((2, 3))
+
+    def state(t):
+        return (0.1 * t + places) ** 6
+
+    for t in range(15):
+        latest = t % PAST
+        past[latest] = state(t + 1) - state(t)
+        if t >= 5:
+            extrapolate(state(t + 1), past, latest, new)
+            np.testing.assert_allclose(new, state(t + 2), rtol=1e-11)
