@@ -29,15 +29,6 @@ use rule dataset as periodic_breathers with:
         call=function("pendula.studies.breathers.periodic_contents.periodic_contents"),
 
 
-use rule periodic_breathers as perturbed_breathers with:
-    "How stable breathers move after a change, for thousands of periods: results/long/breathers/"
-    pathvars:
-        made="long/breathers/perturbed",
-    params:
-        **values_of(BREATHERS.periodic.long),
-        call=function("pendula.studies.breathers.periodic_contents.perturbed_contents"),
-
-
 use rule dataset as growth_by_drive with:
     "How the drive feeds a localised motion, beside the law of weak drives"
     input:

@@ -33,9 +33,6 @@ use rule dataset as spread with:
         ),
         rest=lambda wildcards: extent(wildcards).rest,
         members=lambda wildcards: extent(wildcards).runs[wildcards.study].members,
-        checkpoints=lambda wildcards, output: (
-            f"{os.path.dirname(output[0])}/checkpoints" if wildcards.size else ""
-        ),
 
 
 use rule dataset as map_windows with:

@@ -22,37 +22,46 @@ from problems import constants_of, problem_of
 TIGHT = {"name": "dop853", "rtol": 1e-14, "atol": 1e-14}
 LOOSE = {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}
 REST = 1e-20
+LOPSIDED = {-2: (1.0, 0.1), 0: (0.0, 0.5j)}
 
 
-def problem(case="fig3_small", half_width=None, **changes):
-    chosen = {"end_time": 40.0, "output_step": 0.5, "solver": TIGHT} | changes
-    return problem_of(case, half_width=half_width, **chosen)
+def problem(case="fig3_small", **changes):
+    chosen = {"half_width": None, "end_time": 40.0, "output_step": 0.5, "solver": TIGHT}
+    return problem_of(case, **chosen | changes)
 
 
-def amplitudes_of(sites):
-    """Return A and B of rows of real and imaginary parts."""
-    return sites[0::2] + 1j * sites[1::2]
-
-
-@pytest.mark.parametrize("half_width", [None, 30, 70, 150])
-def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width):
-    windowed = problem(half_width=half_width)
-    one, other = run_long(windowed, REST), simulate(windowed.changed(half_width=half_width or 150))
-    np.testing.assert_allclose(one.tau, other.tau, rtol=1e-14)
-    np.testing.assert_allclose(one.l2, np.hypot(*other.l2), rtol=1e-12)
-    np.testing.assert_allclose(one.linf, other.linf.max(axis=0), atol=1e-12)
-    np.testing.assert_allclose(one.energy, other.energy, rtol=1e-12)
-
-
-def test_a_chaotic_case_is_the_same_while_doubles_follow_it_and_stays_even():
-    windowed = problem("fig4_small", end_time=8.0)
+@pytest.mark.parametrize(
+    ("half_width", "changes"),
+    [
+        *((width, {}) for width in (None, 30, 70, 150)),
+        (None, {"initial": {0: (1.0, 1.0)}}),  # A = B, and both components are kept
+        *((width, {"initial": LOPSIDED}) for width in (70, 150)),
+    ],
+)
+def test_the_norms_of_a_regular_case_are_those_of_the_whole_chain(half_width, changes):
+    windowed = problem(half_width=half_width, **changes)
+    whole = simulate(windowed.changed(half_width=half_width or 150), WHOLE)
     one = run_long(windowed, REST)
-    whole = simulate(windowed.changed(half_width=150), WHOLE)
-    assert np.array_equal(whole.final, whole.final[:, ::-1])
-    width = one.width[-1]
-    right = whole.final[:, 150 : 151 + width]
-    assert width == 2 * BLOCK
-    np.testing.assert_allclose(amplitudes_of(one.sites), right, atol=1e-10)
+    np.testing.assert_allclose(one.tau, whole.tau, rtol=1e-14)
+    np.testing.assert_allclose(one.l2, np.hypot(*whole.l2), rtol=1e-12)
+    np.testing.assert_allclose(one.linf, whole.linf.max(axis=0), atol=1e-12)
+    np.testing.assert_allclose(one.energy, whole.energy, rtol=1e-12)
+    centre = whole.final.shape[1] // 2
+    amplitudes = one.sites[0::2] + 1j * one.sites[1::2]
+    shared = min(centre, one.width[-1]) + 1
+    right = whole.final[:, centre : centre + shared]
+    np.testing.assert_allclose(amplitudes[:, :shared], right, atol=1e-10)
+    assert one.front[-1, 0] == find_front(one.sites)[0]
+    ((_, l2, _),) = run_chains(windowed, REST, [half_width or 2000])
+    np.testing.assert_allclose(l2, one.l2, rtol=1e-12)
+
+
+def test_a_chaotic_case_is_the_same_while_doubles_follow_it():
+    windowed = problem("fig4_small", end_time=8.0)
+    one, whole = run_long(windowed, REST), simulate(windowed.changed(half_width=150), WHOLE)
+    assert one.width[-1] == 2 * BLOCK
+    right = whole.final[:, 150 : 151 + 2 * BLOCK]
+    np.testing.assert_allclose(one.sites[0::2] + 1j * one.sites[1::2], right, atol=1e-10)
 
 
 def test_sites_are_added_by_blocks_and_never_beyond_the_chain():
@@ -79,50 +88,26 @@ def test_the_front_does_not_feel_for_long_where_the_chain_is_cut(rest):
     assert powers[-8:].max() < 1e-290
 
 
-@pytest.mark.parametrize("half_width", [70, 150])
-def test_data_that_are_not_even_are_followed_on_both_sides(half_width):
-    lopsided = problem(half_width=half_width, initial={-2: (1.0, 0.1), 0: (0.0, 0.5j)})
-    one, whole = run_long(lopsided, REST), simulate(lopsided)
-    ((_, l2, _),) = run_chains(lopsided, REST, [half_width])
-    np.testing.assert_allclose(one.l2, np.hypot(*whole.l2), rtol=1e-12)
-    np.testing.assert_allclose(l2, one.l2, rtol=1e-12)
-    right = whole.final[:, half_width : half_width + 1 + one.width[-1]]
-    np.testing.assert_allclose(amplitudes_of(one.sites), right, atol=1e-10)
-    assert one.front[-1, 0] == find_front(one.sites)[0] > 30.0
-
-
 def test_the_chain_begins_with_a_block_beside_the_data():
-    even = on_sites({-1: (1.0, 0.0), 1: (1.0, 0.0)})
-    assert begin(even, None).shape == (4, BLOCK + 4)
-    wide = on_sites({-5: (1.0, 0.0), 5: (1.0, 0.0)})
-    assert begin(wide, None).shape == (4, BLOCK + 8)
-
-
-def test_both_components_are_kept_where_a_equals_b():
-    """So that all members of an ensemble have a state of the same rows."""
-    one = run_long(problem(initial={0: (1.0, 1.0)}, end_time=4.0), REST)
-    np.testing.assert_array_equal(one.sites[:2], one.sites[2:])
-    np.testing.assert_allclose(one.l2, np.sqrt(2.0), rtol=1e-12)
-
-
-def test_what_is_added_is_at_rest_and_what_was_there_stays():
-    """Whatever the ghosts held: the one at the right becomes a site."""
-    state = np.arange(1.0, 4 * 40 + 1).reshape(4, 40)
-    wider = widen(state, None, REST)
-    np.testing.assert_array_equal(wider[:, 1:39], state[:, 1:39])
-    assert wider.shape == (4, 40 + BLOCK) and not wider[:, 39:].any() and not wider[:, 0].any()
+    for reach in (1, 5):
+        initial = on_sites({-reach: (1.0, 0.0), reach: (1.0, 0.0)})
+        assert begin(initial, None).shape == (4, BLOCK + reach + 3)
 
 
 def test_a_chain_is_widened_where_its_last_sites_are_above_rest_and_never_past_its_end():
+    """What is added is at rest, whatever the ghosts held: the one at the right becomes a site."""
     state = np.zeros((4, 2 * GUARD + 2))
-    state[0, 1] = 2.0
+    state[0, 1], state[2, [0, -1]] = 2.0, 7.0
     for site, amplitude, grows in (
         (GUARD, 2.01e-6, True), (GUARD, 2e-6, False), (GUARD - 1, 1.0, False),
         (2 * GUARD - 1, 2.01e-6, True),
     ):  # fmt: skip
         moved = state.copy()
         moved[1, 1 + site] = amplitude
-        assert (widen(moved, None, 1e-6).shape != state.shape) == grows
+        wider = widen(moved, None, 1e-6)
+        assert wider.shape[1] == state.shape[1] + BLOCK * grows
+        np.testing.assert_array_equal(wider[:, 1 : 2 * GUARD + 1], moved[:, 1:-1])
+        assert not grows or not (wider[:, 2 * GUARD + 1 :].any() or wider[:, 0].any())
     state[:, -2] = 1.0
     widths = [widen(state, 2 * GUARD - 1 + more, 1e-6).shape[1] for more in (0, 1, 2 * BLOCK)]
     assert widths == [state.shape[1] + more for more in (0, 1, BLOCK)]

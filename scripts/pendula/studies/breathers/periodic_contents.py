@@ -1,6 +1,6 @@
 """The dataset of periodic breathers: families, their stability, and where multipliers collide."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -66,20 +66,10 @@ def periodic_contents(
     frequencies = sorted(frequencies)
     given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
     table = _blank_table(len(omegas), len(frequencies))
-    for (i, j), found in _families(given, frequencies, half_widths):
-        above = None
-        for breather in found:
-            at = (..., i, j, frequencies.index(breather.frequency))
-            spectra = spectra_of(breather)
-            _add_breather(table, at, breather, spectra)
-            # within the waves, those of a finite chain collide
-            if breather.frequency > waves.highest(breather.constants):
-                _add_instability(table, at, (breather, spectra), above)
-            above = breather, spectra
-        for k, instant in enumerate(periodic.INSTANTS if found else ()):
-            frequency, least = periodic.least_power(found, instant)
-            table["least_power_frequency"][k, i, j] = frequency
-            table["least_power"][k, i, j] = least
+    for j, constants in enumerate(given):
+        for i, family in enumerate(periodic.FAMILIES):
+            found = [*periodic.family_of(constants, family, frequencies, half_widths)]
+            _add_family(table, (i, j), found, frequencies)
     table["growth"] = table["parity_growth"].max(axis=0)
     variables = {
         "part": PARTS,
@@ -87,7 +77,11 @@ def periodic_contents(
         "parity": Variable(
             ("parity",), list(multipliers.PARITIES), "parity of the tangent vector in n"
         ),
-        **_coordinates(omegas, frequencies),
+        "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
+        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
+        "frequency": Variable(
+            ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
+        ),
         **_waves(given, frequencies),
         "instant": Variable(
             ("instant",), list(periodic.INSTANTS), "instant of the period, seen from A and B"
@@ -101,13 +95,6 @@ def periodic_contents(
     return variables, {"title": "Periodic breathers localised at one pair", **about}
 
 
-def _families(given: list[Constants], frequencies, half_widths) -> Iterator[tuple]:
-    """Yield (family, omega) as numbers, and the breathers there from the highest frequency down."""
-    for j, constants in enumerate(given):
-        for i, family in enumerate(periodic.FAMILIES):
-            yield (i, j), [*periodic.family_of(constants, family, frequencies, half_widths)]
-
-
 def _blank_table(omegas: int, frequencies: int) -> dict[str, np.ndarray]:
     """Return an array for each variable: NaN, or 0 for signatures."""
     sizes = {"mode": MODES, "family": len(periodic.FAMILIES)}
@@ -118,6 +105,22 @@ def _blank_table(omegas: int, frequencies: int) -> dict[str, np.ndarray]:
         is_sign = name.endswith("signature")
         table[name] = np.zeros(shape, np.int8) if is_sign else np.full(shape, np.nan)
     return table
+
+
+def _add_family(table: dict, at: tuple, found: list[periodic.Breather], frequencies) -> None:
+    """Write the breathers of a family at one Omega, found from the highest frequency down."""
+    above = None
+    for breather in found:
+        here = (..., *at, frequencies.index(breather.frequency))
+        spectra = spectra_of(breather)
+        _add_breather(table, here, breather, spectra)
+        # within the waves, those of a finite chain collide
+        if breather.frequency > waves.highest(breather.constants):
+            _add_instability(table, here, (breather, spectra), above)
+        above = breather, spectra
+    if found:
+        least = [periodic.least_power(found, instant) for instant in periodic.INSTANTS]
+        table["least_power_frequency"][:, *at], table["least_power"][:, *at] = np.transpose(least)
 
 
 def spectra_of(breather: periodic.Breather) -> Spectra:
@@ -175,46 +178,6 @@ def _add_instability(table: dict, at: tuple, one: tuple, above: tuple | None) ->
             sine = np.sqrt(max(0.0, 1.0 - met.trace * met.trace))
             table["collision_multiplier"][:, p][at] = met.trace, sine
             table["collision_signature"][:, p][at] = met.signatures
-
-
-def perturbed_contents(
-    epsilon: float, gamma: float, omegas: Sequence[float], frequencies: Sequence[float],
-    half_widths: Mapping[str, int], change: float, end_time: float, tolerance: float,
-) -> Contents:  # fmt: skip
-    """Return how P on the central pair swings early and late in long runs from changed breathers.
-
-    NaN where a breather does not exist or is unstable.
-    """
-    frequencies = sorted(frequencies)
-    shape = (2, len(periodic.FAMILIES), len(omegas), len(frequencies))
-    lowest, highest = np.full(shape, np.nan), np.full(shape, np.nan)
-    given = [Constants(epsilon=epsilon, gamma=gamma, omega=omega) for omega in omegas]
-    for (i, j), found in _families(given, frequencies, half_widths):
-        for breather in found:
-            if not growth_of(breather, spectra_of(breather))[1]:
-                at = (..., i, j, frequencies.index(breather.frequency))
-                run = perturbed.range_of_power(breather, change, end_time, tolerance)
-                lowest[at], highest[at] = run
-    over, said = ("span", *OVER), "value of P on the central pair, in a tenth of the run"
-    variables = {
-        **_coordinates(omegas, frequencies),
-        "span": Variable(("span",), ["first tenth", "last tenth"], "part of the run"),
-        "lowest_power": kept(over, lowest, f"least {said}", MEASURED_DIGITS),
-        "highest_power": kept(over, highest, f"largest {said}", MEASURED_DIGITS),
-    }
-    about = {"epsilon": epsilon, "gamma": gamma, "change": change, "end_time": end_time}
-    title = "How stable periodic breathers move after a change"
-    return variables, {"title": title, **about, "tolerance": tolerance}
-
-
-def _coordinates(omegas, frequencies) -> dict[str, Variable]:
-    return {
-        "family": Variable(("family",), list(periodic.FAMILIES), "family of periodic breathers"),
-        "omega": Variable(("omega",), np.array(omegas, dtype=float)),
-        "frequency": Variable(
-            ("frequency",), np.array(frequencies, dtype=float), "frequency lambda of the breather"
-        ),
-    }
 
 
 def _waves(given: list[Constants], frequencies) -> dict[str, Variable]:

@@ -44,8 +44,6 @@ Periodic = model(
     omegas=Numbers,
     frequencies=Positives,
     half_widths=model(least=Annotated[Whole, Field(ge=2)], most=Count),
-    # long runs from stable breathers with a small relative change
-    long=model(frequencies=Positives, change=Tolerance, end_time=Positive, tolerance=Tolerance),
 )
 
 # How the drive feeds a localised motion.

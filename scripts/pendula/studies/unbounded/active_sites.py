@@ -7,20 +7,15 @@ Phys. Rev. E 56 (1997) 2597): up to tau = 600 not by a site, by tau = 1800 it is
 A long run takes 1e-150, about the least whose square is a normal double, and keeps the speed of
 linear spreading.
 
-A run goes in pieces. Each piece starts the solver anew from the state alone, so that a run which
-continues from a checkpoint has the bits of one that was never interrupted (the new first step costs
-half a per cent).
+Sites are added between two pieces of a run. Each piece starts the solver again from the state
+alone; the new first step costs half a per cent.
 """
 
-import json
 from collections.abc import Mapping
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from pendula.datasets import complete_or_absent
-from pendula.datasets.netcdf import readable
 from pendula.integrators import DONE, FAULTS, Outcome
 from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem, place
@@ -30,7 +25,6 @@ from pendula.simulation.models import make_chain
 from pendula.simulation.observables import Record, blank_record
 from pendula.simulation.simulate import IntegrationError
 from pendula.simulation.solvers import SOLVERS
-from pendula.sources import digest_of_modules
 
 from .bulk import bulk_maxima, bulk_means
 
@@ -155,23 +149,17 @@ class LongRun(NamedTuple):
     sites: np.ndarray  # (row, site) at the end
 
 
-SERIES = LongRun._fields[:-1]
-OUTPUTS = SERIES[:4]
+OUTPUTS = LongRun._fields[:4]
 
 
-def run_long(
-    problem: Problem, rest: float, keep_at: str | Path | None = None, keep_every: int = 50
-) -> LongRun:
-    """Return the run of `problem`, continued from the checkpoint `keep_at` if there is one.
+def run_long(problem: Problem, rest: float) -> LongRun:
+    """Return the run of `problem`, whose half-width is None where the chain has no ends.
 
-    Its half-width is None where the chain has no ends; `rest` is what counts as at rest ahead of
-    the front (see above). A checkpoint is written after each `keep_every` pieces, and left.
+    `rest` is what counts as at rest ahead of the front (see above).
     """
-    even, description, rooms = is_even(problem.initial), describe_run(problem, rest), {}
-    kept = recall_checkpoint(keep_at, description) if keep_at else None
-    state = begin(problem.initial, problem.half_width) if kept is None else kept["state"]
-    series = {name: [] if kept is None else list(kept[name]) for name in SERIES}
-    for piece in range(len(series["piece_tau"]), round(problem.end_time / PIECE)):
+    even, rooms, state = is_even(problem.initial), {}, begin(problem.initial, problem.half_width)
+    series = {name: [] for name in LongRun._fields[:-1]}
+    for piece in range(round(problem.end_time / PIECE)):
         state = widen(state, problem.half_width, rest, even)
         times = _times(problem, piece, piece + 1)
         record = advance(problem.constants, state, times, problem.solver, rooms, even).record
@@ -188,8 +176,6 @@ def run_long(
         }
         for name, value in at_end.items():
             series[name].append(value)
-        if keep_at and (piece + 1) % keep_every == 0:
-            keep_checkpoint(keep_at, description, {**series, "state": state})
     arrays = {name: np.array(values) for name, values in series.items()}
     return LongRun(**arrays, sites=_right_half(state, even))
 
@@ -208,31 +194,6 @@ def _norms(times: np.ndarray, record: Record) -> np.ndarray:
 def _right_half(state: np.ndarray, even: bool) -> np.ndarray:
     """Return the sites 0..W of a state, (row, site)."""
     return state[:, 1 if even else 1 + width_of(state, even) : -1]
-
-
-def describe_run(problem: Problem, rest: float) -> str:
-    """Return all that the numbers of a run depend on: its problem and the code."""
-    plain = {key: str(value) for key, value in sorted(problem.plain().items())}
-    return json.dumps({"problem": plain, "rest": rest, "code": digest_of_modules(Path(__file__))})
-
-
-def keep_checkpoint(path: str | Path, description: str, arrays: Mapping) -> None:
-    """Write the arrays and the description of the run that they belong to."""
-    with complete_or_absent(path) as partial, open(partial, "wb") as file:
-        np.savez(file, description=description, **arrays)
-
-
-def recall_checkpoint(path: str | Path, description: str) -> dict[str, np.ndarray] | None:
-    """Return the arrays kept at `path`; None if there are none, or those of another run.
-
-    Raises DatasetError where the file is damaged.
-    """
-    if not Path(path).exists():
-        return None
-    with readable(path), open(path, "rb") as file, np.load(file) as kept:
-        if str(kept["description"]) != description:
-            return None
-        return {name: kept[name] for name in (*SERIES, "state")}
 
 
 # --- One chain of many half-widths ----------------------------------------------------------------

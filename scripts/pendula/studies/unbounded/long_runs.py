@@ -1,7 +1,6 @@
 """Ensembles of long runs on chains without ends, and maxima over half-widths, as datasets."""
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
@@ -52,19 +51,14 @@ def attributes(title: str, name: str, problems: list[Problem], rest: float, **en
 
 def spread_case(
     name: str, problems: list[Problem], rest: float, members: int, perturbation: float, seed: int,
-    checkpoints: str, step: Callable[[str], None],
+    step: Callable[[str], None],
 ) -> Contents:  # fmt: skip
-    """Return the series of each problem and member; `checkpoints` is where to keep unfinished ones.
-
-    An interrupted job continues from there, and gives the same numbers to the last bit.
-    """
+    """Return the series of each problem and member."""
     runs, ensemble = [], {"members": members, "perturbation": perturbation, "seed": seed}
     for variant, problem in enumerate(problems):
         runs.append([])
         for number in range(members):
-            keep_at = Path(checkpoints, f"{name}-{variant}-{number}.npz") if checkpoints else None
-            started = member(problem, perturbation, seed, number)
-            runs[-1].append(run_long(started, rest, keep_at))
+            runs[-1].append(run_long(member(problem, perturbation, seed, number), rest))
             step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
     title = f"Norms, front and final states of {name} on chains without ends"
     return run_variables(problems, runs), attributes(title, name, problems, rest, **ensemble)
