@@ -46,10 +46,19 @@ def test_the_committed_configuration_is_the_papers():
     files = [ROOT / f"config/{name}.yaml" for name in ("config", *STUDIES)]
     whole = json.loads(load(gather(files, {})).model_dump_json())
     assert "long" in whole["breathers"]["fates"] and differences(whole) == {}
-
-
-def test_cases_beside_the_papers_are_no_difference():
     assert differences(edited("cases", "mine", value={"omega": 1.0})) == {}
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("omega", 8.0000000001, "fig2_small.omega (8.0000000001 in place of 8)"),
+        ("solver", {"name": "dop853"}, "fig2_small.solver (dop853 in place of ode45)"),
+    ],
+)
+def test_words_name_both_values(key, value, words):
+    (told,) = differences(edited("cases", "fig2_small", key, value=value)).values()
+    assert told == words
 
 
 @pytest.mark.parametrize("case", paper()["cases"])
@@ -65,27 +74,6 @@ def test_whatever_rests_on_an_edited_case_is_told_apart(case, key):
         assert not direct or reason(differs, claim.needs, claim.on) == said, claim.name
     others = [f"trajectories/{other}" for other in paper()["cases"] if other != case]
     assert reason(differs, others) == ""
-
-
-@pytest.mark.parametrize(
-    ("place", "value", "words"),
-    [
-        ("cases.fig2_small.omega", 1.0, "fig2_small.omega (1 in place of 8)"),
-        ("cases.fig2_small.omega", 8.0000000001, "fig2_small.omega (8.0000000001 in place of 8)"),
-        (
-            "cases.fig2_small.solver",
-            EDITS["solver"],
-            "fig2_small.solver (dop853 in place of ode45)",
-        ),
-        (
-            "sweeps.fig5_left.half_widths",
-            [4, 6],
-            "fig5_left.half_widths ([4, 6] in place of 18 values from 5)",
-        ),
-    ],
-)
-def test_words_name_both_values(place, value, words):
-    assert list(differences(edited(*place.split("."), value=value)).values()) == [words]
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,6 @@
 """What a configuration means: defaults from the paper, controls of solvers, snapshots."""
 
 import pytest
-import yaml
-from helpers import ROOT
 from pendula.configuration.cases import MOST_NUMBERS, choose_every
 from pendula.configuration.messages import ConfigurationError, load
 
@@ -22,14 +20,6 @@ def test_what_is_left_out_takes_the_papers_value_and_the_default_solver():
     }
 
 
-def test_the_projects_own_configuration_is_that_of_the_paper():
-    settings = load(yaml.safe_load((ROOT / "config/config.yaml").read_text()))
-    assert {"fig2_small", "fig4_large"} <= set(settings.cases)
-    assert max(settings.sweeps["fig5_right"].half_widths) >= 200
-    assert settings.problem("fig3_large")["initial"] == {0: (5, 1)}
-    assert settings.swept_problem("fig6_right")["end_time"] == 70
-
-
 def test_all_faults_are_told_at_once():
     stepped = {"name": "crank_nicolson", "stp": 0.1}  # a key of this solver is near, of none else
     cases = {"a": {"omega": 1, "solver": stepped}, "b": {"omega": "x", "half_width": -1}}
@@ -37,12 +27,6 @@ def test_all_faults_are_told_at_once():
         load({"cases": cases})
     assert len(str(caught.value).splitlines()) == 1 + 3
     assert "did you mean 'step'?" in str(caught.value)
-
-
-def test_numbers_are_read_as_yaml_and_python_write_them():
-    case = load(yaml.safe_load("cases: {mine: {omega: 1e-7, initial: {'3': [-0.3+0.4j, 2]}}}"))
-    assert case.cases["mine"].omega == 1e-7
-    assert case.cases["mine"].initial == {3: (-0.3 + 0.4j, 2)}
 
 
 def test_a_named_solver_takes_the_shared_controls_and_a_given_one_its_own():
