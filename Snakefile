@@ -35,18 +35,8 @@ MADE_TOGETHER = {
     "window_map": "Maxima over windows [10, T] on chains of half-width M: the map over (M, T)",
 }
 FIGURES = [
-    *MADE_TOGETHER,
-    *(
-        "fig1",
-        "trust_horizons",
-        "bounds",
-        "ensembles",
-        "lifetimes",
-        "breathers",
-        "sensitivity",
-        "fates",
-    ),
-    *("pendula_threshold", "pendula_phases", "certified_curves"),
+    *(*MADE_TOGETHER, "fig1", "trust_horizons", "bounds", "ensembles", "lifetimes", "breathers"),
+    *("sensitivity", "fates", "pendula_threshold", "pendula_phases", "certified_curves"),
 ]
 
 

@@ -59,21 +59,25 @@ def measure_cost(problem: Problem) -> Contents:
     return measure(problem), {"title": "How the cost of a run grows", **machine.describe()}
 
 
-def tabulate_speed(
-    work_precision: str, cost: str, work_precision_table: str, cost_table: str
+def show_speed(
+    work_precision: str,
+    cost: str,
+    work_precision_table: str,
+    cost_table: str,
+    regimes: list[str],
+    files: list[str],
 ) -> None:
-    """Write both pages of Markdown."""
-    write_markdown(work_precision_table, *tabulate_work_precision(read(work_precision)))
-    write_markdown(cost_table, *tabulate_cost(read(cost)))
+    """Write both pages of Markdown, and draw a figure for each regime and one of the cost.
 
-
-def draw_speed(work_precision: str, cost: str, regimes: list[str], files: list[str]) -> None:
-    """Draw one figure a regime and then the cost, each to PNG, PDF, data and description."""
-    measured, drawn = read(work_precision), []
+    `files` has the PNG, PDF, data and description of each figure in this order.
+    """
+    measured, costs, drawn = read(work_precision), read(cost), []
+    write_markdown(work_precision_table, *tabulate_work_precision(measured))
+    write_markdown(cost_table, *tabulate_cost(costs))
     for regime in regimes:
         data = figures.gather_work_precision(measured, regime)
         drawn.append((figures.draw_work_precision(data), data))
-    data = figures.gather_cost(read(cost))
+    data = figures.gather_cost(costs)
     drawn.append((figures.draw_cost(data), data))
     for first, (figure, data) in zip(range(0, len(files), 4), drawn, strict=True):
         save(figure, data, *files[first : first + 4])

@@ -1,8 +1,6 @@
 """How long a whole reproduction takes and how much disk: from nothing, with kernels, without work.
 
-Run as `python -m benchmarks.reproduction DATA` in the project's folder. It works on a copy of the
-project in a temporary folder, with a cache of kernels of its own, writes what was measured as JSON
-to DATA, and prints it as a table.
+It works on a copy of the project in a temporary folder, with a cache of kernels of its own.
 """
 
 import json
@@ -14,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from pendula.report.words import markdown
+from pendula.report.words import markdown, write_markdown
 from pendula.sources import describe_machine
 
 from .timing import timed
@@ -74,17 +72,14 @@ def _megabytes(folder: Path) -> int:
     return round(sum(path.stat().st_size for path in files) / 1e6)
 
 
-def main(data: Path) -> None:
-    """Measure in a copy of the project, write and print what was measured."""
+def measure_reproduction(data: str, table: str) -> None:
+    """Measure in a copy of the project; write what was measured as JSON and as a table."""
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder) / "project"
         shutil.copytree(ROOT, project, ignore=LEFT_OUT)
         measured = measure(project)
-    data.write_text(json.dumps(measured, indent=1) + "\n", encoding="utf-8")
+    Path(data).write_text(json.dumps(measured, indent=1) + "\n", encoding="utf-8")
     runs = measured["runs"].items()
     rows = [(RUNS[name], f"{one['wall']:.1f}", f"{one['processor']:.1f}") for name, one in runs]
-    print(markdown(["run", "wall time, s", "processor time, s"], rows))
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    write_markdown(table, markdown(["run", "wall time, s", "processor time, s"], rows))
+    print(Path(table).read_text(encoding="utf-8"))

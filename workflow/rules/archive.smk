@@ -3,6 +3,12 @@
 ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
 
 
+def code_of_jobs():
+    """Return the names of all files of code that jobs rest on."""
+    files = {module for entries in CALLED.values() for module in modules_of(*entries)}
+    return sorted(file.relative_to(PROJECT).as_posix() for file in files)
+
+
 use rule job as archive with:
     "Code, environment, datasets, figures and metadata in one file to deposit"
     input:
@@ -15,5 +21,5 @@ use rule job as archive with:
     params:
         call=function("pendula.archive.pack.pack_results"),
         made_by=lambda wildcards: code_of_jobs(),
-        digests=lambda wildcards: whole_project(),
+        digests=lambda wildcards: {name: digest_of(PROJECT / name) for name in code_files(PROJECT)},
         configuration=lambda wildcards: config,

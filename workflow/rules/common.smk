@@ -59,9 +59,8 @@ CONFIG_FILES = [f"{PROJECT}/config/{name}.yaml" for name in ("config", *STUDIES)
 try:
     # Options of a single call, by --config alone: the baseline to compare with, whether any bits
     # will do, and what of a run to accept. In a file they would send a run's results elsewhere.
-    OPTIONS = dict.fromkeys(("baseline", "bits", "accept"))
     given = dict(workflow.config_settings.config)
-    OPTIONS |= {name: given.pop(name) for name in OPTIONS if name in given}
+    OPTIONS = {name: given.pop(name, None) for name in ("baseline", "bits", "accept")}
     for name in OPTIONS:
         config.pop(name, None)
     config.update(gather([*CONFIG_FILES, *workflow.overwrite_configfiles], given))
@@ -173,13 +172,12 @@ def kernels(*solvers):
     return [f"<results>/kernels/{name}.txt" for name in compiled]
 
 
-def own_kernels(case, solver=None):
-    """Return the kernels that a case waits for.
+def kernels_of(problem):
+    """Return the kernels that a run of this problem waits for.
 
     Those of other equations are compiled by the first job that needs them, and others wait for it.
     """
-    given = SETTINGS.cases[case]
-    return [] if given.model != "amplitudes" else kernels(solver or given.solver.name)
+    return [] if "model" in problem else kernels(problem["solver"]["name"])
 
 
 def committed(**files):

@@ -1,8 +1,6 @@
 # Cases and sweeps of one's own: figures, checks, and a report, as for those of the paper. Their names
 # are free, so all lies in results/own.
 
-CHECKING = ["taylor", "dop853"]  # solvers that check a case
-
 
 rule own:
     "A report of the cases and sweeps in your --configfile: results/own_report.html"
@@ -14,7 +12,9 @@ use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
         kernels=lambda wildcards: [
-            file for solver in CHECKING for file in own_kernels(wildcards.case, solver)
+            file
+            for solver in ("taylor", "dop853")
+            for file in kernels_of(SETTINGS.problem(wildcards.case, solver))
         ],
         run="<results>/trajectories/{case}.nc",
     pathvars:

@@ -55,10 +55,6 @@ def swept(drawn, tolerance):
     }
 
 
-def own_sweep_solver(wildcards):
-    return SETTINGS.swept_problem(wildcards.sweep)["solver"]["name"]
-
-
 def drawn_windows(sweep):
     drawn = SETTINGS.sweeps[sweep].drawn
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
@@ -131,12 +127,9 @@ def reference_problem(case):
 
 def settings_in_words():
     """Return the configuration of the paper's cases and sweeps as text."""
-    cases = {case: SETTINGS.problem(case) for case in PAPER_CASES}
-    sweeps = {sweep: SETTINGS.sweeps[sweep] for sweep in PAPER_SWEEPS}
-    swept = {
-        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
-        for name, sweep in sweeps.items()
-    }
-    studies = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
-    told = {"cases": cases, "sweeps": swept, **studies}
+    told = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
+    told["cases"] = {case: SETTINGS.problem(case) for case in PAPER_CASES}
+    sweeps = {name: SETTINGS.sweeps[name] for name in PAPER_SWEEPS}
+    drawn = {name: {"drawn": sweep.drawn.model_dump()} for name, sweep in sweeps.items()}
+    told["sweeps"] = {name: sweep.model_dump() | drawn[name] for name, sweep in sweeps.items()}
     return json.dumps(told, sort_keys=True, default=str)

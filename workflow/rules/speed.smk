@@ -46,46 +46,32 @@ use rule dataset as cost with:
         problem=SETTINGS.problem("fig3_small"),
 
 
-use rule job as speed_tables with:
-    "Part of speed: what was timed, as tables to read"
+use rule job as speed_pages with:
+    "Part of speed: what was timed, as tables to read and as figures"
     input:
         work_precision="<results>/speed/work_precision.nc",
         cost="<results>/speed/cost.nc",
     output:
         work_precision_table="<results>/speed/work_precision.md",
         cost_table="<results>/speed/cost.md",
-    pathvars:
-        made="speed/tables",
-    params:
-        call=function("benchmarks.jobs.tabulate_speed"),
-
-
-use rule speed_tables as speed_figures with:
-    "Part of speed: what was timed, as figures"
-    output:
         files=[file for name in SPEED_FIGURES for file in figure_files(f"<results>/figures/{name}")],
     pathvars:
-        made="figures/speed",
+        made="speed/pages",
     params:
-        call=function("benchmarks.jobs.draw_speed"),
+        call=function("benchmarks.jobs.show_speed"),
         regimes=list(REGIMES),
 
 
-rule reproduction:
+use rule job as reproduction with:
     "The times of the whole reproduction, from nothing and with compiled kernels"
     output:
         data="<results>/speed/reproduction.json",
         table="<results>/speed/reproduction.md",
-    log:
-        "<logs>/speed/reproduction.log",
-    conda:
-        "../envs/pinned.yaml"
+    pathvars:
+        made="speed/reproduction",
     threads: workflow.cores
     params:
-        code=function("benchmarks.reproduction.main", "pendula.studies.paper.runs.run_case"),
-        python=sys.executable,
+        call=function("benchmarks.reproduction.measure_reproduction"),
+        digests=function("pendula.studies.paper.runs.run_case"),
     message:
         "Running the whole reproduction twice, in a copy of the project"
-    shell:
-        "{params.python:q} -m benchmarks.reproduction {output.data:q} > {output.table:q} 2> {log:q} &&"
-        " cat {output.table:q}"

@@ -4,11 +4,9 @@
 use rule job as compile_solver with:
     "Compile a solver before the jobs that share it"
     output:
-        kernels="<results>/kernels/{solver}.txt",
+        kernels="<results>/<made>.txt",
     pathvars:
-        made="kernels/{solver}",
-    wildcard_constraints:
-        solver=one_of(ALL_SOLVERS),
+        made=f"kernels/{{solver,{one_of(ALL_SOLVERS)}}}",
     params:
         call=function("pendula.studies.paper.compile_solver.compile_solver"),
         solver="{solver}",
@@ -17,7 +15,7 @@ use rule job as compile_solver with:
 use rule dataset as trajectory with:
     "A case by its own solver: results/trajectories/{case}.nc"
     input:
-        kernels=lambda wildcards: own_kernels(wildcards.case),
+        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case)),
     pathvars:
         made="trajectories/<any_case>",
     params:
@@ -46,7 +44,7 @@ use rule dataset as trajectory_by_solvers with:
 use rule trajectory as own_trajectory_by_solver with:
     "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
-        kernels=lambda wildcards: own_kernels(wildcards.case, wildcards.solver),
+        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case, wildcards.solver)),
     pathvars:
         made="trajectories/<own_case>.<any_solver>",
     params:
@@ -56,9 +54,7 @@ use rule trajectory as own_trajectory_by_solver with:
 use rule dataset as sweep with:
     "A sweep by its own solver: results/sweeps/{sweep}.nc"
     input:
-        kernels=lambda wildcards: own_kernels(
-            SETTINGS.sweeps[wildcards.sweep].case, own_sweep_solver(wildcards)
-        ),
+        kernels=lambda wildcards: kernels_of(SETTINGS.swept_problem(wildcards.sweep)),
     pathvars:
         made="sweeps/<any_sweep>",
     params:
