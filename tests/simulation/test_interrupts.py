@@ -134,25 +134,12 @@ def test_ctrl_c_ends_all_runs_of_a_pool_of_threads(ctrl_c):
     assert [run.outcomes[0].status for run in runs] == [INTERRUPTED] * len(runs)
 
 
-def test_a_run_after_an_interrupted_one_is_as_ever(ctrl_c):
-    problem = problem_of("fig2_small", end_time=1.0)
-    before, run = simulate(problem), LongRun("taylor")
-    press_when(run.is_under_way, ctrl_c)
-    with pytest.raises(KeyboardInterrupt):
-        run.start()
-    np.testing.assert_array_equal(simulate(problem).final, before.final)
-
-
 def test_a_fault_of_the_run_reaches_the_caller():
     def run(stop):
         raise MemoryError("too large")
 
     with pytest.raises(MemoryError, match="too large"):
         interruptible(run)
-
-
-def test_a_run_that_is_not_interrupted_returns_its_result_with_the_flag_down():
-    assert interruptible(lambda number, stop: (number, bool(stop[0])), 3) == (3, False)
 
 
 def test_a_thread_does_one_run_after_another_and_keeps_no_array():

@@ -1,11 +1,12 @@
-"""The way from amplitudes to the state of a run and back."""
+"""From amplitudes to the state of a run and back, and what a run keeps of its states."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from oracle import chains, random_chain
+from oracle import boundaries, chains, random_chain
 from pendula.ends import DIRICHLET, FREE, PERIODIC
+from pendula.models.amplitudes import Chain, energy
 from pendula.models.chain import MIRROR
 from pendula.simulation.lattice import (
     WHOLE,
@@ -16,13 +17,19 @@ from pendula.simulation.lattice import (
     unfold,
     unpack,
 )
+from pendula.simulation.observables import blank_record, observe
 
 REDUCTIONS = [Reduction(even, same) for even in (False, True) for same in (False, True)]
+each_reduction = pytest.mark.parametrize("reduction", REDUCTIONS)
 
 
-@pytest.mark.parametrize("reduction", REDUCTIONS)
+# --- Symmetries ---------------------------------------------------------------------------------
+
+
+@each_reduction
 def test_symmetries_are_found(reduction):
     assert find_reduction(random_chain(3, **reduction._asdict())) == reduction
+    assert not find_reduction(random_chain(0)).even
 
 
 @given(st.integers(0, 6), st.integers(0, 1), st.booleans())
@@ -34,35 +41,34 @@ def test_the_last_bit_of_any_part_breaks_a_symmetry(site, component, imaginary):
     assert find_reduction(z) == Reduction(even=centre, synchronised=False)
 
 
-def test_a_chain_of_one_pair_has_no_half():
-    assert not find_reduction(random_chain(0)).even
+@pytest.mark.parametrize(
+    ("boundary", "whole", "far"),
+    [("dirichlet", DIRICHLET, DIRICHLET), ("free", FREE, FREE), ("periodic", PERIODIC, FREE)],
+)
+def test_ends_of_the_whole_and_of_half_the_chain(boundary, whole, far):
+    assert choose_ends(boundary, Reduction(False, False)) == (whole, whole)
+    assert choose_ends(boundary, Reduction(True, False)) == (MIRROR, far)
 
 
-def test_the_state_holds_parts_in_rows_between_ghosts():
+# --- The state ----------------------------------------------------------------------------------
+
+
+def test_the_state_holds_parts_in_rows_between_ghosts_and_half_of_it_starts_at_the_centre():
     z = np.array([[1 + 2j, 3 + 4j, 5 + 6j], [7 + 8j, 9 + 10j, 11 + 12j]])
-    y = pack(z, Reduction(even=False, synchronised=False))
     expected = [[0, 1, 3, 5, 0], [0, 2, 4, 6, 0], [0, 7, 9, 11, 0], [0, 8, 10, 12, 0]]
-    np.testing.assert_array_equal(y, expected)
-
-
-def test_half_a_state_starts_at_the_centre():
-    z = np.array([[3, 2 + 1j, 1 + 5j, 2 + 1j, 3]] * 2)
-    y = pack(z, Reduction(even=True, synchronised=True))
-    np.testing.assert_array_equal(y, [[0, 1, 2, 3, 0], [0, 5, 1, 0, 0]])
+    np.testing.assert_array_equal(pack(z, WHOLE), expected)
+    even = np.array([[3, 2 + 1j, 1 + 5j, 2 + 1j, 3]] * 2)
+    half = pack(even, Reduction(even=True, synchronised=True))
+    np.testing.assert_array_equal(half, [[0, 1, 2, 3, 0], [0, 5, 1, 0, 0]])
 
 
 @given(st.data(), st.sampled_from(REDUCTIONS))
-def test_packing_and_unpacking_returns_the_same_amplitudes(data, reduction):
+def test_a_state_is_as_small_as_the_symmetries_allow_and_gives_the_amplitudes_back(data, reduction):
     z = data.draw(chains(widths=(1, 4), **reduction._asdict()))
-    np.testing.assert_array_equal(unpack(pack(z, reduction), reduction), z)
-
-
-@given(st.data(), st.sampled_from(REDUCTIONS))
-def test_a_state_is_as_small_as_the_symmetries_allow(data, reduction):
-    z = data.draw(chains(widths=(1, 4), **reduction._asdict()))
+    y = pack(z, reduction)
     sites = z.shape[1] // 2 + 1 if reduction.even else z.shape[1]
-    rows = 2 if reduction.synchronised else 4
-    assert pack(z, reduction).shape == (rows, sites + 2)
+    assert y.shape == (2 if reduction.synchronised else 4, sites + 2)
+    np.testing.assert_array_equal(unpack(y, reduction), z)
 
 
 def test_unfolding_mirrors_the_sites_and_keeps_later_axes():
@@ -73,14 +79,58 @@ def test_unfolding_mirrors_the_sites_and_keeps_later_axes():
     np.testing.assert_array_equal(whole[0, :, 1], [5, 3, 1, 3, 5])
 
 
-@pytest.mark.parametrize(
-    ("boundary", "whole", "far"),
-    [("dirichlet", DIRICHLET, DIRICHLET), ("free", FREE, FREE), ("periodic", PERIODIC, FREE)],
-)
-def test_ends_of_the_whole_and_of_half_the_chain(boundary, whole, far):
-    assert choose_ends(boundary, Reduction(False, False)) == (whole, whole)
-    assert choose_ends(boundary, Reduction(True, False)) == (MIRROR, far)
+# --- What is kept of a state --------------------------------------------------------------------
 
 
-def test_the_whole_is_not_reduced():
-    assert WHOLE._asdict() == {"even": False, "synchronised": False}
+def observed(z, reduction=WHOLE, boundary="dirichlet", times=1, i=0, every=1, **others):
+    """Return chain, state and record of an output; all other outputs of the record are -1."""
+    chain, y = Chain(1.0, 1.0, -4.0, *choose_ends(boundary, reduction)), pack(z, reduction)
+    record = blank_record(y.shape[0] // 2, y.shape[1] - 2, times, every, **others)
+    for values in record[:4]:
+        values.fill(-1.0)
+    observe(chain, y, i, record)
+    return chain, y, record
+
+
+@each_reduction
+@pytest.mark.parametrize("half_width", [1, 2, 6])
+def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
+    z = random_chain(half_width, **reduction._asdict())
+    _, _, record = observed(z, reduction)
+    kept = z[: len(record.l2)]
+    np.testing.assert_allclose(record.linf[:, 0], np.abs(kept).max(axis=1), rtol=1e-14)
+    np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(kept, axis=1), rtol=1e-14)
+    sites = slice(half_width if reduction.even else 0, None)
+    np.testing.assert_allclose(record.modulus[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
+
+
+@pytest.mark.parametrize("site", range(5))
+def test_the_largest_site_is_found_anywhere(site):
+    z = np.full((2, 5), 0.5 + 0.5j)
+    z[1, site] = 3 - 4j
+    assert observed(z)[2].linf[1, 0] == 5.0
+
+
+@given(chains(widths=(1, 4), even=True), boundaries)
+def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, boundary):
+    half, whole = (
+        observed(z, reduction, boundary)[2] for reduction in (Reduction(True, False), WHOLE)
+    )
+    np.testing.assert_array_equal([half.linf, half.l2], [whole.linf, whole.l2])
+
+
+def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
+    z = random_chain(2)
+    chain, y, record = observed(z, times=7, i=4, every=2)
+    assert record.energy[4] == energy(chain, y)
+    assert [np.count_nonzero(values != -1.0) for values in record[:4]] == [2, 2, 1, 10]
+    np.testing.assert_allclose(record.modulus[:, :, 2], np.abs(z), rtol=1e-14)
+    assert np.all(observed(z, times=7, i=3, every=2)[2].modulus == -1.0)
+    assert observed(z, every=0)[2].modulus.shape == (2, 5, 0)
+
+
+def test_the_energy_is_left_out_where_nobody_asks_for_it():
+    z = random_chain(2)
+    whole, norms_alone = observed(z)[2], observed(z, energy=False)[2]
+    assert norms_alone.energy.size == 0
+    assert (norms_alone.l2 == whole.l2).all() and (norms_alone.linf == whole.linf).all()

@@ -27,10 +27,6 @@ def run():
     return simulate(PROBLEM.changed(half_width=7))
 
 
-def test_the_shape_is_half_width_quantity_statistic_window(swept):
-    assert swept.l2.shape == swept.linf.shape == (2, 3, 2, 2)
-
-
 @pytest.mark.parametrize(("window", "first", "last"), [(0, 40, 80), (1, 0, 120)])
 def test_maxima_are_those_of_the_trajectory_over_the_whole_window(swept, run, window, first, last):
     inside = slice(first, last + 1)
@@ -48,12 +44,6 @@ def test_means_are_integrals_over_the_window(swept, run):
     inside = slice(40, 81)
     integral = np.trapezoid(run.l2[:, inside], run.tau[inside], axis=1)
     np.testing.assert_allclose(swept.l2[1, :2, 1, 0], integral, rtol=1e-12)
-
-
-def test_progress_is_told_for_each_half_width():
-    told = []
-    sweep(PROBLEM, [3, 4], [(0.0, 0.5)], told.append)
-    assert told == ["half-width 3 done (1 of 2)", "half-width 4 done (2 of 2)"]
 
 
 def test_a_chain_that_nothing_crosses_stands_for_longer_ones(monkeypatch):
