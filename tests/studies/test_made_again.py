@@ -1,0 +1,59 @@
+"""Datasets that are computed from other datasets come out of the accepted ones as accepted."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from accepted import dataset
+from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
+from pendula.studies.chaos.ensembles import compare_runs
+from pendula.studies.paper.solvers import compare_solvers
+from pendula.studies.theory.bounds import check_cases, check_sweeps
+
+SOLVERS = ("ode45", "crank_nicolson", "delfour_fortin_payre", "dop853")
+
+
+def of(folder, names):
+    """Return the accepted datasets of these names in a folder."""
+    return {name: dataset(f"{folder}/{name}") for name in names}
+
+
+def solvers():
+    second = (f"{sweep}.crank_nicolson" for sweep in PAPER_SWEEPS)
+    runs = of("trajectories", (f"{case}.{solver}" for case in PAPER_CASES for solver in SOLVERS))
+    # of the energies seven digits are kept, which leaves a few units in 1e5 of their drift
+    return compare_solvers(runs, of("sweeps", PAPER_SWEEPS), of("sweeps", second)).drop_vars("kept")
+
+
+def ensemble_runs():
+    ensembles, drawn = dataset("checks/ensembles"), dataset("checks/ensemble_runs")
+    cases, sweeps = (ensembles[name].values.astype(str) for name in ("case", "sweep"))
+    return compare_runs(
+        ensembles,
+        dataset("checks/lyapunov"),
+        of("trajectories", cases),
+        of("reference", cases),
+        of("sweeps", sweeps),
+        dict(zip(sweeps, drawn["swept_window"].values, strict=True)),
+    ).drop_vars("true")  # the accepted references have fewer times
+
+
+MADE = {
+    "checks/solvers": (solvers, 2e-5),
+    "checks/ensemble_runs": (ensemble_runs, 0.0),
+    "checks/cases": (lambda: check_cases(of("trajectories", PAPER_CASES)), 0.0),
+    "checks/sweeps": (lambda: check_sweeps(of("sweeps", PAPER_SWEEPS)), 0.0),
+}
+"""What makes a dataset of others, and what may be off where its numbers are small."""
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_a_dataset_comes_out_as_accepted(name):
+    make, off = MADE[name]
+    made, accepted = make(), dataset(name)
+    made = xr.Dataset.from_dict(made) if isinstance(made, dict) else made
+    for key, one in made.variables.items():
+        known = accepted[key].variable.transpose(*one.dims)
+        if one.dtype.kind == "f":
+            np.testing.assert_allclose(one, known, rtol=1e-3, atol=off, err_msg=key)
+        else:
+            np.testing.assert_array_equal(one, known, err_msg=key)
