@@ -8,10 +8,12 @@ from pendula.models.amplitudes import rates
 from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.models.tangent import tangent_rates
+from pendula.studies.breathers import branches, steady
 from pendula.studies.breathers.steady import (
     Chain,
     NotFoundError,
     continued,
+    fastest_growth,
     growth,
     newton,
     residual,
@@ -20,9 +22,10 @@ from pendula.studies.breathers.steady import (
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
 HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=30)
+each_family = pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+@each_family
 def test_the_closed_form_solves_the_equations_of_one_pair(family):
     alone = Chain(epsilon=0.0, gamma=0.7, omega=-4.3, half_width=1)
     state = np.zeros((2, 2))
@@ -30,20 +33,12 @@ def test_the_closed_form_solves_the_equations_of_one_pair(family):
     assert np.abs(residual(alone, family.drive(alone.gamma), state)).max() < 1e-13
 
 
-@pytest.mark.parametrize(
-    ("family", "ends_at"),
-    [
-        (REAL, 2.0),  # Omega < 2 gamma
-        (EQUAL, 0.0),
-        (ASYMMETRIC, -1.0),  # pitchfork of A = B at -gamma
-        (IMAGINARY, -2.0),
-        (ASYMMETRIC_IMAGINARY, -3.0),  # pitchfork of A = -B at -3 gamma
-    ],
-    ids=lambda value: getattr(value, "name", ""),
-)
-def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is(family, ends_at):
-    assert pair(family, 1.0, ends_at - 1e-9) is not None
-    assert pair(family, 1.0, ends_at + 1e-9) is None
+def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
+    """At Omega = 2 gamma, 0, -gamma, -2 gamma and -3 gamma."""
+    for family, end in zip(FAMILIES, (2.0, 0.0, -1.0, -2.0, -3.0), strict=True):
+        assert pair(family, 1.0, end - 1e-9) is not None
+        assert pair(family, 1.0, end + 1e-9) is None
+        assert continued(HERE._replace(omega=end + 0.5), family) is None
 
 
 def vector_field(chain, family, state):
@@ -57,14 +52,9 @@ def vector_field(chain, family, state):
     return ends, y, dy[:, 1:-1]
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_the_kernels_of_the_integrators_see_a_state_at_rest(family):
-    _, _, rate = vector_field(HERE, family, continued(HERE, family))
-    assert np.abs(rate).max() < 1e-11
-
-
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_exponents_are_those_of_the_variational_kernel(family):
+@each_family
+def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(family):
+    assert np.abs(vector_field(HERE, family, continued(HERE, family))[-1]).max() < 1e-11
     state = continued(HERE._replace(half_width=8), family)
     ends, y, _ = vector_field(HERE, family, state)
     size = 4 * state.shape[1]
@@ -88,43 +78,24 @@ def test_odd_perturbations_are_those_of_a_chain_whose_centre_is_held():
 
 
 def test_the_phase_of_equal_amplitudes_costs_nothing():
-    squares = squared_exponents(
-        HERE._replace(omega=-8.0), 1.0, continued(HERE._replace(omega=-8.0), EQUAL), True
-    )
+    chain = HERE._replace(omega=-8.0)
+    squares = squared_exponents(chain, 1.0, continued(chain, EQUAL), even=True)
     assert np.abs(squares).min() < 1e-11
     assert growth(squares) == 0.0
 
 
-@pytest.mark.parametrize(("family", "omega", "stable"), [
-    (EQUAL, -4.0, False), (EQUAL, -8.0, True), (REAL, -12.0, False), (REAL, -13.0, True),
-    (ASYMMETRIC, -13.0, True), (IMAGINARY, -13.0, False),
+@pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
+    (EQUAL, 1.0, -4.0, False), (EQUAL, 1.0, -8.0, True), (REAL, 1.0, -12.0, False),
+    (REAL, 1.0, -13.0, True), (ASYMMETRIC, 1.0, -13.0, True), (IMAGINARY, 1.0, -13.0, False),
+    (EQUAL, 0.05, -5.0, True),
+    # A = B on one pair swings at the square 4 gamma (-Omega - gamma), and the lower edge of the
+    # band of A - B has Omega^2 - 4 gamma^2: the two are equal at Omega = -4 gamma
+    (EQUAL, 0.01, -4.0, False),
 ])  # fmt: skip
-def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, omega, stable):
+def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
     for half_width in (20, 40):
-        chain = HERE._replace(omega=omega, half_width=half_width)
-        state, s = continued(chain, family), family.drive(chain.gamma)
-        rate = max(growth(squared_exponents(chain, s, state, even)) for even in (True, False))
-        assert (rate == 0.0) is stable
-
-
-def test_all_families_are_unstable_at_the_detuning_of_fig_3():
-    for family in FAMILIES:
-        state, s = continued(HERE, family), family.drive(HERE.gamma)
-        assert growth(squared_exponents(HERE, s, state, even=True)) > 0.1
-
-
-def test_weak_coupling_leaves_stable_states():
-    weak = HERE._replace(epsilon=0.05, omega=-5.0)
-    state = continued(weak, EQUAL)
-    assert growth(squared_exponents(weak, 1.0, state, even=True)) == 0.0
-
-
-def test_equal_amplitudes_meet_the_band_at_once_at_minus_four():
-    """A = B on one pair swings at the square 4 gamma (-Omega - gamma), and the lower edge of the
-    band of A - B has Omega^2 - 4 gamma^2: the two are equal at Omega = -4 gamma, that of Fig 3."""
-    weak = HERE._replace(epsilon=0.01)
-    state = continued(weak, EQUAL)
-    assert growth(squared_exponents(weak, 1.0, state, even=True)) > 1e-3
+        chain = Chain(epsilon, 1.0, omega, half_width)
+        assert (fastest_growth(chain, family, continued(chain, family)) == 0.0) is stable
 
 
 @pytest.mark.parametrize("omega", [6.0, 6.5, 8.0])
@@ -138,35 +109,49 @@ def test_no_start_leads_to_a_state_where_the_theorem_forbids_one(omega):
             weights = np.array([1.0] + [2.0] * 10)
             form = np.sum(weights * state * residual(chain, s, state))
             assert form >= 0.5 * np.sum(weights * state**4) > 0.0
-    for family in (REAL, EQUAL):
+    for sign in (1.0, -1.0):
         start = np.zeros((2, 11))
-        start[:, 0] = (4.0, -4.0 if family is REAL else 4.0)
+        start[:, 0] = (4.0, 4.0 * sign)
         with pytest.raises(NotFoundError):
             newton(chain, chain.gamma, start)
 
 
-def test_the_form_is_not_definite_below():
-    """The bound of the theorem is sharp for the form: just below it takes both signs."""
-    chain = HERE._replace(omega=5.9, half_width=200)
-    n = np.arange(201)
-    wave = (-1.0) ** n * np.cos(np.pi * n / 402) * 1e-3
-    state = np.stack([wave, -wave])
-    weights = np.array([1.0] + [2.0] * 200)
-    assert np.sum(weights * state * residual(chain, chain.gamma, state)) < 0.0
-
-
-def test_a_family_that_does_not_exist_is_none():
-    assert continued(HERE._replace(omega=-2.5), ASYMMETRIC_IMAGINARY) is None
-
-
-def test_a_step_that_changes_the_state_too_much_is_halved(monkeypatch):
-    """From the pair to the full coupling in one step Newton's method would lose the family."""
+def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
+    """In one step Newton's method would lose the family: the step is halved."""
     by_small_steps = continued(HERE, REAL)
-    monkeypatch.setattr("pendula.studies.breathers.steady.FIRST_STEP", 1.0)
+    monkeypatch.setattr(steady, "FIRST_STEP", 1.0)
     assert np.abs(continued(HERE, REAL) - by_small_steps).max() < 1e-12
-
-
-def test_a_family_that_ends_before_the_coupling_is_told(monkeypatch):
-    monkeypatch.setattr("pendula.studies.breathers.steady.LARGEST_CHANGE", 0.0)
+    monkeypatch.setattr(steady, "LARGEST_CHANGE", 0.0)
     with pytest.raises(NotFoundError, match="ends at 0 of the coupling"):
         continued(HERE, REAL)
+
+
+# --- Where families are born and turn stable ------------------------------------------------------
+
+
+@pytest.mark.parametrize(("parent", "omega"), [(EQUAL, -0.7), (IMAGINARY, -2.1)])
+def test_the_pitchforks_of_one_pair_are_those_of_the_closed_form(parent, omega):
+    """A = B bifurcates at -gamma, A = -B at -3 gamma."""
+    alone = Chain(epsilon=0.0, gamma=0.7, omega=omega, half_width=1)
+    found = branches.pitchfork(alone, parent, 1.2 * omega, 0.9 * omega)
+    assert found == pytest.approx(omega, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("parent", "daughter"), [(EQUAL, ASYMMETRIC), (IMAGINARY, ASYMMETRIC_IMAGINARY)]
+)
+def test_a_daughter_turns_at_the_pitchfork(parent, daughter):
+    chain = Chain(epsilon=0.3, gamma=1.0, omega=-5.0, half_width=8)
+    branch = branches.follow(chain, daughter, continued(chain, daughter), stop=-5.0)
+    turns = branches.turning_point(branch)
+    found = branches.pitchfork(chain, parent, turns - 0.05, turns + 0.05)
+    assert found == pytest.approx(turns, abs=1e-5)
+
+
+def test_a_threshold_is_where_the_verdict_changes():
+    chains = [Chain(1.0, 1.0, 0.0, half) for half in (8, 16)]
+    found = branches.thresholds(chains, EQUAL, -9.0, -5.0, 1e-2)
+    assert found[0] == pytest.approx(found[1], abs=0.1)
+    for low, high in ((found[0] + 0.1, -5.0), (-9.0, found[0] - 0.1)):
+        with pytest.raises(NotFoundError, match="stable at"):
+            branches.thresholds(chains, EQUAL, low, high, 1e-2)

@@ -185,22 +185,15 @@ def _shares(results: Results, plane: str, omega: float) -> list:
     data = results[MAP].sel(plane=plane, omega=omega)
     count = int(np.prod([data.sizes[axis] for axis in AXES[plane]]))
     fates = (data.isel(fate_name=i) for i in range(data.sizes["fate_name"]))
-    shares = (results.say(MAP, share_with_limits(one)) for one in fates)
+    shares = (results.say(MAP, _share_with_limits(one)) for one in fates)
     return [number(omega), PLANES[plane], results.quote(MAP, count, 6), *shares]
 
 
-def share_with_limits(one: xr.Dataset) -> str:
+def _share_with_limits(one: xr.Dataset) -> str:
     """Return the share of an area and its interval in per cent, such as 14.2 % (14 to 14.4)."""
     names = ("area", "area_low", "area_high")
-    value, low, high = (_in_per_cent(float(one[name])) for name in names)
+    value, low, high = (number(100.0 * float(one[name])) for name in names)
     return f"{value} % ({low} to {high})"
-
-
-def _in_per_cent(share: float) -> str:
-    """Return three digits, which are those of the rest where nearly everything is meant."""
-    rest = 100.0 * (1.0 - share)
-    nearly = f"{100.0 - float(f'{rest:.3g}'):.12g}"
-    return nearly if 0 < rest < 0.1 else number(100.0 * share, 3)
 
 
 def _periodic(results: Results, omega: float) -> list:
