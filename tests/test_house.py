@@ -26,6 +26,8 @@ STOREYS = (
     ("feasibility",),
     ("problem",),
     ("model", "ends"),
+    ("symbols",),
+    ("graph",),
     ("simd", "compiled", "inside_numba", "kernel_cache", "numerics", "sources"),
 )
 """The rooms from the top down: an import points down, or stays in its room."""

@@ -4,7 +4,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from pendula.model import Model, abs2, conj, shift
+from pendula.model import Model, abs2, conj, lap, shift
 from pendula.problem import Problem
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
@@ -111,10 +111,10 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
 
 
 def pendulum(p, x):
-    """A driven chain with a sine of each angle and of each bond, and a force of its own."""
+    """A driven chain with a sine of each angle and of each bond, linear bonds, and a force."""
     bond = p.bond * np.sin(x.right - x)
     drive = p.strength * np.cos(p.frequency * p.t + 0.3)
-    return (bond - bond.left) - np.sin(x) + drive * x + 0.1 * p.t - p.force
+    return (bond - bond.left) + 0.2 * lap(x) - np.sin(x) + drive * x + 0.1 * p.t - p.force
 
 
 @pytest.mark.parametrize("solver", ["taylor", "dop853", "kahan_li"])
@@ -127,6 +127,10 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
         x, v = flat.reshape(2, -1)
         bond = 0.5 * np.sin(beside(x, 1, "free") - x)
         before = 0.5 * np.sin(x - beside(x, -1, "free"))
+        bond, before = (
+            bond + 0.2 * (beside(x, 1, "free") - x),
+            before + 0.2 * (x - beside(x, -1, "free")),
+        )
         drive = 0.4 * np.cos(2.2 * t + 0.3)
         return np.ravel([v, (bond - before) - np.sin(x) + drive * x + 0.1 * t - 0.05])
 

@@ -19,7 +19,7 @@ from pendula.ends import DIRICHLET, PERIODIC
 from pendula.model import Model, Value, abs2, conj, lap
 
 from .chain import MIRROR, at_every_site, close
-from .generated import load_text, series_text
+from .generated import load_series
 
 
 class Chain(NamedTuple):
@@ -57,7 +57,7 @@ def i_dt(p, a: Value, b: Value) -> list[Value]:
 EQUATIONS = Model(
     fields=("A", "B"), parameters=dict.fromkeys(("epsilon", "gamma", "omega"), 1.0), i_dt=i_dt
 )
-continue_series = load_text(series_text(EQUATIONS)).continue_series
+continue_series = load_series(EQUATIONS).continue_series
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
 
 

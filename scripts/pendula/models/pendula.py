@@ -21,9 +21,10 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.ends import DIRICHLET, PERIODIC, kind_of, neighbours
 from pendula.numerics import elementary
-from pendula.numerics.elementary import HALF_PI, SPLITTER, complex_of, modulus, product
+from pendula.numerics.elementary import SPLITTER, complex_of, modulus, product
 
 from .chain import at_every_site, close
+from .sines import sine_and_cosine
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
@@ -105,12 +106,6 @@ def times_of(tau: np.ndarray, mu: float) -> np.ndarray:
 
 
 @inlined_by_llvm
-def whole(x):
-    """Return the whole number nearest to x, for abs(x) < 2^51; x is a number or a Vector."""
-    return -(6755399441055744.0 - (6755399441055744.0 + x))  # 1.5 * 2^52, where doubles are whole
-
-
-@inlined_by_llvm
 def rest_of_product(a, b, product):
     """Return what rounding took from the product of two numbers (Dekker, Veltkamp)."""
     long, wide = SPLITTER * a, SPLITTER * b
@@ -152,38 +147,6 @@ def pendula_of_tile(pendula, at_left_end, at_right_end):
         pendula.left if at_left_end else DIRICHLET,
         pendula.right if at_right_end else DIRICHLET,
     )
-
-
-# --- Sines, of numbers or of vectors of sites ---------------------------------------------------
-
-sine_near_zero, cosine_near_zero = map(
-    inlined_by_llvm, (elementary.sine_near_zero, elementary.cosine_near_zero)
-)
-
-
-@inlined_by_llvm
-def reduced(x):
-    """Return sin r, cos r, o and s of x = r + (o + 2 j) pi / 2, abs(r) <= pi / 4.
-
-    o is -1, 0 or 1, and s = (-1)^j. So sin x = s (sin r + o cos r) with one of the two terms, and
-    no lane of a vector needs another code than the next.
-    """
-    quarters = whole((1.0 / HALF_PI[0]) * x)
-    near = (x - HALF_PI[0] * quarters) - HALF_PI[1] * quarters
-    rest = -(HALF_PI[2] * quarters)
-    halves = whole(0.5 * quarters)
-    odd = quarters - 2.0 * halves
-    parity = halves - 2.0 * whole(0.5 * halves)
-    sign = 1.0 - 2.0 * (parity * parity)
-    return sine_near_zero(near, rest), cosine_near_zero(near, rest), odd, sign
-
-
-@inlined_by_llvm
-def sine_and_cosine(x):
-    """Return sin x and cos x with errors of some 1e-16, for angles of up to thousands of turns."""
-    s, c, odd, sign = reduced(x)
-    even = 1.0 - odd * odd
-    return sign * (even * s + odd * c), sign * (even * c - odd * s)
 
 
 # --- The right-hand side ------------------------------------------------------------------------

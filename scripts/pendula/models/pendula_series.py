@@ -29,8 +29,8 @@ from pendula.integrators.taylor import (
 )
 from pendula.simd import LANES, fill, load, store
 
-from .pendula import sine_and_cosine
 from .series import in_waves, partner_of, sides_of, with_neighbours
+from .sines import sine_and_cosine
 
 ANGLE, VELOCITY, SINE = X, Y, EXTRA
 """What the parts of a coefficient hold."""

@@ -5,10 +5,12 @@ from functools import cache
 import numpy as np
 
 from pendula.ends import PERIODIC, ends_of, kind_of
+from pendula.graph import derivative, evaluate, leaves_in, number
 from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
-from pendula.model import Model, derivative, evaluate, in_order, number
+from pendula.model import Model
 from pendula.models.chain import seen_at
-from pendula.models.generated import System, load_text, module_text, parts_of_rates
+from pendula.models.generated import load_text, module_text, parts_of_rates
+from pendula.models.toolbox import System
 from pendula.problem import Problem
 from pendula.simd import LANES
 
@@ -186,11 +188,11 @@ def linearisation(problem: Problem, state: np.ndarray) -> np.ndarray:
         return np.where(at >= 0, row[at], 0.0)
 
     matrix = np.zeros((len(parts), sites, len(parts), sites))
-    for leaf in [one for one in in_order(model.rates) if one.operation == "field"]:
+    for leaf in leaves_in(model.rates, "field"):
         component, part, by = leaf.operands
         at = places(by)
         inside = np.flatnonzero(at >= 0)
-        slopes = derivative(list(model.rates), lambda one, leaf=leaf: number(one is leaf))
+        slopes = derivative(model.rates, lambda one, leaf=leaf: number(one is leaf))
         for row, slope in enumerate(evaluate(slopes, value)):
             slope = np.broadcast_to(slope, sites)
             matrix[row, inside, 2 * component + part, at[inside]] += slope[inside]

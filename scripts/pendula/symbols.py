@@ -1,0 +1,172 @@
+"""The complex numbers that a model computes with: pairs of nodes, and functions of them."""
+
+from typing import Any
+
+import numpy as np
+
+from .graph import CONSTANT, TWO, ZERO, Node, add, mul, neg, node, number, reciprocal, shifted, sub
+
+LONGEST_SHIFT = 7
+"""How far along the chain an equation may look: within the next block of a vector."""
+
+
+class ModelError(ValueError):
+    """A model that cannot be traced; the message names the operation and the line of its file."""
+
+
+class Value:
+    """A complex number at each site, as a model computes with it: a pair of nodes."""
+
+    __hash__ = None
+
+    def __init__(self, re: Node, im: Node = ZERO):
+        self.re, self.im = re, im
+
+    @staticmethod
+    def of(x: Any) -> "Value":
+        """Return a number as a Value."""
+        if isinstance(x, Value):
+            return x
+        if isinstance(x, int | float | complex | np.number) and not isinstance(x, bool):
+            return Value(number(complex(x).real), number(complex(x).imag))
+        raise ModelError(f"{type(x).__name__} cannot be computed with; give numbers and parameters")
+
+    @property
+    def right(self) -> "Value":
+        """The value at the site n + 1."""
+        return shift(self, 1)
+
+    @property
+    def left(self) -> "Value":
+        """The value at the site n - 1."""
+        return shift(self, -1)
+
+    def __add__(self, other):
+        other = Value.of(other)
+        return Value(add(self.re, other.re), add(self.im, other.im))
+
+    def __sub__(self, other):
+        other = Value.of(other)
+        return Value(sub(self.re, other.re), sub(self.im, other.im))
+
+    def __mul__(self, other):
+        other = Value.of(other)
+        if self is other or (self.re is other.re and self.im is other.im):
+            return self._square()
+        return Value(
+            sub(mul(self.re, other.re), mul(self.im, other.im)),
+            add(mul(self.re, other.im), mul(self.im, other.re)),
+        )
+
+    def _square(self):
+        product = mul(self.re, self.im)
+        squares = sub(mul(self.re, self.re), mul(self.im, self.im))
+        return Value(squares, mul(TWO, product))
+
+    def __truediv__(self, other):
+        other = Value.of(other)
+        if max(other.re.level, other.im.level) > CONSTANT or other.im is not ZERO:
+            raise ModelError("a division by a field, or by anything but a real parameter")
+        inverse = reciprocal(other.re)
+        return Value(mul(inverse, self.re), mul(inverse, self.im))
+
+    def __pow__(self, exponent):
+        if not isinstance(exponent, int) or not 1 <= exponent <= 9:
+            raise ModelError(f"the power {exponent!r}: give a whole number from 1 to 9")
+        power = self
+        for _ in range(exponent - 1):
+            power = power * self
+        return power
+
+    def __neg__(self):
+        return Value(neg(self.re), neg(self.im))
+
+    def __pos__(self):
+        return self
+
+    def __radd__(self, other):
+        return Value.of(other) + self
+
+    def __rsub__(self, other):
+        return Value.of(other) - self
+
+    def __rmul__(self, other):
+        return Value.of(other) * self
+
+    def __rtruediv__(self, other):
+        return Value.of(other) / self
+
+    def conjugate(self):
+        """Return the complex conjugate."""
+        return Value(self.re, neg(self.im))
+
+    def __array_ufunc__(self, ufunc, method, *operands, **_):
+        """Do what NumPy's functions and its numbers ask for, where there is a rule for it."""
+        rule = UFUNCS.get(ufunc.__name__)
+        if rule is None or method != "__call__":
+            raise ModelError(f"{ufunc.__name__} of a field or a parameter has no rule")
+        return rule(*map(Value.of, operands))
+
+    def _refuse(self, *_):
+        raise ModelError("a number, a comparison or a branch is taken from a symbol")
+
+    __bool__ = __float__ = __complex__ = __int__ = __index__ = __iter__ = __len__ = _refuse
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = __getitem__ = _refuse
+
+    def __abs__(self):
+        raise ModelError("abs has no rule; abs2 is the squared modulus")
+
+
+def shift(w: Value, sites: int) -> Value:
+    """Return the value at the site n + `sites`."""
+    w = Value.of(w)
+    moved = Value(shifted(w.re, sites), shifted(w.im, sites))
+    if max(moved.re.reach, moved.im.reach) > LONGEST_SHIFT:
+        raise ModelError(f"a look farther than {LONGEST_SHIFT} sites along the chain")
+    return moved
+
+
+def lap(w: Value) -> Value:
+    """Return w_{n+1} - 2 w_n + w_{n-1}, neighbours first, which keeps even data even."""
+    return (shift(w, 1) + shift(w, -1)) - 2 * Value.of(w)
+
+
+def conj(w: Value) -> Value:
+    """Return the complex conjugate."""
+    return Value.of(w).conjugate()
+
+
+def abs2(w: Value) -> Value:
+    """Return the squared modulus."""
+    w = Value.of(w)
+    return Value(add(mul(w.re, w.re), mul(w.im, w.im)))
+
+
+def sin(w: Value) -> Value:
+    """Return the sine of a real value."""
+    return _of_real("sin", w)
+
+
+def cos(w: Value) -> Value:
+    """Return the cosine of a real value."""
+    return _of_real("cos", w)
+
+
+def _of_real(name: str, w: Value) -> Value:
+    w = Value.of(w)
+    if w.im is not ZERO:
+        raise ModelError(f"{name} of a complex number has no rule")
+    return Value(node(name, w.re))
+
+
+UFUNCS = {
+    "add": Value.__add__,
+    "subtract": Value.__sub__,
+    "multiply": Value.__mul__,
+    "divide": Value.__truediv__,
+    "negative": Value.__neg__,
+    "conjugate": conj,
+    "sin": sin,
+    "cos": cos,
+}
+"""Functions of NumPy by their names, with their rules."""
