@@ -3,11 +3,11 @@
     i dA_n/dtau = epsilon (A_{n+1} - 2 A_n + A_{n-1}) + Omega A_n
                   + gamma (conj B_n - conj A_n) + |A_n|^2 A_n / 2,
 
-and the same with A and B exchanged. What stands here: the equations as a traced model,
-from which their power series follow, the right-hand side in kernels that other forms share, its
-mean over a step for `delfour_fortin_payre`, and the energy. A state has the rows Re A, Im A, Re B,
-Im B, or the first two alone where A = B (see `chain`). Whoever changes an order of operations here
-changes every result (tests/test_same_bits.py).
+and the same with A and B exchanged. What stands here: the equations as a traced model, from which
+right-hand sides and power series follow, their mean over a step for `delfour_fortin_payre`, and the
+energy. A state has the rows Re A, Im A, Re B, Im B, or the first two alone where A = B (see
+`chain`). Whoever changes an order of operations here changes every result
+(tests/test_same_bits.py).
 """
 
 from typing import NamedTuple
@@ -19,7 +19,7 @@ from pendula.ends import DIRICHLET, PERIODIC
 from pendula.model import Model, Value, abs2, conj, lap
 
 from .chain import MIRROR, at_every_site, close
-from .generated import load_series
+from .generated import load_rule, load_series
 
 
 class Chain(NamedTuple):
@@ -43,80 +43,48 @@ def chain_of_tile(chain, at_left_end, at_right_end):
     return Chain(chain.epsilon, chain.gamma, chain.omega, left, right)
 
 
-# --- The equations as a traced model, and their power series, which is generated from it --------
+# --- The equations as a traced model, and what is generated from it -----------------------------
+
+
+def linear(p, u: Value, v: Value) -> Value:
+    """Return the linear terms of i dA_n/dtau, where u is A and v is B, or the other way round."""
+    return p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u))
 
 
 def i_dt(p, a: Value, b: Value) -> list[Value]:
     """Return i dA_n/dtau and i dB_n/dtau."""
-    return [
-        p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u)) + 0.5 * abs2(u) * u
-        for u, v in ((a, b), (b, a))
+    return [linear(p, u, v) + 0.5 * abs2(u) * u for u, v in ((a, b), (b, a))]
+
+
+def mean_i_dt(p, *fields: Value) -> list[Value]:
+    """Return the mean over a step from one pair of fields to a second; the third is their mean.
+
+    The linear terms act on the mean state, the cubic one is the mean of |A|^2 times the mean of A.
+    """
+    old, new, mean = fields[:2], fields[2:4], fields[4:]
+    return [0.0] * 4 + [
+        linear(p, u, v) + 0.5 * (0.5 * (abs2(first) + abs2(last))) * u
+        for first, last, u, v in zip(old, new, mean, mean[::-1], strict=True)
     ]
 
 
-EQUATIONS = Model(
-    fields=("A", "B"), parameters=dict.fromkeys(("epsilon", "gamma", "omega"), 1.0), i_dt=i_dt
-)
+def traced(i_dt, states: int = 1) -> Model:
+    """Return the model of a function of A and B, or of those of several states."""
+    fields = [f"{name}{i}" for i in range(states) for name in "AB"]
+    return Model(fields=fields, parameters=dict.fromkeys(Chain._fields[:3], 1.0), i_dt=i_dt)
+
+
+EQUATIONS = traced(i_dt)
 continue_series = load_series(EQUATIONS).continue_series
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
-
-
-# --- The right-hand side at one site, or at a vector of sites -----------------------------------
-# Every function of this part takes numbers, or `Vector`s of sites (see pendula.simd).
+rates_at_site = load_rule(EQUATIONS.rates, "y")
+write_rates = at_every_site(rates_at_site)
 
 
 @inlined_by_llvm
 def modulus2(y, re, j):
     """Return |A_n|^2 (or |B_n|^2) at column `j`; `re` is the row of the real parts."""
     return y[re, j] * y[re, j] + y[re + 1, j] * y[re + 1, j]
-
-
-@inlined_by_llvm
-def linear_field(chain, drive, left, u, right, partner):
-    """Return the linear terms of the real or the imaginary part F of the right-hand side of (4).
-
-    `left`, `u`, `right` are that part of A at a site and its neighbours, `partner` is that part of
-    B. Since the drive acts on conjugates, `drive` is gamma for real parts, -gamma for imaginary.
-    """
-    coupling = chain.epsilon * ((right + left) - 2.0 * u)
-    return coupling + chain.omega * u + drive * (partner - u)
-
-
-@inlined_by_llvm
-def field(chain, drive, left, u, right, partner, squared_modulus):
-    """Return one part of the right-hand side of (4), given |A_n|^2; see `linear_field`."""
-    return linear_field(chain, drive, left, u, right, partner) + 0.5 * squared_modulus * u
-
-
-@inlined_by_llvm
-def site_rates(chain, y, re, j, squared_modulus, dy):
-    """Write i A' = F at column `j` of the rows `re` and `re` + 1: Re A' = Im F, Im A' = -Re F.
-
-    `squared_modulus` stands for |A_n|^2 in the cubic term: that of `y` itself, a mean, or zero.
-    """
-    im = re + 1
-    # the rows of the other component; the rows themselves when A = B, where the drive vanishes
-    # exactly since partner - u is then zero
-    other = y.shape[0] - 2 - re
-    gamma = chain.gamma
-    dy[re, j] = field(
-        chain, -gamma, y[im, j - 1], y[im, j], y[im, j + 1], y[other + 1, j], squared_modulus
-    )
-    dy[im, j] = -field(
-        chain, gamma, y[re, j - 1], y[re, j], y[re, j + 1], y[other, j], squared_modulus
-    )
-
-
-# --- The same on a whole chain ------------------------------------------------------------------
-
-
-@inlined_by_llvm
-def rates_at_site(chain, states, re, j, dy):
-    y = states[0]
-    site_rates(chain, y, re, j, modulus2(y, re, j), dy)
-
-
-write_rates = at_every_site(rates_at_site)
 
 
 @kernel
@@ -126,26 +94,17 @@ def rates(chain, y, dy):
     write_rates(chain, (y,), dy)
 
 
-# --- Its mean over a step: for the scheme that conserves the energy -----------------------------
-
-
-@inlined_by_llvm
-def midpoint_rates_at_site(chain, states, re, j, dy):
-    old, new, middle = states
-    mean_square = 0.5 * (modulus2(old, re, j) + modulus2(new, re, j))
-    site_rates(chain, middle, re, j, mean_square, dy)
-
-
-write_midpoint_rates = at_every_site(midpoint_rates_at_site)
+write_midpoint_rates = at_every_site(
+    load_rule(traced(mean_i_dt, 3).rates[8:], "old", "new", "mean")
+)
 
 
 @kernel
 def midpoint_rates(chain, old, new, middle, dy):
     """Write the energy-conserving mean of the right-hand side between `old` and `new` into `dy`.
 
-    The linear terms act on the mean state (left in `middle`), the cubic one is the mean of |A|^2
-    times the mean of A: then H(new) = H(old) exactly (Delfour, Fortin and Payre, J. Comput. Phys.
-    44 (1981) 277).
+    See `mean_i_dt`; `middle` is left with the mean state. Then H(new) = H(old) exactly (Delfour,
+    Fortin and Payre, J. Comput. Phys. 44 (1981) 277).
     """
     for row in range(old.shape[0]):
         for j in range(old.shape[1]):

@@ -5,33 +5,22 @@ array of states stacked by rows, four rows each: first a solution, then its tang
 with the ghost columns and the ends of one chain.
 """
 
-from pendula.compiled import inlined_by_llvm, kernel
+from pendula.compiled import kernel
 
-from .amplitudes import modulus2, rates, site_rates
+from .amplitudes import EQUATIONS, rates
 from .chain import at_every_site, close
+from .generated import load_rule
 
 ROWS = 4
 """Rows of one state: Re A, Im A, Re B, Im B."""
-
-
-@inlined_by_llvm
-def tangent_rates_at_site(chain, states, re, j, dw):
-    y, w, im = states[0], states[1], re + 1
-    site_rates(chain, w, re, j, modulus2(y, re, j), dw)
-    half_change = y[re, j] * w[re, j] + y[im, j] * w[im, j]  # Re(conj(A) a), half that of |A|^2
-    dw[re, j] = dw[re, j] + half_change * y[im, j]
-    dw[im, j] = dw[im, j] - half_change * y[re, j]
-
-
-write_tangent_rates = at_every_site(tangent_rates_at_site)
+write_tangent_rates = at_every_site(load_rule(EQUATIONS.tangent().rates[ROWS:], "y", "w"))
 
 
 @kernel
 def tangent_rates(chain, y, w, dw):
     """Write the rate of the tangent vector `w` of the state `y` into `dw` (all of one shape).
 
-    The derivative of |A|^2 A / 2 along a is |A|^2 a / 2, the cubic term of (4) at a given |A|^2,
-    plus Re(conj(A) a) A, half of the change of |A|^2 times A. The ghosts of `y` must be filled.
+    The ghosts of `y` must be filled.
     """
     close(chain, w)
     write_tangent_rates(chain, (y, w), dw)

@@ -6,35 +6,23 @@ left, as one writes it first, so that each step leaves an odd error of the order
 
 from math import sqrt
 
-from pendula.compiled import inlined_by_llvm, kernel
-from pendula.models.amplitudes import field, modulus2
+from pendula.compiled import kernel
+from pendula.models.amplitudes import traced
 from pendula.models.chain import at_every_site, close
+from pendula.models.generated import load_rule
+from pendula.symbols import Value, abs2, conj
 
 
-@inlined_by_llvm
-def lopsided_field(chain, drive, left, u, right, partner, squared_modulus):
-    """Return one part of the right-hand side of (4), its neighbours summed from right to left."""
-    coupling = chain.epsilon * ((right - 2.0 * u) + left)
-    # where a site and its neighbours are alike, the field has no coupling of its own
-    return coupling + field(chain, drive, u, u, u, partner, squared_modulus)
+def lopsided_i_dt(p, a: Value, b: Value) -> list[Value]:
+    """Return i dA_n/dtau and i dB_n/dtau of (4), its neighbours summed from right to left."""
+    return [
+        p.epsilon * ((u.right - 2.0 * u) + u.left)
+        + (p.omega * u + p.gamma * (conj(v) - conj(u)) + 0.5 * abs2(u) * u)
+        for u, v in ((a, b), (b, a))
+    ]
 
 
-@inlined_by_llvm
-def lopsided_part(chain, drive, y, row, other, j, squared_modulus):
-    """Return the right-hand side from one row at column `j`; `other` is that of the partner."""
-    before, here, after = y[row, j - 1], y[row, j], y[row, j + 1]
-    return lopsided_field(chain, drive, before, here, after, y[other, j], squared_modulus)
-
-
-@inlined_by_llvm
-def lopsided_at(chain, states, re, j, dy):
-    y, im, other = states[0], re + 1, dy.shape[0] - 2 - re
-    squared_modulus = modulus2(y, re, j)
-    dy[re, j] = lopsided_part(chain, -chain.gamma, y, im, other + 1, j, squared_modulus)
-    dy[im, j] = -lopsided_part(chain, chain.gamma, y, re, other, j, squared_modulus)
-
-
-write_lopsided = at_every_site(lopsided_at)
+write_lopsided = at_every_site(load_rule(traced(lopsided_i_dt).rates, "y"))
 
 
 @kernel
