@@ -1,10 +1,11 @@
-"""Lifetimes: when the centre has its share, and what censored lives say."""
+"""Lifetimes: when the centre has its share, and what is made of accepted lives."""
 
 import numpy as np
 import pytest
+from accepted import dataset
 from pendula.datasets.netcdf import as_xarray
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos import figures, lifetimes
+from pendula.studies.chaos import lifetimes
 from problems import problem_of
 
 SOLVER = {"name": "taylor", "rtol": 1e-8, "atol": 1e-8}
@@ -35,59 +36,34 @@ def test_a_large_centre_outlasts_the_run_and_a_stable_one_too(case, a0):
     assert lifetimes.follow(problem(case, a0)).time == np.inf
 
 
-def test_a_rate_that_is_constant_only_after_a_dead_time_is_seen():
-    draws = 10.0 + np.random.default_rng(0).exponential(10.0, (40, 200))
-    chances = [lifetimes.chance_of_rate(lives, 10.0, 100.0) for lives in draws]
-    assert np.mean(np.array(chances) > 0.05) > 0.85
-    late = [lifetimes.chance_of_rate(lives, 10.0, 100.0) for lives in draws + 5.0]
-    assert max(late) < 0.01
-    assert lifetimes.chance_of_rate(np.array([3.0, 4.0]), 10.0, 100.0) == 1.0
-
-
-def test_one_transition_bounds_a_rate_by_all_the_time_that_was_watched(monkeypatch):
-    """Of 64 runs to tau = 50 one changes over from A_0 = 9, at 48.2, and six do from 8."""
-    drawn = {8.0: np.full(64, np.inf), 9.0: np.full(64, np.inf)}
-    drawn[8.0][:6], drawn[9.0][0] = [35.8, 40.2, 40.4, 42.1, 42.4, 47.9], 48.2
-    followed = []
+def test_accepted_lives_are_reduced_as_accepted(monkeypatch):
+    """An ensemble that is known is not run again."""
+    known, followed = dataset("checks/lifetimes"), []
+    amplitudes = known["start_amplitude"].values.tolist()
 
     def follow_members(problem, a0, ratio, tolerance, kind, *_):
         followed.append((a0, tolerance, kind))
-        return lifetimes.Lives(drawn[a0], tolerance, 1)
+        one = known.sel(start_amplitude=a0)
+        return lifetimes.Lives(one["life"].values, one["relative_drift"].item(), int(one["work"]))
 
     monkeypatch.setattr(lifetimes, "follow_members", follow_members)
-    given, choices = problem(end_time=50.0, output_step=0.5), [[1e-8, "even"], [1e-5, "uneven"]]
-    compared = {"amplitude": 9.0, "choices": choices}
-    data = as_xarray(
-        *lifetimes.measure_lifetimes(given, [8.0, 9.0], 0.2, compared, 1e-7, 64, 10.0, 3)
-    )
-    # an ensemble that is known is not run again
-    assert followed == [(8.0, 1e-8, "even"), (9.0, 1e-8, "even"), (9.0, 1e-5, "uneven")]
-    assert data["choice_drift"].values.tolist() == [1e-8, 1e-5]
-    assert data["choice_kind"].values.tolist() == ["even", "uneven"]
-    rate, low, high = (data[f"rate{end}"].values for end in ("", "_low", "_high"))
-    exposed = 64 * 40.0 - np.array([np.sum(50.0 - drawn[8.0][:6]), 1.8])
-    assert rate == pytest.approx([6, 1] / exposed)
-    assert data["choice_rate"].values.tolist() == [rate[1]] * 2
-    assert high[1] == pytest.approx(5.57164 / 2558.2, rel=1e-5)  # Poisson: exp(-m) (1 + m) = 0.025
-    assert low[1] == pytest.approx(-np.log(0.975) / 2558.2, rel=1e-5)
-    assert low[1] < low[0] < high[1] < high[0]
-    shown = figures.draw_lifetimes(figures.gather_lifetimes(data)).axes[1]
-    (means,) = (one for one in shown.containers if len(one.lines[0].get_ydata()) == 2)
-    assert np.diff(means.lines[0].get_ydata()) > 0
-
-
-def test_survival_falls_with_each_transition():
-    lives, tau = np.array([1.0, 2.5, np.inf, np.inf]), np.arange(4.0)
-    share, low, high = lifetimes.surviving(lives, tau)
-    assert share.tolist() == [1.0, 0.75, 0.75, 0.5]
-    assert (low < share).all() and (high >= share).all()
+    given = problem(end_time=float(known["tau"][-1]))
+    again = {"amplitude": amplitudes[-1], "choices": [[1e-8, "even"], [1e-5, "uneven"]]}
+    numbers = (known.attrs[name] for name in ("perturbation", "members", "settled", "seed"))
+    made = as_xarray(*lifetimes.measure_lifetimes(given, amplitudes, 0.2, again, *numbers))
+    main = [(a0, 1e-8, "even") for a0 in amplitudes]
+    assert followed == [*main, (amplitudes[-1], 1e-5, "uneven")]
+    for name, one in made.data_vars.items():
+        if not name.startswith(("choice", "compared")):
+            np.testing.assert_allclose(one, known[name], rtol=1e-5, err_msg=name)
+    assert made["choice_rate"].values.tolist() == [made["rate"].values[-1]] * 2
+    assert made["choice_kind"].values.tolist() == ["even", "uneven"]
 
 
 def test_members_start_from_both_amplitudes_at_the_tolerance_of_their_ensemble():
     given = problem(end_time=12.0)
     ensembles = [(2.0, 1e-6, "even"), (2.0, 1e-9, "even"), (2.0, 1e-6, "uneven")]
     found = [lifetimes.follow_members(given, a0, 0.2, *how, 1e-7, 3, 1) for a0, *how in ensembles]
-    assert all(np.isfinite(one.times).all() for one in found)
     alone = lifetimes.follow(problem(a0=2.0, end_time=12.0))
     assert found[1].times == pytest.approx(alone.time, abs=0.3)
     assert found[1].drift < found[0].drift and found[1].work > found[0].work

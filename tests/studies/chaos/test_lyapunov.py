@@ -1,4 +1,4 @@
-"""Lyapunov exponents: what any Hamiltonian flow promises of them, and chaos against order."""
+"""Lyapunov exponents and divergence times: what any Hamiltonian flow promises, and exact growth."""
 
 import numpy as np
 import pytest
@@ -26,6 +26,47 @@ def test_the_spectrum_is_that_of_a_hamiltonian_flow(whole_spectrum):
     np.testing.assert_allclose(rates[5:7], 0.0, atol=0.05)
 
 
+def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
+    found = lyapunov.spectrum_of(whole_spectrum, 50.0)
+    tau, growth = whole_spectrum.tau, whole_spectrum.log_growth
+    np.testing.assert_array_equal(found.value, mean_rate(tau, growth, 50.0))
+    off = 2.36462 * mean_rate_error(tau, growth, 50.0)  # Student's t of seven degrees of freedom
+    np.testing.assert_allclose([found.value - found.low, found.high - found.value], [off, off])
+
+
+def test_the_lower_half_of_a_spectrum_has_the_opposite_signs():
+    upper = Limits(np.array([2.0, 0.5]), np.array([1.5, -0.1]), np.array([2.5, 1.1]))
+    found = lyapunov.in_pairs(upper)
+    np.testing.assert_array_equal(found.value, [2.0, 0.5, -0.5, -2.0])
+    np.testing.assert_array_equal(found.low, [1.5, -0.1, -1.1, -2.5])
+    np.testing.assert_array_equal(found.high, [2.5, 1.1, 0.1, -1.5])
+
+
+def test_half_of_the_exponents_are_those_of_the_whole_spectrum():
+    problem = problem_of("fig3_large", half_width=1)
+    half, whole = (lyapunov.follow_many(problem, n, 4.0, SEED, tolerance=1e-13) for n in (6, 12))
+    np.testing.assert_allclose(half.log_growth, whole.log_growth[:6], atol=1e-8)
+
+
+def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_without_a_drive():
+    problem = problem_of("fig3_large")
+    made = lyapunov.spectra({"one": problem}, {1: 20.0, 2: 8.0}, 12.0, SEED)
+    for key, row, half_width, end, gamma in (
+        ("", 0, 1, 20.0, 1.0),
+        ("", 1, 2, 8.0, 1.0),
+        ("_undriven", ..., 1, 12.0, 0.0),
+    ):
+        short = problem.changed(half_width=half_width, gamma=gamma)
+        half = lyapunov.follow_many(short, 2 * short.sites, end, SEED, tolerance=1e-12)
+        one = lyapunov.in_pairs(lyapunov.spectrum_of(half, end / 4))
+        rest = np.full(20 - len(one.value), np.nan)
+        for name, values in (("exponents", one.value), ("exponents_error", one.half)):
+            np.testing.assert_array_equal(made[f"{name}{key}"].values[0][row], [*values, *rest])
+        if gamma:
+            vanishing = np.sum((one.low <= 0.0) & (one.high >= 0.0))
+            assert made["vanishing"].values[0, row] == vanishing > 0
+
+
 @pytest.mark.parametrize("parity", PARITIES)
 @pytest.mark.parametrize(
     ("case", "exponent", "off", "chaotic"),
@@ -51,50 +92,41 @@ def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity,
     np.testing.assert_array_equal(found.log_growth, known.log_growth)
 
 
-def test_a_basis_is_drawn_in_turn_by_one_seed():
-    problem, rng = problem_of("fig4_small", half_width=1), np.random.default_rng(SEED)
-    basis = np.array([random_tangent(3, None, rng) for _ in range(12)])
-    found = lyapunov.follow_many(problem, 12, 1.0, SEED)
-    np.testing.assert_array_equal(found.log_growth, grow(problem, basis, 1.0).log_growth)
+# --- Divergence -----------------------------------------------------------------------------------
+
+TAU = np.linspace(0.0, 20.0, 1001)
 
 
-def test_the_limits_of_a_spectrum_are_those_of_eight_parts_of_the_time(whole_spectrum):
-    found = lyapunov.spectrum_of(whole_spectrum, 50.0)
-    tau, growth = whole_spectrum.tau, whole_spectrum.log_growth
-    np.testing.assert_array_equal(found.value, mean_rate(tau, growth, 50.0))
-    off = 2.36462 * mean_rate_error(tau, growth, 50.0)  # Student's t of seven degrees of freedom
-    np.testing.assert_allclose([found.value - found.low, found.high - found.value], [off, off])
+@pytest.mark.parametrize(
+    ("rate", "size", "expected"),
+    [
+        (1.5, np.ones_like(TAU), np.log(np.expm1(1.5 * TAU[5:]) / 1.5)),
+        (1.5, np.exp(1.5 * TAU), np.log(TAU[5:])),  # the solution grows like its errors
+    ],
+)
+def test_errors_made_all_along_grow_to_their_integral(rate, size, expected):
+    log = lyapunov.amplification(TAU, rate * TAU, size)
+    np.testing.assert_allclose(log[5:], expected, atol=0.02)
 
 
-def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_without_a_drive():
-    cases = {name: problem_of(name) for name in ("fig3_large", "fig3_small")}
-    made = lyapunov.spectra(cases, {1: 20.0, 2: 8.0}, 12.0, SEED)
-    found = {name: one.values for name, one in made.items()}
-    assert found["spectrum_case"] == list(cases) and found["spectrum_half_width"] == [1, 2]
-    assert found["spectrum_end_time"] == [20.0, 8.0]
-    np.testing.assert_array_equal(found["index"], np.arange(1, 21))
-    chains = [("", 0, 1, 20.0, 1.0), ("", 1, 2, 8.0, 1.0), ("_undriven", ..., 1, 12.0, 0.0)]
-    for i, problem in enumerate(cases.values()):
-        for key, j, half_width, end, gamma in chains:
-            short = problem.changed(half_width=half_width, gamma=gamma)
-            half = lyapunov.follow_many(short, 2 * short.sites, end, SEED, tolerance=1e-12)
-            one = lyapunov.in_pairs(lyapunov.spectrum_of(half, end / 4))
-            rest = np.full(20 - len(one.value), np.nan)
-            np.testing.assert_array_equal(found[f"exponents{key}"][i][j], [*one.value, *rest])
-            np.testing.assert_array_equal(found[f"exponents_error{key}"][i][j], [*one.half, *rest])
-            if gamma:
-                assert found["vanishing"][i, j] == np.sum((one.low <= 0.0) & (one.high >= 0.0)) > 0
+def test_a_thousandth_of_the_error_diverges_later_by_its_logarithm_over_the_rate():
+    log = lyapunov.amplification(TAU, 2.0 * TAU, np.ones_like(TAU))
+    early, late = (lyapunov.predict(TAU, log, error) for error in (1e-6, 1e-9))
+    assert late - early == pytest.approx(np.log(1e3) / 2.0, abs=0.02)
+    assert lyapunov.predict(TAU, np.zeros_like(TAU), 1e-6) == np.inf
 
 
-def test_half_of_the_exponents_are_those_of_the_whole_spectrum():
-    problem = problem_of("fig3_large", half_width=1)
-    half, whole = (lyapunov.follow_many(problem, n, 4.0, SEED, tolerance=1e-13) for n in (6, 12))
-    np.testing.assert_allclose(half.log_growth, whole.log_growth[:6], atol=1e-8)
-
-
-def test_the_lower_half_of_a_spectrum_has_the_opposite_signs():
-    upper = Limits(np.array([2.0, 0.5]), np.array([1.5, -0.1]), np.array([2.5, 1.1]))
-    found = lyapunov.in_pairs(upper)
-    np.testing.assert_array_equal(found.value, [2.0, 0.5, -0.5, -2.0])
-    np.testing.assert_array_equal(found.low, [1.5, -0.1, -1.1, -2.5])
-    np.testing.assert_array_equal(found.high, [2.5, 1.1, 0.1, -1.5])
+def test_chaotic_runs_diverge_when_predicted_and_regular_ones_do_not():
+    changes = {"half_width": 4, "end_time": 16.0, "output_step": 0.25}
+    cases = {name: problem_of(name, **changes) for name in ("fig3_small", "fig4_large")}
+    growth, _ = lyapunov.largest_exponents(cases, 16.0, SEED)
+    assert growth["chaotic"].values.tolist() == [0, 1]
+    found = lyapunov.divergence_times(cases, [1e-4, 1e-7], growth)
+    regular, chaotic = found["divergence_predicted"].values
+    assert np.isinf(regular).all() and np.isinf(found["divergence_measured"].values[0]).all()
+    assert chaotic[0] < chaotic[1] < found["divergence_rounding"].values[1]
+    np.testing.assert_allclose(found["divergence_measured"].values[1], chaotic, atol=3.0)
+    one = lyapunov.follow_parity(cases["fig4_large"], "odd", 16.0, SEED, tolerance=1e-12)
+    np.testing.assert_array_equal(growth["log_growth"].values[1, 1], one.log_growth[0])
+    for name, reduce in (("exponent", mean_rate), ("exponent_error", mean_rate_error)):
+        assert growth[name].values[1, 1] == reduce(one.tau, one.log_growth[0], 8.0)

@@ -28,22 +28,6 @@ def test_a_run_is_reduced_to_means_and_maxima_over_each_window():
     assert (found["rms"][0] ** 2).sum() == pytest.approx((pair[4:9:2] ** 2).mean())
 
 
-def test_correlation_is_that_of_numpy_and_none_of_a_constant():
-    one, other = np.random.default_rng(0).normal(size=(2, 50))
-    expected = np.corrcoef(one, other)[0, 1]
-    assert members.correlation(one, other) == pytest.approx(expected)
-    assert members.correlation(one, 0 * other) == 0.0
-
-
-def test_the_spread_is_the_variance_and_its_error_that_of_repetitions():
-    rng = np.random.default_rng(1)
-    # the times of a member are correlated: 20 of them count as one
-    draws = [np.repeat(rng.normal(size=(24, 5)), 20, axis=1) for _ in range(200)]
-    variances, errors = np.array([members.measure_spread(each) for each in draws]).T
-    assert variances.mean() == pytest.approx(1.0, abs=0.05)
-    assert errors.mean() == pytest.approx(variances.std() / variances.mean(), rel=0.2)
-
-
 def test_the_error_of_a_spread_is_that_of_the_jackknife():
     values = np.array([0.0, 1.0, 3.0, 7.0])
     without = np.array([np.delete(values, i).var(ddof=1) for i in range(4)])

@@ -95,16 +95,6 @@ def test_orthonormalising_measures_what_a_qr_decomposition_does():
     np.testing.assert_allclose(after @ after.T, np.eye(3), atol=1e-14)
 
 
-def test_the_product_over_half_of_a_chain_is_that_over_the_whole():
-    u, v = random_chain(3, even=True, seed=1), random_chain(3, even=True, seed=2)
-    products = [
-        inner(Chain(1.0, 1.0, 0.0, *choose_ends("dirichlet", kept)), pack(u, kept), pack(v, kept))
-        for kept in (WHOLE, HALF)
-    ]
-    assert products[0] == pytest.approx(np.sum(u.conj() * v).real)
-    assert products[1] == pytest.approx(products[0], rel=1e-13)
-
-
 def test_products_and_sums_leave_the_ghosts_beside_the_chain_alone():
     """A ghost at the mirror repeats a site, which would count a third time."""
     u, v = 1.0 + np.arange(24.0).reshape(4, 6), 2.0 + np.arange(24.0).reshape(4, 6) ** 2
