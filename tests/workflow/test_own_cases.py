@@ -112,13 +112,13 @@ def test_sweeps_are_enough(tmp_path):
     """And so are cases: docs/own_cases.md has no sweep."""
     sweeps = {"sweeps": {"mine": SETTINGS["sweeps"]["mine"]}}
     jobs = planned_with(sweeps, ROOT, tmp_path, "own")
-    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own_report", "own"}
+    assert jobs.keys() == {"compile_solver", "sweep", "own_sweep_figure", "own"}
 
 
 def test_a_new_omega_reruns_that_case_and_the_report(made, changed):
     changed["cases"]["sea"]["omega"] = 0.5
     assert planned_with(changed, ROOT, made, "own") == {
-        "trajectory": 1, "own_checks": 1, "own_figures": 1, "own_report": 1, "own": 1
+        "trajectory": 1, "own_checks": 1, "own_figures": 1, "own": 1
     }  # fmt: skip
 
 
@@ -126,13 +126,13 @@ def test_a_new_omega_reruns_the_sweep_of_its_case(made, changed):
     changed["cases"]["fig5"]["omega"] = 7.5
     assert planned_with(changed, ROOT, made, "own") == {
         "trajectory": 1, "own_checks": 1, "own_figures": 1, "sweep": 1,
-        "own_sweep_figure": 1, "own_report": 1, "own": 1,
+        "own_sweep_figure": 1, "own": 1,
     }  # fmt: skip
 
 
 def test_a_case_taken_out_reruns_the_report_alone(made, changed):
     del changed["cases"]["sea"]
-    assert planned_with(changed, ROOT, made, "own") == {"own_report": 1, "own": 1}
+    assert planned_with(changed, ROOT, made, "own") == {"own": 1}
 
 
 def test_a_case_whose_linear_flow_keeps_no_norm_is_refused_a_proof_before_any_job(tmp_path):

@@ -26,12 +26,6 @@ def function(*names, parts=()):
     return [*names, code]
 
 
-def claims_in(*modules):
-    """Return what decides the claims in modules of a study."""
-    call = function("pendula.ledger.decide.decide_claims", parts=modules)
-    return {"call": call, "modules": list(modules)}
-
-
 def name_of(path):
     """Return the name that the claims have for a dataset."""
     return Path(*Path(path).with_suffix("").parts[1:]).as_posix()

@@ -26,13 +26,8 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
             "run: name a folder that you may write to, by --directory"
         )
 
-# Jobs find the library and the benchmarks, and use one thread each, since they run in parallel.
-os.environ.update(
-    PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]),
-    OMP_NUM_THREADS="1",
-    OPENBLAS_NUM_THREADS="1",
-    MKL_NUM_THREADS="1",
-)
+# Jobs find the library and the benchmarks.
+os.environ["PYTHONPATH"] = os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)])
 
 from benchmarks.problems import REGIMES
 from pendula import __version__
@@ -223,17 +218,14 @@ def speed_measured():
 
     They are no inputs: else an edit would start the timing anew, which is no part of a full run.
     """
-    here = [f"results/speed/work_precision.{kind}" for kind in ("nc", "md")]
+    measured = ("work_precision.nc", "work_precision.md")
+    here = [f"results/speed/{name}" for name in measured]
     here += [f"results/figures/{name}.png" for name in SPEED_FIGURES]
     if all(map(os.path.exists, here)):
-        digests = [digest_of(Path(path)) for path in here]
-        kept = committed(references=REFERENCES)
-        return {"speed_is_fresh": True, "speed": here, "digests": digests, "committed": kept}
-    names = ("work_precision.nc", "work_precision.md", "speed_regular.png")
-    kept = committed(
-        speed=[f"tests/baseline/speed/{name}" for name in names], references=REFERENCES
-    )
-    return {"speed_is_fresh": False, "committed": kept}
+        given = {"speed": here, "digests": [digest_of(Path(path)) for path in here]}
+        return {"speed_is_fresh": True, **given, "committed": committed(references=REFERENCES)}
+    kept = [f"tests/baseline/speed/{name}" for name in (*measured, "speed_regular.png")]
+    return {"speed_is_fresh": False, "committed": committed(speed=kept, references=REFERENCES)}
 
 
 def some_own_files(wildcards):

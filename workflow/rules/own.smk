@@ -2,12 +2,6 @@
 # are free, so all lies in results/own.
 
 
-rule own:
-    "A report of the cases and sweeps in your --configfile: results/own_report.html"
-    input:
-        "<results>/own_report.html",
-
-
 use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
@@ -55,8 +49,8 @@ use rule job as own_sweep_figure with:
         given=lambda wildcards: drawn_windows(wildcards.sweep),
 
 
-use rule job as own_report with:
-    "The job behind own"
+use rule job as own with:
+    "A report of the cases and sweeps in your --configfile: results/own_report.html"
     input:
         files=some_own_files,
     output:

@@ -52,7 +52,7 @@ use rule dataset as measure_solvers with:
         made="checks/solvers",
     params:
         call=function("pendula.studies.paper.solvers.compare_solvers"),
-        others=other_cases("ode45"),
+        others=[case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.ode45"])],
 
 
 use rule dataset as measure_second_solver with:

@@ -60,11 +60,6 @@ def drawn_windows(sweep):
     return {"text_window": name_window(drawn.max), "caption_window": name_window(drawn.mean)}
 
 
-def other_cases(solver):
-    """Return the cases by a solver that the configuration has changed: no longer the paper's."""
-    return [case for case in PAPER_CASES if reason(DIFFERS, [f"trajectories/{case}.{solver}"])]
-
-
 def points_are_the_papers():
     """Return whether no case of a figure has other constants than in the paper."""
     constants = ("epsilon", "gamma", "omega")

@@ -9,11 +9,7 @@ rule unbounded:
     "The long study of the infinite chain (takes about ten minutes): results/long/"
     input:
         datasets("long/unbounded", *UNBOUNDED.names, *MAPS),
-        expand(
-            "<results>/long/figures/{name}.{kind}",
-            name=["growth_law", "front", "window_map"],
-            kind=["png", "pdf"],
-        ),
+        expand("<results>/long/figures/{name}.png", name=["growth_law", "front", "window_map"]),
 
 
 use rule dataset as spread with:
