@@ -1,4 +1,4 @@
-"""What wrong cases, moved cut-offs and several readings do to the row of a claim."""
+"""What wrong cases do to the row of a claim, and what deciding functions read."""
 
 import math
 
@@ -10,7 +10,6 @@ from pendula.ledger.claim import (
     Control,
     claim,
     controls_of,
-    cutoff_lines,
     evaluate,
     late,
     needed,
@@ -18,7 +17,6 @@ from pendula.ledger.claim import (
 )
 from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
-from pendula.ledger.tables import by_sentence, tally
 
 GROWS = Cutoff(2.0, '"grows"')
 
@@ -86,23 +84,6 @@ def test_a_function_that_is_wrong_on_a_control_decides_nothing(
     assert needed() == ["run", *control.names]
 
 
-@pytest.mark.parametrize(
-    ("growth", "verdict", "moved"),
-    [
-        (9.0, Verdict.CONFIRMED, []),
-        (2.5, Verdict.CAVEAT, [Verdict.NOT_REPRODUCED]),
-        (1.9, Verdict.NOT_REPRODUCED, [Verdict.CONFIRMED]),
-    ],
-)
-def test_a_row_says_whether_it_rests_on_its_cutoff(rows, growth, verdict, moved):
-    (found,) = rows({"run": growth}, it(grows))
-    assert found["verdict"] == verdict
-    assert [rest["verdict"] for rest in found["rests_on"]] == moved
-    assert ("rests on the cut-off" in found["because"]) == bool(moved)
-    assert found["cutoffs"] == [{"value": 2.0, "from": '"grows"'}]
-    assert cutoff_lines([found]) == [(2.0, '"grows"', "it", "it" if moved else "")]
-
-
 def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
     refuse, silent = Control("wrong", {}), Control("outside", {}, undecided=True)
     assert passes(refuse, grows(1.0)) and not passes(silent, grows(1.0))
@@ -129,52 +110,6 @@ def test_a_control_names_datasets_without_the_folder_of_what_it_replaces():
         fed((one, other), "two")
     with pytest.raises(ValueError, match="three is not one of trajectories/one"):
         fed((one,), {"three": "two"})
-
-
-# --- Readings of one sentence ---------------------------------------------------------------------
-
-
-def reading(name, place="Section 0"):
-    flat = Control("a flat run", {name: lambda run: 1.0})
-    return Claim(name, place, "It grows.", (name,), grows, (flat,), reading=name.replace("_", " "))
-
-
-@pytest.mark.parametrize(
-    ("ensembles", "verdict", "because"),
-    [
-        ({"the_ensembles": 5.0}, Verdict.CONFIRMED, ""),
-        ({"the_ensembles": -1.0}, Verdict.NOT_REPRODUCED, "the ensembles: it falls"),
-        ({}, Verdict.UNDECIDED, "the ensembles: the_ensembles was not made"),
-    ],
-)
-def test_a_sentence_holds_where_all_its_readings_do(rows, ensembles, verdict, because):
-    readings = reading("single_run"), reading("the_ensembles")
-    (row,) = by_sentence(rows({"single_run": 4.0, **ensembles}, *readings))
-    assert row["verdict"] == verdict and row["because"] == because
-    assert row["names"] == row["decided_by"] == ["single_run", "the_ensembles"]
-    measured = {f"{name}_growth": growth for name, growth in ensembles.items()}
-    assert row["measured"] == {"single_run_growth": 4.0, **measured}
-    criteria = ["single run: growth > 2", "the ensembles: growth > 2"][: 1 + len(ensembles)]
-    assert row["criterion"] == "; ".join(criteria)
-    fed = [one["fed"] for one in row["controls"]]
-    assert fed == ["single run: a flat run", "the ensembles: a flat run"]
-
-
-PLACES = ("Lemma 1", "Section 6, breathers", "Lemma 1, for the pendula (1)", "Beyond the paper, x")
-
-
-def test_sentences_are_counted_by_whose_they_are_and_only_the_papers_are_reproduced(rows):
-    claims = [reading(f"run{i}", place) for i, place in enumerate(PLACES)]
-    found = by_sentence(rows({f"run{i}": 1.0 for i in range(4)}, *claims))
-    assert tally(found) == {
-        "of the paper": {"not reproduced": 1},
-        "on its open questions": {"not reproduced": 1, "does not carry over": 1},
-        "of this project": {"not reproduced": 1},
-    }
-    assert all(one["passes"] for row in found for one in row["controls"])
-
-
-# --- What deciding functions read -----------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Criteria decide by the limit that they print, and refuse what is not a number."""
+"""Criteria decide by the limit that they print; cut-offs record that they decide, and can move."""
 
 import math
 
@@ -17,6 +17,7 @@ from pendula.ledger.criterion import (
     judge,
     plain,
 )
+from pendula.ledger.cutoff import Cutoff, flips, moving, once, recorded
 
 HELD = [
     (Below(1.0, "x"), "x < 1", [0.0, 0.999], [1.0, 2.0]),
@@ -46,19 +47,22 @@ def test_each_number_and_each_part_alone_can_fail():
         assert both.failing({**right, name: -1.0 if name == "c_of_d" else 1.0}) == [name]
 
 
-def test_a_verdict_follows_from_the_criterion_alone():
-    low = Below(1.0, "x")
-    assert judge({"x": 0.5}, low).verdict == Verdict.CONFIRMED
-    assert judge({"x": 0.5}, low, "but").verdict == Verdict.CAVEAT
-    found = judge({"x": 1.5}, low, "but", "too large")
-    assert found.verdict == Verdict.NOT_REPRODUCED and found.because == "too large"
+LOW = Below(1.0, "x", "y")
 
 
-def test_what_is_unknown_is_neither_confirmed_nor_refuted():
-    low = Below(1.0, "x", "y")
-    found = judge({"x": 0.5, "y": math.nan}, low, "but", "too large")
-    assert found.verdict == Verdict.UNDECIDED and found.because == "unknown: y"
-    assert judge({"x": 1.5, "y": math.nan}, low).verdict == Verdict.NOT_REPRODUCED
+@pytest.mark.parametrize(
+    ("x", "y", "words", "verdict", "because"),
+    [
+        (0.5, 0.0, (), Verdict.CONFIRMED, ""),
+        (0.5, 0.0, ("but",), Verdict.CAVEAT, "but"),
+        (1.5, 0.0, ("but", "too large"), Verdict.NOT_REPRODUCED, "too large"),
+        (0.5, math.nan, ("but", "too large"), Verdict.UNDECIDED, "unknown: y"),
+        (1.5, math.nan, (), Verdict.NOT_REPRODUCED, "x is 1.5, y is nan"),
+    ],
+)
+def test_a_verdict_follows_from_the_criterion_alone(x, y, words, verdict, because):
+    found = judge({"x": x, "y": y}, LOW, *words)
+    assert (found.verdict, found.because) == (verdict, because)
 
 
 @pytest.mark.parametrize(
@@ -66,3 +70,57 @@ def test_what_is_unknown_is_neither_confirmed_nor_refuted():
 )
 def test_limits_are_printed_as_they_are(limit, text):
     assert plain(limit) == text
+
+
+# --- Cut-offs -------------------------------------------------------------------------------------
+
+HALF = Cutoff(0.5, '"about half"')
+WHOLE = Cutoff(0.9, '"nearly all"', ideal=1.0)
+
+
+@pytest.mark.parametrize(("cutoff", "low", "high"), [(HALF, 1 / 3, 2 / 3), (WHOLE, 0.9333, 0.8667)])
+def test_a_cutoff_moves_by_a_third_of_its_distance_from_the_ideal(cutoff, low, high):
+    for factor, moved in ((2 / 3, low), (4 / 3, high)):
+        with moving(cutoff, factor):
+            assert float(cutoff) == pytest.approx(moved, abs=1e-4)
+            assert {float(HALF), float(WHOLE)} & {0.5, 0.9}  # the other one has not moved
+    assert float(cutoff) == cutoff.number
+
+
+@pytest.mark.parametrize(
+    ("value", "moved"),
+    [(0.1, []), (0.4, [1 / 3]), (0.6, [2 / 3]), (0.9, [])],
+)
+def test_a_verdict_flips_only_where_the_number_is_near_its_cutoff(value, moved):
+    def decide():
+        return str(judge({"x": value}, Below(HALF, "x")).verdict)
+
+    with recorded() as read:
+        verdict = decide()
+    assert read == {HALF}
+    found = flips(verdict, read, decide)
+    assert [flip.value for flip in found] == pytest.approx(moved)
+    assert all(flip.verdict != verdict and flip.verdict in str(flip) for flip in found)
+
+
+def test_what_is_measured_once_is_measured_anew_of_other_datasets_and_where_a_cutoff_moves():
+    asked = []
+
+    @once
+    def measure(data, name):
+        asked.append(name)
+        return [name, *data]
+
+    @once
+    def share(data):
+        return data[0] / HALF.value
+
+    data, alike = [1.0], [1.0]
+    assert measure(data, "l2") is measure(data, "l2")
+    assert measure(data, "linf") == ["linf", 1.0] and measure(alike, "l2") == ["l2", 1.0]
+    assert asked == ["l2", "linf", "l2"]
+    with recorded() as read:
+        assert share(data) == 2.0
+    assert read == {HALF}
+    with moving(HALF, 2.0):
+        assert share(data) == 1.0
