@@ -9,28 +9,18 @@ from pendula.models.chain import MIRROR
 from pendula.models.pairs import FAMILIES, pair
 from pendula.models.tangent import tangent_rates
 from pendula.studies.breathers import branches, steady
-from pendula.studies.breathers.steady import (
-    Chain,
-    NotFoundError,
-    continued,
-    fastest_growth,
-    growth,
-    newton,
-    residual,
-    squared_exponents,
-)
 
 REAL, EQUAL, ASYMMETRIC, IMAGINARY, ASYMMETRIC_IMAGINARY = FAMILIES
-HERE = Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=30)
+HERE = steady.Chain(epsilon=1.0, gamma=1.0, omega=-4.0, half_width=30)
 each_family = pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 
 
 @each_family
 def test_the_closed_form_solves_the_equations_of_one_pair(family):
-    alone = Chain(epsilon=0.0, gamma=0.7, omega=-4.3, half_width=1)
+    alone = steady.Chain(epsilon=0.0, gamma=0.7, omega=-4.3, half_width=1)
     state = np.zeros((2, 2))
     state[:, 0] = pair(family, alone.gamma, alone.omega)
-    assert np.abs(residual(alone, family.drive(alone.gamma), state)).max() < 1e-13
+    assert np.abs(steady.residual(alone, family.drive(alone.gamma), state)).max() < 1e-13
 
 
 def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
@@ -38,7 +28,7 @@ def test_a_family_of_one_pair_ends_where_its_pitchfork_or_zero_is():
     for family, end in zip(FAMILIES, (2.0, 0.0, -1.0, -2.0, -3.0), strict=True):
         assert pair(family, 1.0, end - 1e-9) is not None
         assert pair(family, 1.0, end + 1e-9) is None
-        assert continued(HERE._replace(omega=end + 0.5), family) is None
+        assert steady.continued(HERE._replace(omega=end + 0.5), family) is None
 
 
 def vector_field(chain, family, state):
@@ -54,8 +44,8 @@ def vector_field(chain, family, state):
 
 @each_family
 def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(family):
-    assert np.abs(vector_field(HERE, family, continued(HERE, family))[-1]).max() < 1e-11
-    state = continued(HERE._replace(half_width=8), family)
+    assert np.abs(vector_field(HERE, family, steady.continued(HERE, family))[-1]).max() < 1e-11
+    state = steady.continued(HERE._replace(half_width=8), family)
     ends, y, _ = vector_field(HERE, family, state)
     size = 4 * state.shape[1]
     jacobian = np.empty((size, size))
@@ -65,23 +55,25 @@ def test_the_kernels_of_the_integrators_see_a_state_at_rest_and_its_exponents(fa
         tangent_rates(ends, y, w, dw)
         jacobian[:, column] = dw[:, 1:-1].ravel()
     expected = np.linalg.eigvals(jacobian).real.max()
-    found = growth(squared_exponents(HERE, family.drive(HERE.gamma), state, even=True))
+    found = steady.growth(
+        steady.squared_exponents(HERE, family.drive(HERE.gamma), state, even=True)
+    )
     # where A = B the zero exponent is double, and rounding shows by its square root
     assert found == pytest.approx(expected, abs=3e-7)
 
 
 def test_odd_perturbations_are_those_of_a_chain_whose_centre_is_held():
     small = HERE._replace(half_width=2)
-    state = continued(small, EQUAL)
-    assert len(squared_exponents(small, 1.0, state, even=True)) == 6
-    assert len(squared_exponents(small, 1.0, state, even=False)) == 4
+    state = steady.continued(small, EQUAL)
+    assert len(steady.squared_exponents(small, 1.0, state, even=True)) == 6
+    assert len(steady.squared_exponents(small, 1.0, state, even=False)) == 4
 
 
 def test_the_phase_of_equal_amplitudes_costs_nothing():
     chain = HERE._replace(omega=-8.0)
-    squares = squared_exponents(chain, 1.0, continued(chain, EQUAL), even=True)
+    squares = steady.squared_exponents(chain, 1.0, steady.continued(chain, EQUAL), even=True)
     assert np.abs(squares).min() < 1e-11
-    assert growth(squares) == 0.0
+    assert steady.growth(squares) == 0.0
 
 
 @pytest.mark.parametrize(("family", "epsilon", "omega", "stable"), [
@@ -94,8 +86,10 @@ def test_the_phase_of_equal_amplitudes_costs_nothing():
 ])  # fmt: skip
 def test_verdicts_of_stability_are_the_same_on_twice_the_chain(family, epsilon, omega, stable):
     for half_width in (20, 40):
-        chain = Chain(epsilon, 1.0, omega, half_width)
-        assert (fastest_growth(chain, family, continued(chain, family)) == 0.0) is stable
+        chain = steady.Chain(epsilon, 1.0, omega, half_width)
+        assert (
+            steady.fastest_growth(chain, family, steady.continued(chain, family)) == 0.0
+        ) is stable
 
 
 @pytest.mark.parametrize("omega", [6.0, 6.5, 8.0])
@@ -107,23 +101,23 @@ def test_no_start_leads_to_a_state_where_the_theorem_forbids_one(omega):
         for _ in range(20):
             state = rng.normal(size=(2, 11)) * 4.0
             weights = np.array([1.0] + [2.0] * 10)
-            form = np.sum(weights * state * residual(chain, s, state))
+            form = np.sum(weights * state * steady.residual(chain, s, state))
             assert form >= 0.5 * np.sum(weights * state**4) > 0.0
     for sign in (1.0, -1.0):
         start = np.zeros((2, 11))
         start[:, 0] = (4.0, 4.0 * sign)
-        with pytest.raises(NotFoundError):
-            newton(chain, chain.gamma, start)
+        with pytest.raises(steady.NotFoundError):
+            steady.newton(chain, chain.gamma, start)
 
 
 def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
     """In one step Newton's method would lose the family: the step is halved."""
-    by_small_steps = continued(HERE, REAL)
+    by_small_steps = steady.continued(HERE, REAL)
     monkeypatch.setattr(steady, "FIRST_STEP", 1.0)
-    assert np.abs(continued(HERE, REAL) - by_small_steps).max() < 1e-12
+    assert np.abs(steady.continued(HERE, REAL) - by_small_steps).max() < 1e-12
     monkeypatch.setattr(steady, "LARGEST_CHANGE", 0.0)
-    with pytest.raises(NotFoundError, match="ends at 0 of the coupling"):
-        continued(HERE, REAL)
+    with pytest.raises(steady.NotFoundError, match="ends at 0 of the coupling"):
+        steady.continued(HERE, REAL)
 
 
 # --- Where families are born and turn stable ------------------------------------------------------
@@ -132,7 +126,7 @@ def test_the_size_of_the_steps_of_the_coupling_changes_no_state(monkeypatch):
 @pytest.mark.parametrize(("parent", "omega"), [(EQUAL, -0.7), (IMAGINARY, -2.1)])
 def test_the_pitchforks_of_one_pair_are_those_of_the_closed_form(parent, omega):
     """A = B bifurcates at -gamma, A = -B at -3 gamma."""
-    alone = Chain(epsilon=0.0, gamma=0.7, omega=omega, half_width=1)
+    alone = steady.Chain(epsilon=0.0, gamma=0.7, omega=omega, half_width=1)
     found = branches.pitchfork(alone, parent, 1.2 * omega, 0.9 * omega)
     assert found == pytest.approx(omega, abs=1e-12)
 
@@ -141,17 +135,17 @@ def test_the_pitchforks_of_one_pair_are_those_of_the_closed_form(parent, omega):
     ("parent", "daughter"), [(EQUAL, ASYMMETRIC), (IMAGINARY, ASYMMETRIC_IMAGINARY)]
 )
 def test_a_daughter_turns_at_the_pitchfork(parent, daughter):
-    chain = Chain(epsilon=0.3, gamma=1.0, omega=-5.0, half_width=8)
-    branch = branches.follow(chain, daughter, continued(chain, daughter), stop=-5.0)
+    chain = steady.Chain(epsilon=0.3, gamma=1.0, omega=-5.0, half_width=8)
+    branch = branches.follow(chain, daughter, steady.continued(chain, daughter), stop=-5.0)
     turns = branches.turning_point(branch)
     found = branches.pitchfork(chain, parent, turns - 0.05, turns + 0.05)
     assert found == pytest.approx(turns, abs=1e-5)
 
 
 def test_a_threshold_is_where_the_verdict_changes():
-    chains = [Chain(1.0, 1.0, 0.0, half) for half in (8, 16)]
+    chains = [steady.Chain(1.0, 1.0, 0.0, half) for half in (8, 16)]
     found = branches.thresholds(chains, EQUAL, -9.0, -5.0, 1e-2)
     assert found[0] == pytest.approx(found[1], abs=0.1)
     for low, high in ((found[0] + 0.1, -5.0), (-9.0, found[0] - 0.1)):
-        with pytest.raises(NotFoundError, match="stable at"):
+        with pytest.raises(steady.NotFoundError, match="stable at"):
             branches.thresholds(chains, EQUAL, low, high, 1e-2)

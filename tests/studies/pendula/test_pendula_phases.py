@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 from on_pendula import pendula
 from pendula.datasets.netcdf import as_xarray
-from pendula.drawing import style
 from pendula.models.pendula import angles_of
-from pendula.numerics.elementary import modulus
 from pendula.simulation.simulate import simulate
 from pendula.studies.pendula import chaotic_state, figures_phases, phases, runs
 from problems import problem_of
@@ -38,13 +36,6 @@ def test_the_envelope_tends_to_the_modulus_as_mu_squared():
     limit, *others = (runs.envelopes(runs.at_mu(problem, mu))[1] for mu in (0.0, 0.02, 0.01))
     coarse, fine = (np.abs(one - limit).max() for one in others)
     assert coarse / fine == pytest.approx(4.0, rel=0.15)
-
-
-def test_states_of_the_amplitudes_have_the_moduli_of_one_run():
-    times, amplitudes = runs.states(case())
-    run, moduli = runs.envelopes(case())
-    assert times.tolist() == run.tau.tolist()
-    assert modulus(amplitudes) == pytest.approx(moduli, abs=1e-6)
 
 
 def test_phases_are_those_of_each_case_and_mu():
@@ -83,15 +74,6 @@ def test_runs_end_where_the_drive_makes_pendula_faster_without_end():
     assert found.time < 2.0 and np.isnan(found.angle[-1]) and found.power > 100.0
 
 
-def test_the_note_on_edited_cases_covers_no_panel(tmp_path):
-    data = figures_phases.gather_phases(measured({"fig3_small": case("fig3_small")}, [0.3]))
-    figure = figures_phases.draw_phases(data)
-    files = [tmp_path / f"a.{kind}" for kind in ("png", "pdf", "nc", "json")]
-    style.save(figure, data, *files, 8 * ["fig2_small.end_time (4 in place of 50)"])
-    note = next(one for one in figure.texts if one.get_text().startswith("Not the paper's"))
-    assert not any(one.get_tightbbox().overlaps(note.get_window_extent()) for one in figure.axes)
-
-
 def test_the_spectrum_is_that_of_the_sine_transform_and_has_the_mean_square():
     rng = np.random.default_rng(3)
     half = rng.normal(size=(2, 31, 4)) + 1j * rng.normal(size=(2, 31, 4))
@@ -118,13 +100,6 @@ def one_pendulum(angle: float, velocity: float = 0.0, **changes):
     return pendula(half_width=0, epsilon=0.0, mu=0.3, omega=0.0, initial=start, **changes)
 
 
-def test_a_period_is_that_of_small_swings():
-    problem = one_pendulum(1e-4, end_time=1.0)
-    period = runs.period_of(problem)
-    run = simulate(problem.changed(end_time=period, output_step=period, snapshot_every=1))
-    assert run.snapshots[0][0, 0, -1] == pytest.approx(1e-4, rel=1e-6)
-
-
 @pytest.mark.parametrize(("share", "goes"), [(0.999, False), (1.001, True)])
 def test_a_pendulum_goes_over_the_top_with_more_energy_than_there(share, goes):
     """From below with the velocity v it comes to the top if v^2 / 2 > 2."""
@@ -141,13 +116,6 @@ def test_a_passage_is_at_the_first_output_beyond_the_top():
     exact = 2.0 / 2.4 * ellipk((2.0 / 2.4) ** 2) * 0.3**2 / 2.0
     step = runs.period_of(moving) / 16
     assert exact < chaotic_state.passage(moving, 16).time < exact + step
-
-
-def test_shares_count_all_members():
-    times = np.array([5.0, 12.0, 15.0, np.inf])
-    share = chaotic_state.passed_by(times, np.array([4.0, 5.0, 14.0, 50.0]))
-    assert share.value.tolist() == [0.0, 0.25, 0.5, 0.75]
-    assert (share.low <= share.value).all() and (share.high >= share.value).all()
 
 
 def test_small_mu_stays_below_the_top_and_large_mu_goes_over_it():
@@ -169,12 +137,3 @@ def test_a_film_shows_every_swing_and_leaves_whole_turns_out(angle, velocity):
     exact = simulate(moving.changed(**times)).snapshots[0][0, 0]
     off = np.exp(1j * np.pi / 127 * shown[:, 0, 0]) - np.exp(1j * exact)
     assert np.abs(off).max() < 0.5 * np.pi / 126
-
-
-def test_films_of_all_cases_have_as_many_periods():
-    names = "fig2_large", "fig3_large"
-    problems = {name: case(name).changed(model="pendula", mu=0.2) for name in names}
-    data = as_xarray(*phases.film_pendula(problems, 3, 2, 6))
-    assert data["angle_step"].values[:, 0, 0, 3].tolist() == [round(2.0 * 127 / np.pi)] * 2
-    lengths = data["tau_of_period"] * data["pendulum_frequency"]
-    assert lengths.values == pytest.approx(np.pi * 0.04)

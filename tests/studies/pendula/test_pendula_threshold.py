@@ -1,53 +1,76 @@
-"""Thresholds and rates of the pendula, against monodromies of the linearised chain and SciPy."""
-
-from decimal import Decimal, localcontext
+"""Thresholds and rates of the pendula: Mathieu's equation in 40 digits, and Newton's equations."""
 
 import numpy as np
 import pytest
 from hill_series import distance_to_edge, growth_over_period
+from pendula.configuration.paper import paper
 from pendula.models.linear_chain import gamma_0
-from pendula.problem import Problem
+from pendula.problem import Constants, Problem
 from pendula.simulation.simulate import simulate
-from pendula.studies.pendula.mathieu import growth
-from pendula.studies.pendula.threshold import (
-    correction,
-    finite_pendula_threshold,
-    next_correction,
-    pendula_rate,
-    pendula_threshold,
-    second_resonance,
-    squared_frequency,
-)
+from pendula.studies.pendula import mathieu, threshold
 from scipy.integrate import solve_ivp
+from scipy.special import mathieu_a
 
 MUS = (0.05, 0.1, 0.2, 0.3)
+OFFSETS = np.array([-0.9, -0.5, -0.1, -1e-3, 1e-3, 0.1, 0.5, 1.0, 1.4])
 
 
-def exact_terms(omega, mu, gamma, curvature):
-    """Return a - 1 and q of the wave, in 40 digits, for epsilon = 1."""
-    with localcontext() as context:
-        context.prec = 40
-        square = Decimal(mu) ** 2
-        over = square / (1 + square * Decimal(omega))
-        return over * (Decimal(curvature) - Decimal(omega)), 2 * Decimal(gamma) * over
+@pytest.mark.parametrize(
+    ("tongue", "level", "offset"),
+    [*((mathieu.first_tongue, -2, offset) for offset in OFFSETS),
+     *((mathieu.second_tongue, 2, offset) for offset in (-0.9, 0.5, 2.0, 2.9))],
+)  # fmt: skip
+def test_tongues_have_thirteen_digits(tongue, level, offset):
+    assert abs(distance_to_edge(offset, float(tongue(offset)), level)) < 1e-13
 
 
-@pytest.mark.parametrize("mu", MUS)
-@pytest.mark.parametrize("omega", [-6.0, -4.0, -0.5, 4.5, 8.0, 12.0])
-def test_thresholds_have_twelve_digits(omega, mu):
-    found = float(pendula_threshold(omega, mu, 1.0))
-    terms = exact_terms(omega, mu, found, 0.0 if omega < 0 else 4.0)
-    assert abs(distance_to_edge(*terms, -2)) < 1e-12
+def test_what_the_first_tongue_does_not_reach_is_infinite():
+    highest = mathieu_a(1, np.linspace(0.0, mathieu.BEYOND, 4001)).max() - 1.0
+    assert np.isfinite(mathieu.first_tongue(highest - 1e-3))
+    assert mathieu.first_tongue(highest + 1e-3) == np.inf
+    assert mathieu.wave_threshold(highest + 1e-3) == mathieu.second_tongue(highest + 1e-3)
 
 
-@pytest.mark.parametrize("mu", MUS)
-@pytest.mark.parametrize("omega", [-4.0, 0.0, 8.0])
-def test_rates_have_ten_digits(omega, mu):
-    gamma = 3.0
-    terms = exact_terms(omega, mu, gamma, 4.0 if omega > 0 else 0.0)
-    per_tau = 2.0 * np.sqrt(1.0 + mu * mu * omega) / (np.pi * mu * mu)
-    exact = growth_over_period(*terms) * per_tau
-    assert float(pendula_rate(omega, mu, gamma, 1.0)) == pytest.approx(exact, rel=1e-10)
+@pytest.mark.parametrize(
+    "of", [mathieu.first_tongue, mathieu.second_tongue, lambda offset: mathieu.growth(offset, 1.1)]
+)
+def test_deeper_fractions_change_no_bit(of, monkeypatch):
+    found = of(OFFSETS)
+    monkeypatch.setattr(mathieu, "DEPTH", 2 * mathieu.DEPTH)
+    assert np.array_equal(of(OFFSETS), found)
+
+
+def test_growth_is_that_of_the_monodromy():
+    at = (-0.1, 0.3), (0.0, 1e-3), (0.02, 0.02006), (0.5, 1.0), (0.56, 1.1), (1.2, 3.0), (-0.5, 4.0)
+    for offset, q in at:
+        exact = growth_over_period(offset, q) / np.pi
+        assert float(mathieu.growth(offset, q)) == pytest.approx(exact, rel=1e-12)
+
+
+def test_a_band_is_as_stable_as_its_weakest_wave():
+    rng = np.random.default_rng(5)
+    for _ in range(30):
+        low, high = np.sort(rng.uniform(-0.9, 2.9, 2))
+        within = mathieu.wave_threshold(np.linspace(low, high, 400))
+        assert mathieu.band_threshold(low, high) <= within.min()
+        edges = mathieu.wave_threshold(np.array([low, high])).min() if low > 0 or high < 0 else 0.0
+        assert mathieu.band_threshold(low, high) == pytest.approx(edges, rel=1e-14)
+
+
+def test_only_a_drive_that_beats_the_strings_loses_pendula():
+    """By Mathieu's equation: a <= 4 epsilon mu^2 / omega^2 is stable up to q = b_1(a)."""
+    of_paper = [Constants.of(one) for one in paper()["cases"].values()]
+    assert not any(mathieu.strings_grow(one, mu) for one in of_paper for mu in (0.05, 0.15, 0.3))
+    plain = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
+    for changes in ({"gamma": 3.0}, {"epsilon": 2.0}, {"epsilon": -0.1, "gamma": 0.0}):
+        assert mathieu.strings_grow(Constants(**plain | changes), 0.3)
+    free = Constants(epsilon=0.0, gamma=1.0, omega=0.0)
+    assert not mathieu.strings_grow(free, np.sqrt(0.9 / 2.0)) and mathieu.strings_grow(
+        free, np.sqrt(0.91 / 2.0)
+    )
+
+
+# --- The thresholds of the chain ------------------------------------------------------------------
 
 
 def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
@@ -68,7 +91,7 @@ def multiplier(omega, mu, gamma, curvature, epsilon=1.0):
 @pytest.mark.parametrize("mu", MUS)
 @pytest.mark.parametrize(("omega", "curvature"), [(-4.0, 0.0), (8.0, 4.0)])
 def test_the_edge_of_the_band_is_the_first_to_lose_stability(omega, curvature, mu):
-    found = float(pendula_threshold(omega, mu, 1.0))
+    found = float(threshold.pendula_threshold(omega, mu, 1.0))
     assert multiplier(omega, mu, found * (1 + 1e-4), curvature) > 1.0 + 1e-5
     for other in (0.0, 1.0, 2.0, 3.0, 4.0):
         assert multiplier(omega, mu, found * (1 - 1e-4), other) == pytest.approx(1.0, abs=1e-9)
@@ -79,8 +102,8 @@ def test_the_edge_of_the_band_is_the_first_to_lose_stability(omega, curvature, m
 )
 def test_the_second_resonance_takes_all_stability_between_its_ends(omega, grows):
     """Where the wave with a = 4 is in the band, any drive makes it grow."""
-    low, high = second_resonance(0.3, 1.0)
-    assert (low < omega < high) == (pendula_threshold(omega, 0.3, 1.0) == 0.0) == grows
+    low, high = threshold.second_resonance(0.3, 1.0)
+    assert (low < omega < high) == (threshold.pendula_threshold(omega, 0.3, 1.0) == 0.0) == grows
     largest = max(multiplier(omega, 0.3, 0.5, curvature) for curvature in np.linspace(0, 4, 61))
     assert (largest > 1.001) == grows
 
@@ -91,23 +114,28 @@ def test_corrections_are_those_of_small_mu(epsilon):
     omegas = np.array([-6.0, -4.0, -1.0, 5.0, 8.0, 12.0])
     left = []
     for mu in (0.02, 0.01):
-        two = correction(omegas, epsilon) + mu * mu * next_correction(omegas, epsilon)
-        exact = pendula_threshold(omegas, mu, epsilon)
+        two = threshold.correction(omegas, epsilon) + mu * mu * threshold.next_correction(
+            omegas, epsilon
+        )
+        exact = threshold.pendula_threshold(omegas, mu, epsilon)
         left.append(exact - gamma_0(omegas, epsilon) - mu * mu * two)
     assert left[0] / left[1] == pytest.approx(np.full(6, 64.0), rel=0.05)
 
 
 def test_long_chains_have_the_threshold_of_the_infinite_one():
     omegas = np.array([-4.0, 8.0])
-    infinite = pendula_threshold(omegas, 0.2, 1.0)
-    off = [finite_pendula_threshold(omegas, 0.2, 1.0, sites) - infinite for sites in (99, 199)]
+    infinite = threshold.pendula_threshold(omegas, 0.2, 1.0)
+    off = [
+        threshold.finite_pendula_threshold(omegas, 0.2, 1.0, sites) - infinite
+        for sites in (99, 199)
+    ]
     assert off[0] / off[1] == pytest.approx([4.0, 4.0], rel=1e-3)  # as (N + 1)^-2
     assert np.all(off[1] > 0)
 
 
 def test_a_short_chain_loses_stability_by_one_of_its_waves():
     sites, omega, mu = 5, 1.3, 0.2
-    found = float(finite_pendula_threshold(omega, mu, 1.0, sites))
+    found = float(threshold.finite_pendula_threshold(omega, mu, 1.0, sites))
     waves = 4.0 * np.sin(np.pi * np.arange(1, sites + 1) / (2 * (sites + 1))) ** 2
     assert max(multiplier(omega, mu, 0.999 * found, s) for s in waves) < 1.0 + 1e-9
     assert max(multiplier(omega, mu, 1.001 * found, s) for s in waves) > 1.0 + 1e-5
@@ -117,7 +145,7 @@ def test_a_short_chain_loses_stability_by_one_of_its_waves():
 def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, grows):
     """Newton's equations with the sine, from tiny angles in the wave that is the first to grow."""
     sites, omega, mu = 5, 8.0, 0.2
-    gamma = factor * float(finite_pendula_threshold(omega, mu, 1.0, sites))
+    gamma = factor * float(threshold.finite_pendula_threshold(omega, mu, 1.0, sites))
     angle = np.pi * sites / (sites + 1)
     wave = {n - 2: 1e-12 * np.sin(angle * (n + 1)) for n in range(sites)}
     run = simulate(Problem.of({
@@ -127,9 +155,9 @@ def test_simulated_pendula_leave_rest_above_the_threshold_at_its_rate(factor, gr
         "solver": {"name": "taylor", "rtol": 1e-13, "atol": 1e-25},
     }))  # fmt: skip
     late, later = (run.l2[0][1000 * i : 1000 * (i + 1)].max() for i in (1, 2))
-    square = squared_frequency(omega, mu) / (mu * mu)
-    rate = growth((4.0 * np.sin(angle / 2) ** 2 - omega) / square, 2.0 * gamma / square)
-    per_tau = 2.0 * np.sqrt(squared_frequency(omega, mu)) / (mu * mu) * float(rate)
+    square = threshold.squared_frequency(omega, mu) / (mu * mu)
+    rate = mathieu.growth((4.0 * np.sin(angle / 2) ** 2 - omega) / square, 2.0 * gamma / square)
+    per_tau = 2.0 * np.sqrt(threshold.squared_frequency(omega, mu)) / (mu * mu) * float(rate)
     assert bool(per_tau > 0.0) == grows
     assert np.log(later / late) / 10.0 == pytest.approx(per_tau, abs=2e-3)
 
@@ -139,6 +167,6 @@ def test_rates_are_those_of_the_fastest_wave(omega, curvature):
     mu, gamma = 0.3, 3.0
     period = 0.5 * mu * mu * np.pi / np.sqrt(1.0 + mu * mu * omega)  # of the drive, in tau
     waves = [multiplier(omega, mu, gamma, s) for s in np.linspace(0.0, 4.0, 5)]
-    found = float(pendula_rate(omega, mu, gamma, 1.0))
+    found = float(threshold.pendula_rate(omega, mu, gamma, 1.0))
     assert found == pytest.approx(np.log(max(waves)) / period, rel=1e-9)
     assert max(waves) == multiplier(omega, mu, gamma, curvature)

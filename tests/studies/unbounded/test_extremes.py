@@ -24,9 +24,6 @@ def fig4():
     law = as_xarray(maximum_variables(state), {})
     assert (np.diff(law["bound_rate"]) <= 0.0).all() and law["bound_rate"][-1] == 0.0
     assert (np.diff(law["bound_overlap"]) >= 0.0).all() and law["bound_omega"] == 0.0
-    for values in (law[name] for name in ("bound", "bound_rate", "bound_overlap")):
-        assert values.attrs["decimal_places"] == 10 and not np.signbit(values).any()
-        np.testing.assert_array_equal(values, values.values.round(10))
     return state, law
 
 
@@ -42,18 +39,6 @@ def test_amplitudes_without_bonds_and_drive_follow_the_quartic_weight():
     below = erf(0.5 * np.sqrt(BETA) * BOUNDS**2) ** 2
     np.testing.assert_allclose(rates[:-1], -np.log(below[:-1]), rtol=1e-6)
     np.testing.assert_allclose(overlaps, below, rtol=1e-6)
-
-
-def test_the_extremal_index_is_one_without_bonds_and_smaller_with_them():
-    """It comes back to one for large moduli, which are too rare to have large neighbours."""
-    indices = []
-    for epsilon in (0.0, 1e-4, 1.0):
-        rates, overlaps = law_of_maxima(constants_of((epsilon, 1.0, 0.0)), BETA, BOUNDS)
-        indices.append(rates[:-1] / -np.log(overlaps[:-1]))
-    np.testing.assert_allclose(indices[0], 1.0, atol=1e-6)
-    np.testing.assert_allclose(indices[1], 1.0, atol=1e-4)
-    assert indices[2][0] < 0.97 < indices[2][-1] < 1.0
-    assert (np.diff(indices[2]) > 0.0).all()
 
 
 def radial(beta, omega, bound, count=60):

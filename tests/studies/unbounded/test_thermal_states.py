@@ -8,18 +8,9 @@ import pytest
 from accepted import dataset
 from metropolis import energy_of, mean_and_error, sample
 from oracle import hamiltonian, random_chain
-from pendula.datasets.checks import rounded
 from pendula.datasets.netcdf import as_xarray
+from pendula.studies.unbounded import thermal
 from pendula.studies.unbounded.bulk import TERMS, spectrum
-from pendula.studies.unbounded.thermal import (
-    correlation_length,
-    density_of,
-    products_of,
-    spectrum_of,
-    state_of_energy,
-    terms_of,
-    thermal_variables,
-)
 from pendula.studies.unbounded.transfer import REACH, reach_of, widest
 from problems import PAPER, constants_of
 from scipy.optimize import minimize_scalar
@@ -31,7 +22,7 @@ NODES, DENSITY_NODES = 12, 18
 
 def state_of(numbers, energy=0.0, nodes=NODES):
     """Return the thermal state of the chain with these epsilon, gamma and Omega."""
-    return state_of_energy(constants_of(numbers), energy, nodes)
+    return thermal.state_of_energy(constants_of(numbers), energy, nodes)
 
 
 @pytest.fixture(scope="module", params=[0.0, 2.0])
@@ -69,7 +60,7 @@ def test_sampled_rings_have_its_distribution(both):
     counts = np.array([np.histogram(ring, CELLS)[0] for ring in moduli.swapaxes(0, 1)])
     sampled = counts / counts.sum(axis=1, keepdims=True) / width
     errors = sampled.std(axis=0, ddof=1) / np.sqrt(len(sampled))
-    density = density_of(state, CELLS, DENSITY_NODES)
+    density = thermal.density_of(state, CELLS, DENSITY_NODES)
     seen = counts.sum(axis=0) > 300
     off = (sampled.mean(axis=0) - density)[seen] / errors[seen]
     assert np.abs(off).max() < 4.5 and np.mean(off**2) < 2.0
@@ -87,14 +78,8 @@ def test_a_pair_alone_is_a_plain_integral():
     assert np.average(energy, weights=weight) == pytest.approx(2.0, rel=1e-6)
     power = np.average(np.broadcast_to(first + second, energy.shape), weights=weight)
     assert state.power == pytest.approx(power, abs=max(3.0 * state.power_error, 1e-6))
-    products = products_of(state, 8)  # the sites know nothing of each other
+    products = thermal.products_of(state, 8)  # the sites know nothing of each other
     assert np.abs(products[:, 1]).max() < 1e-9 and not products[:, 2:].any()
-
-
-def test_a_narrow_density_has_no_images_far_from_it():
-    density = density_of(state_of((0.0, 0.7, 3.0), 2.0), CELLS, DENSITY_NODES)
-    assert density.sum() * 0.15 == pytest.approx(1.0, abs=1e-8)
-    assert np.abs(density[40:]).max() < 1e-10 < density[10]
 
 
 def test_cold_states_of_a_stable_chain_are_those_of_its_waves():
@@ -107,13 +92,15 @@ def test_cold_states_of_a_stable_chain_are_those_of_its_waves():
     assert state.beta == pytest.approx(2.0 / 1e-4, rel=1e-4)
     assert state.power == pytest.approx(square.mean() / state.beta, rel=1e-4)
     # The slowest wave is k = pi of A - B: its shift is 6 less 2 (1 + cos k), so e^-x + e^x = 2 + 6.
-    length = correlation_length(products_of(state, 64))
+    length = thermal.correlation_length(thermal.products_of(state, 64))
     assert length == pytest.approx(1.0 / np.arccosh(4.0), rel=1e-3)
     # Sums over a piece spread each wave by the width of the piece.
     lags = np.arange(64)
     kept = (1.0 - lags / 64) * (np.cos(np.outer(lags, k)) @ square) / 1024
     expected = (2.0 * kept @ np.cos(np.outer(lags, k[::16])) - kept[0]) / state.beta / 2.0
-    np.testing.assert_allclose(spectrum_of(products_of(state, 64)), expected, rtol=2e-4)
+    np.testing.assert_allclose(
+        thermal.spectrum_of(thermal.products_of(state, 64)), expected, rtol=2e-4
+    )
 
 
 @pytest.mark.parametrize("omega", [-1.5, 2.0, 4.0])
@@ -126,18 +113,20 @@ def test_the_error_is_that_of_the_grid(omega):
 def test_the_bonds_hold_the_energy_that_the_virial_says():
     """The energy comes from one site alone; the bonds are told by the correlation of two."""
     state = state_of((0.9, 0.8, 1.3), 1.0)
-    here, beside = products_of(state, 2).sum(axis=0)
+    here, beside = thermal.products_of(state, 2).sum(axis=0)
     assert here == pytest.approx(state.power, rel=1e-9)
     bonds = -0.9 * 2.0 * (here - beside)
-    assert terms_of(state)[TERMS.index("bonds")] == pytest.approx(bonds, rel=1e-6)
+    assert thermal.terms_of(state)[TERMS.index("bonds")] == pytest.approx(bonds, rel=1e-6)
 
 
 def test_power_spectrum_and_density_tell_one_power():
     state = state_of((1.0, 1.0, 3.0))
     assert state.operator.nodes.shape == (4, NODES)
-    assert spectrum_of(products_of(state, 64)).mean() == pytest.approx(state.power / 2.0, rel=1e-9)
+    assert thermal.spectrum_of(thermal.products_of(state, 64)).mean() == pytest.approx(
+        state.power / 2.0, rel=1e-9
+    )
     fine = np.linspace(0.0, 8.0, 801)
-    density, middle = density_of(state, fine, 22), 0.5 * (fine[1:] + fine[:-1])
+    density, middle = thermal.density_of(state, fine, 22), 0.5 * (fine[1:] + fine[:-1])
     assert density.sum() * 0.01 == pytest.approx(1.0, abs=1e-8)
     assert (density * middle**2).sum() * 0.01 == pytest.approx(state.power / 2.0, rel=1e-4)
     waves = np.exp(2j * np.pi * np.arange(64) / 64)
@@ -157,35 +146,25 @@ def test_the_bits_of_thermal_states_are_those_of_every_machine():
     told = []
     for omega, energy in ((0.0, 0.0), (2.0, 0.0), (-4.0, 0.0), (-4.0, 3.0)):
         state = state_of((1.0, 1.0, omega), energy, nodes=8)
-        products = products_of(state, 16)
-        told += [state.beta, state.power, state.power_error, *terms_of(state)]
-        told += [*products.ravel(), *spectrum_of(products), correlation_length(products)]
+        products = thermal.products_of(state, 16)
+        told += [state.beta, state.power, state.power_error, *thermal.terms_of(state)]
+        told += [
+            *products.ravel(),
+            *thermal.spectrum_of(products),
+            thermal.correlation_length(products),
+        ]
     # adding zero makes -0 and 0 the same number
     bits = (np.array(told) + 0.0).tobytes()
     assert hashlib.sha256(bits).hexdigest()[:16] == HASH
 
 
-DIGITS = {"beta": 7, "power": 7, "terms": 7, "power_error": 2}
-DIGITS |= {f"warm_{name}": count for name, count in DIGITS.items()}
-DIGITS |= {"spectrum": 6, "correlation_length": 4}
-
-
-def test_what_is_published_is_as_accepted_and_rounded_as_it_says():
+def test_what_is_published_is_as_accepted():
     states, warm = [state_of((1.0, 1.0, 0.0)), state_of((1.0, 1.0, 2.0))], state_of(PAPER, 4.0)
-    found = as_xarray(thermal_variables(states, [warm], DENSITY_NODES), {})
+    found = as_xarray(thermal.thermal_variables(states, [warm], DENSITY_NODES), {})
     accepted = dataset("unbounded/thermal").sel(omega=[0.0, 2.0], site_energy=[4.0])
     for name in found.variables.keys() - {"term"}:
         np.testing.assert_allclose(found[name], accepted[name], rtol=1e-6, atol=1e-7, err_msg=name)
-    for name, count in DIGITS.items():
-        assert found[name].attrs["significant_digits"] == count
-        values = found[name].values
-        np.testing.assert_array_equal(values, rounded(values, count))
-        assert (values != rounded(values, count - 1)).any()
-    density = found["density"]
-    assert density.attrs["decimal_places"] == 6
-    np.testing.assert_array_equal(density, density.values.round(6))
-    assert (density.values != density.values.round(5)).any()
-    assert (density == 0.0).any() and not np.signbit(density).any()  # no zero has a sign
+    assert not np.signbit(found["density"]).any()  # no zero has a sign
 
 
 @pytest.mark.parametrize("numbers", [(1.0, 1.0, -4.0), (0.7, 1.3, 2.0), (0.5, 0.2, 9.0)])
