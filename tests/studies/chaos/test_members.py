@@ -31,9 +31,9 @@ def test_a_run_is_reduced_to_means_and_maxima_over_each_window():
 def test_the_error_of_a_spread_is_that_of_the_jackknife():
     values = np.array([0.0, 1.0, 3.0, 7.0])
     without = np.array([np.delete(values, i).var(ddof=1) for i in range(4)])
-    found = members.measure_spread(np.repeat(values[:, None], 2, axis=1))
-    assert found.variance == pytest.approx(values.var(ddof=1))
-    assert found.error * found.variance == pytest.approx(np.sqrt(3.0 * without.var()))
+    variance, error = members.measure_spread(np.repeat(values[:, None], 2, axis=1))
+    assert variance == pytest.approx(values.var(ddof=1))
+    assert error * variance == pytest.approx(np.sqrt(3.0 * without.var()))
 
 
 def test_the_ratio_of_widths_is_root_two_where_independent_halves_are_added():

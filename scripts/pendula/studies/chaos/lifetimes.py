@@ -30,16 +30,12 @@ SPAN = 10.0
 Pieces of a run start from the state alone."""
 
 
-class Life(NamedTuple):
-    """One run up to its transition, or to its end."""
+def follow(problem: Problem) -> tuple[float, float, int]:
+    """Follow one run at its output times until the centre holds no more than an even share of P.
 
-    time: float  # first output time at which the centre holds no more than its share; else infinite
-    drift: float  # largest |H - H(0)| over |H(0)|
-    work: int  # right-hand sides; of the Taylor method, series of the solution
-
-
-def follow(problem: Problem) -> Life:
-    """Follow one run at its output times until the centre holds no more than an even share of P."""
+    Return the time at which it does so first, infinite where it does not; the largest |H - H(0)|
+    over |H(0)|; and the right-hand sides, of the Taylor method the series of the solution.
+    """
     spans = max(1, round(problem.end_time / SPAN))
     piece = problem.changed(end_time=problem.end_time / spans, snapshot_every=1)
     energies, work, time = [], 0, np.inf
@@ -53,7 +49,7 @@ def follow(problem: Problem) -> Life:
             break
         piece = piece.changed(initial=run.final)
     energy = np.concatenate(energies)
-    return Life(time, float(drift(energy).max() / abs(energy[0])), work)
+    return time, float(drift(energy).max() / abs(energy[0])), work
 
 
 def shares_alike(modulus: np.ndarray) -> np.ndarray:
@@ -88,15 +84,6 @@ def follow_members(
     lives = [follow(member) for member in draw_members(one, size, members, seed, kind)]
     times, drifts, work = zip(*lives, strict=True)
     return Lives(np.array(times), max(drifts), sum(work))
-
-
-def chance_of_rate(lives: np.ndarray, settled: float, end_time: float) -> float:
-    """Return the chance of lives as far from a constant rate, of those localised at `settled`.
-
-    Lives are (member,), infinite where they outlast `end_time`. The rate cannot be constant from
-    the start: the data are almost equal, and it takes time until members differ.
-    """
-    return chance_of_law(lives[lives > settled] - settled, end_time - settled)
 
 
 def surviving(lives: np.ndarray, tau: np.ndarray) -> Limits:
@@ -155,8 +142,11 @@ def measure_lifetimes(
             "median life, from order statistics",
         ),
         **_limits("rate", over, rates(lives), rate_says),
+        # not from the start: the data are almost equal, and it takes time until members differ
         "rate_chance": Variable(
-            over, [chance_of_rate(one.times, settled, end_time) for one in lives],
+            over,
+            [chance_of_law(one.times[one.times > settled] - settled, end_time - settled)
+             for one in lives],
             "chance of lives as far from a constant rate",
         ),
         "compared_amplitude": Variable(

@@ -6,8 +6,6 @@ the flow and across the energy. The growth also predicts when the errors that a 
 visible, which is measured as well.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
@@ -82,15 +80,11 @@ def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> flo
     return first_above(tau, log_amplification, log(VISIBLE / error))
 
 
-class Divergence(NamedTuple):
-    """How runs at several tolerances differ from a finer one; all are (tolerance,)."""
+def measure_divergence(problem: Problem, tolerances: list[float]) -> tuple[np.ndarray, np.ndarray]:
+    """Return by tolerance when dop853 has diverged from another method at FINEST, and how far.
 
-    time: np.ndarray  # divergence time, inf where there is none
-    early: np.ndarray  # difference at tau = EARLY
-
-
-def measure_divergence(problem: Problem, tolerances: list[float]) -> Divergence:
-    """Follow a case by dop853 at each tolerance, and by another method at FINEST."""
+    The times are infinite where the runs do not diverge; the differences are those at EARLY.
+    """
     finest, *runs = (
         simulate(
             problem.changed(solver={"name": name, "rtol": rtol, "atol": rtol}, snapshot_every=0),
@@ -100,7 +94,7 @@ def measure_divergence(problem: Problem, tolerances: list[float]) -> Divergence:
     )
     apart = [norm_difference(run.linf, run.l2, finest.linf, finest.l2) for run in runs]
     early = np.array([one[early_index(finest.tau)] for one in apart])
-    return Divergence(first_above(finest.tau, np.array(apart), VISIBLE), early)
+    return first_above(finest.tau, np.array(apart), VISIBLE), early
 
 
 def early_index(tau: np.ndarray) -> int:
@@ -164,9 +158,9 @@ def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> 
     seen, measured, rounding = [], [], []
     for problem, log_growth, l2 in zip(problems.values(), even, growth["l2"].values, strict=True):
         amplified = amplification(tau, log_growth, l2)
-        found = measure_divergence(problem, tolerances)
-        seen.append([predict(tau, amplified, made) for made in found.early / exp(amplified[early])])
-        measured.append(found.time)
+        times, apart = measure_divergence(problem, tolerances)
+        seen.append([predict(tau, amplified, made) for made in apart / exp(amplified[early])])
+        measured.append(times)
         rounding.append(predict(tau, amplified, ROUNDING))
     grid = ("case", "rtol")
     return {

@@ -6,8 +6,6 @@ Cases that are not chaotic have ensembles here too: what a sentence says of chao
 them.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
@@ -49,11 +47,8 @@ def reduce_run(run: Trajectory, windows: list[Window], every: int) -> dict[str, 
     }
 
 
-class Spread(NamedTuple):
-    """The variance over the members, averaged over time, and its relative standard error."""
-
-    variance: float
-    error: float
+Spread = tuple[float, float]
+"""The variance over the members, averaged over time, and its relative standard error."""
 
 
 def measure_spread(values: np.ndarray) -> Spread:
@@ -68,13 +63,13 @@ def measure_spread(values: np.ndarray) -> Spread:
     without = (whole - count / (count - 1) * squares) / (count - 2)
     error = np.sqrt((count - 1) * ((without - without.mean()) ** 2).mean())
     variance = whole / (count - 1)
-    return Spread(float(variance), float(error / variance) if variance else 0.0)
+    return float(variance), float(error / variance) if variance else 0.0
 
 
 def width_ratio(even: Spread, uneven: Spread, members: int) -> tuple[float, float, float]:
     """Return the width of even ensembles over that of uneven ones, and its confidence limits."""
-    ratio = np.sqrt(even.variance / uneven.variance)
-    error = np.sqrt(even.error * even.error + uneven.error * uneven.error)
+    ratio = np.sqrt(even[0] / uneven[0])
+    error = np.sqrt(even[1] * even[1] + uneven[1] * uneven[1])
     off = student(members - 1) * 0.5 * error
     return ratio, ratio * (1.0 - off), ratio * (1.0 + off)
 
@@ -106,7 +101,7 @@ def member_numbers(
         [measure_case(one, windows, size, members, seed, kind) for one in problems.values()]
         for kind in kinds
     ]
-    widths = [[np.sqrt(spread.variance) / mean for _, spread, mean in row] for row in found]
+    widths = [[np.sqrt(variance) / mean for _, (variance, _), mean in row] for row in found]
     pairs = zip(*[[spread for _, spread, _ in row] for row in found], strict=True)
     ratio, low, high = np.array([width_ratio(*pair, members) for pair in pairs]).T
     squares = [square_modulus(problem.initial) for problem in problems.values()]

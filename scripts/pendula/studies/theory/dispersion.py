@@ -18,7 +18,7 @@ from pendula.numerics.elementary import complex_of, log, modulus
 from pendula.numerics.matrices import growth_bound, multiply, symmetric_eigenvalues, times
 from pendula.problem import Constants
 
-from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_sides, run
+from .equations import BOUNDARIES, misstated, random_amplitudes, right_hand_side, run
 
 TINY = 2.0**-200
 """A power of two so small that the cubic terms vanish below rounding: scaling by it is exact."""
@@ -30,7 +30,7 @@ def jacobian(constants: Constants, sites: int, boundary: str) -> np.ndarray:
     """Return the real matrix (4N, 4N) of the right-hand side linearised at zero."""
     units = TINY * np.eye(4 * sites).reshape(-1, 2, 2, sites)  # of A and B, real and imaginary part
     data = complex_of(units[:, :, 0], units[:, :, 1])
-    found = right_hand_sides(constants, boundary, data) / TINY
+    found = right_hand_side(constants, boundary, data) / TINY
     return np.stack([found.real, found.imag], axis=2).reshape(4 * sites, -1).T
 
 
@@ -138,7 +138,7 @@ def is_stable(constants: Constants, sites: int) -> bool:
     """
     units = TINY * np.eye(sites)
     data = np.concatenate([units, 1j * units])[:, None] * [[1.0], [-1.0]]
-    found = right_hand_sides(constants, "dirichlet", data)[:, 0] / TINY
+    found = right_hand_side(constants, "dirichlet", data)[:, 0] / TINY
     from_real, from_imaginary = found[:sites].imag, -found[sites:].real
     sign = 1.0 if constants.omega < 0.0 else -1.0
     return all(

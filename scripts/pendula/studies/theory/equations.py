@@ -54,38 +54,28 @@ def run(
 
 
 def right_hand_side(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
-    """Return (dA/dtau, dB/dtau), shape (2, N), as the library computes them."""
-    return right_hand_sides(constants, boundary, amplitudes[None])[0]
-
-
-def right_hand_sides(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
-    """Return the same of each of `amplitudes` (count, 2, N)."""
+    """Return (dA/dtau, dB/dtau) of `amplitudes` (..., 2, N), as the library computes them."""
     states, chain = _pack(amplitudes), make_chain(constants, boundary, WHOLE)
     found = np.zeros_like(states)
     for y, dy in zip(states, found, strict=True):
         rates(chain, y, dy)
-    return found[:, 0::2, 1:-1] + 1j * found[:, 1::2, 1:-1]
+    return (found[:, 0::2, 1:-1] + 1j * found[:, 1::2, 1:-1]).reshape(amplitudes.shape)
 
 
 def _pack(amplitudes: np.ndarray) -> np.ndarray:
-    """Return the states of whole chains, (count, 4, N + 2), of `amplitudes` (count, 2, N)."""
-    count, _, sites = amplitudes.shape
-    states = np.zeros((count, 4, sites + 2))
-    states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = amplitudes.real, amplitudes.imag
+    """Return the states of whole chains, (count, 4, N + 2), of `amplitudes` (..., 2, N)."""
+    chains = amplitudes.reshape(-1, *amplitudes.shape[-2:])
+    states = np.zeros((len(chains), 4, chains.shape[2] + 2))
+    states[:, 0::2, 1:-1], states[:, 1::2, 1:-1] = chains.real, chains.imag
     return states
 
 
-def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray) -> float:
-    """Return H of equation (8) for amplitudes (2, N), as the library computes it."""
-    return float(total_energies(constants, boundary, amplitudes[None])[0])
-
-
-def total_energies(constants: Constants, boundary: str, amplitudes: np.ndarray) -> np.ndarray:
-    """Return H of each of `amplitudes` (count, 2, N)."""
-    states, found = _pack(amplitudes), np.empty(len(amplitudes))
-    scratch = np.empty((2, states.shape[2]))  # kernels allocate nothing
+def total_energy(constants: Constants, boundary: str, amplitudes: np.ndarray):
+    """Return H of equation (8), (...), of `amplitudes` (..., 2, N), as the library computes it."""
+    states = _pack(amplitudes)
+    found, scratch = np.empty(len(states)), np.empty((2, states.shape[2]))
     energies(make_chain(constants, boundary, WHOLE), states, scratch, found)
-    return found
+    return found.reshape(amplitudes.shape[:-2])[()]
 
 
 def squared_norm(l2: np.ndarray) -> np.ndarray:

@@ -19,7 +19,6 @@ from .equations import (
     one_pair,
     run,
     squared_norm,
-    total_energies,
     total_energy,
 )
 
@@ -118,7 +117,7 @@ def check_bootstrap(
     sizes = np.linspace(0.0, longest, 20001)[1:]
     powers = sizes**2
     pairs = np.stack([sizes, 0.0 * sizes], axis=1)[:, :, None].astype(complex)
-    depth = -total_energies(constants, "dirichlet", pairs)
+    depth = -total_energy(constants, "dirichlet", pairs)
     premises = (depth > 0.0) & (depth <= bounds.extent(constants) * delta)
     premises &= depth >= gap * powers - 0.25 * powers**2
     if below_barrier:

@@ -21,7 +21,6 @@ from .equations import (
     one_pair,
     run,
     squared_norm,
-    total_energies,
     total_energy,
 )
 from .worst_data import BOUNDS, OMEGAS
@@ -134,7 +133,7 @@ def shell_state(constants: Constants, sites: int, energy: float) -> np.ndarray |
     """
     unit = alternating(sites, 1.0)
     sizes = np.sqrt(2.0 * extent(constants)) * np.linspace(0.0, 1.0, 101)
-    energies = total_energies(constants, "dirichlet", sizes[:, None, None] * unit)
+    energies = total_energy(constants, "dirichlet", sizes[:, None, None] * unit)
     if min(energies) > energy:
         return None
     low, high = sizes[int(np.argmin(energies))], 1e3

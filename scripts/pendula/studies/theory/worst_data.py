@@ -30,7 +30,6 @@ from .equations import (
     draw_shape,
     misstated,
     run_powers,
-    total_energies,
     total_energy,
 )
 
@@ -139,7 +138,7 @@ def ratios(family: str, constants, stated, boundary, end_time, points) -> np.nda
         powers, energies = follow(constants, boundary, amplitudes, end_time)
     else:
         powers = np.sum(square_modulus(amplitudes), axis=(1, 2))[:, None]
-        energies = total_energies(constants, boundary, amplitudes)
+        energies = total_energy(constants, boundary, amplitudes)
     limits = BOUNDS[family](energies, powers[:, 0], amplitudes.shape[2], stated)
     inside = np.isfinite(limits)
     # outside, the energy leads back to where it lies below the barrier
