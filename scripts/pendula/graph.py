@@ -18,6 +18,7 @@ LEAVES = {
     "number": CONSTANT,
     "parameter": CONSTANT,
     "time": CLOCK,
+    "clock": CLOCK,
     "field": MOTION,
     "carried": MOTION,
 }
@@ -27,9 +28,10 @@ LEAVES = {
 class Node:
     """A real number at each site: an operation, and nodes or what names a leaf.
 
-    Leaves are ("number", x), ("parameter", name, shift), ("time",) and ("field", component, part,
-    shift). The others are add, sub, neg, mul, div, sin and cos. Power series have one leaf more,
-    ("carried", i), and squares of their own, see pendula.models.series_graph.
+    Leaves are ("number", x), ("parameter", name, shift), ("time",), ("field", component, part,
+    shift), and ("clock", name): a function of the time that the system has by its name. The others
+    are add, sub, neg, mul, div, sin and cos. Power series have one leaf more, ("carried", i), and
+    halves of squares, see pendula.models.series_graph.
     """
 
     def __init__(self, operation: str, *operands):

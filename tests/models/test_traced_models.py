@@ -125,14 +125,10 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
 
     def slope(t, flat):
         x, v = flat.reshape(2, -1)
-        bond = 0.5 * np.sin(beside(x, 1, "free") - x)
-        before = 0.5 * np.sin(x - beside(x, -1, "free"))
-        bond, before = (
-            bond + 0.2 * (beside(x, 1, "free") - x),
-            before + 0.2 * (x - beside(x, -1, "free")),
-        )
+        after, before = beside(x, 1, "free") - x, x - beside(x, -1, "free")
+        bonds = 0.5 * (np.sin(after) - np.sin(before)) + 0.2 * (after - before)
         drive = 0.4 * np.cos(2.2 * t + 0.3)
-        return np.ravel([v, (bond - before) - np.sin(x) + drive * x + 0.1 * t - 0.05])
+        return np.ravel([v, bonds - np.sin(x) + drive * x + 0.1 * t - 0.05])
 
     start = np.ravel([initial[0].real, initial[0].imag])
     expected = solve_ivp(slope, (0.0, 2.0), start, **TIGHT).y[:, -1]

@@ -75,7 +75,7 @@ def traced(i_dt, states: int = 1) -> Model:
 
 
 EQUATIONS = traced(i_dt)
-continue_series = load_series(EQUATIONS).continue_series
+continue_series = load_series(EQUATIONS).continue_in_waves
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
 rates_at_site = load_rule(EQUATIONS.rates, "y")
 write_rates = at_every_site(rates_at_site)

@@ -31,6 +31,12 @@ def at_time(system, t):
 @inlined_by_llvm
 def write_clocks(system, m, d):
 {series}
+
+
+@kernel
+def continue_series(system, series):
+    write_clocks(system, series.memory, spare_start(series))
+    continue_in_waves(system, series)
 """
 CLOCK_SERIES = """\
     value, slope = system.clocks[{value}], system.clocks[{slope}]
@@ -39,12 +45,6 @@ CLOCK_SERIES = """\
         m[d + {value} * (ORDER + 1) + k] = value
         share = 1.0 / (k + 1)
         value, slope = share * slope, -(share * square * value)"""
-CONTINUE = """
-@kernel
-def continue_series(system, series):
-    {first}continue_in_waves(system, series)
-"""
-WRITE_CLOCKS = "write_clocks(system, series.memory, spare_start(series))\n    "
 
 
 def parts_of_rates(rates: tuple[Node, ...], site_dependent: frozenset[str]) -> Parts:
@@ -66,9 +66,8 @@ def clocks_text(parts: Parts, names: Names) -> str:
         now.append(f"    k{i}, l{i} = {value}")
         series.append(CLOCK_SERIES.format(value=i, slope=count + i, speed=speed))
     values = "".join(f"{x}{i}, " for x in "kl" for i in range(count))
-    return CLOCKS.format(
-        now="\n".join(now), values=values, series="\n".join(series) or "    pass"
-    ) + CONTINUE.format(first=WRITE_CLOCKS)
+    steps = "\n".join(series) or "    pass"
+    return CLOCKS.format(now="\n".join(now), values=values, series=steps)
 
 
 def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[str]) -> str:
@@ -78,19 +77,19 @@ def module_text(rates: tuple[Node, ...], reach: int, site_dependent: frozenset[s
     return "".join([
         HEAD,
         rates_text(rates, names, reach),
-        Series(rates, names).text(reach, len(parts.clocks)),
+        Series(rates, names).text(reach),
         clocks_text(parts, names),
     ])  # fmt: skip
 
 
 def load_series(model: Model) -> ModuleType:
-    """Return the module with the series of two fields that move alike, driven by no time.
+    """Return the module with the series of two fields that move alike: continue_in_waves, WORK.
 
-    The system has the parameters of the model by their names.
+    The system has the parameters and the clocks of the model by their names. The coefficients of
+    the clocks are expected one after the other from `spare_start` on.
     """
     names = Names(parts_of_rates(model.rates, frozenset()), by_name=True)
-    series = Series(model.rates, names, alike=True).text(model.reach, 0)
-    return load_text(HEAD + series + CONTINUE.format(first=""))
+    return load_text(HEAD + Series(model.rates, names, alike=True).text(model.reach))
 
 
 def load_rule(rates: tuple[Node, ...], *states: str):

@@ -20,10 +20,14 @@ import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.ends import DIRICHLET, PERIODIC, kind_of, neighbours
+from pendula.graph import node
+from pendula.integrators.taylor import ORDER, spare_start
+from pendula.model import Model, Value, lap, sin
 from pendula.numerics import elementary
 from pendula.numerics.elementary import SPLITTER, complex_of, modulus, product
 
 from .chain import at_every_site, close
+from .generated import load_rule, load_series
 from .sines import sine_and_cosine
 
 TURN = 6.283185307179586
@@ -149,32 +153,19 @@ def pendula_of_tile(pendula, at_left_end, at_right_end):
     )
 
 
-# --- The right-hand side ------------------------------------------------------------------------
+# --- The equations as a traced model, and what is generated from it -----------------------------
 
 
-@inlined_by_llvm
-def pull(pendula, left, x, right, partner):
-    """Return the forces of the neighbours and of the partner on a pendulum at the angle x."""
-    return pendula.coupling * ((right + left) - 2.0 * x) + pendula.drive * (partner - x)
+def d2_dt2(p, x: Value, y: Value) -> list[Value]:
+    """Return the second derivatives of x and y."""
+    drive = Value(node("clock", "drive"))
+    return [p.coupling * lap(u) + drive * (v - u) - sin(u) for u, v in ((x, y), (y, x))]
 
 
-@inlined_by_llvm
-def acceleration(pendula, y, row, j):
-    """Return x'' of (1) at column `j`, from the angles in `row`."""
-    # where x = y the partner is the pendulum itself, and the drive vanishes exactly
-    partner = y[y.shape[0] - 2 - row, j]
-    forces = pull(pendula, y[row, j - 1], y[row, j], y[row, j + 1], partner)
-    return forces - sine_and_cosine(y[row, j])[0]
-
-
-@inlined_by_llvm
-def rates_at_site(pendula, states, row, j, dy):
-    y = states[0]
-    dy[row, j] = y[row + 1, j]
-    dy[row + 1, j] = acceleration(pendula, y, row, j)
-
-
-write_rates = at_every_site(rates_at_site)
+EQUATIONS = Model(fields=("x", "y"), parameters={"coupling": 1.0}, d2_dt2=d2_dt2)
+SERIES = load_series(EQUATIONS)
+WORK, continue_in_waves = SERIES.WORK, SERIES.continue_in_waves
+write_rates = at_every_site(load_rule(EQUATIONS.rates, "y"))
 
 
 @kernel
@@ -182,6 +173,21 @@ def rates(pendula, y, dy):
     """Write the right-hand side of (1) at `y`, a system of first order, into `dy` (same shape)."""
     close(pendula, y)
     write_rates(pendula, (y,), dy)
+
+
+@kernel
+def continue_series(pendula, series):
+    """Write the coefficients of all orders from those of order 0, at the time of `pendula`.
+
+    Those of D are written first: the series of a cosine, by its frequency.
+    """
+    m, d = series.memory, spare_start(series)
+    cosine, sine = pendula.drive, pendula.quadrature
+    for k in range(ORDER + 1):
+        m[d + k] = cosine
+        share = pendula.frequency / (k + 1)
+        cosine, sine = -share * sine, share * cosine
+    continue_in_waves(pendula, series)
 
 
 # --- The energy of pendula that are not driven ---------------------------------------------------

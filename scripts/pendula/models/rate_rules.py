@@ -51,7 +51,7 @@ class Rule:
         if one in self.names.at_sites:
             return f"at[{self.names.at_sites[one]}, j]"
         if one in self.names.clocks:
-            return f"system.clocks[{self.names.clocks[one]}]"
+            return self.names.clocks[one]
         if one in self.names.constants or one.operation == "number":
             return self.names.constant(one)
         match one.operation, *one.operands:

@@ -21,7 +21,7 @@ from pendula.integrators.taylor import (
     block_start,
     ghosts_start,
 )
-from pendula.simd import LANES, fill, keep_lanes, left_neighbours, load, right_neighbours, store
+from pendula.simd import LANES, fill, keep_lanes, load, store
 
 from .chain import MIRROR, seen_at
 
@@ -116,22 +116,6 @@ def sides_of(series, k, component, block):
     left = u - BLOCK_SIZE if block > 0 else ghosts + LEFT
     right = u + BLOCK_SIZE if block < series.blocks - 1 else ghosts + RIGHT
     return left, u, right
-
-
-@inlined_by_llvm
-def with_neighbours(m, left, here, right):
-    """Return the left neighbours of a block's sites, the sites, and their right neighbours."""
-    u = load(m, here)
-    return left_neighbours(load(m, left), u), u, right_neighbours(u, load(m, right))
-
-
-@inlined_by_llvm
-def partner_of(series, here, component):
-    """Return where the same block of the other component lies, given where it lies of this one.
-
-    It is the block itself where one component stands for both.
-    """
-    return here + (series.components - 1 - 2 * component) * series.blocks * BLOCK_SIZE
 
 
 # --- The order of the work ----------------------------------------------------------------------

@@ -14,6 +14,7 @@ into the constants of the terms of a rate where that costs no multiplication mor
 
 from pendula.graph import CONSTANT, Node, in_order, node
 from pendula.integrators.taylor import ORDER
+from pendula.simd import LANES
 from pendula.symbols import ModelError
 
 from .series_graph import (
@@ -31,7 +32,7 @@ SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
 RULE = '''
 SPARE = {spare} * LANES
 """Numbers of a block beside those of its fields."""
-WORK = taylor.work_arrays(-(-(SPARE + {clocks} * (ORDER + 1)) // {components}))
+WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
 {shifts}
 
 
@@ -57,6 +58,7 @@ class Series:
         rates, self.found = with_carried(list(model_rates[:2] if alike else model_rates))
         nodes = with_half_squares([*rates, *(part for pair in self.found for part in pair)])
         self.components = len(rates) // 2
+        self.clocks = {one: i for i, one in enumerate(names.clocks)}
         self.rates = nodes[: len(rates)]
         self.angles = nodes[len(rates) :: 2]
         self.flows = nodes[len(rates) + 1 :: 2]
@@ -70,9 +72,16 @@ class Series:
 
     def _kept(self) -> dict[Node, int]:
         operands = [operand for product in self.products for operand in product.operands]
-        here = [one for one in operands if one.operation != "field" or one.operands[2] != 0]
-        wanted = dict.fromkeys([*map(carried, range(len(self.found))), *here])
+        absent = [one for one in operands if not self._is_stored(one)]
+        wanted = dict.fromkeys([*map(carried, range(len(self.found))), *absent])
         return {one: i for i, one in enumerate(wanted)}
+
+    def _is_stored(self, one: Node) -> bool:
+        """Return whether all orders are known anyway: of clocks, of fields at the site, and of the
+        difference of two of these."""
+        if one.operation == "sub":
+            return all(a.operation == "field" and self._is_stored(a) for a in one.operands)
+        return one in self.clocks or (one.operation == "field" and one.operands[2] == 0)
 
     # --- Places in memory
 
@@ -99,7 +108,12 @@ class Series:
         return f"s + {self.spare + i - len(self.rates)} * LANES"
 
     def load(self, one: Node, order: str) -> str:
-        """Return the coefficient of an order of a kept node or a field, from memory."""
+        """Return the coefficient of an order of what is kept or stored, from memory."""
+        if one in self.clocks:
+            return f"m[d + {self.clocks[one] * (ORDER + 1)} + {order}]"
+        if one.operation == "sub" and one not in self.kept:
+            a, b = one.operands
+            return f"(load(m, {self.place(a, order)}) - load(m, {self.place(b, order)}))"
         return f"load(m, {self.place(one, order)})"
 
     # --- The order of the work
@@ -169,7 +183,8 @@ class Series:
             code.alias(("last", one), f"{a0} * {ak}")
         for one in others:
             (a0, ak), (b0, bk) = (self._ends(code, operand) for operand in one.operands)
-            code.alias(("last", one), f"({ak} * {b0} + {a0} * {bk})")
+            both = f"({ak} * {b0} + {a0} * {bk})"
+            code.alias(("last", one), f"{a0} * {bk}" if one.operands[0] in self.clocks else both)
 
     def _ends(self, code: Code, one: Node) -> list[str]:
         """Return the names of the coefficients of orders 0 and k."""
@@ -213,8 +228,10 @@ class Series:
         for (a, b), q in names:
             code(f"{q}n = {q}n + {firsts[a]} * {seconds[b]}", 1)
         for (a, b), q in names:
-            last = code.name((a, "k"), self.load(a, "k"))
-            code(f"{q} = {q} + {last} * {code.name((b, '0'), self.load(b, '0'))}")
+            (_, last), (first, _) = self._ends(code, a), self._ends(code, b)
+            code(f"{q} = {q} + {last} * {first}")
+            if a in self.clocks:  # whose next order is known
+                code(f"{q}n = {q}n + {self.load(a, 'k + 1')} * {first}")
         self._name_sums(code, products)
 
     def _sums_of(self, products: list[Node]) -> list[tuple[tuple[Node, ...], str]]:
@@ -250,8 +267,8 @@ class Series:
         if one.level == CONSTANT:
             numbers = f"at_start * {self._constant(one)}"
             return numbers if one in self.names.at_sites else f"fill({numbers})"
-        if one in self.names.clocks:
-            return f"fill(m[d + {self.names.clocks[one]} * (ORDER + 1) + k])"
+        if one in self.clocks:
+            return f"fill({self.load(one, 'k')})"
         match one.operation, *one.operands:
             case ("field", _, _, 0) | ("carried", _):
                 return self.load(one, "k")
@@ -327,9 +344,10 @@ class Series:
 
     # --- The whole
 
-    def text(self, reach: int, clocks: int) -> str:
+    def text(self, reach: int) -> str:
         """Return the functions that continue the series."""
         (factors, even), (_, odd) = self.body(True), self.body(False)
+        clocks = -(-len(self.clocks) * (ORDER + 1) // LANES) * LANES  # in whole vectors
         begin = self._begin(clocks)
         work = ["    if k % 2 == 0:", *factors, *begin, *even, "    else:", *factors, *begin, *odd]
         if self.alike:
@@ -353,7 +371,7 @@ class Series:
             block = "(component * series.blocks + block)"
         return [
             "        for block in range(first, last):",
-            f"            s = d + {clocks} * (ORDER + 1) + {block} * SPARE",
+            f"            s = d + {clocks} + {block} * SPARE",
             *(f"            i{c} = block_start(series, {at}, block)" for c, at in here.items()),
             *(
                 f"            left{c}, _, right{c} = sides_of(series, k, {at}, block)"

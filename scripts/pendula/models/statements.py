@@ -65,7 +65,7 @@ def parts_of(nodes: Iterable[Node], site_dependent: frozenset[str]) -> Parts:
         if one.level == CONSTANT:
             if not is_number(one):
                 (at_sites if depends_on_site(one) else constants)[one] = None
-        elif one.operation == "time":
+        elif one.operation in ("time", "clock"):
             clocks[one] = None
         elif one.level == CLOCK and one.operation in ("sin", "cos"):
             clocks[one] = None
@@ -95,16 +95,19 @@ def affine(angle: Node) -> tuple[Node, Node]:
 class Names:
     """How numbers that do not depend on the fields are called in the text of a module.
 
-    Where `by_name`, all are parameters, which the system has by their names.
+    Where `by_name`, all are parameters or clocks that the system has by their names.
     """
 
     def __init__(self, parts: Parts, by_name: bool = False):
-        self.constants = {
-            one: f"system.{one.operands[0] if by_name else f'constants[{i}]'}"
-            for i, one in enumerate(parts.constants)
-        }
+        def named(group: str, nodes: tuple[Node, ...]) -> dict[Node, str]:
+            return {
+                one: f"system.{one.operands[0] if by_name else f'{group}[{i}]'}"
+                for i, one in enumerate(nodes)
+            }
+
+        self.constants = named("constants", parts.constants)
+        self.clocks = named("clocks", parts.clocks)
         self.at_sites = {one: i for i, one in enumerate(parts.at_sites)}
-        self.clocks = {one: i for i, one in enumerate(parts.clocks)}
 
     def constant(self, one: Node) -> str:
         """Return the text of a number, or of an expression of parameters alone."""

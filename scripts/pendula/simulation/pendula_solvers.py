@@ -2,10 +2,8 @@
 
 from pendula.compiled import kernel
 from pendula.integrators import dop853, kahan_li, ode45, taylor
-from pendula.models import pendula_series
 from pendula.models.chain import can_be_tiled
-from pendula.models.pendula import at_time, pendula_of_tile, rates
-from pendula.models.pendula_series import continue_series
+from pendula.models.pendula import WORK, at_time, continue_series, pendula_of_tile, rates
 
 from .observables import observe_angles
 from .solvers import Solver
@@ -39,6 +37,6 @@ def run_kahan_li(pendula, y, times, controls, work, record, stop):
 SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
-    "taylor": Solver(run_taylor, ("rtol", "atol"), pendula_series.WORK),
+    "taylor": Solver(run_taylor, ("rtol", "atol"), WORK),
     "kahan_li": Solver(run_kahan_li, ("step",), kahan_li.WORK),
 }
