@@ -181,7 +181,7 @@ def compete(
 ) -> tuple[dict[str, list[Point]], dict[str, Comparison | None]]:
     """Return the points of all contestants by name, and how each peer compares with our best.
 
-    `say` is told who is measured next.
+    `say` is called with the title of each contestant before it is measured.
     """
     found = {}
     for name, contestant in {**ours, **peers}.items():

@@ -84,14 +84,14 @@ def _solvers(case: xr.Dataset) -> str:
 
 def tabulate_cost(cost: xr.Dataset) -> list[str]:
     """Return the parts of a page on how the cost grows: with chain, time and active sites."""
-    title, said = "## Time a site and unit of slow time, in µs, over the ", "one core, medians."
+    title, said = "## Time per site and unit of slow time, in µs, against the ", "one core, medians."
     short, long = (cost["seconds"].sel(sites=sites).values for sites in COMPARED)
     ratios = [f"{ratio:.3g}" for ratio in long / short]
     last = [f"{COMPARED[1]} over {COMPARED[0]}", *ratios]
     parts = [
-        "# How cost grows",
+        "# How the cost grows",
         f"{title}{cost['sites'].long_name}",
-        f"Tolerance {TOLERANCE:.0e}, even noise on all sites, {said}",
+        f"Tolerance {TOLERANCE:.0e}, from symmetric noise on all sites, {said}",
         _over(1e6 * cost["seconds"], cost["sites"], last),
         f"{title}{cost['end_time'].long_name}",
         f"Tolerance {TOLERANCE:.0e}, one case, {said}",
@@ -99,9 +99,9 @@ def tabulate_cost(cost: xr.Dataset) -> list[str]:
     ]
     by_hand = cost["by_hand_ratio"].dropna("by_hand")
     if by_hand.size:
-        parts += ["## The method of taylor in C++, in times of taylor"]
+        parts += ["## Time of the Taylor method in C++, over that of taylor"]
         parts += [_over(by_hand, cost["end_time"])]
-    return [*parts, "## A chain without ends", _over_active_sites(cost)]
+    return [*parts, "## The infinite chain", _over_active_sites(cost)]
 
 
 def _over(values: xr.DataArray, along: xr.DataArray, *last: list[str]) -> str:
@@ -115,9 +115,9 @@ def _over(values: xr.DataArray, along: xr.DataArray, *last: list[str]) -> str:
 
 
 def _over_active_sites(cost: xr.Dataset) -> str:
-    head = ["active sites 2W + 1", "µs a site 0..W and unit of slow time"]
-    head += ["right-hand sides a unit of slow time", "ns a site and right-hand side"]
-    head += ["bytes a site 0..W"]
+    head = ["active sites 2W + 1", "µs per site 0..W and unit of slow time"]
+    head += ["right-hand sides per unit of slow time", "ns per site and right-hand side"]
+    head += ["bytes per site 0..W"]
     names = ("active_width", "active_seconds", "active_evaluations", "active_memory")
     rows = [
         [

@@ -43,8 +43,9 @@ def measure(
     """Return the variables of the dataset.
 
     `problems` are the cases by name, each up to the time of the errors and without outputs;
-    `references` are what is true of them. `say` is told what is measured next. What is published,
-    the least times and the mean ratios, is stored beside what it follows from.
+    `references` are their multiprecision solutions. `say` is called with the name of each
+    measurement before it starts. The published least times and mean ratios are stored beside the
+    measurements from which they follow.
     """
     found, watched, pairs, best = {}, {}, {}, []
     for case, problem in problems.items():

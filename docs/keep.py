@@ -1,8 +1,8 @@
 """Keep what the README and docs/ quote of long studies, which no full run makes.
 
 Run as `python docs/keep.py results` after `snakemake unbounded`, `over_the_top`, or
-`fates sensitivity`, if a long study was made anew. It reduces the studies of the chain without
-ends, of pendula over the top and of breathers to what is quoted, in tests/baseline/quoted.
+`fates sensitivity`, if a long study was made anew. It reduces the studies of the infinite
+chain, of pendula over the top and of breathers to what is quoted, in tests/baseline/quoted.
 
 Run as `python docs/keep.py config` after the paper is read in another way and config/*.yaml say so:
 it keeps what they say as the configuration that the claims are about.
@@ -37,11 +37,11 @@ QUOTED = ROOT / "tests/baseline/quoted"
 
 
 def keep_unbounded(results: Path, folder: Path) -> None:
-    """Keep exponents, fronts and powers of the long study of the chain without ends."""
+    """Keep exponents, fronts and powers of the long study of the infinite chain."""
     long = results / "long/unbounded"
     rows = [_case(read(long / f"{name}.nc")) for name in GIVEN["cases"]]
     kept = {
-        "case": Variable(("case",), GIVEN["cases"], "case of the paper, on a chain without ends"),
+        "case": Variable(("case",), GIVEN["cases"], "case of the paper, on the infinite chain"),
         **{
             name: Variable(("case",), [row[name][0] for row in rows], title)
             for name, (_, title) in rows[0].items()
@@ -50,7 +50,7 @@ def keep_unbounded(results: Path, folder: Path) -> None:
     }
     solver = GIVEN["long"]["solver"]
     about = {"solver": solver["name"], "solver_rtol": solver["rtol"], "solver_atol": solver["rtol"]}
-    title = "The long study of the chain without ends, reduced to what the documents quote"
+    title = "The long study of the infinite chain, reduced to what the documents quote"
     _write(folder / "unbounded.nc", title, kept, epsilon=1.0, gamma=1.0, **about)
 
 
@@ -59,7 +59,7 @@ def _write(path: Path, title: str, variables: dict[str, Variable], **attributes)
 
 
 PASSAGES = ("passage_median", "passage_rate", "passed")
-"""What is kept of first passages over the top, with its limits; of `passed` the last."""
+"""What is kept of first passages over the top, with confidence intervals; of `passed` the last."""
 
 
 def keep_passages(results: Path, folder: Path) -> None:
@@ -86,9 +86,10 @@ OCTAVES = 2
 
 
 def _exponent(run: xr.Dataset, variant: int = 0):
-    """Return the exponent of tau in l2, and what l2^2 gains meanwhile, both with their limits.
+    """Return the exponent of tau in l2, and what l2^2 gains meanwhile, both with confidence
+    intervals.
 
-    One member alone tells as much as all where the run is regular; else its limits are infinite.
+    The line is fitted to one member, because members of a regular run are alike.
     """
     values = run["l2"].isel(variant=variant).transpose("member", "tau").values
     tau = run["tau"].values
@@ -104,7 +105,7 @@ def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
     level = FRONT if pulled else BULK
     speed, error = speeds(run, level, corrected=pulled)
     power, slope = mean_limits(mean_powers(run, level)[0]), slope_powers(run)[0]
-    limits = "its 95 % limits, to each side"
+    limits = "half of its 95 % confidence interval"
     return {
         "end": (float(run["tau"][-1]), "slow time at the end"),
         "members": (run.sizes["member"], "members of the ensemble"),
@@ -113,7 +114,7 @@ def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
             "sites that the front has passed at the end",
         ),
         "exponent": (exponent.value, "exponent of tau in the l2 norm over the last octaves"),
-        "exponent_error": (exponent.half, "its 95 % limits by Student's t, to each side"),
+        "exponent_error": (exponent.half, "half of its 95 % confidence interval by Student's t"),
         "growth": (
             0.5 * gained.value,
             "relative growth of l2 over the last octaves, of a line through its square",
@@ -124,7 +125,7 @@ def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
             "l-infinity norm at the end, mean over the members",
         ),
         "speed": (speed[0], "speed of the front, sites per unit of tau"),
-        "speed_error": (error[0], "its 95 % limits, or what the places of the front resolve"),
+        "speed_error": (error[0], "half of its 95 % confidence interval, or its resolution"),
         "predicted_speed": (
             float(run["predicted_speed"][0]),
             "speed of linear spreading, sites per unit of tau",
@@ -151,7 +152,7 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
         "omega_bulk_power": Variable(
             along, powers.value, "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"
         ),
-        "omega_bulk_power_error": Variable(along, powers.half, "its 95 % limits, to each side"),
+        "omega_bulk_power_error": Variable(along, powers.half, "half of its 95 % confidence interval"),
         "omega_thermal_power": Variable(
             along,
             thermal_powers(thermal, omegas),
@@ -181,7 +182,7 @@ def keep_breathers(results: Path, folder: Path) -> None:
 
 AXES = ("a0", "b0", "turned_a0", "phase")
 MARGIN = 2.0
-"""By which factor the limit of P that does not return is changed, to see what rests on it."""
+"""By which factor the cut-off of P that does not return is changed, to see what depends on it."""
 
 
 def _as_it_is(values: xr.DataArray) -> Variable:
@@ -202,14 +203,14 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
     shares = {
         "periodic_share": ("share of what stays that is periodic", periodic, stays),
         "periodic_if_less": (
-            f"the same if waves explained {MARGIN:g} times less P", left <= 1.0 / MARGIN, stays
+            f"the same with a cut-off {MARGIN:g} times lower", left <= 1.0 / MARGIN, stays
         ),
         "periodic_if_more": (
-            f"the same if waves explained {MARGIN:g} times more P", left <= MARGIN, stays
+            f"the same with a cut-off {MARGIN:g} times higher", left <= MARGIN, stays
         ),
-        "alone": ("share of breathers of the family with A only", here["breather_family"] == 1,
+        "alone": ("share of breathers that are nearest to the family with A only", here["breather_family"] == 1,
                   periodic),
-        "near": (f"share of these no further than {NEAR} from it",
+        "near": (f"share of these within {NEAR} of it",
                  distance <= NEAR, distance.notnull()),
     }  # fmt: skip
     return {

@@ -62,9 +62,9 @@ FALLING = Control("a falling run", {"run": "falling"}, confirms=True)
         (grows, FLAT, {"flat": 1.0}, Verdict.NOT_REPRODUCED, Verdict.CONFIRMED, ""),
         (anything, FLAT, {"flat": 1.0}, False, Verdict.UNDECIDED, "fails a control: a flat run"),
         (grows, FLAT, {}, False, Verdict.UNDECIDED,
-         "a flat run must be refused, found: cannot be decided"),
+         "a flat run: must be rejected, found: cannot be decided"),
         (grows, Control("a changed run", {"run": impossible}), {}, False, Verdict.UNDECIDED,
-         "a changed run must be refused"),
+         "a changed run: must be rejected"),
         (grows, Control("a tenth", {"run": lambda run: 0.1 * run}), {}, Verdict.NOT_REPRODUCED,
          Verdict.CONFIRMED, ""),
         (shrinks, FALLING, {"falling": 0.1}, Verdict.CONFIRMED, Verdict.NOT_REPRODUCED,
@@ -91,7 +91,7 @@ def test_a_refusal_comes_from_numbers_unless_nothing_can_be_said():
     assert not passes(refuse, grows(math.nan)) and not passes(refuse, half_known)
     unknown = undecided({}, "there is no such bound")
     assert passes(silent, unknown) and not passes(refuse, unknown)
-    assert [one.must for one in (refuse, silent)] == ["be refused", "not be decided"]
+    assert [one.must for one in (refuse, silent)] == ["be rejected", "be left undecided"]
 
 
 def test_a_control_names_datasets_without_the_folder_of_what_it_replaces():

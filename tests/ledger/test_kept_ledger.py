@@ -14,8 +14,8 @@ from pendula.ledger.tables import by_sentence, tables, tally
 
 ROWS = load_json(BASELINE / "claims.json")["rows"]
 TURNS = {
-    "confirmed": "be refused",
-    "confirmed with a caveat": "be refused",
+    "confirmed": "be rejected",
+    "confirmed with a caveat": "be rejected",
     "not reproduced": "be confirmed",
     "does not carry over": "be confirmed",
 }
@@ -35,7 +35,7 @@ def test_a_row_could_have_failed_and_says_on_what_it_rests(row):
     musts = {one["must"] for one in row["controls"]}
     assert row["verdict"] not in TURNS or TURNS[row["verdict"]] in musts
     assert all(one["from"] for one in row["cutoffs"])
-    assert ("rests on the cut-off" in row["because"]) == bool(row["rests_on"])
+    assert ("depends on the cut-off" in row["because"]) == bool(row["rests_on"])
     assert not (row["rests_on"] and row["verdict"] == "confirmed")
     assert row["verdict"] != "not reproduced" or row["origin"] == Origin.PAPER
 

@@ -2,12 +2,11 @@
 
 Writing needs netCDF4 alone, so that a simulation does not pay for importing xarray.
 
-Each file ends with a seal, by which a bit that a disk gives back wrong is found. HDF5 keeps a
-checksum of an array of numbers where it is asked for one, so that any reader is told of a changed
-number. It keeps none of words, of single numbers, and of the tables that say where the pieces of an
-array lie; where such a table is damaged, the library of HDF5 may crash. So the last line of a file,
-which HDF5 does not look at, holds the SHA-256 of all bytes before it, and is compared before HDF5
-opens the file.
+Each file ends with a digest, because storage can corrupt data silently. HDF5 can keep a checksum of
+each array of numbers, and every reader then detects a changed number. It keeps none for text, for
+single numbers, and for the tables of the places of an array's pieces; a damaged table can crash the
+HDF5 library. So the last line of a file, which HDF5 ignores, holds the SHA-256 of all bytes before
+it, which is verified before HDF5 opens the file.
 """
 
 from collections.abc import Iterator, Mapping

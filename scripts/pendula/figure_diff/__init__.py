@@ -49,5 +49,5 @@ class Verdict(NamedTuple):
         told = [f"{s}: {name}: {says}" for name, s, says in self.findings if s != Status.IDENTICAL]
         tally = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         if Status.BEYOND in self.counts:
-            tally += f". The files {Status.BEYOND} were not judged: they may be right or wrong"
+            tally += f". The files {Status.BEYOND} were not compared: they may be right or wrong"
         return [*told, self.judged, tally]

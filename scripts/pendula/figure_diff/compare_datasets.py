@@ -48,7 +48,7 @@ def compare(
         return Status.DIFFERENT, "; ".join(faults[:3])
     if beyond := [each.says for each in found if each.beyond]:
         count = sum(each.beyond for each in found)
-        return Status.BEYOND, f"{count} numbers cannot be judged, as {'; '.join(beyond[:3])}"
+        return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
 
 

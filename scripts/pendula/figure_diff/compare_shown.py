@@ -61,20 +61,20 @@ def compare(new: Path, was: str, datasets: set[Status]) -> tuple[Status, str]:
     if chaotic and is_json:
         steady = [_words(json.dumps(_steady(json.loads(text)))) for text in (was, now)]
         if steady[0] != steady[1]:
-            return Status.DIFFERENT, f"has other words: {_beside(*steady)}"
+            return Status.DIFFERENT, f"has different words: {_beside(*steady)}"
     texts = [CHECKSUMS.sub('""', RULE.sub("---", text)) for text in (was, now)]
     words = [_words(text) for text in texts]
     if words[0] != words[1]:
         status = Status.BEYOND if chaotic else Status.DIFFERENT
-        return status, f"has other words: {_beside(*words)}"
+        return status, f"has different words: {_beside(*words)}"
     pairs = list(zip(*(NUMBER.findall(text) for text in texts), strict=True))
     off = [pair for pair in pairs if not _close(*pair)]
-    told = off and f"{len(off)} numbers are others, as {off[0][1]} in place of {off[0][0]}"
+    told = off and f"{len(off)} numbers differ, such as {off[0][1]} in place of {off[0][0]}"
     tiny = any(max(abs(float(number)) for number in pair) < ROUNDING for pair in off)
     if off and (chaotic or (tiny and Status.WITHIN in datasets)):
-        return Status.BEYOND, f"{told}; they cannot be judged, as some datasets cannot"
+        return Status.BEYOND, f"{told}; they cannot be compared, because some datasets cannot"
     if off or not datasets & {Status.WITHIN, Status.BEYOND}:
-        unlike = "is of other data" if texts[0] == texts[1] else f"reads {_beside(*texts)}"
+        unlike = "shows other data" if texts[0] == texts[1] else f"reads {_beside(*texts)}"
         return Status.DIFFERENT, told or unlike
     return Status.WITHIN, "follows the datasets, with the same words"
 

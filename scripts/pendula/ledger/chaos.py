@@ -69,25 +69,25 @@ def almost_equal(sensitivity, within: float) -> AlmostEqual:
     near = sizes <= max(within * 1.001, sizes.min())
     measured = {"share_nearby": float(share[near].min())}
     criterion = Above(
-        MAJORITY, "share_nearby", says="least share that spreads of data changed as little"
+        MAJORITY, "share_nearby", says="least share of equally perturbed runs that spread"
     )
     lost = (high < MAJORITY.value) & ~near
     if lost.any():
         least = int(np.argmin(np.where(lost, sizes, np.inf)))
         caveat = (
-            f"an accident of the digits: {share[least]:.0%} of runs from data changed by"
-            f" {sizes[least]:g} spread; where data are changed by {sizes[near].max():g} or less,"
-            f" the least share is {share[near].min():.0%}"
+            "only near the printed amplitudes: the share of runs that spread is"
+            f" {share[near].min():.0%} for perturbations up to {sizes[near].max():g}, but"
+            f" {share[least]:.0%} for {sizes[least]:g}"
         )
     elif share[~near].min(initial=1.0) > MAJORITY.value:
         caveat = ""
     else:
-        caveat = f"the data are within {within:g} of the paper's: it says nothing of others"
+        caveat = f"shown only for initial conditions within {within:g} of the paper's"
     return AlmostEqual(measured, criterion, caveat)
 
 
 FAR_AS_NEAR = Control(
-    "the shares that spread of the sizes in reverse order",
+    "the shares that spread, with the sizes of the perturbation in reverse order",
     {SENSITIVITY: exchange("size", names=("share", "share_low", "share_high"))},
 )
 """A wrong case for every claim that rests on `almost_equal`."""

@@ -57,7 +57,7 @@ class Control(NamedTuple):
         """What the function must say of it, in words."""
         if self.confirms:
             return "be confirmed"
-        return "not be decided" if self.undecided else "be refused"
+        return "be left undecided" if self.undecided else "be rejected"
 
     @property
     def names(self) -> list[str]:
@@ -376,11 +376,11 @@ def _severe(
     failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
     if failed is not None and finding.verdict != Verdict.UNDECIDED:
         control, fed = failed
-        wrong = f"{control.says} must {control.must}, found: {fed.verdict}"
-        return undecided(finding.measured, f"what decides it fails a control: {wrong}")
+        wrong = f"{control.says}: must {control.must}, found: {fed.verdict}"
+        return undecided(finding.measured, f"its function fails a control: {wrong}")
     if not moved:
         return finding
-    rests = f"rests on the cut-off: {'; '.join(map(str, moved))}"
+    rests = f"depends on the cut-off: {'; '.join(map(str, moved))}"
     because = f"{finding.because}; {rests}" if finding.because else rests
     kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
     return finding._replace(because=because, verdict=kept)

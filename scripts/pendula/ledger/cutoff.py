@@ -77,7 +77,7 @@ class Flip(NamedTuple):
     verdict: str
 
     def __str__(self) -> str:
-        return f"{self.verdict} at {self.value:.3g} in place of {self.cutoff.number:.3g}"
+        return f"{self.verdict} with {self.value:.3g} instead of {self.cutoff.number:.3g}"
 
 
 def flips(verdict: str, read: set[Cutoff], verdict_of: Callable[[], str]) -> list[Flip]:

@@ -30,13 +30,13 @@ BLIND = {
             odd_as_even even_bands_wider stable_on_any_chain opposite_signatures_collide
             grows_as_floquet_says lemma_1_is_the_limit rates_of_the_pendula expansion_order
             next_order_of_the_expansion remainder_bounded""",
-        "small data do so at Omega = -4 as at 8, as the paper says of Fig 3": """
+        "the small case does so at Omega = -4 as at 8, as the paper says of Fig 3": """
             fig2_excites fig2_exchange fig2_maxima stable_oscillations""",
-        "it holds of the other case too": """
+        "it holds for the other case too": """
             ensemble_fig3_maximum ensemble_fig5_maximum ensemble_fig6_grows
             ensemble_fig6_not_technical ensemble_fig6_time steady_unstable ends_near_stable
             unbounded_maximum unbounded_large_maximum""",
-        "that dataset is told beside what decides": """
+        "this dataset is reported and does not decide": """
             unbounded_in_time unbounded_large unbounded_slope""",
     },
     EXCHANGE: {
@@ -52,7 +52,7 @@ BLIND = {
             breathers_exist breathers_stable_or_not fig5_caption ensemble_fig4_alike""",
     },
     ORDER: {
-        "extremes, means, shares and fitted laws know no order": """
+        "extremes, means, shares and fits do not depend on the order": """
             hamiltonian no_gauge synchronised inherited slow_time drive_sign dispersion
             unstable_band sharp_threshold threshold_growth continuous_dependence growth_bound
             sign_of_gamma theorem_1 theorem_2 theorem_3 bound_grows energy_not_useful
@@ -62,21 +62,21 @@ BLIND = {
             even_bands_wider steady_unstable stable_on_any_chain ends_near_stable
             detuning_decides unbounded_equilibrium unbounded_slope breathers_exist
             breathers_stable_or_not ensemble_fig4_alike""",
-        "it is so all the time, or at every M, or at every end": """
+        "it holds at all times, at every M or at every end": """
             fig2_exchange fig2_separate fig3_alike fig6_constant ensemble_fig5_maximum
             ensemble_fig6_not_technical ensemble_fig6_time unbounded_small unbounded_stable
             unbounded_large_maximum unbounded_determined same_sea expansion_order
             next_order_of_the_expansion""",
-        "the drive's ratio 2 is in the middle": "resonance",
-        "backwards the runs end with their data": "pendula_stay_below_the_top",
-        "that dataset is told beside what decides, or for a largest number":
+        "the resonant ratio is in the middle": "resonance",
+        "reversed runs end with their initial condition": "pendula_stay_below_the_top",
+        "this dataset is reported and does not decide, or for a largest number":
             "unbounded_in_time unbounded_large horizon_logarithmic",
     },
     SIZE: {
-        "zeros, signs and counts have no size": """
+        "zeros, signs and counts do not change": """
             unstable_band sign_of_gamma exchange synchronised pendula_synchronised
             periodic_stable stable_on_any_chain ends_near_stable fig3_only_small uniqueness""",
-        "a ratio": """
+        "ratios do not change": """
             growth_bound fig2_excites stable_oscillations fig4_unstable fig5_decreases
             fig5_not_shown ensemble_fig3_excites ensemble_fig3_maximum ensemble_fig4_many
             unbounded_determined grows_as_floquet_says lemma_1_is_the_limit fig2_exchange
@@ -84,9 +84,9 @@ BLIND = {
             ensemble_equilibrium unbounded_band unbounded_small unbounded_stable
             unbounded_large_maximum odd_as_even grows_by_drive pendula_norms
             rates_of_the_pendula ensemble_fig5_grows ensemble_fig6_grows fig5_caption""",
-        "the largest of several runs decides, or that dataset for yes or no alone": """
+        "the largest of several runs decides, or only a sign in this dataset": """
             finite_bound second_solver stable_is_regular even_bands_wider""",
-        "that dataset is told beside what decides": """
+        "this dataset is reported and does not decide": """
             unbounded_in_time unbounded_large unbounded_slope""",
     },
 }  # fmt: skip
@@ -128,7 +128,7 @@ def another_omega(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset | 
         and set(dataset) <= set(found)
         and found.attrs.get("omega", about.get("omega")) != about.get("omega")
     ]
-    # the data of the same size, where there are such
+    # from the initial condition of the same size, where there is one
     return min(
         others, key=lambda one: one.attrs.get("initial") != about.get("initial"), default=None
     )
@@ -212,7 +212,7 @@ class Said(NamedTuple):
     """Confirmed by the same numbers, or although a distortion is none of size."""
 
     def __str__(self) -> str:
-        words = (("refused", self.refused), ("not decided", self.undecided))
+        words = (("rejected", self.refused), ("not decided", self.undecided))
         counts = [f"{word} {len(names)}" for word, names in words if names]
         counts += [f"confirmed within its limits {len(self.within)}"] if self.within else []
         return ", ".join([*counts, *(f"confirmed by {name}" for name in self.blind)])

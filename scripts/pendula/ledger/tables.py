@@ -152,7 +152,7 @@ def cutoffs_section(rows: list[dict]) -> list[str]:
 def controls_section(controls: list[dict]) -> list[str]:
     """Return the verdict of every deciding function on its wrong cases."""
     keys = ("claim", "fed", "must", "verdict", "because")
-    words = {True: "yes", False: "NO", None: "not asked"}
+    words = {True: "yes", False: "NO", None: "not applicable"}
     lines = [(*(one[key] for key in keys), words[one["passes"]]) for one in controls]
     head = ("claim", "wrong case", "required", "verdict", "reason", "as required")
     return ["# The controls", markdown(head, lines)]

@@ -34,25 +34,25 @@ OF_FIG_2, OF_FIG_3, OF_FIG_4 = 8.0, -4.0, 0.0
 """Omega of the paper's figures."""
 DATA_POWER = 26.0
 """P of the paper's large data, A_0 = 5 and B_0 = 1."""
-AS_FLOQUET = Cutoff(1e-3, "runs part to 1e-4 of the breather: what is quadratic counts for less")
-FIRST_ORDER = Cutoff(0.1, "a law of first order holds up to a tenth where gamma is a tenth")
+AS_FLOQUET = Cutoff(1e-3, "perturbations stay below 1e-4, so that quadratic terms are smaller")
+FIRST_ORDER = Cutoff(0.1, "a law of first order in gamma is off by about gamma, up to 0.1")
 
 
 def at_omega(dataset, omega: float):
     """Return a dataset at one detuning; raise UndecidableError if it has none."""
     if omega not in dataset["omega"].values:
-        raise UndecidableError(f"no breather was looked for at Omega = {omega:g}")
+        raise UndecidableError(f"no breathers were computed at Omega = {omega:g}")
     return dataset.sel(omega=omega)
 
 
 @claim(
     PLACE,
-    "At the detuning of Fig 3 no steady state that is localised at one pair is stable.",
+    "At the detuning of Fig 3 no steady state that is localised on one pair is stable.",
     (STEADY,),
     (
-        Control("the rates of growth at Omega = -13", exchange("omega", -4.0, -13.0, names=RATES)),
+        Control("the growth rates at Omega = -13", exchange("omega", -4.0, -13.0, names=RATES)),
         Control(
-            "one family known of all",
+            "all families but one unknown",
             put("power", np.nan, family=[family.name for family in FAMILIES[1:]]),
             undecided=True,
         ),
@@ -62,7 +62,7 @@ def steady_unstable(steady) -> Finding:
     """Require a growing perturbation of each family, on a chain and on twice its half-width."""
     here = at_omega(steady, OF_FIG_3)
     if here[["power", "growth", "growth_half"]].isnull().to_dataarray().any():
-        raise UndecidableError("a state that is not known, or its rates, may be a stable one")
+        raise UndecidableError("a state without known growth rates may be stable")
     measured = {
         "families": here.sizes["family"],
         "residual_below": steady.attrs["residual"],
@@ -71,7 +71,7 @@ def steady_unstable(steady) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "families"),
-        Above(0.0, "least_growth", "least_growth_half", says="least rate of growth on two chains"),
+        Above(0.0, "least_growth", "least_growth_half", says="least growth rate on two chains"),
     )
     return judge(measured, criterion)
 
@@ -82,7 +82,7 @@ def known(periodic):
     for name in RATES:
         found = found & periodic[name].notnull()
     if ((found.cumsum("frequency") > 0) & ~found).any():
-        raise UndecidableError("some breathers, or their rates of growth, are unknown")
+        raise UndecidableError("some breathers, or their growth rates, are unknown")
     return periodic
 
 
@@ -105,9 +105,9 @@ def periodic_stable(periodic) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "breathers"),
-        AtMost(0.0, "largest_growth", "largest_growth_half", says="rate of growth on two chains"),
+        AtMost(0.0, "largest_growth", "largest_growth_half", says="growth rate on two chains"),
     )
-    return judge(measured, criterion, f"at {int(found.sum())} frequencies")
+    return judge(measured, criterion, f"tested at {int(found.sum())} frequencies")
 
 
 def verdicts_that_differ(dataset) -> int:
@@ -118,11 +118,11 @@ def verdicts_that_differ(dataset) -> int:
 
 @claim(
     PLACE,
-    "Whether a breather is stable does not depend on the length of the chain.",
+    "The stability of a breather does not depend on the length of the chain.",
     (STEADY, PERIODIC),
     (
-        Control("steady states beside the rates of another family", {STEADY: NEXT_FAMILY}),
-        Control("periodic ones beside the rates of another family", {PERIODIC: NEXT_FAMILY}),
+        Control("steady states with the growth rates of another family", {STEADY: NEXT_FAMILY}),
+        Control("periodic ones with the growth rates of another family", {PERIODIC: NEXT_FAMILY}),
     ),
 )
 def stable_on_any_chain(steady, periodic) -> Finding:
@@ -142,15 +142,15 @@ def stable_on_any_chain(steady, periodic) -> Finding:
     criterion = AllOf(
         AtLeast(1, "compared"),
         Above(MAJORITY, "known_steady", says="share of steady states that are known"),
-        AtMost(0, "steady", "periodic", says="states whose verdict changes"),
+        AtMost(0, "steady", "periodic", says="states of different stability on two chains"),
     )
     within = periodic[["growing", "growing_half"]].where(~above)
     if not np.isfinite(within["growing"]).any():
         return judge(measured, criterion)
     longer, shorter = (int(within[name].max()) for name in ("growing", "growing_half"))
     caveat = (
-        f"at a frequency of linear waves a breather has {longer} growing multipliers, and {shorter}"
-        " on half of the chain: they come from the few waves of a finite chain"
+        "not at frequencies of linear waves, where resonance with the waves of a finite chain gives"
+        f" {longer} growing multipliers, and {shorter} on a chain half as long"
     )
     return judge(measured, criterion, caveat)
 
@@ -159,26 +159,26 @@ def stable_on_any_chain(steady, periodic) -> Finding:
     PLACE,
     "Where a family of breathers becomes unstable, multipliers of opposite signatures collide.",
     (PERIODIC,),
-    (Control("both multipliers have one signature", put("collision_signature", 1)),),
+    (Control("multipliers of equal signatures", put("collision_signature", 1)),),
 )
 def opposite_signatures_collide(periodic) -> Finding:
     """Decide by the product of the two Krein signatures beside each collision."""
     met = np.isfinite(known(periodic)["collision_frequency"])
     if not met.any():
-        raise UndecidableError("no family becomes unstable between the frequencies")
+        raise UndecidableError("no family becomes unstable at these frequencies")
     product = periodic["collision_signature"].astype(float).prod("colliding").where(met)
     quartets = met & (periodic["collision_multiplier"].sel(part="im") > 0.0)
     measured = {"collisions": met.sum(), "quartets": quartets.sum()}
     measured["largest_product"] = product.max()
-    criterion = Below(0.0, "largest_product", says="product of the two signatures")
+    criterion = Below(0.0, "largest_product", says="product of the two Krein signatures")
     return judge(measured, criterion)
 
 
 @claim(
     PLACE,
-    "Perturbations of unstable breathers grow in the nonlinear flow at the rates of Floquet.",
+    "In the nonlinear flow perturbations of unstable breathers grow at the Floquet rates.",
     (PERIODIC,),
-    (Control("rates of the flow at the next frequency", NEXT_FREQUENCY),),
+    (Control("the growth rates of the flow at the next frequency", NEXT_FREQUENCY),),
 )
 def grows_as_floquet_says(periodic) -> Finding:
     """Compare the rates of even and of odd perturbations, above the frequencies of waves."""
@@ -187,13 +187,14 @@ def grows_as_floquet_says(periodic) -> Finding:
     measured = {"compared": np.isfinite(rates).sum(), "largest_difference": off.max()}
     if not measured["compared"]:
         raise UndecidableError("no breather is unstable above the frequencies of waves")
-    says = "largest relative difference of the rates"
+    says = "largest relative difference of the growth rates"
     return judge(measured, Below(AS_FLOQUET, "largest_difference", says=says))
 
 
 @claim(
     PLACE,
-    "The large data at Omega = -4 have less P at any time than every periodic breather there.",
+    "The large initial condition of Fig 3 has less P than any periodic breather at Omega = -4 "
+    "ever has.",
     (PERIODIC,),
     (
         Control("breathers at Omega = 8", exchange("omega", OF_FIG_3, OF_FIG_2)),
@@ -205,24 +206,25 @@ def data_below_breathers(periodic) -> Finding:
     least = at_omega(known(periodic), OF_FIG_3)["least_power"].min("family")
     largest_instant, least_instant = least.values
     measured = {"largest_of_a_period": largest_instant, "least_of_a_period": least_instant}
-    says = "least P of a breather over its period, all frequencies and families"
+    says = "least P within a period, over all frequencies and families"
     return judge(measured | {"data": DATA_POWER}, Above(DATA_POWER, "least_of_a_period", says=says))
 
 
 @claim(
     PLACE,
-    "A localised motion in the band feeds on the drive by the law of weak drives, until it leaves.",
+    "A localised motion with a frequency in the band of linear waves gains P from a weak drive, as"
+    " perturbation theory predicts, until its frequency leaves the band.",
     (GROWTH,),
     (
-        Control("a law of half the rate", scale("predicted_gain", 0.5)),
-        Control("runs and laws of exchanged drives", exchange("gamma", names="predicted_gain")),
+        Control("half of the predicted rate", scale("predicted_gain", 0.5)),
+        Control("predictions for other drives", exchange("gamma", names="predicted_gain")),
     ),
 )
 def grows_by_drive(growth) -> Finding:
     """Compare what runs with gamma of a tenth or less gain with the law, while it predicts gain."""
     weak = growth.sel(gamma=growth["gamma"] <= 0.1)
     if not weak.sizes["gamma"]:
-        raise UndecidableError("no drive of the runs is weak")
+        raise UndecidableError("no run has a weak drive")
     most = float(weak["predicted_gain"].max())
     middle = (weak["predicted_gain"] > 0.25 * most) & (weak["predicted_gain"] < 0.75 * most)
     off = abs(weak["gained"] - weak["predicted_gain"]).where(middle) / most
@@ -235,17 +237,22 @@ def grows_by_drive(growth) -> Finding:
         "passed_by": float(strong["time"].where(strong["gained"] > most).min()),
     }
     criterion = AllOf(
-        Below(FIRST_ORDER, "largest_difference", says="largest difference over the whole gain"),
-        Below(FACTOR, "ends_at", says="gain at the end over that of the law"),
+        Below(
+            FIRST_ORDER,
+            "largest_difference",
+            says="largest error of the prediction, over the gain",
+        ),
+        Below(FACTOR, "ends_at", says="gain at the end over the predicted one"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     "Beyond the paper, Fig 3 lower and Fig 6 right",
-    "That the large data at Omega = -4 spread is an accident of their digits.",
+    "At Omega = -4 the large initial condition spreads over the chain, but most of those "
+    "perturbed by 1 % do not.",
     (SENSITIVITY,),
-    (FAR_AS_NEAR, Control("runs that spread whatever the change", ALL_SPREAD)),
+    (FAR_AS_NEAR, Control("runs that all spread", ALL_SPREAD)),
     on=("fig3_large",),
 )
 def spreading_is_an_accident(sensitivity) -> Finding:
@@ -253,7 +260,7 @@ def spreading_is_an_accident(sensitivity) -> Finding:
     sizes = sensitivity["size"].values
     small, large = sizes <= 1e-6, sizes >= 1e-2
     if not (small.any() and large.any()):
-        raise UndecidableError("the changes of the data are not both below 1e-6 and above 1e-2")
+        raise UndecidableError("the perturbations do not include sizes up to 1e-6 and from 1e-2 on")
     measured = {
         "small_at_least": sensitivity["share_low"].values[small].min(),
         "large_at_most": sensitivity["share_high"].values[large].max(),
@@ -262,27 +269,28 @@ def spreading_is_an_accident(sensitivity) -> Finding:
         "of_the_scan": sensitivity["spread"].mean(),
         "members": float(sensitivity.attrs["members"]),
     }
-    said = "limit of the share that spreads"
+    said = "confidence limit of the share that spreads"
     criterion = AllOf(
-        Above(MAJORITY, "small_at_least", says=f"lower {said}, small changes"),
-        Below(MAJORITY, "large_at_most", says=f"upper {said}, large changes"),
+        Above(MAJORITY, "small_at_least", says=f"lower {said}, perturbed by up to 1e-6"),
+        Below(MAJORITY, "large_at_most", says=f"upper {said}, perturbed by 1e-2 and more"),
     )
     spread = measured["of_large"]
-    some = f"{100 * spread:.2g} % of the runs from data changed by a hundredth spread too"
+    some = f"{100 * spread:.2g} % of the runs perturbed by 1e-2 and more spread too"
     return judge(measured, criterion, some if spread > 0 else "")
 
 
 @claim(
     "Section 6, breathers, Fig 2 lower",
-    "The large data at Omega = 8 end as a breather near the stable family in which B follows A.",
+    "The large case at Omega = 8 ends as a breather near the stable family in which B is driven "
+    "by A.",
     (MAP, PERIODIC),
     (
         Control(
-            "the large data at Omega = -4",
+            "the large case at Omega = -4",
             {MAP: exchange("case", "fig2_large", "fig3_large")},
             on=("fig3_large",),
         ),
-        Control("distances from the families in another order", {MAP: OTHER_ORDER}),
+        Control("distances from other families", {MAP: OTHER_ORDER}),
         Control("distances twenty times as large", {MAP: scale("case_distance", 20.0)}),
     ),
     on=("fig2_large",),
@@ -290,7 +298,7 @@ def spreading_is_an_accident(sensitivity) -> Finding:
 def ends_near_stable(fates, periodic) -> Finding:
     """Require an end near this family and far from others, where this one is stable."""
     if "fig2_large" not in fates["case"].values:
-        raise UndecidableError("the large data at Omega = 8 were not followed")
+        raise UndecidableError("the large case at Omega = 8 was not run")
     end = fates.sel(case="fig2_large")
     apart = end["case_distance"].set_index(family="family")
     own, others = float(apart.sel(family="A only")), apart.drop_sel(family="A only")
@@ -307,8 +315,8 @@ def ends_near_stable(fates, periodic) -> Finding:
         "largest_growth": beside.max(),
     }
     criterion = AllOf(
-        Below(CHANGE, "distance", says="distance from the family over its size"),
-        AtLeast(FACTOR, "times_nearer", says="distance of the next family over that of this one"),
+        Below(CHANGE, "distance", says="distance from the family over the size of the breather"),
+        AtLeast(FACTOR, "times_nearer", says="distance from the next family over this one"),
         AtMost(0.0, "largest_growth"),
     )
     return judge(measured, criterion)
@@ -321,11 +329,12 @@ def one_that_disperses(fates):
 
 @claim(
     "Beyond the paper, Figs 2 and 4",
-    "The detuning decides whether unequal data of the map spread: at Omega = 0 all do, at 8 none.",
+    "The detuning decides whether the initial conditions of the map with A_0 other than B_0 "
+    "spread: at Omega = 0 all do, at Omega = 8 none does.",
     (MAP,),
     (
         Control("the maps of both detunings exchanged", exchange("omega", OF_FIG_2, OF_FIG_4)),
-        Control("one point at Omega = 0 that disperses", one_that_disperses),
+        Control("one initial condition at Omega = 0 that disperses", one_that_disperses),
     ),
     on=(MAPS,),
 )

@@ -199,6 +199,7 @@ KINDS = tuple(LOOKS)
 COLOURS = ListedColormap([*LOOKS.values()], name="kinds of ends")
 
 MAPS = ("fate", "periodic", "turned_fate", "turned_periodic")
+PAPERS = "the paper's initial conditions"
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate", "case_periodic")
 
 
@@ -252,7 +253,7 @@ def draw_fates(data: xr.Dataset) -> Figure:
         Patch(color=COLOURS(kind), label=KINDS[kind]) for kind in np.unique(np.concatenate(kinds))
     ]
     paper = Line2D([], [], marker="o", ls="none", markersize=5, markerfacecolor="white",
-                   color="black", label=data.attrs.get("marked", "the paper's initial conditions"))  # fmt: skip
+                   color="black", label=data.attrs.get("marked", PAPERS))  # fmt: skip
     figure.legend(handles=[*shown, paper], loc="outside upper center", ncols=3)
     return figure
 

@@ -12,20 +12,20 @@ PLACE = "Section 6, breathers"
 
 PROVED = "certified/breathers"
 
-NEAR = Cutoff(1e-12, "a state is told to twelve digits")
+NEAR = Cutoff(1e-12, "twelve correct digits of a state")
 
 
 @claim(
     PLACE,
-    "Steady breathers exist on the infinite chain: a theorem for each of the states computed.",
+    "On the infinite chain a steady breather exists near each computed one, as proved.",
     (PROVED,),
     (
         Control(
-            "a state tested inside the band of waves",
+            "a state inside the band of linear waves",
             lambda one: put("radius", one["wrong_radius"][0])(one),
         ),
         Control(
-            "a state tested at an Omega beside its own",
+            "a state at another Omega than its own",
             lambda one: put("radius", one["wrong_radius"][1])(one),
         ),
     ),
@@ -41,15 +41,15 @@ def breathers_exist(proved) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "proofs"),
-        Below(NEAR, "largest_radius", says="largest distance to the true state"),
-        Below(1.0, "largest_tail_factor", says="decay from site to site"),
+        Below(NEAR, "largest_radius", says="largest proven distance to the true state"),
+        Below(1.0, "largest_tail_factor", says="largest factor from site to site in the tail"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     PLACE,
-    "Some steady breathers on a finite chain are stable and others are not, as theorems.",
+    "On a finite chain some steady breathers are stable and others unstable, as proved.",
     (PROVED,),
     tuple(
         Control(f"spectra that are all {verdict.name.lower()}", put("stable", int(verdict)))
@@ -67,7 +67,7 @@ def breathers_stable_or_not(proved) -> Finding:
     }
     criterion = AllOf(
         AtLeast(1, "proved_stable", "proved_unstable"),
-        Below(NEAR, "largest_radius", says="largest distance to the true state of the chain"),
+        Below(NEAR, "largest_radius", says="largest proven distance to the true state"),
     )
     open_ones = int(count[Verdict.UNDECIDED])
-    return judge(measured, criterion, f"{open_ones} spectra leave it open" if open_ones else "")
+    return judge(measured, criterion, f"{open_ones} spectra decide nothing" if open_ones else "")

@@ -37,17 +37,17 @@ NEEDS = checks("members")
 EARLIER, LATER = "[10, 30]", "[30, 50]"
 """The halves of the time over which the paper takes its statistics."""
 
-LEVEL = Cutoff(CONFIDENCE, "confidence limits of 95 %, as is the custom", 1.0)
+LEVEL = Cutoff(CONFIDENCE, "the customary level of confidence, 95 %", 1.0)
 SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale")
 BAND = Cutoff(1.0, '"no visible differences": smaller than the band over which runs scatter')
-SEVERAL = Cutoff(3.0, '"other pendula": more than three of them')
+SEVERAL = Cutoff(3.0, '"other pendula": more than three')
 MANY = Cutoff(0.25, '"many pendula": a quarter of all')
 ANTICORRELATED = Cutoff(
     -0.8,
-    '"mix up", not an exchange between two: short of four fifths of the way to exact opposition',
+    '"mix up": not an exchange, in which |A|^2 and |B|^2 are anticorrelated',
     -1.0,
 )
-ALL = Cutoff(0.9, '"does not depend": at every amplitude nine of ten runs do it', 1.0)
+ALL = Cutoff(0.9, '"does not depend": nine of ten runs make it at every amplitude', 1.0)
 
 END = 50.0
 """The paper runs Figs 2 to 4 up to this time."""
@@ -62,7 +62,7 @@ def limits(members, case: str, reduce: Callable, *given) -> dict[str, Limits]:
     if case not in members["case"].values or not known:
         raise UndecidableError(f"there is no ensemble of {case} on {EARLIER} and {LATER}")
     if members.sizes["member"] < FEWEST:
-        raise UndecidableError(f"an ensemble has {FEWEST} members at least")
+        raise UndecidableError(f"the ensemble has fewer than {FEWEST} members")
     return {
         kind: mean_limits(reduce(members_of(members, kind, case), *given), LEVEL.value)
         for kind in map(str, members["kind"].values)
@@ -120,11 +120,11 @@ def distance(found: dict[str, Limits]) -> dict[str, Limits]:
 # --- Wrong cases ----------------------------------------------------------------------------------
 
 WORDS = {
-    "fig2_small": "the small data at Omega = 8, which are stable",
-    "fig2_large": "the large data at Omega = 8, which are stable",
-    "fig3_small": "the small data at Omega = -4, which are stable",
-    "fig3_large": "the large data at Omega = -4, which have not filled the chain",
-    "fig4_small": "the small data at Omega = 0, which grow from rest",
+    "fig2_small": "the small case at Omega = 8, which is stable",
+    "fig2_large": "the large case at Omega = 8, which is stable",
+    "fig3_small": "the small case at Omega = -4, which is stable",
+    "fig3_large": "the large case at Omega = -4, which has not filled the chain",
+    "fig4_small": "the small case at Omega = 0, which grows",
 }
 
 
@@ -157,7 +157,7 @@ def ensemble_fig3_grows(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
     found = limits(members, "fig3_large", over_start, "l2")
     lows = named(found, "low")
-    says = f"lower limits of the mean l2 on {LATER} over the start"
+    says = f"lower confidence limit of the mean l2 on {LATER} over its initial value"
     return near.judge(named(found, "value") | lows, Above(FACTOR, *lows, says=says))
 
 
@@ -178,7 +178,7 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
 
     found = limits(members, "fig3_large", excited)
     lows = named(found, "low")
-    says = f"lower limits of how many others move by more than A_0 / 3 on {LATER}"
+    says = f"lower confidence limit of the number of other pendula above A_0 / 3 on {LATER}"
     return near.judge(named(found, "value") | lows, Above(SEVERAL, *lows, says=says))
 
 
@@ -201,14 +201,14 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     ratios, exchange = (limits(members, "fig3_large", each) for each in (ratio, correlation))
     ends = named(ratios, "low", "ratio") | named(ratios, "high", "ratio")
     together = named(exchange, "low", "correlation")
-    alike = WithinFactor(FACTOR, *ends, says=f"limits of l2 of A over l2 of B on {LATER}")
-    says = "lower limits of the correlation of |A|^2 and |B|^2"
+    alike = WithinFactor(FACTOR, *ends, says="confidence interval of l2 of A over that of B")
+    says = "lower confidence limit of the correlation of |A|^2 and |B|^2"
     return near.judge(ends | together, alike, Above(ANTICORRELATED, *together, says=says))
 
 
 @claim(
     "Section 5, Fig 3 lower",
-    "The l-infinity norm stays at the same level as the initial data.",
+    "The l-infinity norm stays at its initial level.",
     NEAR_NEEDS,
     controls=cases_of_fig3("fig4_small", "fig2_small", "fig3_small"),
     on=("fig3_large",),
@@ -219,8 +219,8 @@ def ensemble_fig3_maximum(members, sensitivity) -> Finding:
     found = limits(members, "fig3_large", over_start, "linf")
     ends = named(found, "low") | named(found, "high")
     rise = min(limit.low for limit in found.values()) - 1.0
-    rises = f"it rises by {rise:.0%} at least" if rise > 0.0 else ""
-    says = f"limits of the mean l-infinity norm on {LATER} over the start"
+    rises = f"it rises by at least {rise:.0%}" if rise > 0.0 else ""
+    says = f"confidence interval of the mean l-infinity norm on {LATER} over its initial value"
     alike = WithinFactor(FACTOR, *ends, says=says)
     return near.judge(named(found, "value") | ends, alike, caveat=rises)
 
@@ -257,10 +257,10 @@ def ensemble_fig4_settles(members) -> Finding:
     over = named(ratio, "low", "l2_over_linf")
     l2_grown = named(of_both(members, over_start, "l2"), "low", "l2_growth")
     criterion = AllOf(
-        Below(CHANGE, *changes, says="upper limits of the change between the halves"),
-        Above(FACTOR, *grown, says="lower limits of the growth from the small data"),
-        Above(MUCH, *over, says=f"lower limits of l2 over l-infinity on {LATER}"),
-        Above(FACTOR, *l2_grown, says="lower limits of the growth of l2 from the data"),
+        Below(CHANGE, *changes, says=f"upper confidence limit of the change to {LATER}"),
+        Above(FACTOR, *grown, says="lower confidence limit of the growth in the small case"),
+        Above(MUCH, *over, says=f"lower confidence limit of l2 over l-infinity on {LATER}"),
+        Above(FACTOR, *l2_grown, says="lower confidence limit of the growth of l2"),
     )
     return judge(changes | grown | over | l2_grown, criterion)
 
@@ -284,7 +284,7 @@ def ensemble_fig4_many(members) -> Finding:
         return ((amplitudes > centre / FACTOR.value) & large).mean(axis=(1, 2))
 
     lows = named(of_both(members, share), "low")
-    says = "lower limits of the share over half of the central amplitude and A_0 / 3"
+    says = "lower confidence limit of the share above half of the centre and A_0 / 3"
     return judge(lows, Above(MANY, *lows, says=says))
 
 
@@ -326,10 +326,10 @@ def ensemble_fig4_alike(members) -> Finding:
     means = [abs(limit.value) for limit in (*earlier.values(), *later.values())]
     caveat = (
         f"the means differ by {min(means):.1%} to {max(means):.1%}, most on {EARLIER}, since the"
-        f" smaller data grow for longer; single runs scatter by {float(bands.min()):.1%} to"
+        f" small case grows for longer; single runs scatter by {float(bands.min()):.1%} to"
         f" {float(bands.max()):.1%} (standard deviation)"
     )
-    says = "upper limits of the difference of mean l2 over the standard deviation of runs"
+    says = "upper confidence limit of the difference of mean l2, over the scatter of runs"
     return judge(measured, Below(BAND, *over, says=says), caveat)
 
 
@@ -356,17 +356,17 @@ def ensemble_equilibrium(members) -> Finding:
     lows, moves = named(least_of_all, "low", "least"), named(distance(changes), "high", "change")
     everywhere = Above(
         FACTOR, *lows,
-        says=f"lower limits of the least amplitude of all pendula on {LATER}, over what an even"
-        " spread of the data would leave",
+        says=f"lower confidence limit of the least amplitude of all pendula on {LATER}, over that"
+        " of the initial power spread evenly",
     )  # fmt: skip
-    settled = Below(CHANGE, *moves, says="upper limits of the change of P between the halves")
-    caveat = "the spreading ends where the chain does: a longer chain takes longer"
+    settled = Below(CHANGE, *moves, says=f"upper confidence limit of the change of P to {LATER}")
+    caveat = "only a finite chain reaches equilibrium everywhere; a longer chain takes longer"
     return judge(lows | moves, AllOf(everywhere, settled), caveat)
 
 
 @claim(
     "Section 5, Fig 4",
-    "The transition does not depend on how large the initial amplitude of the centre is.",
+    "The transition does not depend on how large the initial amplitude is.",
     checks("lifetimes"),
     controls=(
         Control(
@@ -378,21 +378,19 @@ def transition_amplitude(lifetimes) -> Finding:
     lives, end = lifetimes["life"].values, float(lifetimes["tau"][-1])
     members = lives.shape[1]
     if end < END or share_limits(members, members, LEVEL.value).low <= ALL.value:
-        raise UndecidableError(f"the runs are too few for a limit of a share, or end at {end:g}")
+        raise UndecidableError(f"the runs are too few for a confidence interval, or end at {end:g}")
     shares = {
         f"{a0:g}": share_limits(int((life <= END).sum()), members, LEVEL.value)
         for a0, life in zip(lifetimes["start_amplitude"].values, lives, strict=True)
     }
     lows = {f"low_{a0}": share.low for a0, share in shares.items()}
     missed = ", ".join(
-        f"{share.value:.0%} from A_0 = {a0}"
-        for a0, share in shares.items()
-        if share.low <= ALL.value
+        f"{share.value:.0%} at A_0 = {a0}" for a0, share in shares.items() if share.low <= ALL.value
     )
-    fails = f"by tau = {END:g} not all runs have changed over, but {missed}"
+    fails = f"shares of runs that have made the transition by tau = {END:g}: {missed}"
     medians = lifetimes["median"].values[np.isfinite(lives).all(axis=1)]
     fastest, slowest = medians.min(initial=np.inf), medians.max(initial=0.0)
     times = {"fastest": fastest, "slowest": slowest}
-    caveat = f"it takes from tau = {fastest:g} to {slowest:g}" if slowest > fastest else ""
-    says = f"lower limits of the share of runs that have changed over by tau = {END:g}"
+    caveat = f"median times are {fastest:g} to {slowest:g}" if slowest > fastest else ""
+    says = f"lower confidence limit of the share of runs with a transition by tau = {END:g}"
     return judge(lows | times, Above(ALL, *lows, says=says), caveat, fails)

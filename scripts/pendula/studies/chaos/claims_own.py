@@ -41,7 +41,8 @@ def chaotic_cases(lyapunov) -> np.ndarray:
     checks("lyapunov"),
     controls=(
         Control(
-            "odd and even exponents of two cases", roll("exponent", {"case": 1}, parity="even")
+            "odd exponents of one case with even exponents of another",
+            roll("exponent", {"case": 1}, parity="even"),
         ),
     ),
 )
@@ -62,11 +63,11 @@ def odd_as_even(lyapunov) -> Finding:
         "at_least": max(0.0, off - limit),
         "at_most": off + limit,
     }
-    says = "upper limit of the mean relative difference of the exponents"
+    says = "upper confidence limit of the mean relative difference of the exponents"
     criterion = Below(CHANGE, "at_most", says=says)
     if measured["at_least"] < CHANGE.value <= measured["at_most"]:
-        return undecided(measured, "the runs are too short to tell the exponents apart, or not")
-    return judge(measured, criterion, fails=f"they differ by {100 * off:.2g} % in the mean")
+        return undecided(measured, "the runs are too short to decide whether the exponents differ")
+    return judge(measured, criterion, fails=f"they differ by {100 * off:.2g} % on average")
 
 
 def with_kinds_exchanged(members):
@@ -81,7 +82,7 @@ def with_kinds_exchanged(members):
 
 @claim(
     PLACE,
-    "Bands of ensembles that are even in n are wider by the root of two than those of uneven ones.",
+    "Ensembles that are symmetric in n scatter sqrt(2) times as much as those that are not.",
     checks("members", "lyapunov"),
     controls=(Control("the two kinds exchanged", {"members": with_kinds_exchanged}),),
 )
@@ -102,7 +103,7 @@ def even_bands_wider(members, lyapunov) -> Finding:
     measured["lower_limit"] = exp(ratio.mean() - quantile * error)
     measured["off"] = abs(ratio.mean() - 0.5 * log(2.0)) / error
     criterion = AllOf(
-        Above(1.0, "lower_limit", says="lower limit of the mean ratio of widths"),
-        Below(SAME, "off", says="distance of the mean from the root of two over its error"),
+        Above(1.0, "lower_limit", says="lower confidence limit of the mean ratio of widths"),
+        Below(SAME, "off", says="distance of the mean from sqrt(2), in standard errors"),
     )
     return judge(measured, criterion)

@@ -119,7 +119,7 @@ def with_sweep(name: str):
     return change
 
 
-STABLE = {"fig5_left": "the small data at Omega = -4", "fig6_left": "the large data at Omega = 8"}
+STABLE = {"fig5_left": "the small case at Omega = -4", "fig6_left": "the large case at Omega = 8"}
 
 
 def stable(right: str, *wrongs: str) -> tuple[Control, ...]:
@@ -143,7 +143,7 @@ CROSSED = keep(half_width=slice(None, 100))
     controls=(
         *stable("fig5_right", "fig5_left", "fig6_left"),
         Control(
-            "the large data at Omega = -4, which fall again",
+            "the large case at Omega = -4, whose norm falls again",
             {"ensembles": repeat("sweep", "fig6_right", at="fig5_right")},
             on=("fig5_right", "fig6_right"),
         ),
@@ -160,20 +160,20 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
     first = min(levels.values())
     caveat = f"up to M = {first:.0f}, where it levels off" if np.isfinite(first) else ""
     criterion = AllOf(
-        Above(FACTOR, *growth, says="lower limits of the longest chain over the shortest"),
-        Above(NEARLY_ALL, *rising, says="shares of steps up by more than their limits"),
+        Above(FACTOR, *growth, says="lower confidence limit of longest over shortest chain"),
+        Above(NEARLY_ALL, *rising, says="share of steps in M with a significant rise"),
     )
     return judge(growth | rising | {"level_from": first}, criterion, caveat)
 
 
 @claim(
     "Section 5, Fig 5 right, in ensembles",
-    "This confirms growth on the unbounded lattice as time goes to infinity.",
+    "The growth with M confirms growth on the unbounded lattice as time goes to infinity.",
     NEEDS,
     controls=(
         *stable("fig5_right", "fig6_left", "fig5_left"),
         Control(
-            "only chains that the front still crosses, on which no level is seen",
+            "only chains whose ends the front reaches, so that the norm does not level off",
             dict.fromkeys(NEEDS, CROSSED),
             confirms=True,
         ),
@@ -183,17 +183,17 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
 def ensemble_fig5_conjecture(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
     growth, levels = growth_and_levels(found)
-    grows = Above(1.0, *growth, says="lower limits of the longest chain over the shortest")
+    grows = Above(1.0, *growth, says="lower confidence limit of longest over shortest chain")
     criterion, measured = AllOf(grows, NeverLevels(*levels)), growth | levels
     seen = [level for level in levels.values() if np.isfinite(level)]
     fails = ""
     if grows.holds(measured) and seen:
         fails = (
-            f"on a fixed window l2 levels off (from M = {max(seen):.0f}), so that its growth with M"
-            " says nothing of growth in time, which needs windows that grow with M"
+            f"in a fixed time window the ensemble mean of l2 is level from M = {max(seen):.0f} on, "
+            "so its growth with M does not show growth in time"
         )
     longest = found["even"].half_width[-1]
-    caveat = f"as far as a fixed window and chains up to M = {longest:.0f} can tell"
+    caveat = f"in a fixed time window, and on chains up to M = {longest:.0f}"
     return judge(measured, criterion, caveat, fails)
 
 
@@ -220,7 +220,7 @@ def ensemble_fig5_maximum(even, uneven) -> Finding:
         levels = np.array([means.mean[part].mean() for part in parts])
         off = np.array([np.sqrt(np.sum(means.off[part] ** 2)) / len(part) for part in parts])
         measured[f"{kind}_range"] = ((levels + off).max() - (levels - off).min()) / levels.mean()
-    says = "range over short, middle and long chains, limits included, over the mean"
+    says = "range of the confidence intervals on short, middle and long chains, over the mean"
     return judge(measured, Below(CHANGE, *measured, says=says))
 
 
@@ -236,7 +236,7 @@ def nearest(even, uneven, sensitivity) -> AlmostEqual:
 
 @claim(
     "Section 5, Fig 6 right, in ensembles",
-    "At Omega = -4, large data, the maximal l2 norm grows with M.",
+    "At Omega = -4 and from the large initial condition the maximal l2 norm grows with M.",
     NEAR_NEEDS,
     controls=(*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR),
     on=("fig6_right",),
@@ -251,10 +251,10 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
         measured[f"{kind}_peak_at"], lows[f"{kind}_low"] = peaks[-1], ratio.low
         back.append(over(means, slice(peak, peak + 1), slice(-3, None)).value)
     peak = (
-        f"up to M = {max(peaks):.0f}: the three longest chains have {min(back):.2f} to"
+        f"up to M = {max(peaks):.0f}; on the three longest chains it is {min(back):.2f} to"
         f" {max(back):.2f} of the peak"
     )
-    says = "lower limits of the mean over all longer chains over that of the shortest"
+    says = "lower confidence limit of the mean on all longer chains over that on the shortest"
     return near.judge(measured | lows, Above(1.0, *lows, says=says), caveat=peak)
 
 
@@ -264,7 +264,7 @@ def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     NEEDS,
     controls=(
         Control(
-            "Omega = 0 on chains that its front still crosses",
+            "Omega = 0 on chains whose ends the front reaches",
             dict.fromkeys(
                 NEEDS, lambda data: repeat("sweep", "fig5_right", at="fig6_right")(CROSSED(data))
             ),
@@ -280,15 +280,15 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
         levels[f"{kind}_level_from"] = measured[f"{kind}_level_from"] = means.level_from(least=3)
         measured |= {f"{kind}_last": means.mean[-1], f"{kind}_off": means.off[-1]}
     fails = (
-        f"from M = {max(levels.values()):.0f} on all means are the same within"
-        " the limits of their difference, as they must be where the front does not reach the ends"
+        f"from M = {max(levels.values()):.0f} on the ensemble means agree within their confidence"
+        " intervals, because the front does not reach the ends"
     )
     return judge(measured, NeverLevels(*levels), fails=fails)
 
 
 @claim(
     "Section 5, Fig 6 right, in ensembles",
-    "That Theorem 2 is limited to small data is not a technical shortfall.",
+    "The limitation of Theorem 2 to small initial conditions is not a technical shortfall.",
     NEAR_NEEDS,
     controls=(*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR),
     on=("fig3_large", "fig6_right"),
@@ -301,8 +301,8 @@ def ensemble_fig6_not_technical(even, uneven, sensitivity) -> Finding:
         f"{kind}_low": np.square(means.mean[-1] - means.off[-1]) / start
         for kind, means in both(even, uneven, "fig6_right", "l2", TEXT_6).items()
     }
-    fixed = "growth without bound in time is not decided by a fixed window"
-    says = "lower limits of the largest P over that of the data"
+    fixed = "a fixed time window cannot show growth without bound"
+    says = "lower confidence limit of the largest P over its initial value"
     return near.judge(lows | {"C_0": c_0}, Above(c_0, *lows, says=says), caveat=fixed)
 
 
@@ -323,8 +323,8 @@ def ensemble_fig6_time(even, uneven, sensitivity) -> Finding:
         shorter.append(before[kind].mean[-1] / means.mean[-1])
     measured = lows | {"shorter_over_longer": min(shorter)}
     earlier = (
-        f"the shorter span {TEXT_5} does so too: on the longest chain the norm has reached"
-        f" {min(shorter):.0%} of its value by then"
+        f"the shorter span {TEXT_5} is enough too: on the longest chain it gives"
+        f" {min(shorter):.0%} of the norm"
     )
-    says = "least lower limit of l2 over the start, at any M"
+    says = "lower confidence limit of l2 over its initial value, at every M"
     return near.judge(measured, Above(FACTOR, *lows, says=says), caveat=earlier)

@@ -40,15 +40,15 @@ def drifts(trajectories, size: str) -> Finding:
         limits.append(AtMost(allowed, *early, says=f"{says} {EARLY:g}"))
         limits.append(AtMost(allowed, *whole, says=f"{says} {end:g}"))
     held = [limit.holds(measured) for limit in limits]
-    fails = f"|H - H(0)| keeps to {ORDER.value:g} times that order {kept}"
+    fails = f"|H - H(0)| stays below {ORDER.value:g} times that order {kept}"
     divided = (
-        f"|H - H(0)| / |H(0)| keeps to it {kept_relative}; with a factor of 10 the first does so to"
+        f"|H - H(0)| / |H(0)| does so {kept_relative}; the first stays below 10 times that order to"
         f" the end in {tenfold} of {len(cases)} cases, and the second in {tenfold_relative}"
     )
     if held[:2] != held[2:]:
         return undecided(measured, f"{fails}, and {divided}; the paper does not say which it means")
     if held[0] and not held[1]:
-        return undecided(measured, f"{fails}, and the paper does not say at which time it ends")
+        return undecided(measured, f"{fails}, and the paper does not say up to which time")
     return judge(measured, AllOf(*limits), fails=f"{fails}, and {divided}")
 
 
@@ -71,12 +71,12 @@ def _kept(trajectories, size: str, relative: bool) -> tuple[dict[str, float], st
 
 def of_high_order(names: tuple[str, ...]) -> Control:
     fed = dict(zip(names, by("dop853", names), strict=True))
-    return Control("the runs of a solver of high order at tight tolerances", fed, confirms=True)
+    return Control("runs of a solver of high order at tight tolerances", fed, confirms=True)
 
 
 @claim(
     "Section 5",
-    "H is conserved to the order of 1e-6 for the smaller data.",
+    "H is conserved to the order of 1e-6 for the smaller initial conditions.",
     SMALL,
     controls=(of_high_order(SMALL),),
 )
@@ -86,12 +86,12 @@ def energy_small(*trajectories) -> Finding:
 
 @claim(
     "Section 5",
-    "H is conserved to the order of 1e-4 for the larger data.",
+    "H is conserved to the order of 1e-4 for the larger initial conditions.",
     LARGE,
     controls=(
         of_high_order(LARGE),
         Control(
-            "the second solver's run, whose scheme does not conserve H, for that of the first",
+            "a run of the second solver, whose scheme does not conserve H",
             {"fig3_large": "fig3_large.crank_nicolson"},
         ),
     ),

@@ -49,11 +49,12 @@ UNSTABLE = 3.0
     (*runs("fig2_small", "fig2_large"), *sweeps("fig6_left")),
     controls=(
         Control(
-            "the norms of the unstable run", {"fig2_small": ("fig4_small", take_from("l2", "linf"))}
+            "the norms of the unstable case",
+            {"fig2_small": ("fig4_small", take_from("l2", "linf"))},
         ),
         Control("the sweep at Omega = 0, beyond the bound", {"fig6_left": "fig5_right"}),
         Control(
-            "a run at another Omega, where Theorem 1 says nothing",
+            "a run at another Omega, to which Theorem 1 does not apply",
             {"fig2_large": "fig3_large"},
             undecided=True,
         ),
@@ -63,13 +64,13 @@ def fig2_bounded(small, large, sweep) -> Finding:
     """Compare P with the bound by the energy of the same data, the sweep with that of its case."""
     bounds = [theorem_1_bound(float(ds["energy"][0]), constants(ds)) for ds in (small, large)]
     if not np.all(np.isfinite(bounds)):
-        raise UndecidableError("Theorem 1 says nothing about these constants")
+        raise UndecidableError("Theorem 1 does not apply to these constants")
     measured = {
         "small": total_power(small).max() / bounds[0],
         "large": total_power(large).max() / bounds[1],
         "sweep": np.square(sweep["l2"].sel(quantity="pair").values).max() / bounds[1],
     }
-    return judge(measured, AtMost(1.0, *measured, says="largest P over C"))
+    return judge(measured, AtMost(1.0, *measured, says="largest P over the bound of Theorem 1"))
 
 
 @claim(
@@ -77,8 +78,8 @@ def fig2_bounded(small, large, sweep) -> Finding:
     "The central pendulum excites other pendula in the chain, so that its oscillation decreases.",
     runs("fig2_small"),
     controls=(
-        Control("the large data, which stay at the centre", "fig2_large"),
-        Control("the unstable run", "fig4_small"),
+        Control("the large case, which stays at the centre", "fig2_large"),
+        Control("the unstable case at Omega = 0", "fig4_small"),
     ),
 )
 def fig2_excites(small) -> Finding:
@@ -88,8 +89,12 @@ def fig2_excites(small) -> Finding:
         "largest_late_amplitude": a,
     }
     criterion = AllOf(
-        Above(MOST, "least_share_elsewhere", says="least share of P off the largest A and B"),
-        Below(HALF, "largest_late_amplitude", says="largest late amplitude over the initial one"),
+        Above(
+            MOST,
+            "least_share_elsewhere",
+            says="least share of P beside the largest |A_n| and |B_n|",
+        ),
+        Below(HALF, "largest_late_amplitude", says="largest late |A_n| over the initial one"),
     )
     return judge(measured, criterion)
 
@@ -100,7 +105,7 @@ def share_at_maxima(trajectory) -> np.ndarray:
 
 
 AS_AT_MINUS_FOUR = Control(
-    "the small data at Omega = -4, which show no drastic difference (Fig 3 upper)",
+    "the small case at Omega = -4, which is alike (Fig 3 upper)",
     {"fig2_small": "fig3_small"},
     confirms=True,
 )
@@ -112,11 +117,9 @@ AS_AT_MINUS_FOUR = Control(
     "The l2 norm oscillates between A and B.",
     runs("fig2_small"),
     controls=(
-        Control("the large data, where A and B are separate", "fig2_large"),
-        Control("the unstable run", "fig4_small"),
-        Control(
-            "norms of A and B that swing together", repeat("component", "A", at="B", names="l2")
-        ),
+        Control("the large case, where A and B are separate", "fig2_large"),
+        Control("the unstable case at Omega = 0", "fig4_small"),
+        Control("norms of A and B in phase", repeat("component", "A", at="B", names="l2")),
         AS_AT_MINUS_FOUR,
     ),
 )
@@ -124,18 +127,22 @@ def fig2_exchange(small) -> Finding:
     a, b = late(small)["l2"].values ** 2
     measured = {"correlation": correlation(a, b), "swing_of_A": float(np.ptp(a) / np.mean(a))}
     against = Below(ANTICORRELATED, "correlation", says="correlation of |A|^2 and |B|^2")
-    return judge(measured, AllOf(against, Above(CHANGE, "swing_of_A")))
+    return judge(
+        measured,
+        AllOf(against, Above(CHANGE, "swing_of_A", says="range of |A|^2 over its mean")),
+    )
 
 
 @claim(
     "Section 5, Fig 2 upper",
-    "While the centre's oscillation falls, both l-infinity norms become comparable and stay so.",
+    "While the central oscillation decreases, the l-infinity norms of A and B become comparable "
+    "and stay so.",
     runs("fig2_small"),
     controls=(
-        Control("the large data, where B stays small", "fig2_large"),
-        Control("small data at Omega = 0, which grow", "fig4_small"),
-        Control("large data at Omega = 0, which do not fall", "fig4_large"),
-        Control("large data at Omega = -4, which do not fall", "fig3_large"),
+        Control("the large case, where B stays small", "fig2_large"),
+        Control("the small case at Omega = 0, which grows", "fig4_small"),
+        Control("the large case at Omega = 0, whose norms do not fall", "fig4_large"),
+        Control("the large case at Omega = -4, whose norms do not fall", "fig3_large"),
         AS_AT_MINUS_FOUR,
     ),
 )
@@ -147,9 +154,12 @@ def fig2_maxima(small) -> Finding:
         "deviation": (settled.std("tau") / means).max(),
         "level": means.max() / largest(small)[0],
     }
-    little = Below(CHANGE, "deviation", says="standard deviation over mean")
+    little = Below(CHANGE, "deviation", says="standard deviation over time, relative to the mean")
     fallen = Below(HALF, "level", says="late mean over the initial value")
-    return judge(measured, AllOf(WithinFactor(FACTOR, "ratio"), little, fallen))
+    return judge(
+        measured,
+        AllOf(WithinFactor(FACTOR, "ratio", says="mean norm of A over that of B"), little, fallen),
+    )
 
 
 @claim(
@@ -158,9 +168,9 @@ def fig2_maxima(small) -> Finding:
     " excite large oscillations of others.",
     runs("fig2_large"),
     controls=(
-        Control("the small data, where A and B exchange P and spread", "fig2_small"),
-        Control("the large data at Omega = -4, which mix and spread", "fig3_large"),
-        Control("the large data at Omega = 0", "fig4_large"),
+        Control("the small case, where A and B exchange P and spread", "fig2_small"),
+        Control("the large case at Omega = -4, where A and B mix and spread", "fig3_large"),
+        Control("the large case at Omega = 0", "fig4_large"),
     ),
 )
 def fig2_separate(large) -> Finding:
@@ -174,9 +184,14 @@ def fig2_separate(large) -> Finding:
     }
     small = 1.0 / MUCH.value
     criterion = AllOf(
-        Above(KEPT, "smallest_A_kept", says="smallest part of its maximum that A keeps"),
-        Below(small, "B_over_A", says="l2 of B over that of A"),
-        Below(small, "all_other_A", "largest_B", says="all other A, largest B over A_0"),
+        Above(KEPT, "smallest_A_kept", says="least l-infinity norm of A over its initial value"),
+        Below(small, "B_over_A", says="l2 norm of B over that of A"),
+        Below(
+            small,
+            "all_other_A",
+            "largest_B",
+            says="l2 of all other A_n, and largest |B_n|, over A_0",
+        ),
     )
     return judge(measured, criterion)
 
@@ -187,9 +202,10 @@ def fig2_separate(large) -> Finding:
     " determine.",
     runs("fig2_small", "fig2_large", "fig3_small"),
     controls=(
-        Control("the unstable run", {"fig3_small": "fig4_small"}),
+        Control("the unstable case at Omega = 0", {"fig3_small": "fig4_small"}),
         Control(
-            "large data at Omega = -4, outside every proven region", {"fig2_large": "fig3_large"}
+            "the large case at Omega = -4, to which no bound for the infinite chain applies",
+            {"fig2_large": "fig3_large"},
         ),
     ),
     reading="chain of the paper",
@@ -197,14 +213,16 @@ def fig2_separate(large) -> Finding:
 def stable_oscillations(*trajectories) -> Finding:
     ratios = [np.sqrt(total_power(run) / total_power(run)[0]) for run in trajectories]
     measured = {"least": min(map(np.min, ratios)), "largest": max(map(np.max, ratios))}
-    return judge(measured, WithinFactor(FACTOR, "least", "largest", says="l2 over its start"))
+    return judge(
+        measured, WithinFactor(FACTOR, "least", "largest", says="l2 over its initial value")
+    )
 
 
 @claim(
     "Section 5, Fig 3 upper",
-    "For small data Omega = -4 shows no drastic difference to Omega = 8.",
+    "For small initial conditions Omega = -4 shows no drastic difference from Omega = 8.",
     runs("fig2_small", "fig3_small"),
-    controls=(Control("the unstable run at Omega = 0", {"fig3_small": "fig4_small"}),),
+    controls=(Control("the unstable case at Omega = 0", {"fig3_small": "fig4_small"}),),
 )
 def fig3_alike(eight, four) -> Finding:
     if eight.attrs["omega"] == four.attrs["omega"]:
@@ -212,16 +230,18 @@ def fig3_alike(eight, four) -> Finding:
     l2 = np.sqrt(total_power(late(four)).mean() / total_power(late(eight)).mean())
     linf = largest(late(four)).mean() / largest(late(eight)).mean()
     measured = {"l2_ratio": l2, "linf_ratio": linf}
-    return judge(measured, WithinFactor(FACTOR, "l2_ratio", "linf_ratio"))
+    return judge(
+        measured, WithinFactor(FACTOR, "l2_ratio", "linf_ratio", says="ratio of the mean norms")
+    )
 
 
 @claim(
     "Section 5, before Fig 3",
-    "At Omega = -4 the bound of Theorem 2 holds for the smaller data only.",
+    "At Omega = -4 the bound of Theorem 2 applies only to the smaller initial condition.",
     runs("fig3_small", "fig3_large"),
     controls=(
-        Control("the small data in place of the large", {"fig3_large": "fig3_small"}),
-        Control("the large data in place of the small", {"fig3_small": "fig3_large"}),
+        Control("the small case in place of the large one", {"fig3_large": "fig3_small"}),
+        Control("the large case in place of the small one", {"fig3_small": "fig3_large"}),
     ),
 )
 def fig3_only_small(small, large) -> Finding:
@@ -229,8 +249,11 @@ def fig3_only_small(small, large) -> Finding:
     regions = [region_of(small), region_of(large)]
     covered = [region.startswith("theorem 2") for region in regions]
     measured = dict(zip(("small_is_covered", "large_is_covered"), covered, strict=True))
-    criterion = AllOf(AtLeast(1, "small_is_covered"), AtMost(0, "large_is_covered"))
-    widened = "the small data lie outside delta_0 as proved; inside once the bonds are kept"
+    criterion = AllOf(
+        AtLeast(1, "small_is_covered", says="small case covered by Theorem 2"),
+        AtMost(0, "large_is_covered", says="large case covered by Theorem 2"),
+    )
+    widened = "the small case is covered only if the proof keeps the coupling energy"
     return judge(measured, criterion, widened if regions[0] == "theorem 2 widened" else "")
 
 
@@ -247,14 +270,14 @@ def region_of(run) -> str:
     controls=(
         Control("a stable run at Omega = 8", "fig2_small"),
         Control("a stable run at Omega = -4", "fig3_small"),
-        Control("the large data at Omega = 0", "fig4_large", undecided=True),
+        Control("the large case at Omega = 0", "fig4_large", undecided=True),
     ),
 )
 def fig4_unstable(small) -> Finding:
     """Ask for the growth of small data: where cubic terms rule, growth tells nothing of zero."""
     if not largest(small)[0] ** 2 <= constants(small).gamma:
-        raise UndecidableError("the cubic terms of the data exceed the drive: they are not small")
+        raise UndecidableError("not a small initial condition: its cubic terms exceed the drive")
     growth = total_power(small.sel(tau=slice(0, UNSTABLE))).max() / total_power(small)[0]
     measured = {"mean_rate": 0.5 * log(growth) / UNSTABLE}
-    says = f"mean rate of growth up to tau = {UNSTABLE:g}"
+    says = f"mean growth rate up to tau = {UNSTABLE:g}"
     return judge(measured, Above(FOLDED, "mean_rate", says=says))

@@ -16,11 +16,9 @@ GAMMA = EPSILON = 1.0
 
 @claim(
     "Section 6",
-    "Stable dynamics is relatively simple, that of unstable chains is more interesting.",
+    "Stable dynamics is relatively simple; that of unstable chains is more interesting.",
     checks("lyapunov", "cases"),
-    controls=(
-        Control("the exponents of the cases in reverse order", {"lyapunov": exchange("case")}),
-    ),
+    controls=(Control("exponents of the cases in reverse order", {"lyapunov": exchange("case")}),),
 )
 def stable_is_regular(lyapunov, cases) -> Finding:
     grown = chaotic(lyapunov).sel(case=cases["case"])
@@ -31,16 +29,17 @@ def stable_is_regular(lyapunov, cases) -> Finding:
         "others": (~covered).sum(),
         "regular_among_them": (~grown & ~covered).sum(),
     }
-    criterion = AtMost(0, "chaotic_among_them", "regular_among_them")
+    says = "chaotic cases to which Theorem 1 or 2 applies, and regular ones to which neither does"
+    criterion = AtMost(0, "chaotic_among_them", "regular_among_them", says=says)
     at_rest = gamma_0(cases["omega"].values, EPSILON) > GAMMA
     names = ", ".join(map(str, cases["case"].values[at_rest & (grown & ~covered).values]))
-    caveat = f"{names} is chaotic though small data at its Omega are stable" if names else ""
+    caveat = f"{names} is chaotic though its chain at rest is stable" if names else ""
     return judge(measured, criterion, caveat)
 
 
 @claim(
     "Theorem 3",
-    "On N sites the l2 norm is bounded for all parameters and data.",
+    "On N sites the l2 norm is bounded for all parameters and initial conditions.",
     (*SMALL, *LARGE),
     controls=(
         Control(

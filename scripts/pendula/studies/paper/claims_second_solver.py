@@ -32,9 +32,9 @@ from .solvers import by
 
 SECTION = 5
 
-SEEN = Cutoff(VISIBLE, "what a reader sees: a part of full scale somewhat wider than a line")
+SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, wider than a line")
 SIGNIFICANT = Cutoff(0.05, '"significant": the level that is customary in statistics')
-REPEATED = Cutoff(1e-3, "norms of two chains of one trajectory: a tenth of what a reader sees")
+REPEATED = Cutoff(1e-3, "one trajectory on two chains: norms within a tenth of what a reader sees")
 
 SWEEPS = sweeps("fig5_left", "fig5_right", "fig6_left", "fig6_right")
 TEXT = {"fig5": ("[10, 50]", ("l2", "linf")), "fig6": ("[10, 70]", ("l2",))}
@@ -87,13 +87,13 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
             spread = level.std(ddof=1)
             found.append(chance_of_draw(values.mean(), level.mean(), spread, len(level)))
     if not found:
-        raise UndecidableError(f"no window of the ensemble follows tau = {since:g} in {case}")
+        raise UndecidableError(f"no window of the ensemble of {case} begins after tau = {since:g}")
     return found
 
 
 @claim(
     "Section 5, end",
-    "Figs 2 to 4 come out of the second solver without significant differences.",
+    "With the second solver Figs 2 to 4 show no significant differences.",
     (*SMALL, *LARGE, *SECOND, *checks("lyapunov", "members", "second_solver")),
     controls=(
         Control(
@@ -104,7 +104,7 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
             "Omega = -4 by the second solver for Omega = 0, in a chaotic case",
             {"fig4_large.crank_nicolson": "fig3_large.crank_nicolson"},
         ),
-        Control("chaotic cases held to agree as single runs", {"lyapunov": regular}),
+        Control("chaotic cases required to agree as single runs", {"lyapunov": regular}),
     ),
 )
 def second_solver(*datasets) -> Finding:
@@ -128,12 +128,12 @@ def second_solver(*datasets) -> Finding:
             measured[name] = max(measured[name], value)
     measured["chance"] = together(chances)
     criterion = AllOf(
-        Below(SEEN, "beyond_step_error", says="difference of regular runs beyond the step's error"),
-        Below(SEEN, "at_half_step", says="that at half of the assumed step"),
+        Below(SEEN, "beyond_step_error", says="difference of regular runs, less the step's error"),
+        Below(SEEN, "at_half_step", says="difference at half of the assumed step"),
         Above(
             SIGNIFICANT,
             "chance",
-            says="chance of a case whose norms are mostly as far from their ensemble",
+            says="probability that most norms of a chaotic case are as far from its ensemble",
         ),
     )
     return judge(measured, criterion, _caveat(off, measured, steps))
@@ -148,10 +148,10 @@ def _caveat(regular: dict[str, float], measured, schemes) -> str:
             half = found.sel(scheme="crank_nicolson", step=0.5 * step)
             other = found.sel(scheme="implicit_midpoint", step=step)
             said.append(
-                f"{case} differs by {100 * off:.2g} % from tau = "
-                f"{measured[f'divergence_{case}']:.3g} on by the assumed step, {step:g}, and by "
-                f"{100 * float(half):.2g} % at half of it (the midpoint rule, the other reading of "
-                f"the scheme: {100 * float(other):.2g} %)"
+                f"{case} differs visibly from tau = {measured[f'divergence_{case}']:.3g} on, by up "
+                f"to {100 * off:.2g} % with the assumed step, {step:g}, and "
+                f"{100 * float(half):.2g} % with half of it (the midpoint rule, the other reading "
+                f"of the scheme: {100 * float(other):.2g} %)"
             )
     times = {
         name.removeprefix("divergence_"): at for name, at in measured.items() if "_fig" in name
@@ -159,7 +159,7 @@ def _caveat(regular: dict[str, float], measured, schemes) -> str:
     apart = {case: at for case, at in times.items() if case not in regular and np.isfinite(at)}
     if apart:
         listed = ", ".join(f"{case} from tau = {at:.3g} on" for case, at in apart.items())
-        said.append(f"chaotic cases are other runs of the same ensembles: {listed}")
+        said.append(f"chaotic cases become other members of the same ensembles: {listed}")
     return "; ".join(said)
 
 
@@ -267,8 +267,8 @@ def coverage(name: str, second, ensembles) -> str:
         beyond = max(min(means) - value, value - max(means)) / nearer  # negative in between
         off[beyond] = width, value, means[0], sides[0], means[1], sides[1]
     return (
-        "{} (furthest off of the others: M = {} with l2 = {:.3g}, beside means of {:.3g} at M = {}"
-        " and {:.3g} at M = {})".format(said, *off[max(off)])
+        "{} (of the other M the furthest off is {}: l2 = {:.3g}, and the means beside it are "
+        "{:.3g} at M = {} and {:.3g} at M = {})".format(said, *off[max(off)])
     )
 
 
@@ -337,11 +337,11 @@ def without_finer_steps(steps):
 
 @claim(
     "Section 5, end",
-    "Figs 5 and 6 come out of the second solver without significant differences.",
+    "With the second solver Figs 5 and 6 show no significant differences.",
     (*SWEEPS, *SECOND_SWEEPS, *checks("lyapunov", "ensembles", "second_solver")),
     controls=(
         Control(
-            "the first solver's sweeps once more, as one more draw from the ensembles",
+            "the sweeps of the first solver, as those of the second",
             dict(zip(SECOND_SWEEPS, SWEEPS, strict=True)),
             confirms=True,
         ),
@@ -381,20 +381,18 @@ def second_solver_sweeps(*datasets) -> Finding:
         measured |= {f"chance_{reading}_{name}": together(one) for name, one in chances.items()}
     measured |= {f"off_{name}": found["off"][0] for name, found in drawn.items()}
     measured |= {f"chance_by_step_{name}": chance for name, chance in finer.items()}
-    regular_agree = Below(
-        SEEN, "largest_regular", says="largest difference of a point of a regular sweep"
-    )
-    said = "chance of the furthest distinct run from the ensembles, by the"
+    regular_agree = Below(SEEN, "largest_regular", says="largest difference of a regular sweep")
+    said = "probability of a run as far from its ensemble as the furthest, by the"
     likely = [Above(SIGNIFICANT, f"chance_{by}", says=f"{said} {by}") for by in ("text", "caption")]
-    held = f"there are ensembles at {' and '.join(covered)}"
+    held = f"ensembles were run at {' and '.join(covered)}"
     apart = _swept_apart(measured, drawn, held)
     by_step = any(chance <= SIGNIFICANT.value for chance in finer.values())
     if by_step and regular_agree.holds(measured):
         means = ", ".join(f"{chance:.2g} in {name}" for name, chance in finer.items())
         return undecided(
             measured,
-            f"the paper gives no step, and the one that is assumed decides: {apart}; by a quarter"
-            f" of it the means are others (chance {means})",
+            f"the paper gives no step, and the verdict depends on the one assumed: {apart}; with a"
+            f" quarter of this step the means differ significantly (probability {means})",
         )
     return judge(measured, AllOf(regular_agree, *likely), held if drawn else "", apart)
 
@@ -402,18 +400,18 @@ def second_solver_sweeps(*datasets) -> Finding:
 def _swept_apart(measured, drawn: dict[str, dict], held: str) -> str:
     """Say which sweeps of the second solver lie apart from the paper's."""
     parts = [
-        f"{name.removeprefix('largest_')} differs by {100 * off:.2g} %, though it is regular"
+        f"{name.removeprefix('largest_')}, which is regular, differs by {100 * off:.2g} %"
         for name, off in measured.items()
         if name.startswith("largest_fig") and off >= SEEN.value
     ]
     for name, found in drawn.items():
-        words = {"text": "maxima of the text", "caption": "caption's means"}
+        words = {"text": "maxima of the text", "caption": "averages of the caption"}
         chances = {said: together(found[reading]) for reading, said in words.items()}
         low = {said: chance for said, chance in chances.items() if chance <= SIGNIFICANT.value}
         if low:
-            told = " and ".join(f"{chance:.2g} by the {said}" for said, chance in low.items())
+            told = " and ".join(f"{chance:.2g} for the {said}" for said, chance in low.items())
             parts.append(
-                f"{name} by the second solver is not likely to come from the ensembles, with a "
-                f"chance of {told}, which are up to {100 * found['off'][0]:.2g} % off"
+                f"{name} by the second solver is unlikely to come from the ensembles (probability "
+                f"{told}); the averages differ by up to {100 * found['off'][0]:.2g} %"
             )
     return "; ".join([*parts, held]) if drawn else "; ".join(parts)

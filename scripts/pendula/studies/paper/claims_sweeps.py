@@ -41,7 +41,7 @@ SECTION = 5
 
 WINDOW = "[10, 50]"
 """Of Fig 5, by the text and by the caption."""
-LEVEL = Cutoff(levels.LEVEL, '"approaches a level": half a percent, the width of a line')
+LEVEL = Cutoff(levels.LEVEL, '"approaches a level": within 0.5 %, the width of a line')
 EXCHANGED = exchange("statistic", "max", "mean")
 WITHOUT_AVERAGE = repeat("statistic", "max", at="mean")
 TEXT_6, CAPTION_6 = "[10, 70]", "[10, 40]"
@@ -60,7 +60,7 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
         "largest_rise": np.max(values / np.minimum.accumulate(values)) - 1.0,
         "level_from": levelling(half_widths, values, LEVEL.value),
     }
-    steady = Below(CONSTANT, "largest_rise", says="largest rise on the way")
+    steady = Below(CONSTANT, "largest_rise", says="largest rise in between")
     return measured, AllOf(Above(CONSTANT, fall), steady, Levels("level_from"))
 
 
@@ -71,7 +71,7 @@ def falls_to_a_level(half_widths, values, fall: str) -> tuple[dict[str, float], 
     controls=(
         Control("the sweep at Omega = 0, which grows", "fig5_right"),
         Control("the sweep at Omega = 8, which is constant", "fig6_left"),
-        Control("30 % more at the second to the fifth M", with_a_hump),
+        Control("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
 def fig5_decreases(sweep) -> Finding:
@@ -82,7 +82,7 @@ def fig5_decreases(sweep) -> Finding:
     measured["fall_of_mean"] = 1.0 - average[-1] / average[0]
     caveat = ""
     if measured["fall_of_mean"] <= CONSTANT.value:
-        caveat = "for the maximum that the text names, not for the average of the caption"
+        caveat = "for the maximum of the text; the average of the caption hardly changes"
     return judge(measured, criterion, caveat)
 
 
@@ -91,9 +91,7 @@ def fig5_decreases(sweep) -> Finding:
     "For Omega < -2 gamma a small solution does not grow on the unbounded lattice, in agreement"
     " with Theorem 2.",
     (*runs("fig3_small"), *sweeps("fig5_left")),
-    controls=(
-        Control("the sweep of the large data, beyond the bound", {"fig5_left": "fig6_right"}),
-    ),
+    controls=(Control("the sweep of the large case", {"fig5_left": "fig6_right"}),),
     reading="sweep",
 )
 def fig5_theorem_2(case, sweep) -> Finding:
@@ -101,7 +99,7 @@ def fig5_theorem_2(case, sweep) -> Finding:
     parameters, boundary = constants(case), str(case.attrs["boundary"])
     region = proven_region(energy, start, parameters, boundary)
     if region == "theorem 1":
-        raise UndecidableError("Theorem 2 says nothing at this Omega")
+        raise UndecidableError("Theorem 2 does not apply at this Omega")
     at_one_omega(case, sweep)
     swept = np.square(sweep["l2"].sel(quantity="pair").values).max()
     observed = max(float(swept), total_power(case).max())
@@ -115,9 +113,9 @@ def fig5_theorem_2(case, sweep) -> Finding:
     }
     caveat = ""
     if region == "theorem 2 widened":
-        caveat = "outside delta_0 of the theorem as proved; inside once the bonds are kept"
+        caveat = "covered only if the proof of the theorem keeps the coupling energy"
     elif region == "none":
-        caveat = "the data lie outside every proven region"
+        caveat = "no theorem for the infinite chain covers the initial condition"
     return judge(measured, AtMost(1.0, "P_over_C0_delta", says="P over C_0 delta"), caveat)
 
 
@@ -128,7 +126,7 @@ def fig5_theorem_2(case, sweep) -> Finding:
     controls=(
         Control("maxima and averages exchanged", {"fig5_left": EXCHANGED, "fig5_right": EXCHANGED}),
         Control(
-            "sweeps whose averages are their maxima",
+            "sweeps whose averages equal their maxima",
             {"fig5_left": WITHOUT_AVERAGE, "fig5_right": WITHOUT_AVERAGE},
             undecided=True,
         ),
@@ -142,16 +140,20 @@ def fig5_caption(left, right) -> Finding:
         measured[f"fall_by_{reading}"] = 1.0 - falls[-1] / falls[0]
         measured[f"growth_by_{reading}"] = rises[-1] / rises[0]
         found[reading] = AllOf(
-            Above(CONSTANT, f"fall_by_{reading}", says=f"fall on the left by the {reading}"),
-            Above(FACTOR, f"growth_by_{reading}", says=f"growth on the right by the {reading}"),
+            Above(CONSTANT, f"fall_by_{reading}", says=f"fall on the left, norm of the {reading}"),
+            Above(
+                FACTOR,
+                f"growth_by_{reading}",
+                says=f"growth on the right, norm of the {reading}",
+            ),
         )
     text, caption = (found[reading].holds(measured) for reading in ("text", "caption"))
     if text == caption:
-        return undecided(measured, "what the text says of the figure holds alike by both readings")
+        return undecided(measured, "the text is right on the figure by both readings or by neither")
     caveat = (
         f"text and caption contradict each other: on the left the maximum falls by"
-        f" {measured['fall_by_text']:.2%} over all M, as the text describes the figure, and the"
-        f" average by {measured['fall_by_caption']:.2%}"
+        f" {measured['fall_by_text']:.2%} from the shortest to the longest chain, as the text"
+        f" says, but the average only by {measured['fall_by_caption']:.2%}"
     )
     return judge(measured, found["text"], caveat)
 
@@ -166,10 +168,10 @@ def fig5_caption(left, right) -> Finding:
             ("sweeps/fig5_right", lambda _, sweep: maxima_of(sweep)),
         ),
         Control(
-            "the large data at Omega = 8, which are constant",
+            "the large case at Omega = 8, which is constant",
             ("sweeps/fig6_left", lambda _, sweep: maxima_of(sweep)),
         ),
-        Control("30 % more at the second to the fifth M", with_a_hump),
+        Control("norms 30 % higher at the second to the fifth M", with_a_hump),
     ),
 )
 def fig5_not_shown(check) -> Finding:
@@ -189,13 +191,13 @@ def maxima_of(sweep):
     "At Omega = 8 the maximal l2 norm does not change with N.",
     sweeps("fig6_left"),
     controls=(
-        Control("the small data at Omega = -4, which fall", "fig5_left"),
-        Control("the large data at Omega = -4, which grow", "fig6_right"),
+        Control("the small case at Omega = -4, which falls", "fig5_left"),
+        Control("the large case at Omega = -4, which grows", "fig6_right"),
     ),
 )
 def fig6_constant(sweep) -> Finding:
     _, l2 = swept(sweep, "l2", "max", TEXT_6)
-    criterion = Below(CONSTANT, "relative_range", says="range over mean")
+    criterion = Below(CONSTANT, "relative_range", says="range of the maxima over their mean")
     return judge({"relative_range": relative_range(l2)}, criterion)
 
 
@@ -238,10 +240,11 @@ def fig6_caption(left, ensembles) -> Finding:
         measured[f"high_by_{reading}"] = growth.high
     if flat[1] and any(growth.low <= FACTOR.value <= growth.high for growth in grows):
         return undecided(
-            measured, f"the growth with M has limits on both sides of {FACTOR.value:g}"
+            measured,
+            "the confidence interval of the growth with M contains the cut-off, {FACTOR.value:g}",
         )
     grows = [growth.low > FACTOR.value for growth in grows]
     measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}
     if flat[0] == flat[1] and grows[0] == grows[1]:
-        return undecided(measured, "what the text says of the figure holds alike by both readings")
+        return undecided(measured, "the text is right on the figure by both readings or by neither")
     return judge(measured, AtLeast(1.0, "flat_by_caption", "grows_by_caption"))

@@ -1,4 +1,4 @@
-"""The paper's phases in the real pendula: their norms, the sea, and who goes over the top."""
+"""The paper's cases as pendula: their norms, the chaotic state, and which go over the top."""
 
 import numpy as np
 
@@ -26,16 +26,16 @@ PHASES, SEA, TOP = "pendula/phases", "pendula/sea", "pendula/over_the_top"
 THERMAL = "unbounded/thermal"
 REGULAR = ("fig2_small", "fig2_large", "fig3_small")
 SMALL_ANGLES = 0.15
-"""Up to this mu the angles of the sea stay below a quarter of a turn."""
+"""Up to this mu the angles of the chaotic state stay below a quarter of a turn."""
 SMALL = keep(mu=slice(None, SMALL_ANGLES))
 PENDULA = slice(1e-9, None)
 """All mu but 0, which stands for the amplitude equations."""
 LARGE_DATA = 0.2
 """Up to this mu the larger data of the paper, at 2 mu 5 rad, stay well below the top."""
 
-ORDER = Cutoff(0.5, "an order is nearer to a whole number than to its neighbours")
-SAME = Cutoff(0.05, "P of the thermal state changes by so much where Omega changes by a quarter")
-SAME_LAW = Cutoff(0.05, "so near distributions differ by less than a figure shows")
+ORDER = Cutoff(0.5, "an order counts as the nearest whole number")
+SAME = Cutoff(0.05, "P of the thermal state changes by so much if Omega changes by 0.25")
+SAME_LAW = Cutoff(0.05, "a smaller difference of distributions is not seen in a figure")
 
 
 def late_levels(phases, norm: str = "l2"):
@@ -51,7 +51,7 @@ def late_levels(phases, norm: str = "l2"):
 def known(levels):
     """Return levels none of which is NaN, as where pendula are lost to the drive."""
     if levels.isnull().any():
-        raise UndecidableError("the drive makes pendula over the top ever faster")
+        raise UndecidableError("a run ended where the drive made pendula over the top ever faster")
     return levels
 
 
@@ -59,12 +59,12 @@ def at_finite(values):
     """Return values at all mu but 0, which stands for the amplitude equations."""
     found = values.sel(mu=values["mu"] > 0.0)
     if not found.sizes["mu"]:
-        raise UndecidableError("there is no such mu")
+        raise UndecidableError("no run has a nonzero mu")
     return found
 
 
 def thermal_beside(sea, thermal, *names: str):
-    """Return these variables of the thermal chain at the sea's Omega, NaN where none was solved."""
+    """Return these variables of the thermal chain at the Omega of `sea`, NaN without a solution."""
     return thermal[list(names)].reindex(omega=[sea.attrs["omega"]]).isel(omega=0, drop=True)
 
 
@@ -75,7 +75,7 @@ def thermal_beside(sea, thermal, *names: str):
     (PHASES,),
     (
         Control(
-            "norms of another case in the limit",
+            "another case as the limit",
             roll("l2", {"case": 1}, mu=0.0),
             on=("fig4_large",),
         ),
@@ -91,11 +91,11 @@ def pendula_norms(phases) -> Finding:
     levels = known(late_levels(phases.sel(case=list(REGULAR)))).sortby("mu")
     mu = levels["mu"].values
     if mu.size < 3 or mu[0] != 0.0:
-        raise UndecidableError("an order takes two mu, and their limit")
+        raise UndecidableError("fewer than two nonzero mu were run, or not the limit")
     off = abs(levels / levels.sel(mu=0.0) - 1.0)
     fine, coarse = off.isel(mu=1), off.isel(mu=2)
     if not (fine > 0.0).all():
-        raise UndecidableError("a case has no difference from its limit")
+        raise UndecidableError("a case does not differ from its limit")
     order = log(np.asarray(coarse / fine)) / log(mu[2] / mu[1])
     measured = {"least_order": order.min(), "largest_order": order.max()}
     measured |= {"largest_difference": fine.max(), "at_mu": mu[1]}
@@ -106,7 +106,7 @@ def pendula_norms(phases) -> Finding:
 @claim(
     "Section 5, Fig 3, for the pendula (1)",
     "For larger initial conditions at Omega = -4 the l2 norm of the pendula grows, whereas the "
-    "l-infinity norm stays at the same level as the initial data.",
+    "l-infinity norm stays at its initial level.",
     (PHASES,),
     (
         Control(
@@ -136,8 +136,8 @@ def pendula_spread(phases) -> Finding:
         WithinFactor(FACTOR, "least_level", "largest_level", says=says),
     )
     fails = (
-        "these data lie near a border of fates: at another mu the pendula disperse, and at a large"
-        " one they go over the top"
+        "the initial condition lies near a boundary between fates: at some mu the motion of the "
+        "pendula disperses, and at large mu pendula go over the top"
     )
     return judge(measured, criterion, fails=fails)
 
@@ -148,7 +148,7 @@ def pendula_spread(phases) -> Finding:
     (PHASES,),
     (
         Control(
-            "all mu at which the data stay below the top",
+            "all mu at which the initial angles are well below the top",
             lambda one: one.sel(mu=one["mu"] <= LARGE_DATA, member=one["member_mu"] <= LARGE_DATA),
             confirms=True,
         ),
@@ -163,7 +163,7 @@ def theorem_1_for_the_pendula(phases) -> Finding:
     """
     cases = phases.sel(case=["fig2_small", "fig2_large"])
     if not np.isfinite(cases["theorem_1_power"]).all():
-        raise UndecidableError("Theorem 1 says nothing of these constants")
+        raise UndecidableError("Theorem 1 does not apply to these constants")
     power = (cases["l2"] ** 2).sum("component").max("tau")
     over = at_finite(power / cases["theorem_1_power"]).max("case")
     members = phases["over_theorem_1"].values
@@ -178,8 +178,8 @@ def theorem_1_for_the_pendula(phases) -> Finding:
         "median_of_members": np.median(members) if members.size else np.nan,
     }
     fails = (
-        "data that start near the top of their swing go over it, and the amplitudes know no top;"
-        f" {beyond} of {members.size} runs from almost equal data exceed the bound"
+        "pendula that start near the top go over it, which the amplitude equations cannot describe;"
+        f" {beyond} of {members.size} runs of a perturbed ensemble exceed the bound"
     )
     says = "largest P of the envelopes over its bound"
     return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
@@ -189,7 +189,7 @@ def theorem_1_for_the_pendula(phases) -> Finding:
     "Section 4, Theorem 3, for the pendula (1)",
     "On a finite chain P = |A|^2 + |B|^2 of the pendula never exceeds the bound of Theorem 3.",
     (PHASES, TOP),
-    (Control(f"mu up to {SMALL_ANGLES:g} alone", {PHASES: SMALL, TOP: SMALL}, confirms=True),),
+    (Control(f"only mu up to {SMALL_ANGLES:g}", {PHASES: SMALL, TOP: SMALL}, confirms=True),),
 )
 def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
     """Compare angles alone, which give no more than P, with the bound by the energy of the data."""
@@ -200,8 +200,7 @@ def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
     measured = {"largest_over_bound": max(cases.max(), sea.max())}
     measured |= {"smallest_mu_over_it": min(above, default=np.nan)}
     fails = (
-        "no energy bounds pendula that are driven: once over the top they turn on and wind up the"
-        " strings"
+        "no energy bounds driven pendula: over the top they keep rotating and wind up the strings"
     )
     says = "largest P over its bound"
     return judge(measured, AtMost(1.0, "largest_over_bound", says=says), fails=fails)
@@ -209,13 +208,13 @@ def theorem_3_for_the_pendula(phases, over_the_top) -> Finding:
 
 @claim(
     "Section 5, Fig 4, for the pendula (1)",
-    "At Omega = 0 the pendula come to the same sea as the amplitudes while mu is small.",
+    "At Omega = 0 and small mu the pendula reach the same chaotic state as the amplitudes.",
     (SEA, THERMAL),
     (
         Control("angles in place of their envelope", {SEA: scale("site_power", 0.5, mu=PENDULA)}),
         Control("the thermal state of another detuning", {THERMAL: roll("power", {"omega": 1})}),
         Control(
-            "distributions of the pendula moved by four cells",
+            "distributions of the pendula shifted by four bins",
             {SEA: roll("modulus_share", {"modulus": 4}, mu=PENDULA)},
         ),
     ),
@@ -224,10 +223,10 @@ def same_sea(sea, thermal) -> Finding:
     """Compare P a site and the distribution of moduli, of ensembles on one chain."""
     limit, *others = (sea["site_power"].sel(mu=mu).values for mu in sea["mu"].values)
     if sea.sizes["member"] < 2 or not others:
-        raise UndecidableError("an ensemble takes two members, and pendula")
+        raise UndecidableError("the ensemble has fewer than two members, or no pendula")
     known = thermal_beside(sea, thermal, "power")["power"]
     if np.isnan(known):
-        raise UndecidableError("no thermal state was solved at the Omega of the sea")
+        raise UndecidableError("the thermal state at the Omega of the ensemble was not computed")
     away = [difference_limits(one, limit) for one in others]
     cumulated = sea["modulus_share"].mean("member").cumsum("modulus")
     apart = at_finite(abs(cumulated - cumulated.sel(mu=0.0)))
@@ -237,21 +236,21 @@ def same_sea(sea, thermal) -> Finding:
         "from_thermal": max(abs(mean_limits(one).value / float(known) - 1.0) for one in others),
         "laws_apart": apart.max(),
     }
-    says = "relative difference of P a site, limits"
+    says = "relative difference of P per site, and half of its confidence interval"
     criterion = AllOf(
         Below(SAME, "largest_difference", "its_limits", says=says),
-        Below(SAME, "from_thermal", says="relative difference from the thermal P"),
-        Below(SAME_LAW, "laws_apart", says="largest difference of the distributions"),
+        Below(SAME, "from_thermal", says="relative difference of P from that of the thermal state"),
+        Below(SAME_LAW, "laws_apart", says="largest difference of the distributions of moduli"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     "Abstract and Section 6, for the pendula (1)",
-    "While the l2 norm of the pendula at Omega = 0 grows, their l-infinity norm remains finite: it "
-    "stays at the level of the amplitudes.",
+    "While the l2 norm of the pendula at Omega = 0 grows, their l-infinity norm remains finite, at "
+    "the level of that of the amplitudes.",
     (TOP, SEA),
-    (Control(f"mu up to {SMALL_ANGLES:g} alone", {TOP: SMALL}, confirms=True),),
+    (Control(f"only mu up to {SMALL_ANGLES:g}", {TOP: SMALL}, confirms=True),),
 )
 def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
     """Compare the largest angle by the end with 2 mu times the amplitudes' level."""
@@ -266,8 +265,8 @@ def pendula_stay_below_the_top(over_the_top, sea) -> Finding:
         "least_share_upper_limit": over_the_top["passed_high"].isel(tau=-1).min(),
         "members": over_the_top.sizes["member"],
     }
-    says = "largest angle so far over 2 mu times the amplitudes' l-infinity level"
-    fails = "at the larger mu pendula of the sea go over the top after a while, and turn on and on"
+    says = "largest angle by the end over 2 mu times the mean l-infinity norm of the amplitudes"
+    fails = "at larger mu some pendula go over the top after a while and keep rotating"
     return judge(measured, Below(FACTOR, "largest_over_level", says=says), fails=fails)
 
 
@@ -282,12 +281,13 @@ def with_middle_exchanged(over_the_top):
 
 @claim(
     "Section 6, for the pendula (1)",
-    "The smaller mu, the longer the pendula of the sea wait before one goes over the top.",
+    "The smaller mu is, the longer it takes in the chaotic state until a pendulum goes over the "
+    "top.",
     (TOP,),
     (
         Control("mu in reverse order", exchange("mu")),
         Control(
-            "the same waiting times at all mu",
+            "the same passage rates at all mu",
             lambda one: one.isel(mu=[0] * one.sizes["mu"]).assign_coords(mu=one["mu"].values),
         ),
         Control("two middle rates exchanged", with_middle_exchanged, undecided=True),
@@ -298,7 +298,7 @@ def waiting_grows(over_the_top) -> Finding:
     ordered = over_the_top.sortby("mu")
     rated = ordered.sel(mu=np.isfinite(ordered["passage_rate"]).values)
     if rated.sizes["mu"] < 2:
-        raise UndecidableError("nobody waited at two of the mu")
+        raise UndecidableError("passage rates are known at fewer than two mu")
     slow, fast = rated.isel(mu=0), rated.isel(mu=-1)
     measured = {
         "rate": fast["passage_rate"],
@@ -308,11 +308,11 @@ def waiting_grows(over_the_top) -> Finding:
         "gap_of_limits": fast["passage_rate_low"] - slow["passage_rate_high"],
         "least_step": rated["passage_rate"].diff("mu").min(),
     }
-    says = "lower limit of the rate at the largest mu less upper limit at the smallest"
+    says = "lower confidence limit of the rate at the largest mu less the upper one at the smallest"
     apart = Above(0.0, "gap_of_limits", says=says)
     below = np.maximum.accumulate(rated["passage_rate_low"].values)
     within = (rated["passage_rate_high"].values >= below).all()
     if apart.holds(measured) and measured["least_step"] <= 0.0 and within:
-        return undecided(measured, "a rate falls where mu grows, by less than its limits")
-    rises = Above(0.0, "least_step", says="least step of the rate from one mu to the next")
+        return undecided(measured, "a rate falls with mu, but by less than its confidence interval")
+    rises = Above(0.0, "least_step", says="least increase of the rate from one mu to the next")
     return judge(measured, AllOf(apart, rises))

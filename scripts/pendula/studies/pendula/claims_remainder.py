@@ -18,9 +18,9 @@ ALL = (*STABLE, "fig4_small", "fig4_large")
 SLOW, OPPOSITE = "the slow time mu^2 t", "a third harmonic of the opposite sign"
 """Wrong expansions."""
 
-WHOLE = Cutoff(0.03, "an order is a whole number if it is so in its first two digits")
-SECULAR = Cutoff(1.5, "growth is nearer to proportion to time than to its square", 1.0)
-TOLD = Cutoff(1.0, "nearer to the order of its expansion than to the next, which is two away")
+WHOLE = Cutoff(0.03, "an order counts as a whole number if it differs from one by up to 0.03")
+SECULAR = Cutoff(1.5, "the exponent of time is nearer to 1 than to 2", 1.0)
+TOLD = Cutoff(1.0, "nearer to the order of the expansion than to the next one, larger by 2")
 LONG = 10.0
 """A run that tells how the remainder grows goes on to here at least, where the paper takes its
 chains for settled."""
@@ -55,7 +55,7 @@ def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Findi
     names = "order", "order_uncertainty", "error_constant"
     order, off, constant = (remainder[name].sel(chosen) for name in names)
     if not all(np.isfinite(one).all() for one in (order, off, constant)):
-        raise UndecidableError("an order takes three mu, each half of the one before")
+        raise UndecidableError("an order requires three mu, each half of the one before")
     measured = {
         "least_order": order.min(),
         "largest_order": order.max(),
@@ -70,8 +70,8 @@ def judged_order(remainder, expansion: str, whole: float, cases=STABLE) -> Findi
 
 @claim(
     "Section 2, after (3)",
-    "The expansion is justified on times of the order mu^-2: up to a tau of order one the angles "
-    "of (3) and (4) miss those of the pendula by the order mu^3.",
+    "The expansion is justified on times of the order mu^-2: up to a tau of order 1 the angles of "
+    "(3) and (4) differ from those of the pendula by the order mu^3.",
     (REMAINDER,),
     (Control("amplitudes with the slow time mu^2 t", of_wrong("order", SLOW, "leading")),),
     on=ALL,
@@ -82,7 +82,7 @@ def expansion_order(remainder) -> Finding:
 
 @claim(
     PLACE,
-    "With its next order the expansion misses the pendula by the order mu^5.",
+    "With its next term the expansion differs from the pendula by the order mu^5.",
     (REMAINDER,),
     (
         Control(OPPOSITE, of_wrong("order", OPPOSITE, "corrected")),
@@ -105,7 +105,7 @@ def over_late_half(remainder, cases, long: float):
     ends = remainder["pendula_end"].sel(case=list(cases)).min("case")
     followed = ends.values >= long
     if not followed.any():
-        raise UndecidableError(f"no mu follows the pendula to tau = {long:g} in all these cases")
+        raise UndecidableError(f"at no mu do all these runs last to tau = {long:g}")
     mu = float(ends["mu"].values[followed].min())
     end = float(ends.sel(mu=mu))
     errors = remainder["error"].sel(case=list(cases), expansion="leading", mu=mu)
@@ -127,25 +127,25 @@ def remainder_bounded(remainder) -> Finding:
     end, expansion = common_end(remainder), {"expansion": "leading", "case": list(ALL)}
     errors = remainder["error"].sel(end=end, **expansion).sortby("mu").isel(mu=[0, 1])
     if not np.isfinite(errors).all():
-        raise UndecidableError("no two mu follow the pendula to one slow time in all cases")
+        raise UndecidableError("fewer than two mu have runs of all cases to a common slow time")
     mus = errors["mu"]
     fine, coarse = (errors / (mus * mus * mus)).transpose("mu", "case").values
     measured = {f"growth_{case}": one for case, one in zip(ALL, fine / coarse, strict=True)}
     mu, late, growth = over_late_half(remainder, ALL, SPAN)
     caveat = (
-        f"at a fixed slow time, here tau = {end:g}; with tau it grows: at mu = {mu:g} the largest"
-        f" remainder to tau = {late:g} is {float(growth.min()):.3g} to {float(growth.max()):.3g}"
-        " times that of the first half"
+        f"as mu goes to 0 at a fixed slow time, here tau = {end:g}; with tau it grows: at mu = "
+        f"{mu:g} and up to tau = {late:g} it is {float(growth.min()):.3g} to "
+        f"{float(growth.max()):.3g} times as large as in the first half"
     )
     times = float(mus[1] * mus[1] / (mus[0] * mus[0]))
-    says = f"growth of the remainder at tau = {end:g} as t grows {times:g} times"
+    says = f"growth of the remainder over mu^3 at tau = {end:g} as t grows {times:g} times"
     return judge(measured, Below(FACTOR, *measured, says=says), caveat)
 
 
 @claim(
     PLACE,
-    "Where the chain at rest is stable, the remainder of small data grows in proportion to time at "
-    "most.",
+    "Where the chain at rest is stable, the remainder in the small cases grows no faster than in "
+    "proportion to time.",
     (REMAINDER,),
     (
         Control(
@@ -169,7 +169,7 @@ def slopes(remainder):
     for horizon in remainder["visible_from"].sel(case=UNSTABLE).transpose("expansion", "mu"):
         known = horizon[np.isfinite(horizon.values)].sortby("mu")
         if known.size < FEWEST:
-            raise UndecidableError(f"fewer than {FEWEST} runs go on to their horizon")
+            raise UndecidableError(f"fewer than {FEWEST} runs reach their horizon")
         mus = known["mu"].values
         apart = log(float(mus[-1]) / float(mus[0]))
         found[str(horizon["expansion"].values)] = float(known[0] - known[-1]) / apart
@@ -184,12 +184,12 @@ def by_power(remainder):
 
 @claim(
     PLACE,
-    "At Omega = 0 the expansion holds for a time in proportion to ln(1 / mu) only, by the "
-    "exponent of the chaos.",
+    "At Omega = 0 the expansion holds only for a slow time in proportion to ln(1 / mu) over the "
+    "Lyapunov exponent.",
     (REMAINDER, LYAPUNOV),
     (
         Control("horizons in proportion to mu^-2", {REMAINDER: by_power}),
-        Control("horizons half as late again", {REMAINDER: scale("visible_from", 1.5)}),
+        Control("horizons 50 % later", {REMAINDER: scale("visible_from", 1.5)}),
     ),
     on=(UNSTABLE,),
 )
@@ -200,7 +200,7 @@ def horizon_logarithmic(remainder, lyapunov) -> Finding:
     """
     rate = float(lyapunov["exponent"].sel(case=UNSTABLE).max())
     if not rate > 0.0:
-        raise UndecidableError("no exponent of the chaos is known")
+        raise UndecidableError("no positive Lyapunov exponent is known")
     found = slopes(remainder)
     horizon = remainder["visible_from"].sel(case=UNSTABLE, expansion="leading").values
     known = np.isfinite(horizon)
@@ -211,11 +211,11 @@ def horizon_logarithmic(remainder, lyapunov) -> Finding:
         "latest": horizon[known].max(),
         "at_mu": remainder["mu"].values[known].min(),
     }
-    says = "growth of the horizon with ln(1 / mu), times the rate"
+    says = "slope of the horizon against ln(1 / mu), times the exponent"
     criterion = AllOf(
         Near(2.0, TOLD, "leading_order", says=says),
-        Near(4.0, TOLD, "corrected_order", says=f"{says}, with the next order"),
+        Near(4.0, TOLD, "corrected_order", says=f"{says}, with the next term"),
     )
     until = measured["latest"]
-    caveat = f"the horizons are read up to tau = {until:.2g}, and the rate is that of a later time"
+    caveat = f"the horizons end at tau = {until:.2g}, but the Lyapunov exponent is measured later"
     return judge(measured, criterion, caveat)

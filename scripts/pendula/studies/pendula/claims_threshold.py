@@ -24,8 +24,8 @@ SECTION = 7
 PLACE = "Section 3, Lemma 1, for the pendula (1)"
 THRESHOLD = "pendula/threshold"
 
-FIRST_DIGITS = Cutoff(1e-3, "a limit that agrees in its first three digits is the same number")
-ORDER = Cutoff(0.5, "an order is nearer to a whole number than to its neighbours")
+FIRST_DIGITS = Cutoff(1e-3, "equal in the first three digits")
+ORDER = Cutoff(0.5, "an order counts as the nearest whole number")
 FEWEST = 3
 """So many mu at least: through two points any two numbers make a line."""
 
@@ -33,7 +33,7 @@ FEWEST = 3
 def smallest_mus(dataset):
     """Return the dataset by falling mu; it must hold enough of them."""
     if dataset.sizes["mu"] < FEWEST:
-        raise UndecidableError(f"a limit in mu takes {FEWEST} values of it")
+        raise UndecidableError(f"a limit requires {FEWEST} values of mu")
     return dataset.isel(mu=np.argsort(-dataset["mu"].values))
 
 
@@ -71,11 +71,11 @@ def at_the_far_edge(dataset):
 
 @claim(
     PLACE,
-    "In the limit of small mu the pendula lose stability at the gamma_0 of Lemma 1.",
+    "In the limit of small mu the pendula become unstable at the gamma_0 of Lemma 1.",
     (THRESHOLD,),
     (
         Control("thresholds at the far edge of the band", at_the_far_edge),
-        Control("thresholds of a drive of half the strength", scale("gamma_0_lemma", 2.0)),
+        Control("thresholds for half of the drive", scale("gamma_0_lemma", 2.0)),
     ),
 )
 def lemma_1_is_the_limit(threshold) -> Finding:
@@ -91,15 +91,15 @@ def lemma_1_is_the_limit(threshold) -> Finding:
     }
     criterion = AllOf(
         Below(FIRST_DIGITS, "largest_difference", says="relative difference in the limit"),
-        AtMost(0.0, "largest_inside", says="largest threshold in the band"),
+        AtMost(0.0, "largest_inside", says="largest threshold within the band"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     PLACE,
-    "The pendula's threshold differs from Lemma 1's by gamma_0^2 mu^2 / 4: more below the band, "
-    "less above it.",
+    "The threshold of the pendula differs from that of Lemma 1 by gamma_0^2 mu^2 / 4: it is higher "
+    "below the band and lower above it.",
     (THRESHOLD,),
     (
         Control(
@@ -114,7 +114,7 @@ def correction_of_the_threshold(threshold) -> Finding:
     beside = outside(smallest_mus(threshold))
     mu, below = beside["mu"], (beside["omega"] < 0).values
     if below.all() or not below.any():
-        raise UndecidableError("detunings lie on one side of the band only")
+        raise UndecidableError("all detunings lie on one side of the band")
     shift = beside["gamma_0"] - beside["gamma_0_lemma"]
     left = abs(shift - beside["correction"] * mu * mu)
     order = order_between(left.isel(mu=-2), left.isel(mu=-1), mu.values)
@@ -124,23 +124,23 @@ def correction_of_the_threshold(threshold) -> Finding:
         "least_shift_below": shift.sel(omega=below).min(),
         "largest_shift_above": shift.sel(omega=~below).max(),
     }
-    says = "order in mu of what is left"
+    says = "order in mu of the remaining difference"
     criterion = AllOf(
         Near(4.0, ORDER, "least_order", "largest_order", says=says),
-        Above(0.0, "least_shift_below", says="shift below the band"),
-        Below(0.0, "largest_shift_above", says="shift above the band"),
+        Above(0.0, "least_shift_below", says="shift of the threshold below the band"),
+        Below(0.0, "largest_shift_above", says="shift of the threshold above the band"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     PLACE,
-    "Unstable pendula grow at the rates of Lemma 1, with an error of the order mu^2.",
+    "The growth rates of unstable pendula are those of Lemma 1, with an error of the order mu^2.",
     (THRESHOLD,),
     (
-        Control("rates of exchanged detunings", roll("rate_lemma", {"growth_omega": 1})),
+        Control("growth rates at exchanged detunings", roll("rate_lemma", {"growth_omega": 1})),
         Control(
-            "rates with an error of the order mu",
+            "growth rates with an error of the order mu",
             lambda one: one.assign(wave_rate=one["rate_lemma"] * (1.0 + one["mu"])),
         ),
     ),
@@ -168,7 +168,7 @@ def rates_of_the_pendula(threshold) -> Finding:
     (THRESHOLD,),
     (
         Control(
-            "detunings below the band alone",
+            "only detunings below the band",
             lambda one: one.sel(omega=((one["omega"] < 0) & (one["gamma_0"] > 0).all("mu")).values),
             confirms=True,
         ),
@@ -186,10 +186,10 @@ def lemma_1_for_the_pendula(threshold) -> Finding:
         "largest_share": share.max(),
         "least_share_above": above.min() if above.size else np.nan,
     }
-    says = "least threshold of the pendula over Lemma 1's"
+    says = "least threshold of the pendula over that of Lemma 1"
     criterion = AtLeast(1.0, "least_share", says=says)
     fails = (
-        "above the band a drive below gamma_0 already makes the pendula unstable, and where mu is"
-        " large the second resonance does so below the band"
+        "above the band a drive weaker than gamma_0 makes the pendula unstable, and at large mu the"
+        " second resonance does so below the band"
     )
     return judge(measured, criterion, fails=fails)

@@ -19,19 +19,21 @@ from pendula.ledger.cutoff import Cutoff
 SECTION = 3
 
 RESOLVED = Cutoff(
-    0.15, "bounded beats change a slope over the second half of a run to tau = 40 by 6 / tau"
+    0.15,
+    "bounded oscillations change a slope by up to 6 / tau in the second half of a run",
 )
-HALF = Cutoff(0.5, "a cell that is unstable grows at half of its predicted rate at least")
-TOLD = Cutoff(0.05, "exponents are told to a decimal")
+HALF = Cutoff(0.5, "instability means growth at half of the predicted rate or faster")
+TOLD = Cutoff(0.05, "exponents are measured to one decimal")
 
 
 @claim(
     "Section 3, (15)",
-    "The characteristic equation factorises into the dispersion relation, whose first pair of roots"
-    " is always real, and whose second pair is real if |kappa| > 2 |gamma| and else imaginary.",
+    "The characteristic equation factorises into the dispersion relation, whose first pair of "
+    "roots is always real, and whose second pair is real if |kappa| > 2 |gamma| and imaginary "
+    "otherwise.",
     checks("dispersion"),
     controls=(
-        Control("the roots of half of the drive", "checks/wrong/dispersion"),
+        Control("the roots for half of the drive", "checks/wrong/dispersion"),
         Control("the second pair in place of the first", take(first_growth="second_growth")),
     ),
 )
@@ -62,17 +64,21 @@ def stable_below(chart) -> Finding:
         "contradictions": (slow & (chart["finite_rate"] > 2.0 * RESOLVED.value)).sum(),
         "finite_stable": spared,
     }
-    caveat = f"{spared} cells above gamma_0 are stable on the finite chain" if spared else ""
+    caveat = f"{spared} drives above gamma_0 leave the finite chain stable" if spared else ""
     criterion = AllOf(
         AtMost(RESOLVED, "fastest", says="fastest growth below gamma_0"),
-        AtMost(0, "contradictions", says="cells above it that do not grow at half of their rate"),
+        AtMost(
+            0,
+            "contradictions",
+            says="drives above it with growth at less than half of the predicted rate",
+        ),
     )
     return judge(measured, criterion, caveat)
 
 
 @claim(
     "Lemma 1",
-    "Zero is linearly unstable for Omega in [0, 4 epsilon] and any gamma but 0.",
+    "Zero is linearly unstable for Omega in [0, 4 epsilon] and any nonzero gamma.",
     checks("chart", "windows", "measured_windows"),
     controls=(
         Control("windows of another Omega", {"measured_windows": "checks/wrong/measured_windows"}),
@@ -88,8 +94,11 @@ def unstable_band(chart, windows, measured_windows) -> Finding:
     }
     caveat = ""
     if float(windows["count"].max()) > 0:
-        caveat = "on the infinite chain; a finite one keeps windows of stability for small gamma"
-    criterion = AllOf(Above(0.0, "slowest_infinite_rate"), AtMost(0, "misclassified"))
+        caveat = "on the infinite chain; finite ones have windows of stability at small gamma"
+    criterion = AllOf(
+        Above(0.0, "slowest_infinite_rate", says="least growth rate on the infinite chain"),
+        AtMost(0, "misclassified", says="wrong predictions for finite chains"),
+    )
     return judge(measured, criterion, caveat)
 
 
@@ -106,8 +115,8 @@ def sharp_threshold(check) -> Finding:
         "orders": check["threshold_order"].min(),
         "distance_of_the_longest": gap.max(),
     }
-    caveat = "on the infinite chain; N sites lose their stability later, by a square of 1 / (N + 1)"
-    says = "distance to gamma_0 of the measured threshold, continued to the infinite chain"
+    caveat = "on the infinite chain; on N sites the threshold is higher by O(1 / (N + 1)^2)"
+    says = "distance from gamma_0 to the measured threshold, extrapolated to the infinite chain"
     criterion = AtMost(tolerance(check, "threshold_error"), "distance", says=says)
     return judge(measured, criterion, caveat)
 
@@ -118,7 +127,7 @@ def sharp_threshold(check) -> Finding:
     checks("unstable_waves"),
     controls=(
         Control("the other edge of the band", "checks/wrong/unstable_waves"),
-        Control("the waves of the Omega on the other side", exchange("omega")),
+        Control("the waves of an Omega on the other side of the band", exchange("omega")),
     ),
 )
 def unstable_waves(check) -> Finding:
@@ -152,15 +161,15 @@ def threshold_growth(threshold) -> Finding:
         "finite_gap": threshold["finite_gap"].min(),
     }
     caveat = (
-        "how fast depends on the data: a wave grows as tau, and data (1 + |n|)^-s with s < 1 as"
-        " tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity; summable data, such as one site, as"
-        " tau^(1/2) in l2 and not in l-infinity; the Dirichlet chain is stable there"
+        "the power depends on the perturbation: a wave grows as tau, one that decays as |n|^-s "
+        "with s < 1 as tau^(3/2 - s) in l2 and tau^(1 - s) in l-infinity, and a summable one, such "
+        "as one site, as tau^(1/2) in l2 and not in l-infinity; on the Dirichlet chain none grows"
     )
     error = tolerance(threshold, "wave_error")
     criterion = AllOf(
-        AtMost(error, "wave_error", says="error of a wave's growth 4 gamma tau"),
-        Above(0.0, "least_l2_exponent", says="least exponent of data in l2"),
-        AtMost(1.0, "largest_l2_exponent", says="their largest exponent"),
-        AtMost(TOLD, "law_error", says="distance of the exponents to the law"),
+        AtMost(error, "wave_error", says="error of the predicted growth 4 gamma tau of a wave"),
+        Above(0.0, "least_l2_exponent", says="least exponent of tau in l2"),
+        AtMost(1.0, "largest_l2_exponent", says="largest exponent of tau in l2"),
+        AtMost(TOLD, "law_error", says="distance of the exponents from the predicted ones"),
     )
     return judge(measured, criterion, caveat)

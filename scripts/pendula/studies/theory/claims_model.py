@@ -26,14 +26,14 @@ SECTION = 2
 RIGHT, OPPOSITE = "mu^2 t / 2", "mu^2 t / 2, opposite drive"
 """Readings of the expansion: the paper's, and the one with a drive of the other sign."""
 # ASSUME: an order in mu counts as a whole number if it is nearer to that than to another.
-NEAR = Cutoff(0.5, "an order counts as the whole number to which it is nearest")
+NEAR = Cutoff(0.5, "an order counts as the nearest whole number")
 THIRD, SECOND = 3.0, 2.0
 """The orders in mu of the expansion's remainder, and of the energy's."""
 # ASSUME: a symmetry is missing if it is missed by more than one part in a thousand.
-MISSED = Cutoff(1e-3, "a symmetry is missing if more than rounding and solvers could miss it")
-SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, of all spectra together")
+MISSED = Cutoff(1e-3, "a symmetry is broken if its defect exceeds rounding and solver errors")
+SIGNIFICANT = Cutoff(0.05, "the level that is customary in statistics, for all spectra together")
 # ASSUME: a drive acts where growth is nearer to the 2 gamma of the resonance than to none.
-ACTS = Cutoff(0.5, "growth is nearer to 2 gamma, that of the resonance, than to none")
+ACTS = Cutoff(0.5, "the growth rate is nearer to 2 gamma, that at resonance, than to 0")
 
 
 def wrong(name: str, check: str = "") -> dict[str, str]:
@@ -69,7 +69,7 @@ def no_gauge(conservation, pt) -> Finding:
         "gauge_defect": conservation["gauge_defect"].max(),
         "gauge_defect_pt": pt["gauge_defect"].max(),
     }
-    says = "defect of turning all phases, of (4) and of (10)"
+    says = "change of (4) and of (10) if all phases are turned"
     return judge(measured, Above(MISSED, *measured, says=says))
 
 
@@ -97,10 +97,8 @@ def with_another_pair(lyapunov):
     "The energy is the only integral of motion.",
     checks("lyapunov"),
     controls=(
-        Control(
-            "spectra at gamma = 0, where l2 is an integral too, and motion regular", without_drive
-        ),
-        Control("a second pair of zeros, which is made up", with_another_pair),
+        Control("spectra at gamma = 0, where l2 is an integral too", without_drive),
+        Control("spectra with an added second pair of zeros", with_another_pair),
     ),
 )
 def one_integral(lyapunov) -> Finding:
@@ -125,13 +123,12 @@ def one_integral(lyapunov) -> Finding:
         many = [f"{c}, M = {m}" for c, m in pairs["spectrum"].values[pairs.values > 1.0]]
         return undecided(
             measured,
-            "every integral makes a pair of Lyapunov exponents vanish, and the runs are too short"
-            f" to exclude that a second pair does in {len(many)} spectra ({'; '.join(many)})",
+            f"each integral makes a pair of Lyapunov exponents vanish, and in {len(many)} spectra "
+            f"({'; '.join(many)}) the runs are too short to exclude that a second pair vanishes",
         )
     caveat = (
-        "every integral makes a pair of Lyapunov exponents vanish, and on short chains in chaos"
-        " exactly one pair cannot be told from zero; that excludes another integral where the runs"
-        " went, and proves nothing elsewhere"
+        "each integral makes a pair of Lyapunov exponents vanish, and on short chaotic chains "
+        "exactly one pair does; this excludes another integral only where these runs went"
     )
     fails = "a second pair of Lyapunov exponents vanishes, or none does"
     says = "vanishing pairs of Lyapunov exponents in every spectrum"
@@ -155,7 +152,7 @@ def pt_form(check) -> Finding:
     alone = {name: float(check[name].max()) for name in ("p_alone", "t_alone")}
     caveat = ""
     if min(alone.values()) > MISSED.value:
-        caveat = "P and T together are a symmetry; either alone misses by 2 gamma max(|u|, |v|)"
+        caveat = "the symmetry is that of P and T together; neither alone is one"
     return judge(finding.measured | alone, finding.criterion, caveat, finding.because)
 
 
@@ -171,11 +168,11 @@ def exchange(check) -> Finding:
 
 @claim(
     "Section 2, (5) and after (6)",
-    "A = B is an invariant reduction on which the drive has no effect, and gauge symmetry returns.",
+    "A = B is an invariant reduction on which the drive has no effect and gauge symmetry holds.",
     checks("symmetries", "conservation", "opposite"),
     controls=(
         Control("B = iA in place of A = B", wrong("symmetries")),
-        Control("phases that turn where B = iA", wrong("conservation", "phase_turned")),
+        Control("a gauge symmetry where B = iA", wrong("conservation", "phase_turned")),
     ),
 )
 def synchronised(symmetries, conservation, opposite) -> Finding:
@@ -188,11 +185,9 @@ def synchronised(symmetries, conservation, opposite) -> Finding:
 
 @claim(
     "Section 2, (6)",
-    "In Newton's equations x = y stays, and the drive does not affect the chain.",
+    "In Newton's equations a chain with x = y keeps x = y, and the drive does not affect it.",
     checks("pendula_synchrony"),
-    controls=(
-        Control("x = -y, which stays and feels the drive", "checks/wrong/pendula_synchrony"),
-    ),
+    controls=(Control("x = -y, which is kept but driven", "checks/wrong/pendula_synchrony"),),
 )
 def pendula_synchronised(check) -> Finding:
     return within_tolerance(check, "pendula_departure", "drive_effect")
@@ -208,7 +203,7 @@ def inherited(check) -> Finding:
     static, along = check["energy_order"].values
     measured = {"averaged_order": static, "order_along_a_run": along}
     measured["smallest_difference"] = check["energy_missed"].min()
-    says = "orders in mu of the difference of the averaged energy to H, and of its change"
+    says = "orders in mu of the difference between the averaged energy and H, and of its change"
     return judge(measured, Near(SECOND, NEAR, "averaged_order", "order_along_a_run", says=says))
 
 
@@ -218,7 +213,7 @@ def inherited(check) -> Finding:
     checks("resonance"),
     controls=(
         Control(
-            "a drive at the pendula's own frequency",
+            "a drive at the frequency of the pendula",
             lambda check: check.assign_coords(drive_ratio=2.0 * check["drive_ratio"]),
         ),
     ),
@@ -228,21 +223,21 @@ def resonance(check) -> Finding:
     elsewhere = rates.where(rates["drive_ratio"] != 2.0).max()
     measured = {"at_1_to_2": rates.sel(drive_ratio=2.0), "elsewhere": elsewhere}
     criterion = AllOf(
-        Above(ACTS, "at_1_to_2", says="growth over 2 gamma at 1:2"),
-        Below(ACTS, "elsewhere", says="growth over 2 gamma at other ratios"),
+        Above(ACTS, "at_1_to_2", says="growth rate over 2 gamma at 1:2"),
+        Below(ACTS, "elsewhere", says="growth rate over 2 gamma at other ratios"),
     )
     return judge(measured, criterion)
 
 
 @claim(
     "Section 2, (3) and after (4)",
-    "The amplitudes in the expansion are functions of mu^2 t, and move with tau = mu^2 t / 2.",
+    "The amplitudes in the expansion depend on time through tau = mu^2 t / 2.",
     checks("expansion"),
     controls=(
         Control("the slow time mu^2 t", changes.exchange("reading", RIGHT, "mu^2 t")),
         Control("the slow time mu t / 2", changes.exchange("reading", RIGHT, "mu t / 2")),
         Control(
-            "Omega = 0 for so long that instability destroys the expansion",
+            "a run at Omega = 0 so long that the instability ends the validity of the expansion",
             "checks/wrong/expansion",
         ),
     ),
@@ -256,14 +251,16 @@ def slow_time(expansion) -> Finding:
         "order_by_another_power": order.sel(reading="mu t / 2"),
         "smallest_error": expansion["angle_error"].sel(reading=RIGHT)[-1],
     }
-    return judge(measured, Near(THIRD, NEAR, "order", says="order in mu"))
+    return judge(measured, Near(THIRD, NEAR, "order", says="order in mu of the error"))
 
 
 @claim(
     "Section 2, (2) and (4)",
-    "The drive D = 2 gamma mu^2 cos 2 omega t gives gamma (conj B - conj A).",
+    "The drive D = 2 gamma mu^2 cos 2 omega t gives the term gamma (conj B - conj A) of (4).",
     checks("expansion"),
-    controls=(Control("the opposite drive", changes.exchange("reading", RIGHT, OPPOSITE)),),
+    controls=(
+        Control("a drive of the opposite sign", changes.exchange("reading", RIGHT, OPPOSITE)),
+    ),
 )
 def drive_sign(expansion) -> Finding:
     order = expansion["order"].sel

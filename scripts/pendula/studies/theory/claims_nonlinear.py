@@ -30,8 +30,8 @@ FIRST = 1.0
 """The order of the distance of two solutions in that of their data."""
 # ASSUME: what is said to grow with the chain, as C_N does in proportion to N, has an exponent of N
 # nearer to one than to zero.
-IN_PROPORTION = Cutoff(0.5, '"grows with N": nearer to proportion than to a constant')
-ROUNDING = Cutoff(1.0 + 1e-6, "solvers and rounding may exceed a bound that is reached", 1.0)
+IN_PROPORTION = Cutoff(0.5, '"grows with N": the exponent of N is nearer to 1 than to 0')
+ROUNDING = Cutoff(1.0 + 1e-6, "solver errors and rounding may exceed a bound that is attained", 1.0)
 ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
 
 
@@ -39,7 +39,7 @@ ROUNDING_OF_H = Cutoff(-1e-12, "rounding of the energy")
     "Proof of Lemma 2, (16)",
     "Solutions exist locally, by Picard's method on the integral equations.",
     checks("picard"),
-    controls=(Control("an interval forty times as long", "checks/wrong/picard"),),
+    controls=(Control("an interval 40 times as long", "checks/wrong/picard"),),
 )
 def local_existence(check) -> Finding:
     names = (f"{name}_{way}" for name in ("contraction", "picard_error") for way in WAYS)
@@ -50,7 +50,7 @@ def local_existence(check) -> Finding:
     "Lemma 2",
     "The solution is unique.",
     checks("picard"),
-    controls=(Control("rates A / |A|^(1/2) besides, from rest", "checks/wrong/picard_at_rest"),),
+    controls=(Control("an added term A / |A|^(1/2), from rest", "checks/wrong/picard_at_rest"),),
 )
 def uniqueness(check) -> Finding:
     """Iterates from two first guesses must have one limit; time in steps continues that."""
@@ -59,9 +59,9 @@ def uniqueness(check) -> Finding:
 
 @claim(
     "Lemma 2",
-    "The solution depends continuously on initial data.",
+    "The solution depends continuously on the initial data.",
     checks("dependence"),
-    controls=(Control("two solutions with an Omega of their own", "checks/wrong/dependence"),),
+    controls=(Control("two solutions at different Omega", "checks/wrong/dependence"),),
 )
 def continuous_dependence(check) -> Finding:
     measured = {
@@ -70,10 +70,10 @@ def continuous_dependence(check) -> Finding:
         "largest_stretch": check["stretch"].max(),
         "over_gronwall": check["stretch_over_bound"].max(),
     }
-    says = "order of the distance at the end in that of the data"
+    says = "order of the final distance in the initial distance"
     criterion = AllOf(
         Near(FIRST, NEAR, "least_order", "largest_order", says=says),
-        AtMost(1.0, "over_gronwall", says="the distance over Gronwall's bound"),
+        AtMost(1.0, "over_gronwall", says="final distance over Gronwall's bound"),
     )
     return judge(measured, criterion)
 
@@ -82,7 +82,7 @@ def continuous_dependence(check) -> Finding:
     "Lemma 2, (19)",
     "The squared l2 norm grows at most as exp(4 |gamma tau|).",
     (*checks("growth"), *SMALL, *LARGE),
-    (Control("a bound exp(2 |gamma tau|)", {"growth": "checks/wrong/growth"}),),
+    (Control("the bound exp(2 |gamma tau|)", {"growth": "checks/wrong/growth"}),),
 )
 def growth_bound(check, *trajectories) -> Finding:
     steepest = [
@@ -102,7 +102,7 @@ def growth_bound(check, *trajectories) -> Finding:
     "Proof of Lemma 2",
     "The l2 norm obeys the balance equation.",
     checks("balance"),
-    controls=(Control("the balance of half of the drive", "checks/wrong/balance"),),
+    controls=(Control("the balance equation with half of the drive", "checks/wrong/balance"),),
 )
 def balance(check) -> Finding:
     return within_tolerance(check, "pointwise", "integrated")
@@ -110,9 +110,9 @@ def balance(check) -> Finding:
 
 @claim(
     "Section 4, before Theorem 1",
-    "It suffices to look at gamma > 0.",
+    "It suffices to consider gamma > 0.",
     checks("conservation"),
-    controls=(Control("(A, B) -> (-A, -B) for (iA, iB)", "checks/wrong/phase_turned"),),
+    controls=(Control("(A, B) -> (-A, -B) in place of (iA, iB)", "checks/wrong/phase_turned"),),
 )
 def sign_of_gamma(conservation) -> Finding:
     return within_tolerance(conservation, "sign_defect")
@@ -120,11 +120,11 @@ def sign_of_gamma(conservation) -> Finding:
 
 @claim(
     "Section 4, (17), (18), (22) and (27)",
-    "The bonds of a sequence are at most four times its l2 norm squared, the l2 norm of a product"
-    " is at most the product of the l2 norms, the l4 norm is at most the l2 norm, and this is at"
-    " most N^(1/4) times the l4 norm on N sites.",
+    "For sequences, the sum of |a_{n+1} - a_n|^2 is at most 4 times the squared l2 norm; the l2 "
+    "norm of a product is at most the product of the l2 norms; the l4 norm is at most the l2 "
+    "norm, which on N sites is at most N^(1/4) times the l4 norm.",
     checks("inequalities"),
-    controls=(Control("three quarters of the right sides", "checks/wrong/inequalities"),),
+    controls=(Control("the right sides times 3/4", "checks/wrong/inequalities"),),
 )
 def norm_inequalities(check) -> Finding:
     """Take the largest left side over its right side, in tries and in data that make it equal."""
@@ -136,16 +136,16 @@ def norm_inequalities(check) -> Finding:
 
 @claim(
     "Section 4, (21) and (25)",
-    "For Omega > 2 gamma + 4 epsilon H is at least (Omega - 2 gamma - 4 epsilon) P, for"
-    " Omega < -2 gamma -H is at least (|Omega| - 2 gamma) P - P^2 / 4, and the energy of data in l2"
-    " is finite, of the order of P where P is small.",
+    "If Omega > 2 gamma + 4 epsilon, H >= (Omega - 2 gamma - 4 epsilon) P. If Omega < -2 gamma,"
+    " -H >= (|Omega| - 2 gamma) P - P^2 / 4. The energy of a sequence in l2 is finite, and of the"
+    " order of P where P is small.",
     checks("inequalities"),
     controls=(Control("bounds with half of the drive", "checks/wrong/inequalities"),),
 )
 def energy_bounds(check) -> Finding:
     excess, limit = check["bound_excess"], tolerance(check, "bound_excess")
     measured = {f"excess_{bound}": excess.sel(bound=bound) for bound in ("(21)", "(25)", "size")}
-    return judge(measured, AtMost(limit, *measured, says="bound minus energy, over P"))
+    return judge(measured, AtMost(limit, *measured, says="excess of the bound over H, over P"))
 
 
 def theorem(name: str, says: str, *families: str, reading: str = "") -> Callable:
@@ -161,32 +161,34 @@ def theorem(name: str, says: str, *families: str, reading: str = "") -> Callable
         return judge(measured, AtMost(ROUNDING, *measured, says=says))
 
     decide.__name__ = name
-    place, forgets = name.replace("_", " ").capitalize(), "bounds that forget the drive"
+    place, forgets = name.replace("_", " ").capitalize(), "bounds without the drive"
     control = Control(forgets, {"samples": "checks/wrong/samples", "worst": "checks/wrong/worst"})
     return claim(place, says, checks("samples", "worst"), (control,), reading=reading)(decide)
 
 
 theorem_1 = theorem(
-    "theorem_1", "For Omega > 2 gamma + 4 epsilon the l2 norm is bounded for all data.", "theorem_1"
+    "theorem_1",
+    "For Omega > 2 gamma + 4 epsilon the l2 norm is bounded for all initial conditions.",
+    "theorem_1",
 )
 
 theorem_2 = theorem(
     "theorem_2",
-    "For Omega < -2 gamma the l2 norm is bounded for small data.",
+    "For Omega < -2 gamma the l2 norm is bounded for small initial conditions.",
     *("theorem_2_ball", "theorem_2_energy", "theorem_2_widened"),
 )
 
 
 @claim(
     "Proof of Theorem 2",
-    "-H > 0 for small data.",
+    "-H > 0 for small initial conditions.",
     checks("negative_depth"),
-    controls=(Control("data a hundred times as large", "checks/wrong/negative_depth"),),
+    controls=(Control("initial conditions 100 times as large", "checks/wrong/negative_depth"),),
 )
 def positive_depth(depth) -> Finding:
     radius = number(depth, "largest_start")
     measured = {"largest_energy": number(depth, "most_energy"), "radius": radius}
-    return judge(measured, Below(0.0, "largest_energy", says="largest H / P of data in the ball"))
+    return judge(measured, Below(0.0, "largest_energy", says="largest H / P within the radius"))
 
 
 @claim(
@@ -195,7 +197,9 @@ def positive_depth(depth) -> Finding:
     checks("bootstrap"),
     controls=(
         Control(
-            "states below the barrier, as continuity gives", "checks/wrong/bootstrap", confirms=True
+            "only states below the barrier, which continuity in time ensures",
+            "checks/wrong/bootstrap",
+            confirms=True,
         ),
     ),
 )
@@ -204,19 +208,21 @@ def bootstrap(check) -> Finding:
     measured = {name: number(check, name) for name in names}
     _, allowed, breaking = measured.values()
     fails = (
-        f"a pair with P = {breaking:.3g} satisfies (25) and has the energy of data for"
-        f" which (24) allows {allowed:.3g}: the proof assumes P <= C_0 delta,"
-        " which it is to prove; the theorem stands, as P is continuous and starts below the barrier"
+        f"a state with P = {breaking:.3g} satisfies (25) at an energy for which (24) allows only "
+        f"{allowed:.3g}: the proof assumes the bound P <= C_0 delta that it is to prove; the "
+        "theorem stands, because P is continuous in time and starts below the barrier"
     )
-    criterion = AtMost(allowed, "largest_power", says="largest P that the premises allow")
+    criterion = AtMost(
+        allowed, "largest_power", says="largest P that the proof's inequalities allow"
+    )
     return judge(measured, criterion, fails=fails)
 
 
 theorem_3 = theorem(
     "theorem_3",
-    "On N sites the l2 norm is bounded for all parameters and data.",
+    "On N sites the l2 norm is bounded for all parameters and initial conditions.",
     "theorem_3",
-    reading="random and worst data",
+    reading="random and worst cases",
 )
 
 
@@ -229,13 +235,16 @@ theorem_3 = theorem(
 def theorem_3_proof(constant) -> Finding:
     measured = {name: constant[name].min() for name in ("printed", "corrected")}
     measured["smallest_chain"] = smallest = number(constant, "smallest")
-    fails = f"A = -B = x (-1)^n breaks it from {smallest:.0f} sites on; it needs 2 gamma"
-    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H - bound"), fails=fails)
+    fails = (
+        f"A = -B = x (-1)^n violates it on {smallest:.0f} sites and more; with 2 gamma in place of "
+        "gamma it holds"
+    )
+    return judge(measured, AtLeast(ROUNDING_OF_H, "printed", says="H less the bound"), fails=fails)
 
 
 @claim(
     "Theorem 3",
-    "The bound C_N grows without end as N does, and has to.",
+    "The bound C_N grows without bound with N, and must do so.",
     checks("chain_growth"),
     controls=(
         Control("Omega = 8, where Theorem 1 bounds P on any chain", "checks/wrong/chain_growth"),
@@ -246,12 +255,10 @@ def bound_grows(check) -> Finding:
     measured = {name: number(check, name) for name in names}
     over = check["late_power"].mean("member") / check["constant_n"]
     measured["part_of_the_bound"] = over.values[-1]
-    caveat = (
-        "has to at Omega = 0; for Omega > 2 gamma + 4 epsilon Theorem 1 has one bound for all N"
-    )
+    caveat = "it must at Omega = 0; above the band Theorem 1 gives one bound for all N"
     criterion = AllOf(
-        Above(IN_PROPORTION, "constant_exponent", says="exponent of C_N in N"),
-        Above(IN_PROPORTION, "power_exponent_low", says="least exponent of the late mean of P"),
+        Above(IN_PROPORTION, "constant_exponent", says="exponent of N in C_N"),
+        Above(IN_PROPORTION, "power_exponent_low", says="lower confidence limit of that in P"),
     )
     return judge(measured, criterion, caveat)
 
@@ -266,8 +273,8 @@ def energy_not_useful(check) -> Finding:
     names = ("shell_exponent", "least_quotient", "largest_quotient")
     measured = {name: number(check, name) for name in names}
     criterion = AllOf(
-        Above(IN_PROPORTION, "shell_exponent", says="exponent of the largest P of one energy in N"),
-        Below(0.0, "least_quotient", says="least H / P of tiny data"),
-        Above(0.0, "largest_quotient", says="their largest H / P"),
+        Above(IN_PROPORTION, "shell_exponent", says="exponent of N in the largest P of one energy"),
+        Below(0.0, "least_quotient", says="least H / P of tiny initial conditions"),
+        Above(0.0, "largest_quotient", says="largest H / P of tiny initial conditions"),
     )
     return judge(measured, criterion)

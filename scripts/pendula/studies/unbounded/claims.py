@@ -33,8 +33,8 @@ SECTION = 5
 # ASSUME: l2 "grows" in time if it grows by the paper's factor of 2 after its time windows begin,
 # and if its exponent over the last octaves is above that of diffusion. A front that moves steadily
 # makes it 1/2.
-SURE = Cutoff(0.95, "the confidence of all limits, as is the custom", 1.0)
-SLOW = Cutoff(0.25, "the exponent of l2 of a bulk that spreads by diffusion; a steady front: 1/2")
+SURE = Cutoff(0.95, "the customary level of confidence, 95 %", 1.0)
+SLOW = Cutoff(0.25, "the exponent of l2 in diffusion; a steady front gives 1/2")
 HALF = 0.5
 SHORTEST = 100.0
 """Runs that end before are no test of growth in time."""
@@ -88,7 +88,7 @@ def factors_of(run, variant: int = 0) -> np.ndarray:
 def grows(power: str = "exponent_at_least", factor: str = "factor_at_least") -> Criterion:
     """Return what lower limits keep where l2 grows."""
     return AllOf(
-        Above(SLOW, power, says="lower limit of the exponent of tau in l2"),
+        Above(SLOW, power, says="lower confidence limit of the exponent of tau in l2"),
         Above(FACTOR, factor, says=f"least factor by which l2 grew since tau = {SETTLED:g}"),
     )
 
@@ -131,7 +131,7 @@ def one_stays(run):
 
 
 LAWS = {
-    "tau^(1/4), as diffusion makes it": lambda tau: 20.0 * np.sqrt(np.sqrt(tau)),
+    "tau^(1/4), as in diffusion": lambda tau: 20.0 * np.sqrt(np.sqrt(tau)),
     "a logarithm of tau": lambda tau: 10.0 + 10.0 * log(tau),
     "a limit that is approached as tau^(-1/2)": lambda tau: 200.0 * (1.0 - 1.2 / np.sqrt(tau)),
 }
@@ -167,20 +167,20 @@ def unbounded_in_time(run, thermal) -> Finding:
         "over_its_law": l2[:, -1].mean() / law,
         "sites": 2.0 * np.floor(float(one["front"].isel(piece_tau=-1).max())) + 1.0,
     }
-    caveat = f"up to tau = {tau[-1]:.0f}: it would fall with a front that stops"
+    caveat = f"shown up to tau = {tau[-1]:.0f}; the growth would end if the front stopped"
     if abs(measured["exponent"] - HALF) > measured["error"]:
-        caveat += "; its limits do not hold 1/2"
+        caveat += "; the confidence interval of the exponent excludes 1/2"
     return judge(measured, grows(), caveat)
 
 
 @claim(
     "Section 5, before Fig 5",
     "Growth of the l2 norm on the unbounded lattice is not ruled out for Omega < 2 gamma + "
-    "4 epsilon: here it is seen at every Omega tried in the unstable band.",
+    "4 epsilon. (It is found here throughout the unstable band.)",
     unbounded("omegas"),
     (
         Control("amplitudes at Omega = -4", "amplitudes"),
-        Control("at one Omega l2 has stopped to grow", one_stays),
+        Control("at one Omega l2 stops growing", one_stays),
         *in_place_of("omegas", SLOWER),
     ),
 )
@@ -194,10 +194,10 @@ def unbounded_band(run) -> Finding:
         "least_factor": min(factors_of(run, variant).min() for variant in range(tries)),
         "values": tries,
     }
-    caveat = f"at {tries} values of Omega from {omegas.min():g} to {omegas.max():g}"
+    caveat = f"tested at {tries} values of Omega from {omegas.min():g} to {omegas.max():g}"
     off = [f"{at:g}" for at, q in zip(omegas, found, strict=True) if not q.low < HALF < q.high]
     if off:
-        caveat += f"; at Omega = {', '.join(off)} the limits do not hold the exponent 1/2"
+        caveat += f"; at Omega = {', '.join(off)} the exponent is significantly off 1/2"
     return judge(measured, grows("exponents_at_least", "least_factor"), caveat)
 
 
@@ -221,10 +221,10 @@ def unbounded_large(run, amplitudes, sensitivity) -> Finding:
     which = ", ".join(f"{size:g}" for size, share in zip(sizes, spread, strict=True) if share == 1)
     end, scanned = float(amplitudes["tau"][-1]), sensitivity["initial"].values
     amplitude = (
-        f"it depends on the data: of the amplitudes |A_0| = 5 |B_0| that were tried,"
-        f" {which or 'none'} made l2 grow by a factor of {FACTOR.number:g} to tau = {end:g}, and"
-        f" {int(sensitivity['spread'].sum())} of {scanned.size} amplitudes A_0 from"
-        f" {scanned.min():g} to {scanned.max():g} spread"
+        f"it depends on the amplitude: of {tried} initial conditions with |A_0| = 5 |B_0| those "
+        f"with |A_0| = {which or 'none'} let l2 grow by a factor of {FACTOR.number:g} to tau = "
+        f"{end:g}, and {int(sensitivity['spread'].sum())} of {scanned.size} with A_0 from "
+        f"{scanned.min():g} to {scanned.max():g} spread"
     )
     caveat = joined("" if min(spread) == 1.0 else amplitude, near.caveat)
     outside = Below(-2.0 * run.attrs["gamma"], "omega", says="Omega of the run")
@@ -241,7 +241,7 @@ def stays(run) -> Finding:
     start = tau[-1] * 0.5**OCTAVES
     gained = fit_line(tau, curves_of(run, "l2")[:1] ** 2, start, SURE.value).relative
     measured = {"growth": 0.5 * gained.value, "growth_at_most": 0.5 * gained.high, "end": tau[-1]}
-    says = f"upper limit of the relative growth of l2 since tau = {start:g}"
+    says = f"upper confidence limit of the relative growth of l2 since tau = {start:g}"
     return judge(measured, Below(CONSTANT, "growth_at_most", says=says))
 
 
@@ -267,18 +267,18 @@ def unbounded_stable(run) -> Finding:
     return stays(run)
 
 
-BEYOND = Cutoff(1.1, "of the front's way v T: nothing that is seen runs ahead of it", 1.0)
-WITHIN = Cutoff(0.5, "of the front's way v T: it met the end halfway", 1.0)
-LOWER = Cutoff(0.98, '"does not change": what is lower by more than 2 % does', 1.0)
+BEYOND = Cutoff(1.1, "of v T: nothing visible runs ahead of the front", 1.0)
+WITHIN = Cutoff(0.5, "of v T: the front has met the end halfway", 1.0)
+LOWER = Cutoff(0.98, '"does not change": by less than 2 %', 1.0)
 
 
 @claim(
     "Section 5, Fig 5 right",
-    "Growth in M on a fixed window shows growth on the unbounded lattice.",
+    "Growth with M in a fixed time window shows growth on the unbounded lattice.",
     unbounded("map_fig5_right"),
     (
-        Control("small data at Omega = -4, which do not grow", "map_fig5_left"),
-        Control("large data at Omega = 8, which do not grow", "map_fig6_left"),
+        Control("the small case at Omega = -4, which does not grow", "map_fig5_left"),
+        Control("the large case at Omega = 8, which does not grow", "map_fig6_left"),
         Control(
             "maxima that do not depend on M",
             lambda found: found.assign(l2=found["l2"].isel(half_width=-1) + 0.0 * found["l2"]),
@@ -296,9 +296,9 @@ def unbounded_window(run) -> Finding:
     near = [l2[widths < WITHIN.value * reach[j], j] / l2[-1, j] for j in late]
     far, near = np.concatenate(far), np.concatenate(near)
     if not far.size * near.size:
-        raise UndecidableError("the half-widths lie all on one side of the front's way")
+        raise UndecidableError("all half-widths are on one side of the distance v T")
     measured = {"beyond": np.abs(far - 1.0).max(), "within": near.max()}
-    caveat = "only while M is below v T, the front's way in the time T; beyond it l2 is level in M"
+    caveat = "only for M below v T, the distance of the front at the time T; above it l2 is level"
     level = Below(CONSTANT, "beyond", says="relative change of the maxima beyond v T")
-    lower = Below(LOWER, "within", says="maxima below v T / 2 over the level")
+    lower = Below(LOWER, "within", says="maxima below v T / 2, over those beyond v T")
     return judge(measured, AllOf(level, lower), caveat)

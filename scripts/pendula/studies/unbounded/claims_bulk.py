@@ -56,7 +56,7 @@ def told_apart(omegas: np.ndarray, ratios: list[Limits], what: str) -> str:
         for omega, ratio in zip(omegas, ratios, strict=True)
         if not ratio.low < 1.0 < ratio.high
     ]
-    off = f"{what} is off the thermal state by more than its limits at Omega = {', '.join(apart)}"
+    off = f"{what} differs from that of the thermal state at Omega = {', '.join(apart)}"
     return off if apart else ""
 
 
@@ -67,7 +67,7 @@ def at_energy(thermal, energy: float) -> dict[str, float]:
     """
     solved = thermal["site_energy"].values
     if solved.size < 2 or not solved[0] <= energy <= solved[-1]:
-        raise UndecidableError(f"no thermal state with the energy {energy:.3g} a site was solved")
+        raise UndecidableError(f"no thermal state of energy {energy:.3g} per site was computed")
     powers, cubic = thermal["warm_power"].values, thermal["warm_terms"].sel(term="cubic").values
     below = max(int(np.searchsorted(solved, energy)) - 1, 0)
     return {
@@ -133,7 +133,7 @@ SCATTER = 0.01
 NEXT_OMEGA = roll("power", {"omega": 1})
 STILL = tuple(
     Control(
-        f"the stable run {name}, held to the thermal state of the nearest Omega",
+        f"the stable run {name}, compared with the thermal state at the nearest Omega",
         {"unbounded/omegas": (f"unbounded/{name}", held_to_the_nearest)},
     )
     for name in ("fig2_large", "fig3_small")
@@ -148,8 +148,8 @@ STILL = tuple(
     (
         *STILL,
         Control("the thermal states of the next Omega", {"thermal": NEXT_OMEGA}),
-        Control("P falls as 1 / tau, as that of waves", {"omegas": as_of_waves}),
-        Control("noise of the same mean for P", {"omegas": noise}),
+        Control("a P that falls as 1 / tau, as for dispersing waves", {"omegas": as_of_waves}),
+        Control("noise of the same mean in place of P", {"omegas": noise}),
     ),
     reading="infinite chain",
 )
@@ -169,25 +169,32 @@ def unbounded_equilibrium(run, thermal) -> Finding:
         "largest_change": change.max(),
     }
     criterion = AllOf(
-        Near(1.0, CHANGE, "at_least", "at_most", says="limits of P over the thermal one"),
-        Near(1.0, CHANGE, "least_change", "largest_change", says="its last quarter over the third"),
+        Near(1.0, CHANGE, "at_least", "at_most", says="confidence interval of P over thermal P"),
+        Near(
+            1.0,
+            CHANGE,
+            "least_change",
+            "largest_change",
+            says="P in the last quarter of the run over the third",
+        ),
     )
     return judge(measured, criterion, told_apart(omegas, ratios, "P"))
 
 
 @claim(
     "Beyond the paper",
-    "At Omega = 0 l2^2 grows as 2 v P tau: P is that of the thermal state, v the speed of linear"
-    " spreading.",
+    "At Omega = 0 l2^2 grows as 2 v P tau, where P is that of the thermal state and v the speed of"
+    " linear spreading.",
     unbounded("fig4_small", "omegas", "thermal"),
     (
         Control("the thermal states of the next Omega", {"thermal": NEXT_OMEGA}),
         Control(
-            "the stable run fig2_large, held to the speed and the thermal state of Omega = 0",
+            "the stable run fig2_large, compared with the speed and the thermal state at Omega = 0",
             {"fig4_small": ("fig2_large", behind_its_front)},
         ),
         Control(
-            "large data at Omega = -4, held to the speed and the thermal state of Omega = 0",
+            "the large case at Omega = -4, compared with the speed and the thermal state at Omega "
+            "= 0",
             {"fig4_small": ("fig3_large", behind_its_front)},
         ),
         Control("a speed that is 5 % too high", {"fig4_small": scale("predicted_speed", 1.05)}),
@@ -209,9 +216,9 @@ def unbounded_slope(run, band, thermal) -> Finding:
         "power_of_bulk_error": bulk.half,
         "thermal_power": thermal_powers(thermal, run["omega"].values)[0],
     } | {f"at_omega_{omega:g}": one.value for omega, one in zip(omegas, ratios, strict=True)}
-    says = "limits of the slope of l2^2 over 2 v P at Omega = 0"
+    says = "confidence interval of the slope of l2^2 over 2 v P at Omega = 0"
     criterion = Near(1.0, CONSTANT, "centre_at_least", "centre_at_most", says=says)
-    elsewhere = told_apart(omegas, ratios, "not in the whole band: the slope")
+    elsewhere = told_apart(omegas, ratios, "only near Omega = 0: elsewhere the slope")
     return judge(measured, criterion, elsewhere)
 
 
@@ -220,21 +227,22 @@ WARM, THERMAL = "unbounded/fig3_large", "unbounded/thermal"
 
 @claim(
     "Beyond the paper",
-    "At Omega = -4 the front leaves energy behind, and the bulk is thermal at that energy.",
+    "At Omega = -4 the front leaves energy behind, and the bulk is in the thermal state of that"
+    " energy.",
     unbounded("fig3_large", "thermal"),
     (
         Control("at Omega = 0", {WARM: "unbounded/fig4_small"}),
         Control("the stable run fig2_large", {WARM: "unbounded/fig2_large"}),
         Control(
-            "energy of either sign",
+            "energies of both signs",
             {WARM: lambda run: scale("bulk_terms", on_every_second(run, 1.0))(run)},
         ),
-        Control("noise of the same mean for P", {WARM: noise}),
+        Control("noise of the same mean in place of P", {WARM: noise}),
         Control(
-            "the cold state at every energy",
+            "the thermal state of zero energy at every energy",
             {THERMAL: lambda thermal: put("warm_power", at_energy(thermal, 0.0)["power"])(thermal)},
         ),
-        Control("a bulk in the cold state", {WARM: (THERMAL, with_power(warm=False))}),
+        Control("a bulk in the state of zero energy", {WARM: (THERMAL, with_power(warm=False))}),
         Control(
             "a bulk in the thermal state of its energy",
             {WARM: (THERMAL, with_power(warm=True))},
@@ -247,32 +255,38 @@ def unbounded_warm(run, thermal) -> Finding:
     times_of(run)
     measured = bulk_with_energy(run, thermal)
     end = f"by tau = {run['tau'].values[-1]:.0f}"
-    says = "limit of P of the bulk less that of its thermal state, with the error of its energy"
+    says = "confidence limit of P of the bulk less that of the thermal state of its energy"
     with_energy = AllOf(
-        Above(0.0, "energy_at_least", says="lower limit of the energy a site of the bulk"),
+        Above(0.0, "energy_at_least", says="lower confidence limit of the energy per site"),
         AtMost(0.0, "off_thermal_at_least", says=f"lower {says}"),
         AtLeast(0.0, "off_thermal_at_most", says=f"upper {says}"),
-        Above(0.0, "states_apart", says="P of that state less that of the state of no energy"),
+        Above(0.0, "states_apart", says="P of that state less that at zero energy"),
     )
-    told = Above(0.0, "above_cold_at_least", says="lower limit of P less that of no energy")
+    told = Above(
+        0.0,
+        "above_cold_at_least",
+        says="lower confidence limit of P less that at zero energy",
+    )
     power, cold = measured["power"], measured["thermal_power_without_energy"]
     warm, moved = measured["thermal_power"], measured["moved_at_most"]
     off = with_energy.failing(measured)
     if not off and not told.holds(measured):
-        return undecided(measured, f"{end} P agrees with the states of its energy and of none")
+        return undecided(
+            measured, f"{end} P agrees with the states of its energy and of zero energy"
+        )
     only_power = bool(off) and not {"energy_at_least", "states_apart"} & set(off)
     if only_power and abs(measured["off_thermal"]) <= moved:
         return undecided(
             measured,
-            f"{end} P = {power:.2f} is not yet the {warm:.2f} of the thermal state, and the last "
-            f"quarter of the run may have moved it by {moved:.2f}",
+            f"{end} P = {power:.2f} differs from the {warm:.2f} of the thermal state, but may "
+            f"still be changing: in the last quarter of the run by up to {moved:.2f}",
         )
     error = measured["power_error"]
     agrees = "agrees with" if abs(power - cold) <= error else "differs also from"
     fails = (
-        f"energy is left behind, but {end} the bulk is not yet thermal at it: P = {power:.2f} +- "
-        f"{error:.2f} {agrees} the state of no energy ({cold:.2f}) and is off that of its energy "
-        f"({warm:.2f}) by more than its limits"
+        f"energy is left behind, but {end} the bulk is not yet in the thermal state of that "
+        f"energy: P = {power:.2f} +- {error:.2f} {agrees} that of zero energy ({cold:.2f}) and "
+        f"differs significantly from that of its energy ({warm:.2f})"
     )
     has_energy = measured["energy_at_least"] > 0.0 and measured["states_apart"] > 0.0
     return judge(measured, AllOf(*with_energy.criteria, told), fails=fails if has_energy else "")

@@ -30,9 +30,9 @@ from .measured import FRONT, resolution, speeds
 
 SECTION = 5
 
-RESOLVED = Cutoff(1.0, "a front lies between two sites: half a site either way over the fit's time")
+RESOLVED = Cutoff(1.0, "the place of a front is known to half a site, over the time of the fit")
 HALF_OF_THEM = Cutoff(0.5, '"many": more than half of the sites that the front has passed', 1.0)
-SEEN = Cutoff(VISIBLE, "the visible fraction of full scale, about a line's width")
+SEEN = Cutoff(VISIBLE, "a reader sees a difference of 1 % of full scale, about the width of a line")
 FAR_AHEAD = 1e6
 """The tau at which the law of the largest amplitude is quoted."""
 
@@ -56,8 +56,8 @@ def a_stop(run):
             roll("predicted_speed", {"variant": 1}),
         ),
         Control("fronts that stop", a_stop),
-        Control("small data at Omega = -4", "fig3_small"),
-        Control("large data at Omega = 8", "fig2_large"),
+        Control("the small case at Omega = -4", "fig3_small"),
+        Control("the large case at Omega = 8", "fig2_large"),
     ),
 )
 def unbounded_front(run) -> Finding:
@@ -70,8 +70,8 @@ def unbounded_front(run) -> Finding:
         "furthest_over_resolution": off.max() / known,
         "values": len(off),
     }
-    says = "largest difference of the speed from that of linear spreading, over its resolution"
-    fails = "no front moves on at the speed of linear spreading"
+    says = "largest error of the speed of linear spreading, over the resolution"
+    fails = "not every front moves at the speed of linear spreading"
     return judge(measured, AtMost(RESOLVED, "furthest_over_resolution", says=says), fails=fails)
 
 
@@ -90,11 +90,11 @@ def at_the_next_omega(right, omegas):
     "The l-infinity norm remains finite at the dynamical equilibrium.",
     unbounded("fig4_small", "thermal"),
     (
-        Control("l2, which grows as the root of tau, in its place", {MAIN: take(linf="l2")}),
+        Control("l2, which grows as the square root of tau, in its place", {MAIN: take(linf="l2")}),
         Control("largest amplitudes higher by 5 %", {MAIN: scale(LARGEST, 1.05)}),
         Control("largest amplitudes lower by 5 %", {MAIN: scale(LARGEST, 0.95)}, undecided=True),
         Control(
-            "a maximum that has come to a limit",
+            "a maximum that does not grow from 16 sites on",
             {MAIN: repeat("neighbours", 4, slice(4, None), "bulk_maximum")},
             undecided=True,
         ),
@@ -104,7 +104,7 @@ def at_the_next_omega(right, omegas):
             undecided=True,
         ),
         Control("the bulk at another Omega", {MAIN: (OMEGAS, at_the_next_omega)}, undecided=True),
-        Control("small data at Omega = -4", {MAIN: "unbounded/fig3_small"}, undecided=True),
+        Control("the small case at Omega = -4", {MAIN: "unbounded/fig3_small"}, undecided=True),
     ),
 )
 def unbounded_maximum(run, thermal) -> Finding:
@@ -119,13 +119,13 @@ def unbounded_maximum(run, thermal) -> Finding:
     one, sizes = run.isel(variant=0), run["neighbours"].values
     late = times_of(run) > LATE * float(run["tau"][-1])
     if float(one["omega"]) != float(thermal["bound_omega"]):
-        raise UndecidableError("no law of the largest amplitude was solved at this Omega")
+        raise UndecidableError("the thermal state at this Omega was not computed")
     found = one["bulk_maximum"].transpose("neighbours", "member", "piece_tau").values
     found, expected = late_means(found, run)[0], mean_maximum(thermal, sizes)
     fronts = late_means(one["front"].sel(front_power=FRONT).values, run)[0]
     norms = curves_of(run, "linf")[:, late].mean(axis=1) / mean_maximum(thermal, fronts)
     if len(norms) < 2 or not np.isfinite([*found, norms]).all():
-        raise UndecidableError("it takes two whole runs, and a bulk as long as the largest block")
+        raise UndecidableError("there are fewer than two complete runs, or the bulk is too short")
     blocks = mean_limits((found / expected[:, None]).T, sure(len(sizes)))
     norm, ahead = mean_limits(norms, sure()), float(one["predicted_speed"]) * FAR_AHEAD
     measured = {
@@ -140,27 +140,28 @@ def unbounded_maximum(run, thermal) -> Finding:
         "thermal_at_1e6": mean_maximum(thermal, ahead),
     }
     if measured["bulk_at_least"] < 1.0 - CONSTANT.value:
-        return undecided(measured, "the largest amplitudes of the bulk are below the thermal ones")
-    says = f"limits of the largest of {sizes[0]} to {sizes[-1]} neighbours over the thermal one"
-    above = "upper limit of the norm over that of a chain in equilibrium up to the front, less one"
+        return undecided(measured, "the largest amplitudes of the bulk are below thermal ones")
+    says = f"confidence interval of the maximum on {sizes[0]} to {sizes[-1]} sites over thermal"
+    above = "upper confidence limit of the norm over that in equilibrium up to the front, less 1"
     criterion = AllOf(
         Near(1.0, CONSTANT, "bulk_at_least", "bulk_at_most", says=says),
         AtMost(CONSTANT, "norm_above_thermal", says=above),
     )
     caveat = (
-        "its mean on N sites is that of the thermal state and rises without a bound, as "
-        f"(ln N)^(1/4): at tau = 1e6 it would be {measured['thermal_at_1e6']:.2f}"
+        "it is that of the thermal state on the N sites behind the front, which is finite but "
+        "grows without bound, as (ln N)^(1/4); at tau = 1e6 it would be "
+        f"{measured['thermal_at_1e6']:.2f}"
     )
     return judge(measured, criterion, caveat)
 
 
 @claim(
     "Section 5, Fig 3 lower",
-    "The l-infinity norm stays at the same level as the initial data.",
+    "The l-infinity norm stays at its initial level.",
     (*unbounded("fig3_large"), SENSITIVITY),
     (
-        Control("small data at Omega = 0, where it grows sixfold", {"fig3_large": "fig4_small"}),
-        Control("small data at Omega = -4, which disperse", {"fig3_large": "fig3_small"}),
+        Control("the small case at Omega = 0, where it grows", {"fig3_large": "fig4_small"}),
+        Control("the small case at Omega = -4, which disperses", {"fig3_large": "fig3_small"}),
         FAR_AS_NEAR,
     ),
     reading="infinite chain",
@@ -178,7 +179,7 @@ def unbounded_large_maximum(run, sensitivity) -> Finding:
         "end": tau[-1],
     }
     names = ("mean_over_initial_at_most", "mean_over_initial_at_least")
-    says = "limits of the mean since tau = 10 over the initial value"
+    says = "confidence interval of the mean since tau = 10 over the initial value"
     criterion = AllOf(WithinFactor(FACTOR, *names, says=says), near.criterion)
     return judge(measured | near.measured, criterion, near.caveat)
 
@@ -202,13 +203,13 @@ CENTRE = 8
     "Many pendula oscillate with large and comparable amplitudes with respect to the central one.",
     unbounded("fig4_small"),
     (
-        Control("large data at Omega = 8, alone in the centre", "fig2_large"),
+        Control("the large case at Omega = 8, which stays at the centre", "fig2_large"),
         Control(
-            "the largest data at Omega = -4, which stay in the centre",
+            "the largest initial condition at Omega = -4, which stays at the centre",
             ("amplitudes", from_amplitude(8.0)),
         ),
         Control(
-            "small data at Omega = -4, which disperse: no bulk is left to compare",
+            "the small case at Omega = -4, which disperses and leaves no bulk to compare",
             "fig3_small",
             undecided=True,
         ),
@@ -221,7 +222,7 @@ def unbounded_many(run) -> Finding:
     fronts = one["front"].isel(piece_tau=-1).sel(front_power=FRONT).values
     powers = (one["state"].transpose("member", "row", "site").values ** 2).sum(axis=1)
     if fronts.min() <= 0:
-        raise UndecidableError("nothing of the power of a front moves any more")
+        raise UndecidableError("no front of this power is left")
     bulks = [p[CENTRE : int(front)] for p, front in zip(powers, fronts, strict=True)]
     centres = powers[:, :CENTRE].mean(axis=1)
     pairs = list(zip(bulks, centres, strict=True))
@@ -236,8 +237,14 @@ def unbounded_many(run) -> Finding:
         "sites": 2.0 * np.floor(fronts.min()) + 1.0,
     }
     names = ("over_centre_at_least", "over_centre_at_most")
-    alike = WithinFactor(FACTOR, *names, says="limits of the amplitude over that about the centre")
-    many = Above(HALF_OF_THEM, "share_at_least", says="lower limit of the share of such sites")
+    alike = WithinFactor(
+        FACTOR, *names, says="confidence interval of the amplitude over the central one"
+    )
+    many = Above(
+        HALF_OF_THEM,
+        "share_at_least",
+        says="lower confidence limit of the share of such sites",
+    )
     return judge(measured, AllOf(alike, many))
 
 
@@ -247,8 +254,10 @@ def unbounded_many(run) -> Finding:
     " determine.",
     unbounded("fig3_small", "fig2_large"),
     (
-        Control("large data at Omega = -4", {"fig3_small": ("amplitudes", from_amplitude(5.0))}),
-        Control("the unstable chain", {"fig2_large": "fig4_small"}),
+        Control(
+            "the large case at Omega = -4", {"fig3_small": ("amplitudes", from_amplitude(5.0))}
+        ),
+        Control("the unstable case at Omega = 0", {"fig2_large": "fig4_small"}),
     ),
     reading="infinite chain",
 )
@@ -257,10 +266,10 @@ def unbounded_determined(small, large) -> Finding:
     measured = {}
     for name, run in (("small", small), ("large", large)):
         if run.sizes["member"] < 2:
-            raise UndecidableError("one run shows nothing of its neighbours")
+            raise UndecidableError("a single run cannot show how close runs part")
         times_of(run)
         l2 = curves_of(run, "l2")
         measured[f"{name}_apart"] = np.abs(l2[1] - l2[0]).max() / l2[0].max()
         measured[f"{name}_apart_at_first"] = np.abs(l2[1, 0] - l2[0, 0]) / l2[0].max()
-    says = "largest difference of l2 of two runs over its full scale"
+    says = "largest difference of l2 of two slightly different runs, over full scale"
     return judge(measured, Below(SEEN, "small_apart", "large_apart", says=says))

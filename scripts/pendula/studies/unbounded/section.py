@@ -26,13 +26,13 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
             [_case(results, name) for name in cases],
         ),
         "growth_law": results.figure("growth_law", (
-            "Infinite chains against τ. Above: (ℓ²)² over τ, and its relative deviation from its law where "
-            "there is one. Shaded bands reach from the lowest to the highest run of an ensemble; "
-            "bars are confidence intervals of the mean by Student's t. The dashed law has no "
-            "fitted constant: twice the speed of linear spreading times P of the thermal state, "
-            "less the known delay of a pulled front. The dotted line adds a constant to (ℓ²)², "
-            "which is fitted. Below: the exponents of τ in ℓ², and ℓ∞, whose dashed law is that of "
-            "a chain in equilibrium up to the front."
+            "Infinite chains against τ. Above: (ℓ²)² over τ, and its relative deviation from its "
+            "law where there is one. Shaded bands reach from the lowest to the highest run of an "
+            "ensemble; bars are confidence intervals of the mean by Student's t. The dashed law "
+            "has no fitted constant: twice the speed of linear spreading times P of the thermal "
+            "state, less the known delay of a pulled front. The dotted line adds a constant to "
+            "(ℓ²)², which is fitted. Below: the exponents of τ in ℓ², and ℓ∞, whose dashed law is "
+            "that of a chain in equilibrium up to the front."
         )),
         "maxima": _maxima(results, ledger),
         "fronts": Table(
