@@ -47,7 +47,8 @@ def test_figures_and_claims_rerun_alone(full_run, clone):
     change(clone / "scripts/pendula/studies/paper/claims_norms.py")
     jobs = planned(clone, full_run)
     figures = {"fig1", "stability_figures", "bounds"}
-    assert set(jobs) == {*figures, "decide_figures", "claims", "report", "article", "all"}
+    assert set(jobs) == {*figures, "decide_claims", "claims", "report", "article", "all"}
+    assert jobs["decide_claims"] == 1  # those on the paper's figures
 
 
 def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(full_run, clone):
