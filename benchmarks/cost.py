@@ -1,6 +1,6 @@
 """How the cost of a run grows with the chain, with time, and with the sites in motion.
 
-Costs are times a site and unit of slow time. A chain without ends has no number of sites; its cost
+Costs are times a site and unit of slow time. An infinite chain has no number of sites; its cost
 is counted by its active sites, those that are integrated: 0..W of data that are even in n.
 """
 
@@ -29,10 +29,10 @@ BY_HAND = ("cpp_taylor", "cpp_taylor_contracted", "cpp_taylor_eight")
 """The method of `taylor` in C++. Short runs compare the calls from Python, long ones kernels."""
 
 ACTIVE_WIDTHS = (1_000, 3_000, 10_000, 100_000, 500_000)
-"""W where 2W + 1 sites of a chain without ends are active."""
+"""W where 2W + 1 sites of an infinite chain are active."""
 ACTIVE_DURATION = 0.5
 ACTIVE_TOLERANCE = 1e-8
-"""What the study of the chain without ends asks for."""
+"""What the study of the infinite chain asks for."""
 
 CONSTANTS = Constants(epsilon=1.0, gamma=1.0, omega=0.0)
 
@@ -120,7 +120,7 @@ def active_sites(width: int) -> np.ndarray:
 
 
 def measure_active() -> dict[str, Variable]:
-    """Return time, right-hand sides and memory of DOP853 on a chain without ends."""
+    """Return time, right-hand sides and memory of DOP853 on an infinite chain."""
     rows = np.array([_of_active(width) for width in ACTIVE_WIDTHS])
     dims, seconds = ("active_width",), "time a site 0..W and unit of slow time"
     return {

@@ -84,7 +84,7 @@ def _solvers(case: xr.Dataset) -> str:
 
 def tabulate_cost(cost: xr.Dataset) -> list[str]:
     """Return the parts of a page on how the cost grows: with chain, time and active sites."""
-    title, said = "## Time per site and unit of slow time, in µs, against the ", "one core, medians."
+    title, said = "## Time per site and unit of slow time, in µs, over the ", "one core, medians."
     short, long = (cost["seconds"].sel(sites=sites).values for sites in COMPARED)
     ratios = [f"{ratio:.3g}" for ratio in long / short]
     last = [f"{COMPARED[1]} over {COMPARED[0]}", *ratios]

@@ -81,6 +81,7 @@ def keep_passages(results: Path, folder: Path) -> None:
     _write(folder / "pendula.nc", title, kept, **about)
 
 
+HALF = "half of its 95 % confidence interval"
 OCTAVES = 2
 """The exponents hold for so many of the last octaves of time, as in the ledger."""
 
@@ -105,7 +106,7 @@ def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
     level = FRONT if pulled else BULK
     speed, error = speeds(run, level, corrected=pulled)
     power, slope = mean_limits(mean_powers(run, level)[0]), slope_powers(run)[0]
-    limits = "half of its 95 % confidence interval"
+    limits = HALF
     return {
         "end": (float(run["tau"][-1]), "slow time at the end"),
         "members": (run.sizes["member"], "members of the ensemble"),
@@ -152,7 +153,7 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
         "omega_bulk_power": Variable(
             along, powers.value, "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"
         ),
-        "omega_bulk_power_error": Variable(along, powers.half, "half of its 95 % confidence interval"),
+        "omega_bulk_power_error": Variable(along, powers.half, HALF),
         "omega_thermal_power": Variable(
             along,
             thermal_powers(thermal, omegas),
@@ -208,7 +209,7 @@ def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
         "periodic_if_more": (
             f"the same with a cut-off {MARGIN:g} times higher", left <= MARGIN, stays
         ),
-        "alone": ("share of breathers that are nearest to the family with A only", here["breather_family"] == 1,
+        "alone": ("share of breathers nearest to the family A only", here["breather_family"] == 1,
                   periodic),
         "near": (f"share of these within {NEAR} of it",
                  distance <= NEAR, distance.notnull()),

@@ -107,7 +107,7 @@ def breathers(baseline) -> dict[str, float]:
 
 
 def unbounded(baseline) -> dict[str, float]:
-    """Return the errors of the chains without ends, of their solver, and of the thermal states."""
+    """Return the errors of the infinite chains, of their solver, and of the thermal states."""
     growth, front = baseline["unbounded/growth"], baseline["unbounded/front"]
     thermal, runs = baseline["unbounded/thermal"], [baseline[f"unbounded/{n}"] for n in CHAOTIC]
     regular = [baseline[f"unbounded/{name}"] for name in ("fig3_small", "fig2_large")]

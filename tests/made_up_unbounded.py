@@ -1,4 +1,4 @@
-"""Made-up runs on chains without ends, of the form of their datasets, that fit the conjecture."""
+"""Made-up runs on infinite chains, of the form of their datasets, that fit the conjecture."""
 
 import numpy as np
 import xarray as xr

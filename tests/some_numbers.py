@@ -2,9 +2,9 @@
 
     python tests/some_numbers.py given made [theory]
 
-makes them from runs without ends in the folder `given`, and from small arguments, in the functions
-that the rules call, and writes them to the folder `made`; by the third word all checks of the
-theory in place of a few small ones. What solvers give is asked by bits.py.
+makes them from runs on infinite chains in the folder `given`, and from small arguments, in the
+functions that the rules call, and writes them to the folder `made`; by the third word all checks of
+the theory in place of a few small ones. What solvers give is asked by bits.py.
 """
 
 import sys
@@ -50,7 +50,7 @@ def searched() -> xarray.Dataset:
 
 
 def unbounded(given: Path) -> dict[str, xarray.Dataset]:
-    """Return what is fitted to and averaged over runs without ends, and thermal states."""
+    """Return what is fitted to and averaged over runs on infinite chains, and thermal states."""
     runs = {path.stem: read(str(path)) for path in given.glob("*.nc")}
     growth = measure_growth({name: runs[name] for name in GROWN}, runs["thermal"])
     ends = (runs["omegas"], runs["fig4_small"], runs["fig3_large"], runs["thermal"])

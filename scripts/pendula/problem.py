@@ -57,7 +57,7 @@ class Problem:
     and velocities that (3) makes of A and B. Time is the slow time tau. A traced model in place of
     a name has `parameters` and no `constants`; time and data are its own. `initial` is complex, of
     shape (component, 2r + 1): A and B on the sites -r..r at tau = 0; all sites beyond are at rest.
-    `half_width` is M, the chain has the sites -M..M; None stands for a chain without ends.
+    `half_width` is M, the chain has the sites -M..M; None stands for an infinite chain.
     `snapshot_every` keeps the size of each component at every site at each so many outputs; 0 keeps
     none.
 

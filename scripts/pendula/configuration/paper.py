@@ -29,7 +29,7 @@ EQUATION = ("model", "epsilon", "gamma", "omega")
 DATA = (*EQUATION, "initial")
 CHAIN = (*DATA, "boundary", "output_step")
 FINITE = (*CHAIN, "half_width")
-"""What of a case decides a solution: on a chain without ends, on swept chains, on its own chain."""
+"""What of a case decides a solution: on an infinite chain, on swept chains, on its own chain."""
 
 Differences = Mapping[str, str]
 """By dotted path, in words, such as {"cases.fig2_small.omega": "fig2_small.omega (1 in place of

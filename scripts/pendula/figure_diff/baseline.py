@@ -60,7 +60,7 @@ def compare(
 ) -> Verdict:
     """Return a finding for each file of `names` below `made` or in the baseline alone.
 
-    With `any_bits` numbers are compared within a tolerance; `rests_on_chaos` has patterns of `Chaos`.
+    With `any_bits` numbers have a tolerance; `rests_on_chaos` has patterns of `Chaos`.
     """
     try:
         record = recorded(folder)
@@ -78,7 +78,7 @@ def compare(
     findings.sort(key=lambda each: (order.index(each.status), each.name))
     other = "; ".join(unlike_settings(record["environment"], environment()))
     why = "bits=any was given" if any_bits else f"the environment differs: {other}"
-    judged = f"Numbers are compared within a tolerance, up to the horizon of trust, because {why}."
+    judged = f"Numbers are compared within a tolerance up to the horizon of trust: {why}."
     if not (other or any_bits):
         judged = "The environment is the accepted one, so every file must have the accepted bits."
     if not record["files"]:

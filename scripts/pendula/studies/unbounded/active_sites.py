@@ -1,4 +1,4 @@
-"""A chain without ends: only the sites in motion are integrated, 0..W of even data, else -W..W.
+"""An infinite chain: only the sites in motion are integrated, 0..W of even data, else -W..W.
 
 W grows by a block when anything above `rest` of the largest amplitude comes near the last site.
 For the numbers of a short run 1e-20 is enough, four orders below rounding. But a front that is

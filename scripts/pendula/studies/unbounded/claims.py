@@ -1,4 +1,4 @@
-"""The conjecture where it lives: growth in time on chains without ends.
+"""The conjecture where it lives: growth in time on infinite chains.
 
 No run reaches infinity. What these rows decide is whether l2 has grown by a factor, and with which
 exponent of tau over the last octaves of a run in which the front never met an end. An exponent

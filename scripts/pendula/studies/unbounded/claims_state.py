@@ -1,4 +1,4 @@
-"""What moves on chains without ends: the front, the bulk behind it, and its largest amplitude."""
+"""What moves on infinite chains: the front, the bulk behind it, and its largest amplitude."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Chains without ends in pictures: norms against time, and maxima over half-widths and windows."""
+"""Infinite chains in pictures: norms against time, and maxima over half-widths and windows."""
 
 from functools import partial
 

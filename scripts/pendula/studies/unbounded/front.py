@@ -1,4 +1,4 @@
-"""The front of the chain without ends as the linearised equations predict it.
+"""The front of the infinite chain as the linearised equations predict it.
 
 The dispersion relation (15) at complex wave numbers gives the speed at which small data spread.
 D = A - B moves as exp(s t + i k n) with s^2 = 4 gamma^2 - kappa(k)^2 and

@@ -1,4 +1,4 @@
-"""The front on the chain without ends in pictures: its speed, and the bulk behind it."""
+"""The front on the infinite chain in pictures: its speed, and the bulk behind it."""
 
 import numpy as np
 import xarray as xr

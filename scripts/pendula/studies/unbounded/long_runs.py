@@ -1,4 +1,4 @@
-"""Ensembles of long runs on chains without ends, and maxima over half-widths, as datasets."""
+"""Ensembles of long runs on infinite chains, and maxima over half-widths, as datasets."""
 
 from collections.abc import Callable
 

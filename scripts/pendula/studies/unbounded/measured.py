@@ -1,4 +1,4 @@
-"""What is measured of runs on chains without ends: growth of the norms, speeds, the bulk behind.
+"""What is measured of runs on infinite chains: growth of the norms, speeds, the bulk behind.
 
 Where the chain at rest is unstable, a front moves at the speed v of linear spreading and leaves a
 thermal bulk of mean power P per site on both sides. The norm is then l2 = (2 v P tau)^(1/2).

@@ -140,11 +140,11 @@ class Settings(Model):
         return [base | changes[varied.parameter](value) for value in varied.values]
 
     def map_problem(self, case: Mapping[str, Any], size: Size) -> dict:
-        """Return the case of a map over half-widths on a chain without ends."""
+        """Return the case of a map over half-widths on an infinite chain."""
         return self.problem(case, size, size.maps.end_time) | {"output_step": size.maps.output_step}
 
     def problem(self, case: Mapping[str, Any], size: Size, end_time: float) -> dict:
-        """Return a case on a chain without ends."""
+        """Return a case on an infinite chain."""
         kept = {key: case[key] for key in ("epsilon", "gamma", "omega", "initial")}
         return {
             **kept,
