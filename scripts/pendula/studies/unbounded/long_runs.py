@@ -60,7 +60,7 @@ def spread_case(
         for number in range(members):
             runs[-1].append(run_long(member(problem, perturbation, seed, number), rest))
             step(f"{name}: member {number + 1} of {members} of problem {variant + 1} done")
-    title = f"Norms, front and final states of {name} on chains without ends"
+    title = f"Norms, front and final states of {name} on infinite chains"
     return run_variables(problems, runs), attributes(title, name, problems, rest, **ensemble)
 
 

@@ -88,7 +88,7 @@ def measure_growth(runs: Mapping[str, xr.Dataset], thermal: xr.Dataset) -> xr.Da
         values = [one[name].values for one in found]
         variables[name] = Variable(("case", *along), values, long_name)
     shared = shared_by([run.attrs for run in first])
-    return as_xarray(variables, {**shared, "title": "Growth of the norms on chains without ends"})
+    return as_xarray(variables, {**shared, "title": "Growth of the norms on infinite chains"})
 
 
 def _growth_of(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
@@ -262,7 +262,7 @@ def measure_front(
         **_behind(bulk.squeeze("variant"), constants),
         **_thermal(thermal, constants.omega),
     }
-    title = "The front on chains without ends, and the bulk behind it"
+    title = "The front on infinite chains, and the bulk behind it"
     about = {**shared_by([omegas.attrs, bulk.attrs]), **asdict(constants)}
     return as_xarray(variables, {**about, "title": title, "large_omega": large.attrs["omega"]})
 
