@@ -4,16 +4,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-import xarray as xr
 from helpers import chosen
 from oracle import BOUNDARIES, hamiltonian
 from pendula.datasets.checks import broken, variable
-from pendula.ledger.claim import all_claims
-from pendula.ledger.criterion import Verdict
 from pendula.models.bounds import theorem_3_bound
 from pendula.studies.theory.checks import CHECKS, run_check
 from pendula.studies.theory.equations import right_hand_side, run, run_powers, squared_norm
 from pendula.studies.theory.estimates import picard
+from pendula.studies.theory.newton import driven_growth
 from pendula.studies.theory.settings import GROUPS
 from problems import constants_of
 
@@ -77,22 +75,7 @@ def test_picards_first_iterate_is_one_step_of_euler(boundary):
     np.testing.assert_allclose(found, expected, atol=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("second", "error", "verdict"),
-    [
-        (0.2, 0.01, Verdict.CAVEAT),
-        (0.0, 0.01, Verdict.NOT_REPRODUCED),
-        (0.0, 0.5, Verdict.UNDECIDED),  # limits wider than what lies between two exponents
-        (0.2, 0.5, Verdict.UNDECIDED),
-    ],
-)
-def test_a_second_integral_is_seen_where_exponents_are_resolved(second, error, verdict):
-    sizes = np.array([0.0, second, 0.5, 0.7, 0.9, 1.2, 1.5])
-    values = np.concatenate([sizes, -sizes])[None, None]
-    along = ("spectrum_case", "spectrum_half_width", "index")
-    spectra = xr.Dataset(
-        {"exponents": (along, values), "exponents_error": (along, np.full(values.shape, error))},
-        {"spectrum_case": ["fig4_small"], "spectrum_half_width": [3]},
-    )
-    (claim,) = (one for one in all_claims("theory/claims_model") if one.name == "one_integral")
-    assert claim.decide(spectra).verdict == verdict
+def test_a_pair_grows_at_twice_gamma_at_one_to_two_and_nowhere_else():
+    assert driven_growth(0.8, 0.05, 2.0) == pytest.approx(1.6, rel=1e-3)
+    assert driven_growth(0.8, 0.05, 1.3) == 0.0
+    assert driven_growth(0.0, 0.05, 2.0) == pytest.approx(0.0, abs=1e-3)
