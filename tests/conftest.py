@@ -1,11 +1,10 @@
-"""How pytest runs the tests: where fixtures are loaded, what begins first, what was skipped."""
+"""How pytest runs the tests: where fixtures are loaded, and what begins first."""
 
 import gc
 import os
 from pathlib import Path
 
 import pytest
-from skipped import skips_in_words
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: waiting threads take a core
 
@@ -47,12 +46,3 @@ def pytest_collection_finish():
     gc.freeze()
     gc.set_threshold(100_000)
     gc.enable()
-
-
-def pytest_terminal_summary(terminalreporter):
-    """List each test that was skipped, with the reason and the way to have it run."""
-    lines = skips_in_words(terminalreporter.stats.get("skipped", ()))
-    if lines:
-        terminalreporter.section("not run")
-    for line in lines:
-        terminalreporter.line(line)

@@ -1,12 +1,8 @@
 """A kind of ends that is new to the table works or is refused, wherever ends are asked for."""
 
-import re
-
 import numpy as np
 import pytest
 from oracle import BOUNDARIES, laplacian, random_chain
-from pendula import sources
-from pendula.configuration.cases import Case
 from pendula.datasets.trajectories import describe_run
 from pendula.ends import ENDS, neighbours
 from pendula.models.bounds import best_bound, proven_region
@@ -19,7 +15,6 @@ from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
 from pendula.studies.certified import constants, norm, polynomials
 from pendula.studies.theory.equations import right_hand_side, total_energy
-from pendula.studies.theory.inequalities import check_inequalities
 from pendula.studies.theory.other_forms import pt_rates
 from problems import make_problem
 
@@ -91,11 +86,6 @@ def test_ends_that_are_not_in_the_table_are_refused_with_those_that_are(reader):
         READERS[reader]("antiperiodic")
 
 
-def test_a_configuration_names_the_ends_of_the_table():
-    with pytest.raises(ValueError, match="'dirichlet', 'free' or 'periodic'"):
-        Case(omega=1, boundary="antiperiodic")
-
-
 @pytest.mark.parametrize("known", BOUNDARIES)
 @pytest.mark.parametrize("reader", READERS)
 def test_a_new_name_for_known_ends_needs_a_line_of_the_table_and_no_more(
@@ -114,13 +104,6 @@ def test_equations_and_proofs_refuse_ends_that_they_were_not_taught(reader, monk
         TAUGHT[reader]("reflecting")
 
 
-def test_new_ends_move_no_draw_of_the_theory(monkeypatch):
-    arguments = {"count": 6, "seed": 1}
-    before = check_inequalities(**arguments)
-    monkeypatch.setitem(ENDS, "new", ENDS["free"])
-    np.testing.assert_equal(check_inequalities(**arguments), before)
-
-
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_each_line_of_the_table_is_of_one_laplacian(boundary):
     matrix = laplacian(7, boundary)
@@ -129,15 +112,3 @@ def test_each_line_of_the_table_is_of_one_laplacian(boundary):
     own = ENDS[boundary].mode(np.arange(7)[:, None], np.arange(7), 7)
     expected = np.diag(-4.0 * np.sin(ENDS[boundary].half_angle(np.arange(7), 7)) ** 2)
     np.testing.assert_allclose(own @ matrix @ own.T, expected, atol=1e-14)
-
-
-def test_no_other_module_asks_for_ends_by_their_names():
-    """A comparison with a name would let ends fall through that it does not name."""
-    asked = re.compile(r'boundary(?:"\])? [!=]= "|\{"(?:dirichlet|free|periodic)": ')
-    found = {
-        str(path.relative_to(sources.SCRIPTS))
-        for path in sources.SCRIPTS.rglob("*.py")
-        if asked.search(path.read_text()) and path.name != "ends.py"
-    }
-    allowed = ("certified/fixed_point.py", "reference/verified_run.py")  # they refuse all others
-    assert found == {f"pendula/studies/{one}" for one in allowed}

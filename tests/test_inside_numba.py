@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numba.core import event
 from numba.core.errors import NumbaError
-from pendula.compiled import TESTED, kernel, uncached
-from pendula.inside_numba import KernelCache, PartLibrary, make_kernel
+from pendula.compiled import TESTED, uncached
+from pendula.inside_numba import PartLibrary, make_kernel
 from pendula.simd import largest_magnitude
 
 
@@ -25,15 +25,6 @@ def double(x):
 def double_first(values):
     values[0] = double(values[0])
     return values
-
-
-@uncached
-def double_twice(x):
-    return double(double(x))
-
-
-def test_a_function_serves_python_and_kernels():
-    assert (double_twice(3.0), double(3.0)) == (12.0, 6.0)
 
 
 def test_a_part_has_no_machine_code_and_is_compiled_once_for_all_callers():
@@ -96,34 +87,3 @@ def test_parts_that_another_process_kept_make_the_same_kernel(tmp_path):
     hits = [sum(part.stats.cache_hits.values()) for part, _ in (first, second)]
     assert hits == [0, 1]
     assert [path.suffix for path in tmp_path.rglob("*.*")] == [".part"]
-
-
-def test_a_function_that_fails_to_compile_keeps_nobody_waiting(tmp_path):
-    kernel = make_kernel(wrong, tmp_path)
-    with pytest.raises(NumbaError):
-        kernel(1.0)
-    assert not list(tmp_path.rglob("*.*")) and not kernel._cache._files._locks
-
-
-def wrong(x):
-    return x.nothing
-
-
-def test_a_kernel_has_a_cache_and_an_uncached_function_has_none(monkeypatch, tmp_path):
-    monkeypatch.setenv("PENDULA_CACHE", str(tmp_path))
-    assert isinstance(kernel(wrong)._cache, KernelCache)
-    assert isinstance(kernel(wrong).part._cache, KernelCache)
-    assert not isinstance(uncached(wrong)._cache, KernelCache)
-
-
-def test_one_part_serves_all_values_of_an_argument():
-    @uncached
-    def sum_up(pair, factor, follows):
-        return (pair[0] + pair[1]) * factor if follows else 0
-
-    @uncached
-    def caller(x):
-        return sum_up((1, x), 2, True) + sum_up((x, 3), 5, False) + sum_up((x, x), x, x > 0)
-
-    assert caller(4) == 42
-    assert len(sum_up.part.overloads) == 1

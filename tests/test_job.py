@@ -1,13 +1,11 @@
 """A job says in a sentence why it failed or ended, and its log has the rest."""
 
-import io
 import math
 import os
 import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -128,33 +126,6 @@ def test_ctrl_c_in_a_kernel_that_returns_a_named_tuple(returns, calls, status):
     env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
     done = subprocess.run(command, capture_output=True, text=True, env=env)
     assert done.returncode == status, done.stderr
-
-
-def test_a_job_knows_for_how_long_it_has_run():
-    asked = [sys.executable, "-c", "import job, time; print(job._age(), time.time())"]
-    env = {**os.environ, "PYTHONPATH": str(ROOT / "scripts")}
-    earliest = time.time()
-    with subprocess.Popen(asked, stdout=subprocess.PIPE, text=True, env=env) as process:
-        latest = time.time()
-        age, now = map(float, process.communicate()[0].split())
-    tick = 0.02  # systems tell in hundredths of a second when a process began
-    assert earliest - tick < now - age < latest + tick
-
-
-def test_all_steps_of_a_long_job_stand_in_its_log_and_few_on_the_screen(monkeypatch, capsys):
-    log = io.StringIO()
-    tee = job._Tee(sys.stdout, log)
-    monkeypatch.setattr(sys, "stdout", tee)
-    for number in range(3):
-        job.step(f"step {number}")
-    tee.shown -= 2 * job.OFTEN
-    job.step("late")
-    job.step("soon after")
-    print("NOT AS EXPECTED")
-    assert log.getvalue().splitlines() == [
-        *("step 0", "step 1", "step 2", "late", "soon after", "NOT AS EXPECTED"),
-    ]
-    assert capsys.readouterr().out == "late\nNOT AS EXPECTED\n"
 
 
 class Named(dict):

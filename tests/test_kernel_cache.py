@@ -106,15 +106,6 @@ def test_a_file_that_others_can_write_is_not_loaded(module, kept):
     assert file.stat().st_mode & 0o777 == 0o600  # it was compiled and kept again
 
 
-def test_the_code_of_another_kernel_is_not_loaded_under_this_name(module, kept):
-    first = compile_anew(module, kept)
-    assert first(3) == 6 and first(2.5) == 5.0
-    one, other = kept.rglob("*.kernel")
-    one.write_bytes(other.read_bytes())
-    compiled = compile_anew(module, kept)
-    assert (compiled(3), compiled(2.5)) == (6, 5.0) and found(compiled) == 1
-
-
 @pytest.fixture
 def temporary(monkeypatch, tmp_path):
     """Return where kernels go if the folder for caches cannot be trusted."""
@@ -130,18 +121,6 @@ def test_a_folder_that_others_can_write_is_not_used(monkeypatch, temporary, kept
     monkeypatch.setenv(VARIABLE, str(kept))
     with pytest.warns(UserWarning, match="other users own or can write that folder.*chmod go-w"):
         assert kept_in() == temporary
-
-
-def test_a_folder_of_another_user_is_not_used_nor_a_temporary_one(monkeypatch, temporary, kept):
-    kept.mkdir()
-    temporary.mkdir(parents=True)
-    monkeypatch.setenv(VARIABLE, str(kept))
-    me = os.geteuid()
-    monkeypatch.setattr(kernel_cache.os, "geteuid", lambda: me + 1)
-    monkeypatch.setattr(kernel_cache.tempfile, "tempdir", str(temporary.parent))
-    os.rename(temporary, temporary.with_name(f"pendula-{me + 1}"))
-    with pytest.warns(UserWarning, match="kept in memory only"):
-        assert kept_in() is None
 
 
 def test_a_folder_that_cannot_be_written_costs_a_warning_and_no_run(module, tmp_path):
@@ -162,17 +141,6 @@ def test_what_nobody_used_for_long_is_removed_when_a_module_is_compiled_anew(mod
     module.write_text(MADE + "# edited twice\n")
     compile_anew(module, kept)(3)
     assert not old.exists() and len(list(kept.iterdir())) == 2
-
-
-def test_what_others_keep_in_the_folder_stays_however_old_it_is(module, kept):
-    theirs = [kept / "made-thesis/notes", kept / f"made-{'0' * kernel_cache.DIGITS}/notes"]
-    long_ago = time.time() - 2 * UNUSED
-    for file in theirs:
-        file.parent.mkdir(parents=True)
-        file.write_text("mine")
-        os.utime(file.parent, (long_ago, long_ago))
-    assert compile_anew(module, kept)(3) == 6
-    assert [file.read_text() for file in theirs] == ["mine", "mine"]
 
 
 def test_the_folder_is_the_users_another_or_none(monkeypatch, tmp_path):
@@ -242,9 +210,4 @@ def test_a_process_that_was_killed_while_it_compiled_keeps_nobody_waiting(other,
     process, _ = other
     process.kill()
     process.join()
-    assert files_of(module, kept).load("int") is None
-
-
-def test_nobody_waits_for_ever(other, module, kept, monkeypatch):
-    monkeypatch.setattr(kernel_cache, "PATIENCE", 0.0)
     assert files_of(module, kept).load("int") is None

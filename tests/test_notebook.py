@@ -61,12 +61,6 @@ def test_a_run_is_what_the_workflow_writes_and_the_final_state(case, run, tmp_pa
     xr.testing.assert_identical(read(tmp_path / "saved.nc"), run)
 
 
-def test_the_final_state_has_the_norms_of_the_end(run):
-    final = run["final"].sel(part="re") + 1j * run["final"].sel(part="im")
-    l2 = (abs(final) ** 2).sum("site") ** 0.5
-    assert l2.values == pytest.approx(run["l2"].isel(tau=-1).values, rel=1e-14)
-
-
 def test_a_case_has_the_defaults_of_the_yaml():
     configured = load({"cases": {"mine": SHORT}})
     assert pendula.Case(**SHORT).shown_problem() == configured.shown_problem("mine")
@@ -144,17 +138,6 @@ def test_what_cannot_be_done_is_told_before_anything_runs(call, words, case, run
     with pytest.raises(ValueError, match=words) as told:
         call(case, run)
     assert isinstance(told.value, pendula.ConfigurationError)
-
-
-def test_a_long_run_says_first_what_it_takes(case, monkeypatch, capsys):
-    monkeypatch.setattr(pendula.notebook.cost, "WORTH_SAYING", 1e-6)
-    pendula.simulate(case)
-    assert capsys.readouterr().out == "the run takes less than a second and 1 MB of memory\n"
-
-
-def test_numbers_of_numpy_are_numbers():
-    given = pendula.Case(omega=np.float64(8), half_width=np.int64(3), initial={np.int64(0): (1, 0)})
-    assert given.half_width == 3 and type(given.omega) is float
 
 
 def test_a_run_by_any_solver_is_checked_and_the_second_one_is_drawn_where_it_diverges(run, case):

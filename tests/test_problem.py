@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracle import chains
 from pendula.problem import (
-    Constants,
     Problem,
     by_site,
     on_sites,
@@ -32,17 +31,6 @@ def test_data_are_placed_on_their_sites():
 def test_a_site_outside_the_chain_is_refused(site):
     with pytest.raises(ValueError, match=rf"site {abs(site)} .* -2\.\.2"):
         make_problem(on_sites({site: (1, 1)}), half_width=2)
-
-
-@pytest.mark.parametrize("shape", [(2, 4), (1, 3), (3,)])
-def test_data_without_a_central_site_are_refused(shape):
-    with pytest.raises(ValueError, match="odd number of sites"):
-        make_problem(PAIR, half_width=3).changed(initial=np.zeros(shape))
-
-
-def test_constants_are_given_by_name_only():
-    with pytest.raises(TypeError):
-        Constants(1.0, 1.0, -4.0)
 
 
 def test_a_problem_cannot_be_changed_in_place():
@@ -81,10 +69,6 @@ def test_initial_data_are_written_as_the_configuration_has_them():
     assert write_initial({0: (1 + 0j, 0.1 + 0j), -3: (0j, 2 - 1j)}) == (
         '{"0": [1.0, 0.1], "-3": [0.0, "2-1j"]}'
     )
-
-
-def test_data_at_rest_are_written_as_those_of_the_central_site():
-    assert by_site(np.zeros((2, 5))) == {0: (0j, 0j)}
 
 
 def test_outputs_include_both_ends_and_exact_integers():

@@ -2,7 +2,6 @@
 
 import ast
 import io
-import json
 import re
 import tokenize
 import tomllib
@@ -11,15 +10,9 @@ from pathlib import Path
 import pytest
 import yaml
 from pendula import sources
-from pendula.studies import STUDIES, files_of_part
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDIES_FOLDER = sources.SCRIPTS / "pendula/studies"
-
-
-def test_tests_stand_in_an_empty_folder():
-    """In the project's own they would read a user's results."""
-    assert not list(Path.cwd().iterdir())
 
 
 def test_the_conda_environment_has_the_same_pins_of_what_jobs_import():
@@ -54,23 +47,6 @@ def files_behind(function: str) -> set[str]:
     return {path.relative_to(ROOT).as_posix().removeprefix("scripts/pendula/") for path in files}
 
 
-def test_every_function_that_a_rule_calls_is_there_with_a_docstring():
-    assert len(CALLED) > 70
-    for name in CALLED:
-        module, _, function = name.rpartition(".")
-        tree = ast.parse(sources.files_of_module(module)[-1].read_text())
-        found = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
-        assert ast.get_docstring(found[function]), name
-
-
-def test_a_job_rests_on_the_modules_that_its_function_reaches():
-    assert {
-        *("__init__.py", "models/__init__.py", "models/amplitudes.py", "compiled.py"),
-        *("models/amplitudes.py", "simulation/simulate.py", "datasets/netcdf.py"),
-        *("integrators/dop853_coefficients.py",),
-    } <= files_behind("pendula.studies.paper.runs.run_case")
-
-
 PAGES = ("drawing/", "report/", "figure_diff/", "archive/", "ledger/")
 
 
@@ -99,31 +75,6 @@ def test_importing_a_package_drags_in_no_other_room():
         above = {folder / "__init__.py" for folder in init.parent.parents}
         others = {path for path in sources.modules_of(init) if init.parent not in path.parents}
         assert others <= above, init
-
-
-def test_a_page_rests_on_the_templates_beside_its_modules():
-    files = files_behind("pendula.report.document.write_report")
-    names = ("style.css", "script.js", "templates/base.html.j2")
-    assert {f"report/page/{name}" for name in names} <= files
-    assert not any("__pycache__" in file or file.endswith("taylor.cpp") for file in files)
-
-
-def test_parts_are_found_by_the_list_of_studies():
-    found = {path.relative_to(STUDIES_FOLDER).as_posix() for path in files_of_part("section")}
-    told = {one for one in STUDIES if (STUDIES_FOLDER / one / "section.py").exists()}
-    assert found == {f"{study}/section.py" for study in told} | {"paper/section_solvers.py"}
-    names = [path.name for path in files_of_part("chaos/claims")]
-    assert names == ["claims.py", "claims_own.py", "claims_swept.py"]
-
-
-def test_a_template_belongs_to_the_record_of_its_package_alone(tmp_path):
-    for name in ("page", "other"):
-        package = tmp_path / "scripts" / name
-        (package / "templates").mkdir(parents=True)
-        (package / "__init__.py").touch()
-        (package / "templates" / f"{name}.j2").touch()
-    modules = [tmp_path / "scripts/page/__init__.py"]
-    assert sources.attached_to(modules) == [tmp_path / "scripts/page/templates/page.j2"]
 
 
 def test_a_template_named_after_a_module_belongs_to_this_module_alone(tmp_path):
@@ -250,43 +201,3 @@ def test_the_hash_of_code_follows_modules_templates_and_packages(tmp_path, monke
     monkeypatch.setattr(sources, "version", lambda name: "0")
     found.append(digest())
     assert len(set(found)) == 4
-
-
-def test_the_library_does_not_know_snakemake():
-    for path in (sources.SCRIPTS / "pendula").rglob("*.py"):
-        if "snakemake" in (text := path.read_text()):
-            names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
-            assert "snakemake" not in names, path
-
-
-@pytest.mark.parametrize(
-    ("mark", "last", "script"), [("test", "-m pytest", "run"), ("run", "&& snakemake", "figures")]
-)
-def test_ci_gives_the_commands_of_the_readme(mark, last, script):
-    """Each command stands alone between its mark and the end of its block."""
-    text = (ROOT / "README.md").read_text()
-    (block,) = re.findall(rf"<!-- {mark} command -->\n```\n(.*?)\n```", text)
-    assert block.startswith("python3 -m venv") and block.endswith(last)
-    assert f"<!-- {mark} command -->" in (ROOT / ".ci" / script).read_text()
-
-
-def test_the_workflow_on_figures_keeps_its_page_and_has_actions_that_cannot_change():
-    workflow = yaml.safe_load((ROOT / ".github/workflows/figures.yml").read_text())
-    steps = workflow["jobs"]["figures"]["steps"]
-    assert any(step.get("run") == ".ci/figures" for step in steps)
-    assert steps[-1]["if"] == "always()" and "results/figure_diff" in steps[-1]["with"]["path"]
-    used = [step["uses"] for step in steps if "uses" in step]
-    assert all(re.fullmatch(r"actions/[\w-]+@[0-9a-f]{40}", action) for action in used)
-
-
-def test_the_container_has_the_python_and_the_pins_of_the_other_environments():
-    recipe = (ROOT / "workflow/envs/Containerfile").read_text()
-    conda = yaml.safe_load((ROOT / "workflow/envs/pinned.yaml").read_text())
-    (python,) = [str(word) for word in conda["dependencies"] if str(word).startswith("python ")]
-    (base,) = re.findall(r"^ARG BASE=\S+/python:([\d.]+)-slim-\w+$", recipe, re.MULTILINE)
-    assert python == f"python ={base}" and "FROM ${BASE}" in recipe
-    assert "COPY environment.txt /project/environment.txt" in recipe
-    assert re.findall(r"pip install (.*)", recipe) == ["--no-cache-dir -r /project/environment.txt"]
-    (words,) = re.findall(r"^ENTRYPOINT (\[.*\])$", recipe, re.MULTILINE)
-    assert json.loads(words)[1:] == ["-m", "snakemake", "--directory", "/out"]
-    assert '-v "$PWD/out:/out"' in (ROOT / "docs/cluster.md").read_text()

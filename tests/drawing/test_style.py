@@ -3,10 +3,8 @@
 import json
 import time
 
-import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgb
 from pendula.drawing import style
 
 NAMES = ("figure.png", "figure.pdf", "figure.nc", "figure.json")
@@ -31,20 +29,6 @@ def test_saving_twice_writes_the_same_bytes(data, tmp_path):
     first = save(tmp_path / "one", data)
     time.sleep(1.1)  # a date in seconds would differ now; a longer wait changes nothing
     assert save(tmp_path / "two", data) == first
-
-
-def test_saved_files_hold_no_date_and_no_trace_of_the_program(data, tmp_path):
-    png, pdf, *_ = save(tmp_path, data)
-    assert b"Software" not in png
-    assert b"CreationDate" not in pdf
-
-
-def test_the_saved_data_are_those_given(data, tmp_path):
-    save(tmp_path, data)
-    saved = xr.load_dataset(tmp_path / "figure.nc")
-    xr.testing.assert_equal(saved, data)
-    assert saved["height"].attrs == data["height"].attrs
-    assert saved.attrs["title"] == "What the figure figure shows" and saved.attrs["version"]
 
 
 def test_a_figure_says_where_the_configuration_is_not_the_papers(data, tmp_path):
@@ -77,9 +61,3 @@ def test_a_fault_leaves_older_files_as_they_were_and_no_others(data, tmp_path):
 )
 def test_initial_data_are_named_by_site_and_values(initial, name):
     assert style.name_initial(initial) == name
-
-
-@pytest.mark.parametrize(("one", "other"), [("A", "B"), ("l2", "linf"), ("ode45", "dop853")])
-def test_colours_stay_apart_in_grey(one, other):
-    greys = [np.dot((0.3, 0.59, 0.11), to_rgb(style.COLOURS[name])) for name in (one, other)]
-    assert abs(greys[0] - greys[1]) > 0.2

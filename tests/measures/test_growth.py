@@ -10,30 +10,6 @@ from pendula.measures.growth import (
 )
 
 
-def made_up(exponent, members=6, noise=0.05):
-    """Return tau to an exponent, with noise that keeps its memory for ten units of tau."""
-    rng = np.random.default_rng(5)
-    tau = np.linspace(0.0, 400.0, 1601)
-    white = rng.normal(size=(members, tau.size))
-    waves = np.array([np.convolve(series, np.ones(40) / 6.3, "same") for series in white])
-    return tau, 7.0 * np.maximum(tau, 0.1) ** exponent * np.exp(noise * waves)
-
-
-@pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0])
-def test_the_local_exponents_of_a_made_up_series_are_found_within_their_limits(exponent):
-    _, found = local_exponents(*made_up(exponent), 2)
-    assert all(limits.half < 0.1 for limits in found)
-    assert all(limits.low - 0.03 < exponent < limits.high + 0.03 for limits in found)
-
-
-def test_local_exponents_see_where_the_law_changes():
-    tau, _ = made_up(0.5)
-    values = np.where(tau < 100.0, tau, 10.0 * np.sqrt(tau)).clip(0.1)[None]
-    middles, found = local_exponents(tau, values, 3)
-    np.testing.assert_allclose(middles, [70.7, 141.4, 282.8], rtol=1e-3)
-    np.testing.assert_allclose([p.value for p in found], [1.0, 0.5, 0.5], atol=1e-6)
-
-
 def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts():
     tau = np.arange(0.0, 81.0)
     wiggle = np.where(tau // 10 % 2 == 0, 1.0, -1.0)
@@ -71,13 +47,6 @@ def test_a_local_exponent_is_the_slope_through_sixty_points_of_its_octave():
         slopes = [np.polyfit(x, y, 1)[0] for y in bent]
         assert limits.value == pytest.approx(np.mean(slopes), rel=1e-9)
         assert limits.half == pytest.approx(12.7062 * abs(slopes[1] - slopes[0]) / 2, rel=1e-5)
-
-
-def test_an_octave_needs_no_more_than_its_two_ends():
-    tau = np.arange(0.0, 17.0)
-    values = np.where(tau > 0.0, (tau + 1.0) ** 2, 0.0)[None]
-    found = local_exponents(tau, values, 4)[1][0].value  # from 1 to 2, and nothing at zero
-    assert found == pytest.approx(2.0 * np.log(1.5) / np.log(2.0))
 
 
 def test_a_growth_by_a_hundred_over_half_of_the_run_is_the_limit():
