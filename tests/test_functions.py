@@ -87,14 +87,13 @@ def test_operators_have_the_same_bits_everywhere():
 
 
 @pytest.mark.parametrize(
-    ("line", "use"),
+    ("use", "lines"),
     [
-        *((line, ["**"]) for line in ("x ** 0.2", "x ** n", "x **= 0.5", "2.0 ** (x / 3)")),
-        *((line, ["**"]) for line in ("10.0 ** n", "pow(x, 3)")),
-        *((line, ["@"]) for line in ("x @ y", "x @= y", "x.dot(y)")),
-        *((line, ["abs of complex"]) for line in ("abs(z[0] - 1)", "np.abs(a.initial).max()")),
-        *((line, []) for line in ("abs(z.real)", "abs(f(z))", "x ** 2", "2.0 ** -53", "0.5 ** n")),
+        (["**"], ("x ** 0.2", "x ** n", "x **= 0.5", "2.0 ** (x / 3)", "10.0 ** n", "pow(x, 3)")),
+        (["@"], ("x @ y", "x @= y", "x.dot(y)")),
+        (["abs of complex"], ("abs(z[0] - 1)", "np.abs(a.initial).max()")),
+        ([], ("abs(z.real)", "abs(f(z))", "x ** 2", "2.0 ** -53", "0.5 ** n")),
     ],
 )
-def test_an_operator_is_seen(line, use):
-    assert list(uses(line)) == use
+def test_an_operator_is_seen(use, lines):
+    assert [list(uses(line)) for line in lines] == [use] * len(lines)

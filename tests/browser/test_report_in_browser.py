@@ -101,14 +101,3 @@ def test_it_prints_with_the_still_picture(report):
     report.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
     pdf = base64.b64decode(printed["data"])
     assert pdf.startswith(b"%PDF") and len(re.findall(rb"/Type\s*/Page\b", pdf)) > 5
-
-
-def test_without_scripts_the_still_picture_stands_alone(report):
-    report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
-    report.refresh()
-    report.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
-    displays = {
-        query: run(report, f"getComputedStyle(document.querySelector('{query}')).display")
-        for query in (".player svg.still", ".player canvas", ".player .controls")
-    }
-    assert list(displays.values()) == ["block", "none", "none"]

@@ -36,17 +36,6 @@ def test_the_factor_is_triangular_and_gives_the_matrix_back():
         np.array([[1.0, 0.0, 2.0], [0.0, 5.0, 3.0], [2.0, 3.0, 9.0]]),
         np.diag(np.full(9, 2.0)) - np.diag(np.ones(8), 1) - np.diag(np.ones(8), -1),
     ],
-    ids=[
-        "random",
-        "one",
-        "zero",
-        "number",
-        "tiny_entry",
-        "scales",
-        "entry_one",
-        "entry_zero",
-        "laplacian",
-    ],
 )
 def test_eigenvalues_of_symmetric_matrices(matrices):
     found, expected = symmetric_eigenvalues(matrices), np.linalg.eigvalsh(matrices)
