@@ -13,6 +13,7 @@ from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import Ledger, load
 from pendula.ledger.tables import tally
 from pendula.measures.confidence import CONFIDENCE
+from pendula.measures.levels import levelling
 from pendula.report.results import Results
 from pendula.report.words import Quote, number, percent, span
 
@@ -94,6 +95,7 @@ def gather(results: Results) -> dict[str, Any]:
         "allowed": number((compared["allowed_drift"] / compared["stated_drift"]).max()),
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
         "cells": sum(results[f"checks/{one}"]["measured"].size for one in ("chart", "short_chart")),
+        "runs_level": level_of_runs(results),
         "exponents": results.say(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["varied_omega"]),
         "furthest": results.say(LONG, percent(ratio.max())),
@@ -125,6 +127,13 @@ def regular_error(results: Results, solver: str) -> Quote:
     regular = results["checks/lyapunov"]["chaotic"] == 0
     errors = results["checks/trust"]["difference"].sel(solver=solver).where(regular)
     return results.quote("checks/trust", float(errors.max()), 2)
+
+
+def level_of_runs(results: Results) -> Quote:
+    """Return the half-width from which the single runs of Fig 5, right, have one level."""
+    at = {"quantity": "pair", "statistic": "max", "window": "[10, 50]"}
+    norm = results["sweeps/fig5_right"]["l2"].sel(at)
+    return results.quote("sweeps/fig5_right", levelling(norm["half_width"].values, norm.values))
 
 
 def largest_bound(results: Results) -> str:

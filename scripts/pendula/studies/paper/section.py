@@ -132,7 +132,8 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
         "Norms of the pair against the half-width M. Filled marks are maxima, as in the text of "
         "the paper, and hollow marks averages, as in its caption. Bars are the mean and standard "
         "deviation of a perturbed ensemble of a chaotic case. Marks on chains whose ends the front "
-        "does not reach come from the same motion, and are no independent samples."
+        "does not reach come from the same motion, and are no independent samples. The table gives "
+        "the half-width from which single runs are level; the claims use that of ensemble means."
     )
     rows = [_curve(results, name, statistic, norm)
             for name in OF_WIDTH[which] for norm in DRAWN[which]
