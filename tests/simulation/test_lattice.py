@@ -101,7 +101,7 @@ def test_norms_and_moduli_are_those_of_the_whole_chain(half_width, reduction):
     np.testing.assert_allclose(record.linf[:, 0], np.abs(kept).max(axis=1), rtol=1e-14)
     np.testing.assert_allclose(record.l2[:, 0], np.linalg.norm(kept, axis=1), rtol=1e-14)
     sites = slice(half_width if reduction.even else 0, None)
-    np.testing.assert_allclose(record.modulus[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
+    np.testing.assert_allclose(record.kept[:, :, 0], np.abs(kept)[:, sites], rtol=1e-14)
 
 
 @pytest.mark.parametrize("site", range(5))
@@ -124,9 +124,9 @@ def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only
     chain, y, record = observed(z, times=7, i=4, every=2)
     assert record.energy[4] == energy(chain, y)
     assert [np.count_nonzero(values != -1.0) for values in record[:4]] == [2, 2, 1, 10]
-    np.testing.assert_allclose(record.modulus[:, :, 2], np.abs(z), rtol=1e-14)
-    assert np.all(observed(z, times=7, i=3, every=2)[2].modulus == -1.0)
-    assert observed(z, every=0)[2].modulus.shape == (2, 5, 0)
+    np.testing.assert_allclose(record.kept[:, :, 2], np.abs(z), rtol=1e-14)
+    assert np.all(observed(z, times=7, i=3, every=2)[2].kept == -1.0)
+    assert observed(z, every=0)[2].kept.shape == (2, 5, 0)
 
 
 def test_the_energy_is_left_out_where_nobody_asks_for_it():

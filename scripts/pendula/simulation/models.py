@@ -4,6 +4,7 @@ A model is a set of functions and names; `MODELS` has one for each name that a p
 """
 
 from collections.abc import Callable, Mapping
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,23 +24,29 @@ from .solvers import Solver
 class Model(NamedTuple):
     """The equations as `simulate` takes them. The names are those of datasets.
 
-    The functions that take a `reduction` see to the part of the chain that is integrated.
+    The functions that take a `reduction` see to the part of the chain that is integrated. What is
+    the same for all but the pendula has a default.
     """
 
     components: tuple[str, ...]
     parts: tuple[str, str]  # of a component: the two rows of a state
     solvers: Mapping[str, Solver]
     system: Callable[[Problem, Reduction], Any]  # the parameters of the kernels
-    start: Callable[[Problem, Reduction], np.ndarray]  # the state at tau = 0
-    times: Callable[[Problem], np.ndarray]  # those of the outputs, in the time of the kernels
-    slow: Callable[[Problem, float], float]  # tau at a time of the kernels
-    atol: Callable[[Problem], float]  # what an absolute tolerance of 1 means for a state
-    # empty arrays for the observables; the arguments are the numbers of components, sites and
-    # times, `every`, and whether the energy is computed
-    record: Callable[[int, int, int, int, bool], Any]
     collect: Callable[[Problem, Any, np.ndarray, Reduction], dict[str, np.ndarray]]
     """From record, final state and reduction to what `Trajectory` holds of the whole chain."""
-    find_reduction: Callable[[Problem], Reduction]
+    # empty arrays for the observables; the arguments are the numbers of components, sites and
+    # times, `every`, and whether the energy is computed
+    record: Callable[[int, int, int, int, bool], Any] = blank_state_record
+    find_reduction: Callable[[Problem], Reduction] = lambda problem: find_reduction(
+        problem.amplitudes
+    )
+    # the state at tau = 0
+    start: Callable[[Problem, Reduction], np.ndarray] = lambda problem, cut: pack(
+        problem.amplitudes, cut
+    )
+    times: Callable[[Problem], np.ndarray] = attrgetter("times")  # in the time of the kernels
+    slow: Callable[[Problem, float], float] = lambda problem, time: time  # tau at such a time
+    atol: Callable[[Problem], float] = lambda problem: 1.0  # what a tolerance of 1 means
 
 
 # --- The amplitudes -----------------------------------------------------------------------------
@@ -54,7 +61,7 @@ def make_chain(constants: Constants, boundary: str, reduction: Reduction) -> Cha
 def _collect_amplitudes(
     problem: Problem, record, y: np.ndarray, reduction: Reduction
 ) -> dict[str, np.ndarray]:
-    modulus = unfold(record.modulus, reduction)
+    modulus = unfold(record.kept, reduction)
     return {"energy": record.energy, "modulus": modulus, "final": unpack(y, reduction)}
 
 
@@ -70,7 +77,7 @@ def _collect_pendula(
     problem: Problem, record, y: np.ndarray, reduction: Reduction
 ) -> dict[str, np.ndarray]:
     final = [unfold(y[part::2, 1:-1], reduction) for part in (0, 1)]
-    snapshots = np.array([unfold(part, reduction) for part in record.snapshots])
+    snapshots = np.array([unfold(part, reduction) for part in record.kept])
     return {
         "energy": record.energy,
         # a snapshot finds all pendula at one phase of their swing: their angles alone would show it
@@ -86,13 +93,8 @@ MODELS = {
         parts=("re", "im"),
         solvers=solvers.SOLVERS,
         system=lambda problem, cut: make_chain(problem.constants, problem.boundary, cut),
-        start=lambda problem, cut: pack(problem.amplitudes, cut),
-        times=lambda problem: problem.times,
-        slow=lambda problem, time: time,
-        atol=lambda problem: 1.0,
         record=blank_record,
         collect=_collect_amplitudes,
-        find_reduction=lambda problem: find_reduction(problem.amplitudes),
     ),
     PENDULA: Model(
         components=("x", "y"),
@@ -106,9 +108,7 @@ MODELS = {
         slow=lambda problem, time: 0.5 * problem.mu * problem.mu * time,
         # tolerances are those of the amplitudes, so that they mean the same at any mu
         atol=lambda problem: 2.0 * problem.mu,
-        record=blank_state_record,
         collect=_collect_pendula,
-        find_reduction=lambda problem: find_reduction(problem.amplitudes),
     ),
 }
 """The models by name."""
@@ -119,7 +119,7 @@ MODELS = {
 
 def _collect_own(problem: Problem, record, y: np.ndarray, cut: Reduction) -> dict[str, np.ndarray]:
     parts = np.array([unfold(y[part::2, 1:-1], cut) for part in (0, 1)])
-    snapshots = np.array([unfold(part, cut) for part in record.snapshots])
+    snapshots = np.array([unfold(part, cut) for part in record.kept])
     real = problem.model.second_order
     return {
         "energy": record.energy,
@@ -139,11 +139,6 @@ def model_of(problem: Problem) -> Model:
         parts=("value", "rate") if problem.model.second_order else ("re", "im"),
         solvers=solvers_of(problem),
         system=make_system,
-        start=lambda problem, cut: pack(problem.amplitudes, cut),
-        times=lambda problem: problem.times,
-        slow=lambda problem, time: time,
-        atol=lambda problem: 1.0,
-        record=blank_state_record,
         collect=_collect_own,
         find_reduction=find_reduction_of_own,
     )

@@ -12,14 +12,14 @@ from pendula.simd import largest_magnitude
 
 
 class Record(NamedTuple):
-    """The arrays that a run fills while it integrates; `every` = 0 keeps no moduli."""
+    """The arrays that a run fills while it integrates; `every` = 0 keeps no snapshots."""
 
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     energy: np.ndarray  # (time,), or empty where it is not asked for
-    modulus: np.ndarray  # (component, site, snapshot)
+    kept: np.ndarray  # moduli (component, site, snapshot), or states with (part, ...) before that
     every: int
-    scratch: np.ndarray  # (2, column)
+    scratch: np.ndarray  # (component, column), two rows at least
 
 
 def blank_record(
@@ -36,8 +36,16 @@ def blank_record(
         np.empty(times if energy else 0),
         np.empty((components, sites, snapshots)),
         every,
-        np.empty((2, sites + 2)),
+        np.empty((max(2, components), sites + 2)),
     )
+
+
+def blank_state_record(
+    components: int, sites: int, times: int, every: int, energy: bool = False
+) -> Record:
+    """Return the same for whole states, without energy: what is driven conserves none."""
+    blank = blank_record(components, sites, times, every, energy=False)
+    return blank._replace(kept=np.empty((2, *blank.kept.shape)))
 
 
 @inlined_by_llvm
@@ -81,57 +89,8 @@ def norms_by(square):
     return write_norms
 
 
-write_norms_of_amplitudes = norms_by(modulus2)
-
-
-@kernel
-def observe(chain, y, i, record):
-    """Reduce the state `y` to the observables of output `i`."""
-    write_norms_of_amplitudes(chain, y, i, record)
-    if record.every > 0 and i % record.every == 0:
-        for k in range(y.shape[0] // 2):
-            for j in range(1, y.shape[1] - 1):
-                record.modulus[k, j - 1, i // record.every] = sqrt(modulus2(y, 2 * k, j))
-    if record.energy.size > 0:
-        record.energy[i] = energy_with_scratch(chain, y, record.scratch)
-
-
-# --- Of pendula, and of models of a user's own --------------------------------------------------
-
-
-class StateRecord(NamedTuple):
-    """The arrays that a run fills which keeps whole states; `every` = 0 keeps none."""
-
-    linf: np.ndarray  # (component, time)
-    l2: np.ndarray  # (component, time)
-    energy: np.ndarray  # empty: what is driven conserves none
-    snapshots: np.ndarray  # (part, component, site, snapshot)
-    every: int
-    scratch: np.ndarray  # (component, column), two rows at least
-
-
-def blank_state_record(
-    components: int, sites: int, times: int, every: int, energy: bool = False
-) -> StateRecord:
-    """Return empty arrays for a run of `times` outputs, with snapshots at each `every`-th."""
-    snapshots = (times - 1) // every + 1 if every else 0
-    return StateRecord(
-        np.empty((components, times)),
-        np.empty((components, times)),
-        np.empty(0),
-        np.empty((2, components, sites, snapshots)),
-        every,
-        np.empty((max(2, components), sites + 2)),
-    )
-
-
-@inlined_by_llvm
-def square_of_angle(y, row, j):
-    return y[row, j] * y[row, j]
-
-
-def observe_states(square):
-    """Return what keeps the norms of square(y, row, j) and whole states."""
+def observer(square, keep_site):
+    """Return what keeps norms, and snapshots by keep_site(y, component, column, snapshot, kept)."""
     write_norms = norms_by(square)
 
     @uncached
@@ -140,11 +99,36 @@ def observe_states(square):
         write_norms(system, y, i, record)
         if record.every > 0 and i % record.every == 0:
             for k in range(y.shape[0] // 2):
-                for part in range(2):
-                    for j in range(1, y.shape[1] - 1):
-                        record.snapshots[part, k, j - 1, i // record.every] = y[2 * k + part, j]
+                for j in range(1, y.shape[1] - 1):
+                    keep_site(y, k, j, i // record.every, record.kept)
 
     return observe
 
 
-observe_angles, observe_fields = observe_states(square_of_angle), observe_states(modulus2)
+@inlined_by_llvm
+def keep_modulus(y, k, j, snapshot, kept):
+    kept[k, j - 1, snapshot] = sqrt(modulus2(y, 2 * k, j))
+
+
+@inlined_by_llvm
+def keep_parts(y, k, j, snapshot, kept):
+    for part in range(2):
+        kept[part, k, j - 1, snapshot] = y[2 * k + part, j]
+
+
+@inlined_by_llvm
+def square_of_angle(y, row, j):
+    return y[row, j] * y[row, j]
+
+
+observe_moduli = observer(modulus2, keep_modulus)
+observe_angles = observer(square_of_angle, keep_parts)
+observe_fields = observer(modulus2, keep_parts)
+
+
+@kernel
+def observe(chain, y, i, record):
+    """Reduce the state `y` of (4) to the observables of output `i`, its energy among them."""
+    observe_moduli(chain, y, i, record)
+    if record.energy.size > 0:
+        record.energy[i] = energy_with_scratch(chain, y, record.scratch)

@@ -65,7 +65,7 @@ def angles_at(
             outcome = method.run(system, y, part, controls, work, record, stop)
             if outcome.status != DONE:
                 raise IntegrationError(f"the pendula stopped: {FAULTS[outcome.status]}")
-            angles[first : first + part.size] = np.moveaxis(record.snapshots[0], -1, 0)
+            angles[first : first + part.size] = np.moveaxis(record.kept[0], -1, 0)
             if np.abs(y[::2]).max() > LOST:
                 return
 
