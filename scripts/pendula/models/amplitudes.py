@@ -10,16 +10,18 @@ energy. A state has the rows Re A, Im A, Re B, Im B, or the first two alone wher
 (tests/test_same_bits.py).
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
 from pendula.ends import DIRICHLET, PERIODIC
+from pendula.graph import neg
 from pendula.model import Model, Value, abs2, conj, lap
 
 from .chain import MIRROR, at_every_site, close
-from .generated import load_rule, load_series
+from .generated import load_function, load_rule, load_series
 
 
 class Chain(NamedTuple):
@@ -74,7 +76,19 @@ def traced(i_dt, states: int = 1) -> Model:
     return Model(fields=fields, parameters=dict.fromkeys(Chain._fields[:3], 1.0), i_dt=i_dt)
 
 
+def field_of(model: Model) -> Callable:
+    """Return the function (constants, seen) -> (Re F, Im F) for A, where i A' = F.
+
+    See `generated.load_function`; `seen` counts A as field 0 and B as field 1.
+    """
+    re_rate, im_rate = model.rates[:2]
+    return load_function((neg(im_rate), re_rate))
+
+
 EQUATIONS = traced(i_dt)
+field = field_of(EQUATIONS)
+linear_field = field_of(traced(lambda p, a, b: [linear(p, a, b), linear(p, b, a)]))
+"""F of (4), and its linear terms; for B with A and B exchanged."""
 continue_series = load_series(EQUATIONS).continue_in_waves
 """Writes the coefficients of all orders from those of order 0, given a chain and a series."""
 rates_at_site = load_rule(EQUATIONS.rates, "y")

@@ -5,6 +5,7 @@ each site. It is kept beside the kernels, which are named by it (see pendula.ker
 """
 
 import sys
+from collections.abc import Callable
 from functools import cache
 from types import ModuleType
 
@@ -13,7 +14,7 @@ from pendula.kernel_cache import keep_source
 from pendula.model import Model
 
 from . import toolbox
-from .rate_rules import rates_text, rule_text
+from .rate_rules import Rule, rates_text, rule_text
 from .series_graph import with_carried
 from .series_rules import Series
 from .statements import Names, Parts, affine, parts_of
@@ -98,6 +99,20 @@ def load_rule(rates: tuple[Node, ...], *states: str):
     See `rate_rules.rule_text`.
     """
     return load_text(HEAD + rule_text(rates, states)).rates_at_site
+
+
+def load_function(nodes: tuple[Node, ...]) -> Callable:
+    """Return the function (system, seen) of the values of nodes, in numbers of any kind.
+
+    They may be arrays or expressions. seen(field, part, by) gives those of a field at the site
+    n + `by`, and the system has the parameters by their names.
+    """
+    rule = Rule(Names(parts_of(nodes, frozenset()), by_name=True), "seen({}, {}, {})".format)
+    values = ", ".join(map(rule.value, nodes))
+    made: dict[str, Callable] = {}
+    lines = ["def function(system, seen):", *rule.code.lines, f"    return {values}"]
+    exec("\n".join(lines), made)
+    return made["function"]
 
 
 @cache

@@ -36,6 +36,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pendula.models.amplitudes import field
 from pendula.models.pairs import Family, pair
 
 TOLERANCE = 1e-13
@@ -89,11 +90,14 @@ def operators(chain: Chain, s: float, state: np.ndarray, even: bool) -> tuple:
 
 
 def residual(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
-    """Return the left side of (S), an array like `state`, written without matrices."""
+    """Return the left side of (S), an array like `state`, from the equations themselves."""
     right = np.concatenate([state[:, 1:], np.zeros((2, 1))], axis=1)
-    left = np.concatenate([state[:, 1:2], state[:, :-1]], axis=1)
-    coupling = chain.epsilon * ((right + left) - 2.0 * state)
-    return coupling + chain.omega * state + s * (state[::-1] - state) + 0.5 * state * state * state
+    sides = {0: state, 1: right, -1: np.concatenate([state[:, 1:2], state[:, :-1]], axis=1)}
+
+    def seen(partner: int, part: int, by: int) -> np.ndarray | float:
+        return 0.0 if part else sides[by][:: 1 - 2 * partner]
+
+    return field(chain._replace(gamma=s), seen)[0]
 
 
 def newton(chain: Chain, s: float, start: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.ends import neighbours
+from pendula.models.amplitudes import linear_field
 from pendula.problem import Problem
 
 ORDER = 20
@@ -86,11 +87,13 @@ def linear(values: np.ndarray, problem: Problem) -> np.ndarray:
 
     A term of `values` goes through seven roundings at most, see `regular.LINEAR_ROUNDINGS`.
     """
-    constants = problem.constants
     right, left = neighbours(values, problem.boundary)
-    drive = np.array([constants.gamma, -constants.gamma])[:, None, None]
-    coupling = constants.epsilon * ((right + left) - 2.0 * values)
-    return coupling + constants.omega * values + drive * (values[..., ::-1, :] - values)
+    sides = {0: values, 1: right, -1: left}
+
+    def seen(partner: int, part: int, by: int) -> np.ndarray:
+        return sides[by][..., part, :: 1 - 2 * partner, :]
+
+    return np.stack(linear_field(problem.constants, seen), axis=-3)
 
 
 def add_up(terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,14 +1,16 @@
 """Equations (4) and their energy (8) in multiprecision, for heyoka, on half a chain of even data.
 
-A state has the rows Re A, Im A, Re B, Im B on the sites 0..M, and A = B = 0 beyond site M. The
-equations stand here a second time, because heyoka takes expressions and the kernels take numbers; a
-test compares them. The numbers come from the decimals that the configuration prints.
+A state has the rows Re A, Im A, Re B, Im B on the sites 0..M, and A = B = 0 beyond site M. heyoka
+takes expressions, which follow from the traced equations. The numbers come from the decimals that
+the configuration prints.
 """
 
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from pendula.models.amplitudes import field
 
 HEYOKA = "heyoka==7.13.2"
 
@@ -64,35 +66,21 @@ def right_hand_side(heyoka, constants: RealConstants, half_width: int) -> list[t
     """Return the pairs (variable, its rate of change), in the order of a flattened state."""
     names = [[f"{row}{n}" for n in range(half_width + 1)] for row in ("ra", "ia", "rb", "ib")]
     rows = [[heyoka.make_vars(name) for name in row] for row in names]
+
+    def field_at(component: int, n: int) -> tuple:
+        def seen(partner: int, part: int, by: int):
+            row, site = rows[2 * (component ^ partner) + part], abs(n + by)  # -1 moves as 1
+            return row[site] if site < len(row) else 0.0  # site M + 1 is at rest
+
+        return field(constants, seen)
+
     pairs = []
-    for re in (0, 2):
-        # |A_n|^2 is one subexpression for both parts: heyoka computes its series once
-        squared_modulus = [x**2 + y**2 for x, y in zip(rows[re], rows[re + 1], strict=True)]
-        pairs += [
-            (u, _field(heyoka, constants, -constants.gamma, rows, re + 1, n, squared_modulus[n]))
-            for n, u in enumerate(rows[re])
-        ]
-        pairs += [
-            (u, -_field(heyoka, constants, constants.gamma, rows, re, n, squared_modulus[n]))
-            for n, u in enumerate(rows[re + 1])
-        ]
+    for component in (0, 1):
+        fields = [field_at(component, n) for n in range(half_width + 1)]
+        re, im = rows[2 * component : 2 * component + 2]
+        pairs += [(u, of_im) for u, (_, of_im) in zip(re, fields, strict=True)]
+        pairs += [(v, -of_re) for v, (of_re, _) in zip(im, fields, strict=True)]
     return pairs
-
-
-def _field(heyoka, constants, drive, rows, row, n, squared_modulus):
-    """Return one part of the right-hand side; `drive` is gamma for Re, -gamma for Im."""
-    sites, partner = rows[row], rows[(row + 2) % 4]
-    # site -1 moves as site 1, site M + 1 is at rest
-    neighbours = [sites[m] for m in (abs(n - 1), n + 1) if m < len(sites)]
-    own = constants.omega - constants.epsilon - constants.epsilon - drive
-    return heyoka.sum(
-        [
-            *(constants.epsilon * u for u in neighbours),
-            own * sites[n],
-            drive * partner[n],
-            0.5 * (squared_modulus * sites[n]),
-        ]
-    )
 
 
 def norms(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
