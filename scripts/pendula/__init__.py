@@ -11,7 +11,7 @@ __version__ = "1.0.0"
 _HOMES = {
     "notebook": (
         *("Case", "simulate", "sweep", "check"),
-        *("draw_norms", "draw_spacetime", "draw_sweep"),
+        *("draw_breather", "draw_norms", "draw_spacetime", "draw_sweep"),
     ),
     "datasets.netcdf": ("read", "DatasetError"),
     "model": ("Model", "ModelError"),

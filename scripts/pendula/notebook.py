@@ -31,7 +31,16 @@ from .problem import AMPLITUDES, Problem
 from .simulation import simulate as simulation
 from .simulation import sweep as sweeps
 
-__all__ = ["Case", "check", "draw_norms", "draw_spacetime", "draw_sweep", "simulate", "sweep"]
+__all__ = [
+    "Case",
+    "check",
+    "draw_breather",
+    "draw_norms",
+    "draw_spacetime",
+    "draw_sweep",
+    "simulate",
+    "sweep",
+]
 
 
 class Case(cases.Case):
@@ -275,6 +284,19 @@ def draw_spacetime(run):
 
     _require(run, xr.Dataset, f"{RUN}, with snapshots (its case has a snapshot_step)", "modulus")
     return figures.draw_spacetime(figures.gather_spacetime(run))
+
+
+def draw_breather(checks):
+    """Draw the localised state that `check` found of a model of one's own, and its stability.
+
+    Left are the moduli of all fields over sites; right its Floquet multipliers beside the unit
+    circle, or the exponents of perturbations where the state is steady.
+    Where there is no such state, the figure says why.
+    """
+    from .own_cases import figures  # here, so that who draws nothing does without it
+
+    _require(checks, xr.Dataset, "checks, as `check` returns them", "divergence_time")
+    return figures.draw_breather(figures.gather_breather(checks))
 
 
 def draw_sweep(sweep, max_window: str | None = None, mean_window: str | None = None):

@@ -8,7 +8,7 @@ from pendula.configuration.files import ConfigurationError
 from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
 from pendula.models.pendula import leading_angles
 from pendula.own_cases import section
-from pendula.own_cases.pendula import check_sweep
+from pendula.own_cases.checks import check_sweep
 from pendula.problem import Problem
 from pendula.report.page import Picture
 from pendula.simulation import simulate as simulation

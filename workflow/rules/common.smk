@@ -237,9 +237,11 @@ def some_own_files(wildcards):
         )
     of_sweep = [*FIGURE_KINDS, "checks.nc"]
     of_case = [*of_sweep, *(f"spacetime.{kind}" for kind in FIGURE_KINDS)]
+    of_models = [case for case in OWN_CASES if hasattr(SETTINGS.cases[case], "parameters")]
     return [
         *datasets("trajectories", *OWN_CASES),
         *expand("<results>/own/cases/{case}.{kind}", case=OWN_CASES, kind=of_case),
+        *expand("<results>/own/cases/{case}.breather.{kind}", case=of_models, kind=FIGURE_KINDS),
         *datasets("sweeps", *OWN_SWEEPS),
         *expand("<results>/own/sweeps/{sweep}.{kind}", sweep=OWN_SWEEPS, kind=of_sweep),
     ]

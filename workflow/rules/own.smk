@@ -34,6 +34,16 @@ use rule figure as own_figures with:
         ),
 
 
+use rule figure as own_breather with:
+    "The localised state of a case of your own model: results/own/cases/{case}.breather.png"
+    input:
+        checks="<results>/own/cases/{case}.checks.nc",
+    pathvars:
+        made="own/cases/<own_case>.breather",
+    params:
+        call=function("pendula.own_cases.figures.draw_breather"),
+
+
 use rule job as own_sweep_figure with:
     "The figure and checks of a sweep of your own: results/own/sweeps/{sweep}.png"
     input:

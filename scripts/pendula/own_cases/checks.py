@@ -4,7 +4,10 @@ First the case is run again by another method at tight tolerances. The differenc
 the error of the worse run. If the case was run by the default solver at its default tolerances,
 that is the error of double precision. Then a random tangent vector is carried along: its growth
 says whether the case is chaotic, and when the digits of double precision end. Last come Lemma 1 for
-the chain at rest, and Lemma 2 and Theorems 1 to 3 for the trajectory.
+the chain at rest, and Lemma 2 and Theorems 1 to 3 for the trajectory. Of pendula the amplitude
+equations (4) are solved from the same data instead, and what the expansion (3) makes of them at the
+end is compared with the angles there. A pendulum that passes the top has left the range of (3) for
+good.
 """
 
 import numpy as np
@@ -19,8 +22,9 @@ from pendula.integrators import DONE, FAULTS
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
 from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
+from pendula.models.pendula import leading_angles
 from pendula.numerics.elementary import log, modulus, square_modulus
-from pendula.problem import PENDULA, Problem, output_times
+from pendula.problem import AMPLITUDES, PENDULA, Problem, output_times
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, find_reduction
 from pendula.simulation.models import model_of
@@ -30,7 +34,7 @@ from pendula.studies.chaos.tangent_dynamics import STEP, TOLERANCE, Growth, grow
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 
-from .pendula import check_pendula
+from .breathers import check_breather
 
 TITLE = "A case beside the paper's statements"
 
@@ -139,6 +143,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         relative = log_growth - log(size)
         late = relative[-1] - relative[np.searchsorted(tau, middle)]
         amplified = amplification(tau, log_growth, size)
+    chaotic = int(is_chaotic(tau, log_growth, size))
     numbers = {
         "exponent": (
             mean_rate(tau, log_growth, middle),
@@ -146,10 +151,7 @@ def measure_sensitivity(problem: Problem) -> xr.Dataset:
         ),
         "exponent_error": (mean_rate_error(tau, log_growth, middle), "standard error of the rate"),
         "late_growth": (late, "growth relative to the solution's, second half, logarithm"),
-        "chaotic": (
-            int(is_chaotic(tau, log_growth, size)),
-            "one where that growth is exponential",
-        ),
+        "chaotic": (chaotic, "one where that growth is exponential"),
         "divergence_rounding": (
             predict(tau, amplified, ROUNDING),
             "tau at which one rounding a unit of tau has grown to 1 %",
@@ -179,19 +181,13 @@ def at_rest(problem: Problem) -> dict:
     """Return thresholds and growth rates of a chain at rest, infinite and of this length."""
     epsilon, gamma, omega = problem.constants
     chain = (epsilon, problem.sites, problem.boundary)
+    rate, threshold = infinite_rate(omega, gamma, epsilon), finite_threshold(omega, *chain)
+    finite, unit = finite_rate(omega, gamma, *chain), "per unit of tau"
     return {
         "gamma_0": variable(gamma_0(omega, epsilon), (), "threshold (12) of the infinite chain"),
-        "finite_threshold": variable(finite_threshold(omega, *chain), (), "threshold of N sites"),
-        "infinite_rate": variable(
-            infinite_rate(omega, gamma, epsilon),
-            (),
-            "largest rate of the infinite chain, per unit of tau",
-        ),
-        "finite_rate": variable(
-            finite_rate(omega, gamma, *chain),
-            (),
-            "largest rate of the finite chain, per unit of tau",
-        ),
+        "finite_threshold": variable(threshold, (), "threshold of N sites"),
+        "infinite_rate": variable(rate, (), f"largest rate of the infinite chain, {unit}"),
+        "finite_rate": variable(finite, (), f"largest rate of the finite chain, {unit}"),
     }
 
 
@@ -225,21 +221,65 @@ def beside_statements(problem: Problem, run: xr.Dataset, solver: dict) -> xr.Dat
     return xr.Dataset.from_dict(table(TITLE, {}, **numbers))
 
 
-def check_conserved(run: xr.Dataset, title: str) -> xr.Dataset:
+# --- The pendula ----------------------------------------------------------------------------------
+
+TITLE_OF_PENDULA = "A case of the pendula beside the expansion (3)"
+
+
+def over_the_top(run: xr.Dataset) -> float:
+    """Return the first tau of the outputs at which an angle exceeds pi, infinite if none does."""
+    beyond = (run["linf"] > np.pi).any("component").values
+    return float(run["tau"][beyond.argmax()]) if beyond.any() else np.inf
+
+
+def beside_expansion(problem: Problem, run: xr.Dataset) -> xr.Dataset:
+    """Return the largest angle, and how far the angles at the end are from those of (3)."""
+    angles = run["final"].sel(part="angle").values
+    solver = {"name": "taylor", "rtol": 1e-14, "atol": 1e-14}
+    changed = problem.changed(model=AMPLITUDES, mu=None, solver=solver, snapshot_every=0)
+    try:
+        amplitudes = simulate(changed).final
+        expected = leading_angles(amplitudes, problem.constants.omega, problem.mu, problem.end_time)
+        apart = float(np.abs(angles - expected).max())
+        scale = float(2.0 * problem.mu * modulus(amplitudes).max())
+    except IntegrationError:  # data of (4) may be refused that pendula can be followed from
+        apart = scale = np.nan
+    swing = "largest 2 mu abs(A_n) or 2 mu abs(B_n) of (4) at the end"
+    top = "first tau at which an angle exceeds pi, infinite: at no output"
+    numbers = {
+        "largest_angle": variable(float(run["linf"].max()), (), "largest angle", "rad"),
+        "over_the_top": variable(over_the_top(run), (), top),
+        "expansion_error": variable(apart, (), "largest |x - x of (3)| at the end", "rad"),
+        "expansion_swing": variable(scale, (), swing, "rad"),
+    }
+    return xr.Dataset.from_dict(table(TITLE_OF_PENDULA, {}, **numbers))
+
+
+def check_sweep(name: str, swept: xr.Dataset) -> xr.Dataset:
+    """Return the largest angle on each chain of a sweep, and on how many one goes over the top."""
+    peaks = swept["linf"].sel(quantity="pair", statistic="max").max("window").values
+    angles = variable(peaks, ("half_width",), "largest angle in the windows", "rad")
+    over = variable(int(np.sum(peaks > np.pi)), (), "chains on which a pendulum goes over the top")
+    coordinates = {"half_width": swept["half_width"].values}
+    found = table(TITLE_OF_PENDULA, coordinates, swept_angle=angles, swept_over=over)
+    return xr.Dataset.from_dict(found).assign_attrs(case=name)
+
+
+# --- All checks -----------------------------------------------------------------------------------
+
+
+def check_conserved(run: xr.Dataset) -> xr.Dataset:
     """Return by how much each conserved quantity drifts, relative to its largest size."""
     if "conserved" not in run:
         return xr.Dataset()
     values = run["conserved"].values
     drift = np.abs(values - values[:, :1]).max(axis=1)
     sizes = np.abs(values).max(axis=1)
-    drift = np.where(sizes > 0, drift / np.where(sizes > 0, sizes, 1.0), 0.0)
+    drift /= np.where(sizes > 0, sizes, 1.0)
     about = "largest change of a conserved quantity, relative to its largest size"
     names = {"conserved_quantity": run["conserved_quantity"].values}
     described = variable(drift, ("conserved_quantity",), about)
-    return xr.Dataset.from_dict(table(title, names, conserved_drift=described))
-
-
-# --- All checks -----------------------------------------------------------------------------------
+    return xr.Dataset.from_dict(table(TITLE, names, conserved_drift=described))
 
 
 def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
@@ -249,16 +289,11 @@ def check_run(problem: Problem, run: xr.Dataset) -> xr.Dataset:
     """
     again = run_again(problem, run)
     if problem.model == PENDULA:
-        data = xr.merge([again, check_pendula(problem, run)], combine_attrs="drop_conflicts")
-        return data.assign_attrs({**run.attrs, **data.attrs})
-    if problem.is_own:
-        parts = [again, measure_sensitivity(problem), check_conserved(run, TITLE)]
-        data = xr.merge(parts, combine_attrs="drop_conflicts")
-        return data.assign_attrs({**run.attrs, **data.attrs})
-    solver = {
-        key.removeprefix("second_"): again.attrs[key]
-        for key in ("second_name", "second_rtol", "second_atol")
-    }
-    parts = [again, measure_sensitivity(problem), beside_statements(problem, run, solver)]
-    data = xr.merge(parts, combine_attrs="drop_conflicts")
+        others = [beside_expansion(problem, run)]
+    elif problem.is_own:
+        others = [measure_sensitivity(problem), check_conserved(run), check_breather(problem)]
+    else:
+        solver = {key: again.attrs[f"second_{key}"] for key in ("name", "rtol", "atol")}
+        others = [measure_sensitivity(problem), beside_statements(problem, run, solver)]
+    data = xr.merge([again, *others], combine_attrs="drop_conflicts")
     return data.assign_attrs({**run.attrs, **data.attrs})

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from pendula.datasets.netcdf import read, save
 from pendula.drawing import panels, strips, style
@@ -16,7 +17,7 @@ from pendula.measures.difference import VISIBLE
 from pendula.problem import PENDULA, read_initial
 from pendula.studies.theory.bounds import check_sweeps
 
-from .pendula import check_sweep
+from .checks import check_sweep
 
 FEW = 8
 """Ticks for so many half-widths fit below a panel."""
@@ -92,6 +93,38 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
     for axes in row:
         axes.set_xlabel(r"$\tau$")
     row[0].set_ylabel("site $n$")
+    return figure
+
+
+def gather_breather(checks: xr.Dataset) -> xr.Dataset:
+    """Return the localised state that the checks of a model of one's own hold, if they hold one."""
+    return checks[[name for name in checks.data_vars if name.startswith("breather")]]
+
+
+@style.styled
+def draw_breather(data: xr.Dataset) -> Figure:
+    """Draw moduli over sites left; right the multipliers, or the exponents of a steady state."""
+    figure = style.new_figure(style.DOUBLE, 2.7)
+    if "breather" not in data:
+        reason = data.attrs.get("breather_refusal", "this is looked for in models of one's own")
+        figure.text(0.5, 0.5, f"no localised state: {reason}", ha="center")
+        return figure
+    left, right = figure.subplots(1, 2)
+    for i, one in enumerate(data["component"].values):
+        look = {"color": style.COLOURS.get(one, f"C{i}"), "marker": ".", "label": f"${one}$"}
+        left.plot(data["site"], data["breather"].sel(component=one), **look)
+    left.set(xlabel="site $n$", ylabel="modulus", ylim=(0, None))
+    left.xaxis.get_major_locator().set_params(integer=True)
+    left.set_title(name_parameters(data.attrs), loc="left")
+    turns = float(data["breather_frequency"]) != 0.0
+    what = "multipliers" if turns else "exponents"
+    points = data[f"breather_{what}"].values
+    right.plot(*points, color="black", marker=".", linestyle="none")
+    if turns:
+        right.add_patch(Circle((0, 0), 1.0, fill=False, color="grey", lw=0.5))
+        right.set_aspect("equal", "datalim")
+    right.set(xlabel=f"real part of {what}", ylabel="imaginary part")
+    style.name_legend(figure, left)
     return figure
 
 

@@ -29,6 +29,8 @@ from pendula.report.words import (
     told,
 )
 
+from .breathers import LOCALISED
+
 # ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
 # more than this.
 SLACK = 1e-6
@@ -40,6 +42,11 @@ EIGHT = 8.0
 """Outputs in a period of the pendula that show how they swing."""
 FEW = 8
 """The initial conditions of more sites do not fit into the table."""
+BREATHER = (
+    "A localised state of these equations, continued from the site where the data are largest, "
+    "left. Right its Floquet multipliers: it is unstable where one lies off the circle. Of a "
+    "steady state they are exponents, and it is unstable where one lies to the right of zero."
+)
 EQUATIONS = "Newton's equations (1) of the pendula"
 _SIGNS = {"mu": "μ", "omega": "Ω", "gamma": "γ", "epsilon": "ε", "half_width": "half-width M"}
 TOO_LARGE = "broken: the errors of the run are too large"
@@ -76,8 +83,8 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
     if own:
         what = ", ".join(map(str, run["component"].values))
     caption = (
-        f"Norms of {what} against τ, ℓ∞ left and ℓ² right. Where the case runs by another method "
-        "differ visibly, a dashed line marks it and the other run is shown below."
+        f"Norms of {what} against τ, ℓ∞ left and ℓ² right. Where a run by another method "
+        "differs visibly, a dashed line marks it and the other run is shown below."
     )
     if of_pendula and checks.attrs["output_step"] > _period(checks.attrs) / EIGHT:
         caption += (
@@ -94,6 +101,8 @@ def _case(name: str, folder: Path) -> dict[str, Any]:
                             parameters(run.attrs)),
         "norms": _figure(f"own/cases/{name}.png", caption, name, folder),
         "moduli": _figure(f"own/cases/{name}.spacetime.png", moduli, name, folder),
+        **({"breather": _figure(f"own/cases/{name}.breather.png", BREATHER, name, folder)}
+           if "breather" in checks else {}),
         "answers": Table("What the checks say", ("question", "answer"), answers),
         "numbers": Table(f"Their numbers, from {link}", ("quantity", "value"),
                          [[symbols(text), quote] for text, quote in quotes(checks, link)]),
@@ -161,9 +170,23 @@ def _of_own_model(checks, moves: bool) -> list[list[str]]:
     return [
         _trust(checks),
         _chaotic(checks),
+        _localised(checks),
         *([f"change of {one['conserved_quantity'].item()}, over its largest size", number(one)]
           for one in drifts),
     ]  # fmt: skip
+
+
+def _localised(checks) -> list[str]:
+    """Return a row: the localised state of a model of the user's own, and whether it is stable."""
+    question = "a localised state"
+    if reason := checks.attrs.get("breather_refusal"):
+        return [question, f"none: {reason}"]
+    frequency, growth = (float(checks[f"breather_{name}"]) for name in ("frequency", "growth"))
+    what = f"turns at the frequency {number(frequency)}" if frequency else "is steady"
+    if checks["breather_end"] > LOCALISED:
+        return [question, f"{what}, but reaches the ends of the chain"]
+    grows = f"a perturbation grows at the rate {number(growth)}"
+    return [question, f"{what}; {grows if growth else 'no perturbation grows'}"]
 
 
 def _chaotic(checks) -> list[str]:

@@ -8,7 +8,6 @@ from pendula.ends import PERIODIC, ends_of, kind_of
 from pendula.graph import derivative, evaluate, leaves_in, number
 from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
 from pendula.model import Model
-from pendula.models.chain import seen_at
 from pendula.models.generated import load_text, module_text, parts_of_rates
 from pendula.models.toolbox import System
 from pendula.problem import Problem
@@ -17,6 +16,8 @@ from pendula.simd import LANES
 from .lattice import Reduction, choose_ends, find_reduction
 from .solvers import ITERATED, Solver
 
+PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
+"""How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
 USED = {
     "pendula.integrators": "crank_nicolson, dop853, kahan_li, ode45",
     "pendula.simulation.observables": "observe_angles, observe_fields",
@@ -137,10 +138,8 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
     reach = max((density.reach for density in densities.values()), default=0)
     sees = ends_of(problem.boundary).sees
     margin = reach if sees is None else 0
-    how = {"constant_values": 0.0} if sees is None else {}
-    mode = "constant" if sees is None else {(0, -1): "symmetric", (-1, 0): "wrap"}[sees]
     wide = [(0, 0), (0, 0), (margin + reach, margin + reach), (0, 0)]
-    padded = np.pad(snapshots, wide, mode, **how)
+    padded = np.pad(snapshots, wide, PADDING[sees])
     count = snapshots.shape[2] + 2 * margin
 
     def leaf(one):
@@ -159,15 +158,23 @@ def conserved_in(problem: Problem, snapshots: np.ndarray) -> dict[str, np.ndarra
     return dict(zip(densities, totals, strict=True))
 
 
-def linearisation(problem: Problem, state: np.ndarray) -> np.ndarray:
-    """Return the matrix of the equations linearised at a state, at time 0.
+def linearise(
+    problem: Problem, state: np.ndarray, coupling: float = 1.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rates of a state at time 0, and the matrix of their derivatives.
 
-    `state` is complex of shape (field, site). Rows and columns are (row of the state, site),
-    flattened: real and imaginary parts of each field, or its value and its rate.
+    `state` and rates are flat: by row, which are the real and imaginary parts of each field or its
+    value and its rate, and then by site. A `coupling` below 1 replaces a neighbour's value by its
+    mean with the site's own, where it has this weight: at 0 sites are independent.
     """
     model, values = problem.model, parameters_of(problem)
-    sites = state.shape[1]
-    parts = np.stack([state.real, state.imag], axis=1).reshape(-1, sites)
+    parts = state.reshape(-1, problem.sites)
+    sites = problem.sites
+    own, mode = np.arange(sites), PADDING[ends_of(problem.boundary).sees]
+    seen = np.pad(own + 1, model.reach, mode) - 1  # a site at rest is -1
+
+    def places(by):
+        return seen[model.reach + by : model.reach + by + sites]
 
     def value(one):
         if one.operation in ("number", "time"):
@@ -176,27 +183,29 @@ def linearisation(problem: Problem, state: np.ndarray) -> np.ndarray:
         if one.operation == "parameter":
             found = values[one.operands[0]]
             return found if np.ndim(found) == 0 else moved(found, by, problem.boundary)
-        component, part, _ = one.operands
-        return seen(parts[2 * component + part], by)
+        row, at = parts[2 * one.operands[0] + one.operands[1]], places(by)
+        return coupling * np.where(at >= 0, row[at], 0.0) + (1.0 - coupling) * row
 
-    def places(by):
-        kinds = System((), (), None, None, *2 * (kind_of(problem.boundary),))
-        return np.array([seen_at.py_func(kinds, n + by, sites) for n in range(sites)])
-
-    def seen(row, by):
-        at = places(by)
-        return np.where(at >= 0, row[at], 0.0)
-
+    rates = [np.broadcast_to(rate, sites) for rate in evaluate(model.rates, value)]
     matrix = np.zeros((len(parts), sites, len(parts), sites))
-    for leaf in leaves_in(model.rates, "field"):
+    for leaf, slopes in _slopes(model):
         component, part, by = leaf.operands
         at = places(by)
         inside = np.flatnonzero(at >= 0)
-        slopes = derivative(model.rates, lambda one, leaf=leaf: number(one is leaf))
         for row, slope in enumerate(evaluate(slopes, value)):
-            slope = np.broadcast_to(slope, sites)
-            matrix[row, inside, 2 * component + part, at[inside]] += slope[inside]
-    return matrix.reshape(len(parts) * sites, -1)
+            slope, column = np.broadcast_to(slope, sites), 2 * component + part
+            matrix[row, inside, column, at[inside]] += coupling * slope[inside]
+            matrix[row, own, column, own] += (1.0 - coupling) * slope
+    return np.concatenate(rates), matrix.reshape(len(parts) * sites, -1)
+
+
+@cache
+def _slopes(model: Model) -> list[tuple]:
+    """Return each field of the equations, at each shift, with the derivatives by it."""
+    return [
+        (leaf, derivative(model.rates, lambda one, leaf=leaf: number(one is leaf)))
+        for leaf in leaves_in(model.rates, "field")
+    ]
 
 
 def moved(values: np.ndarray, by: int, boundary: str) -> np.ndarray:
