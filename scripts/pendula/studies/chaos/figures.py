@@ -73,12 +73,8 @@ def _draw_running(axes: Axes, data: xr.Dataset) -> None:
         for parity in data["parity"].values:
             shown = abs(data["running"].sel(case=case, parity=parity).isel(tau=sampled))
             axes.plot(shown["tau"], shown, dashes=DASHES[parity], **_look(data, case))
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(1, float(data["tau"].max()))
-    axes.set_ylim(3e-4, 5)
-    axes.set_xlabel(r"$\tau$")
-    axes.set_ylabel("mean rate of growth (per unit of $\\tau$)")
+    axes.set(xscale="log", yscale="log", xlim=(1, float(data["tau"].max())), ylim=(3e-4, 5))
+    axes.set(xlabel=r"$\tau$", ylabel="mean rate of growth (per unit of $\\tau$)")
     axes.set_title("one small change", loc="left")
 
 
@@ -102,11 +98,9 @@ def _draw_spectrum(axes: Axes, data: xr.Dataset) -> None:
         label = rf"$\Omega = {float(data['omega'].sel(case=case)):g}$"
         handles.append(Line2D([], [], color=colour, lw=2, label=label))
     # the other half are the same with the opposite sign
-    axes.set_xlim(0, 0.52)
-    axes.set_ylim(-0.2, None)
-    axes.set_title("all changes: the upper half", loc="left")
-    axes.set_xlabel("number of the exponent over $4N$")
+    axes.set(xlim=(0, 0.52), ylim=(-0.2, None), xlabel="number of the exponent over $4N$")
     axes.set_ylabel("Lyapunov exponent (per unit of $\\tau$)")
+    axes.set_title("all changes: the upper half", loc="left")
     axes.legend(handles=handles, loc="upper right", handlelength=1.2, handletextpad=0.5)
 
 
@@ -120,10 +114,8 @@ def _draw_divergence(axes: Axes, data: xr.Dataset) -> None:
     shown = times.to_array().isel(rtol=slice(len(tolerances)))
     top = 1.1 * max(1.0, float(shown.where(np.isfinite(shown)).max()))
     axes.plot([0, top], [0, top], color="black", lw=0.8)
-    axes.set_xlim(0, top)
-    axes.set_ylim(0, top)
-    axes.set_xlabel(r"predicted divergence time $\tau$")
-    axes.set_ylabel(r"measured divergence time $\tau$")
+    axes.set(xlim=(0, top), xlabel=r"predicted divergence time $\tau$")
+    axes.set(ylim=(0, top), ylabel=r"measured divergence time $\tau$")
     axes.set_title("runs differ by 1 %", loc="left")
     look = {"color": "0.3", "linestyle": "none", "markersize": 4}
     handles = [
@@ -223,8 +215,7 @@ def _draw_bands(axes: Axes, case: xr.Dataset) -> None:
     axes.plot(case["tau"], case["l2"].sel(quantile=0.5), **MEDIAN)
     axes.plot(case["tau"], case["true"], **TRUE)
     axes.plot(case["tau"], case["run"], **OWN)
-    axes.set_xlim(0, float(case["tau"].max()))
-    axes.set_xlabel(r"$\tau$")
+    axes.set(xlim=(0, float(case["tau"].max())), xlabel=r"$\tau$")
     axes.set_title(style.name_case(case), loc="left")
 
 
@@ -236,8 +227,7 @@ def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
     axes.plot(sweep["half_width"], sweep["swept_run"], **OWN_DOT)
     panels.half_width_axis(axes)
     tops = sweep["l2_mean"] + sweep["l2_deviation"], sweep["swept_run"]
-    axes.set_ylim(0, 1.08 * max(float(top.max()) for top in tops))
-    axes.set_xlabel("half-width $M$")
+    axes.set(ylim=(0, 1.08 * max(float(top.max()) for top in tops)), xlabel="half-width $M$")
     axes.set_ylabel(f"largest {NORM} on {sweep['swept_window'].item()}")
     labels = {"swept_omega": "omega", "swept_initial": "initial"}
     axes.set_title(style.name_case(sweep[list(labels)].rename(labels)), loc="left")
@@ -287,11 +277,8 @@ def _draw_shares(axes: Axes, data: xr.Dataset) -> None:
         last = f" to {amplitudes[-1]:g}" if len(amplitudes) > 1 else ""
         axes.text(0.93 * float(fast["median"].min()), 0.04, f"$A_0 = {amplitudes[0]:g}${last}",
                   color="0.45", fontsize=7, ha="right")  # fmt: skip
-    axes.set_xscale("log")
-    axes.set_xlim(1, end)
-    axes.set_ylim(0, 1.03)
-    axes.set_xlabel(r"$\tau$")
-    axes.set_ylabel("share of runs still localised")
+    axes.set(xscale="log", xlim=(1, end), xlabel=r"$\tau$")
+    axes.set(ylim=(0, 1.03), ylabel="share of runs still localised")
     axes.set_title("(a) runs that have not changed over", loc="left")
 
 
@@ -315,9 +302,7 @@ def _draw_lives(axes: Axes, data: xr.Dataset) -> None:
     )  # fmt: skip
     least = settled + 1.0 / data["rate_high"].values[unseen]
     _draw_bounds(axes, a0[unseen] + BESIDE, least, style.RED, "mean at least")
-    axes.set_yscale("log")
-    axes.set_xlabel("initial amplitude $A_0$")
-    axes.set_ylabel("life, units of $\\tau$")
+    axes.set(yscale="log", xlabel="initial amplitude $A_0$", ylabel="life, units of $\\tau$")
     axes.set_title("(b) how long it takes", loc="left")
     axes.legend(loc="upper left", handletextpad=0.3)
 

@@ -35,20 +35,20 @@ class Spectrum(Model):
     lengths: Annotated[dict[Natural, Positive], Field(min_length=1)]
 
 
-class Lyapunov(Model):
-    """The largest exponents of every case; `lengths` multiplies the end time of the longest."""
+# The largest exponents of every case; `lengths` multiplies the end time of the longest.
+Lyapunov = model(
+    lengths=Positive,
+    tolerance=Tolerance,
+    diverging_tolerances=Annotated[list[Tolerance], Field(min_length=1), Distinct],
+    spectrum=Spectrum,
+    seed=Natural,
+)
 
-    lengths: Positive
-    tolerance: Tolerance
-    diverging_tolerances: Annotated[list[Tolerance], Field(min_length=1), Distinct]
-    spectrum: Spectrum
-    seed: Natural
-
+RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
+"""What all ensembles have: the solver's tolerance, the size of a change, and the seed."""
 
 # How even data lose their evenness.
-Symmetry = model(
-    tolerance=Tolerance, output_step=Positive, size=Positive, members=Count, seed=Natural
-)
+Symmetry = model(output_step=Positive, members=Count, **RANDOM)
 
 # The ensembles of sweeps: so many members on chains of each half-width.
 Swept = Annotated[
@@ -57,27 +57,16 @@ Swept = Annotated[
 ]
 
 
-class Ensembles(Model):
-    """Cases and sweeps from data that differ in their last digits."""
+# Cases and sweeps from data that differ in their last digits.
+Ensembles = model(cases=Names, sweeps=Swept, uneven=Swept, members=Count, **RANDOM)
 
-    cases: Names
-    sweeps: Swept
-    uneven: Swept
-    tolerance: Tolerance
-    size: Positive
-    members: Count
-    seed: Natural
-
-
-class Members(Model):
-    """Ensembles of every case, each member reduced to numbers over windows of time."""
-
-    windows: Annotated[list[Window], Field(min_length=2, max_length=2), Distinct]
-    tolerance: Tolerance
-    size: Positive
-    members: Annotated[Whole, Field(ge=3)]
-    every: Count
-    seed: Natural
+# Ensembles of every case, each member reduced to numbers over windows of time.
+Members = model(
+    windows=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
+    members=Annotated[Whole, Field(ge=3)],
+    every=Count,
+    **RANDOM,
+)
 
 
 class Lifetimes(Model):

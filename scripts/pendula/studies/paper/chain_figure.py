@@ -1,7 +1,5 @@
 """Figure 1: a drawing of the chain, pairs of pendula on common strings linked by springs."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,19 +8,20 @@ from matplotlib.figure import Figure
 from pendula.drawing import style
 from pendula.numerics.elementary import cos, sin
 
+PAIRS, ANGLES = 5, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
 COLOURS = {"x": style.COLOURS["A"], "y": style.COLOURS["B"]}  # A_n is the amplitude of x_n
 
 
-def gather(pairs: int = 5, angles: Sequence[float] = (-0.5, 0.35)) -> xr.Dataset:
-    """Return the points, on the page, of `pairs` pairs, the central one turned by `angles`.
+def gather() -> xr.Dataset:
+    """Return the points, on the page, of all pairs, the central one turned by ANGLES.
 
     The others are turned less, the farther they are from it: a picture, not a solution.
     """
-    offsets = np.arange(pairs) - pairs // 2
+    offsets = np.arange(PAIRS) - PAIRS // 2
     place = SPACING * offsets[:, None]
-    turned = np.asarray(angles) * cos(np.pi * offsets[:, None] / (pairs + 1))
+    turned = np.asarray(ANGLES) * cos(np.pi * offsets[:, None] / (PAIRS + 1))
     strings = _project(place, np.array([-OVERHANG, DEPTH + OVERHANG]), 0)
     pivots = _project(place, np.array([0, DEPTH]), 0)
 

@@ -9,6 +9,7 @@ from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.claim import CHANGE, CONSTANT
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import CONFIRMED, Ledger, badge
+from pendula.measures.difference import difference, divergence_time, is_of_same_case, known_until
 from pendula.measures.levels import levelling
 from pendula.problem import name_window
 from pendula.report.results import Results, Section, Table
@@ -17,6 +18,7 @@ from pendula.report.words import (
     NORMS,
     STATISTICS,
     case_in_words,
+    horizon_in_words,
     measured,
     number,
     percent,
@@ -24,7 +26,6 @@ from pendula.report.words import (
     told,
 )
 
-from .known import TRUST, trusted
 from .section_solvers import gather_solvers
 
 OF_TIME = {which: [f"fig{which}_{size}" for size in ("small", "large")] for which in (2, 3, 4)}
@@ -32,7 +33,7 @@ OF_WIDTH = {which: [f"fig{which}_{side}" for side in ("left", "right")] for whic
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
-SAMPLES, ENSEMBLES = "checks/ensemble_runs", "checks/ensembles"
+SAMPLES, ENSEMBLES, TRUST = "checks/ensemble_runs", "checks/ensembles", "checks/trust"
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -124,6 +125,29 @@ def _run(results: Results, name: str) -> list:
         results.quote("checks/cases", float(bound["ratio"])),
         results.quote(run, data.attrs["steps"], 6),
     ]
+
+
+def trusted(results: Results, case: str) -> tuple[str, str]:
+    """Return in words when a run leaves its reference, and the dataset that has this time.
+
+    A run by other controls than its solver's in checks/trust was not judged there, and is here.
+    """
+    source = f"trajectories/{case}"
+    run, trust = results[source], results[TRUST].sel(case=case)
+    solver, known = run.attrs["solver"], trust["solver"].values
+    if solver in known and _controls(results[f"{source}.{solver}"]) == _controls(run):
+        judged = trust.sel(solver=solver, level="visible")
+        times = (float(judged[name]) for name in ("horizon", "known_until", "run_end"))
+        return horizon_in_words(*times), TRUST
+    reference, end = results[f"truth/{case}"], float(run["tau"][-1])
+    if not is_of_same_case(run, reference):
+        return horizon_in_words(np.nan, np.nan, end), source
+    apart = difference(run, reference)
+    return horizon_in_words(float(divergence_time(apart)), float(known_until(apart)), end), source
+
+
+def _controls(run) -> dict[str, Any]:
+    return {key: value for key, value in run.attrs.items() if key.startswith("solver")}
 
 
 def _sweeps(results: Results, which: int) -> dict[str, Any]:

@@ -74,10 +74,8 @@ def _draw_cases(axes: Axes, data: xr.Dataset) -> None:
             look = {"color": colour, "label": label, "markersize": 5, "markeredgewidth": 1.5}
             axes.plot(bound, rows, marker, **look)
     axes.set_yticks(rows, list(map(_name, data["omega"], data["initial"])))
-    axes.set_ylim(rows[-1] + 0.5, -0.5)
-    axes.set_xscale("log")
+    axes.set(ylim=(rows[-1] + 0.5, -0.5), xscale="log", xlabel=POWER)
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel(POWER)
     _legend_above(axes, 2)
 
 
@@ -102,8 +100,7 @@ def _draw_forms(axes: Axes, data: xr.Dataset) -> None:
     axes.axvline(1, color="black", lw=0.8, dashes=(4, 2))
     axes.set_yticks(rows, [words for _, words in FORMS.values()])
     axes.invert_yaxis()
-    axes.set_xlim(0, 1.06)
-    axes.set_xlabel("largest $P$ over its bound")
+    axes.set(xlim=(0, 1.06), xlabel="largest $P$ over its bound")
     _legend_above(axes, 2)
 
 
@@ -116,8 +113,7 @@ def _draw_sweeps(axes: Axes, data: xr.Dataset) -> None:
         axes.plot(data["half_width"], ratio, **look)
     axes.axhline(1, color="black", lw=0.8, dashes=(4, 2))
     half_width_axis(axes)
-    axes.set_yscale("log")
-    axes.set(xlabel="half-width $M$", ylabel="largest $P$ over its smallest bound")
+    axes.set(yscale="log", xlabel="half-width $M$", ylabel="largest $P$ over its smallest bound")
     axes.legend(loc="lower left", fontsize=7)
 
 

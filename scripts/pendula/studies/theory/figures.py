@@ -93,8 +93,8 @@ def _draw_share(axes: Axes, data: xr.Dataset) -> None:
         share = data["share"].sel(half_width=half_width)
         look = {"color": colour, "dashes": dashes, "label": f"$N = {2 * int(half_width) + 1}$"}
         axes.plot(share["window_gamma"], share, lw=1.3, **look)
-    axes.set(xscale="log", ylim=(0, 1), xlabel=r"$\gamma / \epsilon$")
-    axes.set_xlim(float(data["window_gamma"][0]), float(data["window_gamma"][-1]))
+    ends = float(data["window_gamma"][0]), float(data["window_gamma"][-1])
+    axes.set(xscale="log", xlim=ends, ylim=(0, 1), xlabel=r"$\gamma / \epsilon$")
     axes.set_ylabel(r"stable share of $0 \leq \Omega \leq 4 \epsilon$")
     axes.set_title("windows of stability of finite chains", loc="left")
     axes.legend()
