@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from on_breathers import ABOVE, BELOW, at_twelve, members
+from on_breathers import ABOVE, BELOW, at_twelve, half_traces, members
 from pendula.studies.breathers import multipliers
 from pendula.studies.breathers.periodic import FAMILIES, Breather, real_data, shoot
 from pendula.studies.breathers.quarter_period import flow
@@ -104,9 +104,7 @@ def test_a_quartet_is_born_where_opposite_signatures_meet():
     assert low.frequency < frequency < high.frequency
     for away, grows in ((-1e-3, True), (1e-3, False)):
         beside = shoot(ABOVE, frequency + away, met.breather.data)
-        assert (
-            multipliers.growth(frequency, multipliers.half_traces(beside, "even")) > 0.0
-        ) is grows
+        assert (multipliers.growth(frequency, half_traces(beside, "even")) > 0.0) is grows
 
 
 def test_a_pair_meets_itself_at_one():

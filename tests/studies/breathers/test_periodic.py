@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from on_breathers import ABOVE, BELOW, at_twelve, members
+from on_breathers import ABOVE, BELOW, at_twelve, half_traces, members
 from pendula.problem import Constants
 from pendula.simulation.simulate import simulate
 from pendula.studies.breathers import multipliers, periodic
-from pendula.studies.breathers.multipliers import growth, half_traces
+from pendula.studies.breathers.multipliers import growth
 from pendula.studies.breathers.periodic import (
     FAMILIES,
     least_power,

@@ -1,8 +1,8 @@
 """Perturbed breathers in the nonlinear flow: their rates against Floquet's."""
 
 import pytest
-from on_breathers import ABOVE, BELOW, at_twelve, members
-from pendula.studies.breathers.multipliers import growths, half_traces
+from on_breathers import ABOVE, BELOW, at_twelve, half_traces, members
+from pendula.studies.breathers.multipliers import growths
 from pendula.studies.breathers.perturbed import measured_growth
 
 

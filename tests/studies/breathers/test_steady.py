@@ -142,10 +142,10 @@ def test_a_daughter_turns_at_the_pitchfork(parent, daughter):
     assert found == pytest.approx(turns, abs=1e-5)
 
 
-def test_a_threshold_is_where_the_verdict_changes():
-    chains = [steady.Chain(1.0, 1.0, 0.0, half) for half in (8, 16)]
-    found = branches.thresholds(chains, EQUAL, -9.0, -5.0, 1e-2)
-    assert found[0] == pytest.approx(found[1], abs=0.1)
-    for low, high in ((found[0] + 0.1, -5.0), (-9.0, found[0] - 0.1)):
+def test_a_threshold_is_where_the_verdict_changes_and_the_same_on_twice_the_chain():
+    short, long = (steady.Chain(1.0, 1.0, 0.0, half) for half in (8, 16))
+    found = branches.threshold(short, EQUAL, -9.0, -5.0, 1e-2)
+    assert branches.threshold(long, EQUAL, -9.0, -5.0, 1e-2) == pytest.approx(found, abs=0.1)
+    for low, high in ((found + 0.1, -5.0), (-9.0, found - 0.1)):
         with pytest.raises(steady.NotFoundError, match="stable at"):
-            branches.thresholds(chains, EQUAL, low, high, 1e-2)
+            branches.threshold(short, EQUAL, low, high, 1e-2)

@@ -91,14 +91,6 @@ def test_sampled_rings_have_these_maxima(fig4):
     assert groups.mean() == pytest.approx(float(mean_maximum(ring, 16 * SITES + 1)), abs=0.05)
 
 
-def test_the_largest_rises_as_the_fourth_root_of_the_logarithm():
-    """Its fourth power rises by 4 / beta a unit of ln N where sites are alone."""
-    bounds = np.linspace(0.2, 9.4, 47)
-    law = dataset(bounds, *law_of_maxima(constants_of((0.0, 0.0, 0.0)), BETA, bounds))
-    few, many = mean_maximum(law, np.array([1e5, 1e6])) ** 4
-    assert (many - few) / np.log(10.0) == pytest.approx(4.0 / BETA, rel=0.04)
-
-
 def test_the_mean_of_the_largest_is_the_integral_over_what_it_exceeds():
     bounds = np.linspace(0.01, 1.0, 100)
     law = dataset(bounds, -np.log(bounds), bounds)  # uniform moduli: N / (N + 1)

@@ -10,7 +10,7 @@ from metropolis import energy_of, mean_and_error, sample
 from oracle import hamiltonian, random_chain
 from pendula.datasets.netcdf import as_xarray
 from pendula.studies.unbounded import thermal
-from pendula.studies.unbounded.bulk import TERMS, spectrum
+from pendula.studies.unbounded.bulk import TERMS
 from pendula.studies.unbounded.transfer import REACH, reach_of, widest
 from problems import PAPER, constants_of
 from scipy.optimize import minimize_scalar
@@ -117,20 +117,6 @@ def test_the_bonds_hold_the_energy_that_the_virial_says():
     assert here == pytest.approx(state.power, rel=1e-9)
     bonds = -0.9 * 2.0 * (here - beside)
     assert thermal.terms_of(state)[TERMS.index("bonds")] == pytest.approx(bonds, rel=1e-6)
-
-
-def test_power_spectrum_and_density_tell_one_power():
-    state = state_of((1.0, 1.0, 3.0))
-    assert state.operator.nodes.shape == (4, NODES)
-    assert thermal.spectrum_of(thermal.products_of(state, 64)).mean() == pytest.approx(
-        state.power / 2.0, rel=1e-9
-    )
-    fine = np.linspace(0.0, 8.0, 801)
-    density, middle = thermal.density_of(state, fine, 22), 0.5 * (fine[1:] + fine[:-1])
-    assert density.sum() * 0.01 == pytest.approx(1.0, abs=1e-8)
-    assert (density * middle**2).sum() * 0.01 == pytest.approx(state.power / 2.0, rel=1e-4)
-    waves = np.exp(2j * np.pi * np.arange(64) / 64)
-    assert spectrum(waves, 64).argmax() == 1  # its k are those of `bulk.spectrum`
 
 
 def test_where_every_state_has_energy_there_is_none():

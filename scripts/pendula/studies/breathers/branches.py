@@ -10,8 +10,6 @@ K of `steady` is epsilon D + Omega - 2 s + 3 u^2 / 2 from a = b, and of exchange
 which it is epsilon D + Omega + 3 u^2 / 2, from a = -b.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.optimize import brentq
 
@@ -21,8 +19,8 @@ from .steady import (
     ITERATIONS,
     Chain,
     NotFoundError,
+    continued,
     fastest_growth,
-    near_to,
     operators,
     residual,
     second_difference,
@@ -81,33 +79,15 @@ def turning_point(points: list) -> float:
     return float(at + (after - before) ** 2 / (8.0 * (2.0 * at - before - after)))
 
 
-class Followed:
-    """The states of a family at one Omega after another, each found from the one before."""
-
-    def __init__(self, chain: Chain, family: Family, state: np.ndarray | None = None):
-        self._chain, self._family, self.state = chain, family, state
-
-    def at(self, omega: float) -> np.ndarray:
-        """Return the state at this Omega."""
-        self.state = near_to(self.state, self._chain._replace(omega=omega), self._family)
-        return self.state
-
-    def is_stable(self, omega: float) -> bool:
-        """Return whether no perturbation of the state at this Omega grows, even or odd."""
-        chain = self._chain._replace(omega=omega)
-        return not fastest_growth(chain, self._family, self.at(omega))
-
-
 def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
     """Return the Omega between `low` and `high` where an asymmetric family leaves its parent.
 
     The largest eigenvalue of K on perturbations that break the parent's symmetry vanishes there.
     """
-    followed = Followed(chain, parent)
     shift = -2.0 * parent.drive(chain.gamma) if parent.kind == "equal" else 0.0
 
     def eigenvalue(omega: float) -> float:
-        state = followed.at(omega)
+        state = continued(chain._replace(omega=omega), parent)
         linear = chain.epsilon * second_difference(state.shape[1])
         matrix = linear + np.diag(omega + shift + 1.5 * state[0] ** 2)
         return float(np.linalg.eigvals(matrix).real.max())
@@ -115,34 +95,22 @@ def pitchfork(chain: Chain, parent: Family, low: float, high: float) -> float:
     return brentq(eigenvalue, low, high, xtol=1e-13)
 
 
-def stable_below(followed: Followed, name: str, low: float, high: float, digits: float) -> tuple:
-    """Return the two Omega, no further apart than `digits`, between which a family turns stable.
+def threshold(chain: Chain, family: Family, low: float, high: float, digits: float) -> float:
+    """Return the Omega between `low` and `high` below which a family is stable, by bisection.
 
-    They lie between `low`, where it is stable, and `high`.
+    Two Omega that are no further apart than `digits` enclose it. Raises NotFoundError if the family
+    is not stable at `low`, or is at `high`.
     """
-    if not followed.is_stable(low):
-        raise NotFoundError(f"{name} is not stable at {low:g}")
-    if followed.is_stable(high):
-        raise NotFoundError(f"{name} is stable at {high:g}")
+
+    def is_stable(omega: float) -> bool:
+        here = chain._replace(omega=omega)
+        return not fastest_growth(here, family, continued(here, family))
+
+    if not is_stable(low):
+        raise NotFoundError(f"{family.name} is not stable at {low:g}")
+    if is_stable(high):
+        raise NotFoundError(f"{family.name} is stable at {high:g}")
     while high - low > digits:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if followed.is_stable(middle) else (low, middle)
-    return low, high
-
-
-def thresholds(
-    chains: Sequence[Chain], family: Family, low: float, high: float, digits: float
-) -> list[float]:
-    """Return the Omega below which a family is stable, between `low` (stable) and `high`, by chain.
-
-    If it turns stable between the same two Omega on a longer chain, bisection would find them.
-    """
-    found, state = [], None
-    for chain in chains:
-        followed = Followed(chain, family, state)
-        if found and followed.is_stable(found[-1][0]) and not followed.is_stable(found[-1][1]):
-            found.append(found[-1])
-        else:
-            found.append(stable_below(followed, family.name, low, high, digits))
-        state = followed.state
-    return [0.5 * (below + above) for below, above in found]
+        low, high = (middle, high) if is_stable(middle) else (low, middle)
+    return 0.5 * (low + high)

@@ -56,10 +56,9 @@ def steady_contents(
         for j, omega in enumerate(omegas):
             if pair(family, gamma, omega) is None:
                 continue
-            state = None
             for k, half in enumerate(halves):
                 chain = steady.Chain(epsilon, gamma, omega, half)
-                state = steady.near_to(state, chain, family)
+                state = steady.continued(chain, family)
                 rates[k, i, j] = steady.fastest_growth(chain, family, state)
             turned = state * (1j if family.imaginary else 1.0)
             amplitude[:, :, i, j] = turned[:, 0].real, turned[:, 0].imag
@@ -112,9 +111,13 @@ def _thresholds(
 ) -> dict[str, Variable]:  # fmt: skip
     """Return the Omega below which families are stable, on chains of both half-widths."""
     named = {family.name: family for family in FAMILIES}
-    chains = [steady.Chain(epsilon, gamma, 0.0, half) for half in halves]
     found = [
-        branches.thresholds(chains, named[name], *ends, stability["to"])
+        [
+            branches.threshold(
+                steady.Chain(epsilon, gamma, 0.0, half), named[name], *ends, stability["to"]
+            )
+            for half in halves
+        ]
         for name, ends in stability["between"].items()
     ]
     over = ("stable_family", "chain_half_width")

@@ -40,9 +40,9 @@ from scipy.optimize import brentq
 
 from pendula.numerics.elementary import log
 
-from .periodic import Breather, exchange_sign, real_data, shoot, widened
+from .periodic import Breather, real_data, shoot, widened
 from .quarter_period import STEPS, flow
-from .steady import NotFoundError
+from .steady import NotFoundError, exchange_sign
 from .waves import band_traces
 
 PARITIES = ("even", "odd")
@@ -146,11 +146,6 @@ def _traces_and_forms(a: np.ndarray, b: np.ndarray, weights: np.ndarray) -> tupl
     forms = np.sum(vectors.conj() * moved, axis=0).real
     forms /= np.sqrt(np.sum(np.abs(vectors) ** 2, axis=0) * np.sum(np.abs(moved) ** 2, axis=0))
     return -values.astype(complex), forms
-
-
-def half_traces(breather: Breather, parity: str) -> np.ndarray:
-    """Return the numbers nu of even or odd perturbations, complex."""
-    return spectrum(half_map(breather, parity), parity)[0]
 
 
 def growths(frequency: float, traces: np.ndarray) -> np.ndarray:

@@ -31,7 +31,7 @@ from pendula.numerics.matrices import times
 from pendula.problem import Constants, Problem
 
 from .quarter_period import FINE_STEPS, STEPS, flow
-from .steady import NotFoundError, power
+from .steady import NotFoundError, exchange_sign, power
 from .waves import distance_from_bands, free_intervals, highest
 
 FAMILIES = ("A only", "A = -B", "A = B")
@@ -158,11 +158,6 @@ def least_power(family: list[Breather], instant: str) -> tuple[float, float]:
     ends = family[middle - 1].frequency, family[middle + 1].frequency
     found = minimize_scalar(total, bounds=ends, method="bounded", options={"xatol": CLOSE})
     return float(found.x), float(found.fun)
-
-
-def exchange_sign(data: np.ndarray) -> int:
-    """Return 1 where A = B, -1 where A = -B, and 0 elsewhere."""
-    return next((sign for sign in (1, -1) if np.array_equal(data[0], sign * data[1])), 0)
 
 
 def _matrix(guess: Breather, symmetry: int) -> np.ndarray:

@@ -79,12 +79,8 @@ def operators(chain: Chain, s: float, state: np.ndarray, even: bool) -> tuple:
     sites = kept.shape[1]
     one = np.eye(sites)
     linear = chain.epsilon * second_difference(sites, even) + chain.omega * one
-    exchange, both = np.empty((2, 2, sites, 2, sites))  # cheaper than np.block and np.kron
-    exchange[0, :, 0] = exchange[1, :, 1] = s * one
-    exchange[0, :, 1] = exchange[1, :, 0] = s * -one
-    both[0, :, 0] = both[1, :, 1] = linear
-    both[0, :, 1] = both[1, :, 0] = 0.0
-    exchange, both = (matrix.reshape(2 * sites, -1) for matrix in (exchange, both))
+    exchange = s * np.kron([[1.0, -1.0], [-1.0, 1.0]], one)
+    both = np.kron(np.eye(2), linear)
     squares = np.diag(kept.ravel() ** 2)
     return both + 0.5 * squares + exchange, both + 1.5 * squares - exchange
 
@@ -100,16 +96,18 @@ def residual(chain: Chain, s: float, state: np.ndarray) -> np.ndarray:
     return field(chain._replace(gamma=s), seen)[0]
 
 
+def exchange_sign(data: np.ndarray) -> int:
+    """Return 1 where A = B, -1 where A = -B, and 0 elsewhere."""
+    return next((sign for sign in (1, -1) if np.array_equal(data[0], sign * data[1])), 0)
+
+
 def newton(chain: Chain, s: float, start: np.ndarray) -> np.ndarray:
     """Return the steady state that Newton's method finds from `start`, (component, site).
 
     A start with A = B or A = -B leads to such a state to the last bit, also at a pitchfork, where
     K cannot tell the step that breaks the symmetry from zero.
     """
-    state, sign = start, 0
-    for one in (1, -1):
-        sign = one if np.array_equal(start[0], one * start[1]) else sign
-    largest = np.inf
+    state, sign, largest = start, exchange_sign(start), np.inf
     for _ in range(ITERATIONS):
         miss, largest_modulus = residual(chain, s, state), np.abs(state).max()
         cubic = largest_modulus * largest_modulus * largest_modulus / 2.0
@@ -138,39 +136,18 @@ def continued(chain: Chain, family: Family) -> np.ndarray | None:
     reached, step = 0.0, FIRST_STEP
     while reached < 1.0:
         target = min(1.0, reached + step)
-        found = _near(chain._replace(epsilon=target * chain.epsilon), s, state)
-        if found is None:
-            step /= 2.0
-            if step < SMALLEST_STEP:
-                raise NotFoundError(f"{family.name} ends at {reached:g} of the coupling of {chain}")
-        else:
+        try:
+            found = newton(chain._replace(epsilon=target * chain.epsilon), s, state)
+            is_near = np.abs(found - state).max() <= LARGEST_CHANGE * np.abs(state).max()
+        except NotFoundError:
+            is_near = False
+        if is_near:
             state, reached = found, target
+            continue
+        step /= 2.0
+        if step < SMALLEST_STEP:
+            raise NotFoundError(f"{family.name} ends at {reached:g} of the coupling of {chain}")
     return state
-
-
-def _near(chain: Chain, s: float, state: np.ndarray) -> np.ndarray | None:
-    """Return the steady state that Newton's method finds, if it is near to where it starts."""
-    try:
-        found = newton(chain, s, state)
-    except NotFoundError:
-        return None
-    near = np.abs(found - state).max() <= LARGEST_CHANGE * np.abs(state).max()
-    return found if near else None
-
-
-def near_to(known: np.ndarray | None, chain: Chain, family: Family) -> np.ndarray | None:
-    """Return the state of a family, by Newton's method from a known state at other constants.
-
-    Where this leads nowhere, or too far away, or no state is known, it returns what `continued`
-    does. The known state may be one on a shorter chain.
-    """
-    if known is not None and pair(family, chain.gamma, chain.omega) is not None:
-        start = np.zeros((2, chain.half_width + 1))
-        start[:, : known.shape[1]] = known
-        found = _near(chain, family.drive(chain.gamma), start)
-        if found is not None:
-            return found
-    return continued(chain, family)
 
 
 def squared_exponents(chain: Chain, s: float, state: np.ndarray, even: bool) -> np.ndarray:
