@@ -5,45 +5,24 @@ import shutil
 import subprocess
 
 import pytest
-from helpers import ROOT, planned_with, skip, snakemake, snakemake_with
-
-CASE = {"omega": 8, "initial": {0: [1, 0.1]}, "end_time": 2, "solver": "ode45"}
-SETTINGS = {"cases": {"mine": CASE}}
-TARGETS = ["results/trajectories/mine.nc", "results/trajectories/mine.taylor.nc"]
+from helpers import ROOT, planned, planned_with, skip, snakemake
 
 
-@pytest.fixture(scope="module")
-def small_run(tmp_path_factory):
-    """Return a folder with two trajectories, made once for all tests of this file."""
-    folder = tmp_path_factory.mktemp("small_run")
-    result = snakemake_with(SETTINGS, ROOT, folder, *TARGETS)
-    assert result.returncode == 0, result.stderr
-    return folder
-
-
-@pytest.fixture
-def made(small_run, tmp_path):
-    return shutil.copytree(small_run, tmp_path / "made")
-
-
-def test_a_copy_that_lost_its_times_reruns_nothing(small_run, tmp_path):
+def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     """`cp -r` gives files new times, so that results seem older than what they are made from."""
-    made = shutil.copytree(small_run, tmp_path / "made", copy_function=shutil.copy)
+    made = shutil.copytree(full_run, tmp_path / "made", copy_function=shutil.copy)
     for path in made.glob("results/kernels/*"):
         os.utime(path)
-    assert planned_with(SETTINGS, ROOT, made, *TARGETS) == {}
+    assert planned(ROOT, made) == {}
 
 
-def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(made):
-    changed = SETTINGS | {"solvers": {"ode45": {"rtol": 1e-5}}}
-    assert planned_with(changed, ROOT, made, *TARGETS) == {"trajectory": 1}
-    others = ["check_stability", "check_bounds", "hard_cases"]
-    before = planned_with(SETTINGS, ROOT, made, *others)
-    assert "compile_solver" in before  # of the solvers that the small run did without
-    shutil.copytree(made / "results/kernels", made / "kept")
-    for solver in ("crank_nicolson", "delfour_fortin_payre", "dop853"):
-        shutil.copy(made / "kept/taylor.txt", made / f"results/kernels/{solver}.txt")
-    assert "compile_solver" not in planned_with(changed, ROOT, made, *others)
+def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(full_run, tmp_path):
+    settings = {"cases": {"mine": {"omega": 8, "end_time": 2}}}
+    before = planned_with(settings, ROOT, tmp_path, "results/trajectories/mine.nc")
+    assert before == {"compile_solver": 1, "trajectory": 1}
+    solvers = ("--config", "solvers={dop853: {rtol: 1e-5}}")
+    jobs = planned(ROOT, full_run, *solvers)
+    assert jobs["trajectory_by_solvers"] == 6 and "compile_solver" not in jobs
 
 
 def test_who_only_looks_leaves_the_folder_as_it_is(looked):

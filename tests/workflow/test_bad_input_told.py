@@ -16,6 +16,21 @@ def refused(result: subprocess.CompletedProcess) -> str:
     return said
 
 
+def test_a_bad_configuration_stops_before_any_job(tmp_path):
+    settings = {"cases": {"mine": {"omgea": 3, "half_width": -2, "solver": "dop835"}}, "swepes": {}}
+    said = refused(snakemake_with(settings, ROOT, tmp_path))
+    for part in (
+        "the configuration has 5 faults:\n  ",
+        "cases.mine.omega: is missing",
+        "cases.mine.omgea: is not a known key; did you mean 'omega'?",
+        "cases.mine.half_width: is -2; it must be at least 0",
+        "did you mean 'dop853'?",
+        "swepes: is not a known key; did you mean 'sweeps'?",
+    ):
+        assert part in said
+    assert not (tmp_path / "results/trajectories").exists()
+
+
 def test_own_without_a_case_is_told(tmp_path):
     settings = {"limits": {"hours": 2}}
     said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))

@@ -35,9 +35,15 @@ def test_everything_can_be_made_anew(full_run):
     assert planned(ROOT, full_run, "--forceall", "fig1") == {"fig1": 1}
 
 
-def test_keep_going_makes_what_does_not_rest_on_a_failed_job(drawn):
-    said = (drawn / "said.txt").read_text().splitlines()
-    assert "auto: runs in double precision agree" in said[-2] and bytes_of(drawn)
+def test_keep_going_makes_what_does_not_rest_on_a_failed_job_and_says_at_the_end_why_it_failed(
+    drawn,
+):
+    *_, reason, more = (said := (drawn / "said.txt").read_text()).splitlines()
+    log = drawn / "results/logs/trajectories/wild.log"
+    assert reason.startswith("auto: runs in double precision agree to ")
+    assert more == f"  (more in {log})" and said.count("auto: runs in") == 1
+    assert log.read_text().startswith(f"failed: {reason[:40]}") and "Traceback" in log.read_text()
+    assert not list(drawn.glob("results/trajectories/*")) and bytes_of(drawn)
 
 
 @pytest.mark.parametrize("name", ["Snakefile", "workflow/Snakefile"])
@@ -46,6 +52,29 @@ def test_a_snakefile_from_elsewhere_writes_where_one_is(tmp_path, name):
     result = run_ready(command, tmp_path)
     assert "Drawing results/figures/fig1.png" in result.stdout + result.stderr
     assert [path.name for path in tmp_path.iterdir()] == [".snakemake"]
+
+
+MODULE = """
+module pendula:
+    snakefile:
+        "{root}/Snakefile"
+{prefix}
+
+use rule * from pendula as pendula_*
+"""
+
+
+@pytest.mark.parametrize("folder", ["", "elsewhere/"])
+def test_another_workflow_uses_this_one_as_a_module(tmp_path, folder):
+    prefix = f'    prefix:\n        "{folder}"\n' if folder else ""
+    (tmp_path / "Snakefile").write_text(MODULE.format(root=ROOT, prefix=prefix))
+    picture = f"{folder}results/figures/fig1.png"
+    how = ["--cores", "1"] if folder else ["-n"]
+    done = run_ready(["", "-m", "snakemake", *how, picture], tmp_path)
+    assert done.returncode == 0 and f"Drawing {picture}" in done.stdout + done.stderr, done.stderr
+    if folder:
+        assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+        assert (tmp_path / "elsewhere/results/logs/figures/fig1.log").exists()
 
 
 def test_a_deleted_file_is_made_again_and_nothing_else(finished):

@@ -2,11 +2,12 @@
 
 import pytest
 import xarray as xr
-from helpers import ROOT, change, planned, snakemake
+from helpers import change, planned
 from pendula.datasets.checks import broken, table, variable
 from pendula.datasets.json_files import load_json
 from pendula.ledger.claim import all_claims, needed
 from pendula.ledger.criterion import Verdict
+from pendula.ledger.decide import decide_claims
 from pendula.studies.theory import checks as theory_checks
 from pendula.studies.theory.settings import GROUPS, OBSERVED
 
@@ -96,21 +97,24 @@ def test_a_violated_check_is_made_and_named(monkeypatch, capsys):
     assert made["error"] == 2.0
 
 
-def test_a_violated_check_turns_its_claim_and_no_other(finished):
-    before = {row["name"]: row for row in ledger_of(finished)}
-    path = finished / "results/checks/gradient.nc"
-    check = xr.load_dataset(path)
+def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path, capsys):
+    part = load_json(full_run / "results/claims/theory.json")
+    paths = {name: str(full_run / f"results/{name}.nc") for name in part["read"]}
+    check = xr.load_dataset(paths["checks/gradient"])
     check["gradient_error"] = xr.full_like(check["gradient_error"], 1.0)
-    check.to_netcdf(path)
-    result = snakemake(ROOT, finished, "results/claims.json")
-    log = (finished / "results/logs/claims/theory.log").read_text()
-    assert result.returncode == 0, result.stderr
-    for text in (result.stderr, log):
-        assert "CHECK VIOLATED: gradient: gradient_error is 1" in text
-    turned = [row for row in ledger_of(finished) if row != before[row["name"]]]
-    assert [row["name"] for row in turned] == ["hamiltonian"]
-    assert turned[0]["verdict"] == Verdict.NOT_REPRODUCED
-    assert "| NO |" in (finished / "results/tables/claims.md").read_text()
+    check.to_netcdf(wrong := str(tmp_path / "gradient.nc"))
+    paths["checks/gradient"] = wrong
+    made, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
+    makers = dict.fromkeys(paths, "rule")
+    decide_claims(list(paths.values()), makers, ["theory/claims"], {}, made, str(table))
+    assert "CHECK VIOLATED: gradient: gradient_error is 1" in capsys.readouterr().out
+    verdicts = (
+        {row["name"]: row["verdict"] for row in one["rows"]} for one in (part, load_json(made))
+    )
+    before, after = verdicts
+    turned = {name: verdict for name, verdict in after.items() if verdict != before[name]}
+    assert turned == {"hamiltonian": Verdict.NOT_REPRODUCED}
+    assert "| NO |" in table.read_text()
 
 
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone):
