@@ -44,17 +44,16 @@ def test_the_committed_certificate_is_what_the_library_makes(committed):
 
 
 @pytest.fixture
-def verdict(tmp_path, monkeypatch, capsys):
-    """Return a function that runs the script on a certificate, or on text, and returns its line."""
+def verdict(tmp_path, capsys):
+    """Return a function that runs the script on a certificate, or on bytes: its line."""
+    main = runpy.run_path(str(CHECKER))["main"]
 
-    def run(given, **how):
+    def run(given):
         path = tmp_path / "given.json"
         path.write_bytes(given if isinstance(given, bytes) else json.dumps(given).encode())
-        monkeypatch.setattr(sys, "argv", [str(CHECKER), *how.get("arguments", [str(path)])])
-        with pytest.raises(SystemExit) as ended:
-            runpy.run_path(str(CHECKER), run_name="__main__")
+        status = main([str(path)])
         said = capsys.readouterr().out
-        assert ended.value.code == int(said != "yes\n")
+        assert status == int(said != "yes\n")
         return said
 
     return run
@@ -67,111 +66,83 @@ def short(committed):
 
 
 def changed(certificate, place, value):
-    """Return a certificate with a value at a place, or without it; a function makes it anew."""
+    """Return a certificate with a value at a place; a function makes it of the old one."""
     made = inner = copy.deepcopy(certificate)
     for key in place[:-1]:
         inner = inner[key]
-    if value is MISSING:
-        del inner[place[-1]]
-    else:
-        inner[place[-1]] = value(inner[place[-1]]) if callable(value) else value
+    inner[place[-1]] = value(inner[place[-1]]) if callable(value) else value
     return made
 
 
-def named(place):
-    """Return the name of a place as the script has it: steps[0].bound."""
-    return "".join(f"[{k}]" if isinstance(k, int) else f".{k}" for k in place).removeprefix(".")
-
-
-MISSING = object()
-NO_INTEGER = (None, True, False, "1", 1.0, 1.5, float("nan"), float("inf"), [1], {"1": 1})
+NO_INTEGER = (None, True, "1", 1.0, float("nan"), float("inf"), [1], {"1": 1})
 NO_NUMBER = (
-    None, True, 1, 0.1, ["1"], "", "one", "nan", "inf", "1e3", "0x1", "1_0", " 1", "1\n", "+1",
+    None, True, 1, 0.1, ["1"], "", "one", "nan", "1e3", "0x1", "1_0", " 1", "1\n", "+1",
     "1/0", "1/-2", "1/2/3", "1.", ".5", "\u0661", "9" * 200,
 )  # fmt: skip
-NO_LIST = (None, True, 0, 1.5, "1", {}, {"0": 0}, [])
-POSITIVE = [("steps_per_tau",), ("bits",), ("rate_bits",), ("bound_bits",), ("steps", 1, "bound")]
+NO_LIST = (None, True, 0, "1", {"0": 0}, [])
 TERM, RATE, DATUM = ("steps", 1, "terms", 2, 0, 1), ("steps", 1, "rates", 0), ("initial", 2, 1)
+BOUND, UNITS = ("steps", 1, "bound"), [("steps_per_tau",), ("bits",), ("rate_bits",)]
 NUMBERS = [("epsilon",), ("gamma",), ("omega",), ("end_time",), DATUM]
-LISTS = [("initial",), DATUM[:1], DATUM[:2], ("steps",), *(TERM[:i] for i in (3, 4, 5)), RATE[:-1]]
-FIXED = [*LISTS[:3], TERM[:4], TERM[:5]]
-"""Lists whose length is that of the chain, or 4."""
+OF_A_LENGTH = [DATUM[:1], DATUM[:2], TERM[:4], TERM[:5], ("initial",)]
+FORM = [
+    ([*UNITS, BOUND, TERM, RATE], NO_INTEGER),
+    ([*UNITS, BOUND, RATE], (-1,)),
+    ([*UNITS, BOUND], (0,)),
+    (UNITS, (10**400,)),
+    (NUMBERS, NO_NUMBER),
+    ([*OF_A_LENGTH, ("steps",), TERM[:3], RATE[:-1]], NO_LIST),
+    (OF_A_LENGTH, (lambda items: items[:-1], lambda items: [*items, items[0]])),
+    ([RATE[:-1]], (lambda rates: rates[:1],)),
+    ([("what",)], (None, 1, "", "free ends", lambda text: text + " ")),
+    ([("steps", 1)], (None, 1, "step", [], [1])),
+]
+"""Places in a certificate with values, or changes, that none of them may have."""
 
 
-def form_faults():
-    """Yield places with values that none of them may have."""
-    for place in [*POSITIVE, TERM, RATE]:
-        yield from ((place, value) for value in NO_INTEGER)
-    for place in [*POSITIVE, RATE]:
-        yield place, -1
-    for place in POSITIVE:
-        yield place, 0
-    for place in POSITIVE[:4]:
-        yield place, 10**400
-    for place in NUMBERS:
-        yield from ((place, value) for value in NO_NUMBER)
-    for place in LISTS:
-        yield from ((place, value) for value in NO_LIST)
-    for place in FIXED:
-        yield place, lambda items: items[:-1]
-        yield place, lambda items: [*items, items[0]]
-    yield RATE[:-1], lambda rates: rates[:1]
-    yield from ((("what",), value) for value in (None, 1, "", "free ends", lambda text: text + " "))
-    yield from ((("steps", 1), value) for value in (None, 1, "step", [], [1]))
-
-
-FORM = [pytest.param(p, v, id=f"{i} {named(p)}") for i, (p, v) in enumerate(form_faults())]
-
-
-@pytest.mark.parametrize(("place", "value"), FORM)
+@pytest.mark.parametrize(
+    ("place", "value"), [(p, v) for places, values in FORM for p in places for v in values]
+)
 def test_a_field_of_another_form_is_rejected_by_its_name(place, value, short, verdict):
     said = verdict(changed(short, place, value))
-    within = [f"no: {named(place[:i])}" for i in range(1, len(place) + 1)]  # of it or of its list
-    assert any(said.startswith(name) for name in within) and " must " in said, said
+    names = [f"[{key}]" if isinstance(key, int) else f".{key}" for key in place]
+    within = ["no: " + "".join(names[: i + 1]).removeprefix(".") for i in range(len(names))]
+    assert said.startswith(tuple(within)) and " must " in said, said
     assert said.count("\n") == 1 and len(said) < 120
 
 
-@pytest.mark.parametrize("inner", [(), ("steps", 1)])
-def test_a_key_too_few_or_too_many_is_rejected(inner, short, verdict):
-    whole = short if not inner else short["steps"][1]
-    for key in whole:
-        assert f" lacks {key}\n" in verdict(changed(short, (*inner, key), MISSING))
-    said = verdict(changed(short, (*inner, "bounds"), 1))
-    assert said.startswith("no: ") and "must not have the key 'bounds'" in said
+def test_a_key_too_few_or_too_many_is_rejected(short, verdict):
+    step = short["steps"][1]
+    for key in short:
+        assert f" lacks {key}\n" in verdict({k: v for k, v in short.items() if k != key})
+    for key in step:
+        lacking = {k: v for k, v in step.items() if k != key}
+        assert f" lacks {key}\n" in verdict(changed(short, ("steps", 1), lacking))
+    for more in (short | {"bounds": 1}, changed(short, ("steps", 1), step | {"bounds": 1})):
+        assert "must not have the key 'bounds'" in verdict(more)
 
 
-NO_CERTIFICATE = {
-    "a list": (b"[]", "must be an object"),
-    "a strange key": (b'{"\\ud800": 1}', "lacks what"),
-    "a number": (b"1", "must be an object"),
-    "nothing": (b"", "valid JSON"),
-    "half of a file": (b'{"what": ', "valid JSON"),
-    "no UTF-8": (b'{"what": "\xff"}', "UTF-8"),
-    "a deep list": (b"[" * 100_000, "valid JSON"),
-    "a key twice": (b'{"what": 1, "what": 2}', "same key twice"),
-    "an endless number": (b'{"bits": ' + b"9" * 10_000 + b"}", "valid JSON"),
-}
-
-
-@pytest.mark.parametrize("name", NO_CERTIFICATE)
-def test_a_file_that_is_no_certificate_is_rejected(name, verdict):
-    given, reason = NO_CERTIFICATE[name]
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        (b"[]", "must be an object"),
+        (b'{"\\ud800": 1}', "lacks what"),
+        (b"", "valid JSON"),
+        (b'{"what": "\xff"}', "UTF-8"),
+        (b"[" * 100_000, "valid JSON"),
+        (b'{"what": 1, "what": 2}', "same key twice"),
+        (b'{"bits": ' + b"9" * 10_000 + b"}", "valid JSON"),
+    ],
+    ids=range(7),
+)
+def test_a_file_that_is_no_certificate_is_rejected(given, reason, verdict):
     said = verdict(given)
     assert said.startswith("no: ") and reason in said
 
 
-def test_a_file_that_is_not_there_is_rejected(short, verdict, tmp_path):
-    assert verdict(short, arguments=[str(tmp_path / "none.json")]).startswith("no: the file cannot")
-    assert verdict(short, arguments=[]).startswith("no: give the path")
-
-
-def raised(by):
-    """Return a function that adds to each number of nested lists that is not negative."""
-
-    def add(value):
-        return [add(one) for one in value] if isinstance(value, list) else value + by * (value >= 0)
-
-    return add
+def test_a_path_that_is_none_is_rejected(capsys):
+    main = runpy.run_path(str(CHECKER))["main"]
+    for paths, reason in ((["none.json"], "the file cannot"), ([], "give the path")):
+        assert main(paths) == 1 and capsys.readouterr().out.startswith(f"no: {reason}")
 
 
 def of_term(number, order, row, site, by=1):
@@ -184,17 +155,11 @@ def of_step(number, name, how):
 
 PLANTED = {  # in the first three steps; the field that the sentence names
     "the last digit of data": (*of_term(0, 0, 0, 1), "steps[0].bound"),
-    "the last digit of a slope": (*of_term(0, 1, 1, 1), "steps[0].bound"),
     "the last digit of a late coefficient": (*of_term(1, 3, 0, 1), "steps[1].bound"),
     "the last digits of the highest term": (*of_term(1, 14, 3, 2, 99), "steps[1].bound"),
-    "a huge coefficient": (*of_term(1, 2, 0, 1, 10**400), "steps[1].rates"),
     "a coefficient of the other sign": (
         ("steps", 0, "terms", 4, 0, 1), lambda value: -value, "steps[0].bound",
     ),
-    "coefficients with another fraction": (
-        *of_step(0, "terms", raised(0.99)), "steps[0].terms[0][0][0] must be an integer",
-    ),
-    "coefficients raised by one": (*of_step(0, "terms", raised(1)), "steps[0].bound"),
     "a term left out": (*of_step(2, "terms", lambda t: t[:3] + t[4:]), "steps[2].bound"),
     "the highest terms left out": (*of_step(2, "terms", lambda t: t[:9]), "steps[2].bound"),
     "A and B exchanged": (
@@ -206,24 +171,18 @@ PLANTED = {  # in the first three steps; the field that the sentence names
     "an end that is later": (("end_time",), "4/16", "end_time"),
     "an end in the past": (("end_time",), "-3/16", "end_time"),
     "a bound smaller by a hundredth": (*of_step(0, "bound", lambda b: b * 99 // 100), "steps[0].b"),
-    "the last bound smaller": (*of_step(2, "bound", lambda b: b * 99 // 100), "steps[2].bound"),
-    "a huge bound": (*of_step(0, "bound", 10**400), "steps[0].bound"),
     "bounds in other units": (("bound_bits",), 61, "steps[0].bound"),
     "coefficients in other units": (("bits",), 35, "steps[0].bound"),
     "rates in other units": (("rate_bits",), 21, "steps[0].rates"),
     "no growth": (*of_step(0, "rates", lambda rates: [0 for _ in rates]), "steps[0].rates"),
     "one rate in place of several": (*of_step(0, "rates", lambda r: r[:1]), "steps[0].rates"),
-    "rates at the ends alone": (*of_step(1, "rates", lambda r: [r[0], r[-1]]), "steps[1].bound"),
     "one rate smaller": (
         *of_step(2, "rates", lambda r: [*r[:2], int(0.95 * r[2]), *r[3:]]), "steps[2].rates",
     ),
-    "a huge rate": (*of_step(2, "rates", lambda r: [10**400, *r[1:]]), "steps[2].rates"),
     "another coupling": (("epsilon",), "1.0000001", "steps[0].bound"),
-    "another drive": (("gamma",), "1.0000001", "steps[0].bound"),
     "another detuning": (("omega",), "-4.0000001", "steps[0].bound"),
     "where no norm is kept": (("omega",), "1", "omega: the linear flow keeps no norm"),
     "other data": (DATUM, "1/11", "steps[0].bound"),
-    "data of B": (DATUM, "0", "steps[0].bound"),
     "shorter steps": (("steps_per_tau",), 32, "end_time"),
     "a shorter chain": (("initial",), [["1"], ["0"], ["1/10"], ["0"]], "steps[0].terms[0][0]"),
 }  # fmt: skip

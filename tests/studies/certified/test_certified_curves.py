@@ -18,7 +18,7 @@ from pendula.studies.certified.norm import (
     find_rates,
     up,
 )
-from pendula.studies.certified.polynomials import Curve, StepError, add_up, find_curve, linear
+from pendula.studies.certified.polynomials import Curve, StepError, find_curve, linear
 from pendula.studies.certified.regular import PARTS, norms_at, prove
 from problems import make_problem, problem_of
 
@@ -99,12 +99,6 @@ def test_the_margin_covers_the_rounding_of_every_entry_and_of_the_method(monkeyp
     assert all((shift > 1.1e-13 * largest).all() for largest, shift in asked)
 
 
-def test_a_rate_whose_matrix_would_underflow_is_the_crude_one():
-    given = problem()
-    form, states = find_form(given.constants), np.full((1, 2, 2, 9), 1e-140)
-    assert find_rates(states, given, form) == pytest.approx(crude_rates(states, form), rel=1e-8)
-
-
 @pytest.mark.parametrize("roundings", [1, 999_999, 10**6, 10**8 + 1])
 def test_bounds_rise_above_all_roundings(roundings):
     assert np.log(up(roundings)) > 1.0001 * roundings * 2.0**-53
@@ -117,12 +111,6 @@ def test_inside_the_interval_there_is_no_norm():
     find_form(Constants(epsilon=1.0, gamma=1.0, omega=6.1))
 
 
-def test_sums_keep_what_rounding_leaves_out():
-    terms = np.array([[1.0], [2.0**-60], [2.0**-61]])
-    first, second = add_up(terms)
-    assert first[0] == 1.0 and second[0] == 1.5 * 2.0**-60
-
-
 @pytest.mark.parametrize("boundary", ["dirichlet", "free", "periodic"])
 def test_without_the_cubic_term_the_exact_flow_lies_within_the_bound(boundary):
     given = problem(boundary=boundary, scale=1e-9, end_time=1.0)
@@ -130,13 +118,6 @@ def test_without_the_cubic_term_the_exact_flow_lies_within_the_bound(boundary):
     exact = flow(given.amplitudes, 1.0, 1.0, 1.0, -4.0, boundary)
     apart = found.states[-1, 0] + 1j * found.states[-1, 1] - exact
     assert np.linalg.norm(apart) < found.bound[-1] + 1e-23 < 2e-22
-
-
-def test_the_bound_is_the_sum_of_its_parts_and_each_is_there():
-    found = certify(problem(epsilon=0.9, gamma=0.7, omega=-5.3))
-    assert found.bound == pytest.approx(found.parts.sum(axis=0), rel=1e-8)
-    assert (found.parts[:, -1] > 0).all() and len(found.parts) == len(PARTS)
-    assert found.bound[-1] < 1e-12 and (np.diff(found.parts[:-1].sum(axis=0)) >= 0).all()
 
 
 @pytest.mark.parametrize("case", ["fig2_small", "fig3_small"])
@@ -298,10 +279,7 @@ def test_a_jump_counts_with_the_rounding_of_its_sum():
 @pytest.mark.parametrize("x", [0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0])
 def test_the_factor_of_growth_is_an_upper_bound_to_third_order(x):
     assert np.exp(np.longdouble(x)) <= regular.exponential(x) <= np.exp(x) + x**3 / 8 + 1e-14
-
-
-def test_a_factor_beyond_its_range_is_infinite():
-    assert np.isinf(regular.exponential(1.0 + 1e-12)) and np.isinf(regular.exponential(np.nan))
+    assert np.isinf(regular.exponential(x + 1.0 + 1e-12)) and np.isinf(regular.exponential(np.nan))
 
 
 def test_the_rate_between_two_times_counts_bend_rounding_and_jumps():

@@ -1,4 +1,7 @@
-"""Enclosed constants: around what `models` computes in doubles, and not around what is wrong."""
+"""Balls with doubles around them, and constants in balls: around what `models` computes."""
+
+import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -20,6 +23,20 @@ OTHERS = [HERE, Constants(epsilon=0.7, gamma=-0.3, omega=-2.2),
 def precision():
     with balls.precision():
         yield
+
+
+@pytest.mark.parametrize("value", [0.1, -0.1, 1 / 3, 5.0, 1e-300, -1e300])
+def test_ends_are_doubles_on_the_outer_side(value):
+    third, exact = arb(value) / 3, Fraction(value) / 3
+    assert Fraction(balls.lower(third)) <= exact <= Fraction(balls.upper(third))
+    assert balls.upper(third) <= math.nextafter(balls.lower(third), math.inf)
+    assert balls.lower(arb(value)) == balls.upper(arb(value)) == value
+
+
+def test_a_radius_is_kept_and_what_is_not_finite_has_no_end():
+    ball = balls.within(1.0, 1e-10)
+    assert ball.contains(arb(1.0) + arb(1e-10)) and balls.lower(ball) <= 1.0 - 1e-10
+    assert balls.upper(arb.pos_inf()) == math.inf and balls.lower(arb.nan()) == -math.inf
 
 
 def near(ball, value, within=1e-13):
