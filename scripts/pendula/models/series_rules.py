@@ -1,15 +1,10 @@
 """The text of rules that continue the power series of a traced model.
 
 The coefficient of order k of a sum is the sum of those of its terms, that of a product is a sum
-over orders,
-
-    (a b)_k = sum_{j=0}^k a_j b_{k-j},      (a^2 / 2)_k = sum_{j<k/2} a_j a_{k-j} (+ a_{k/2}^2 / 2),
-
-and a row u with the rate F has u_{k+1} = F_k / (k + 1). All orders are kept of what stands in a
-product and of nothing else. Orders go in pairs: the pass over an even order k also sums the
-products of order k + 1, but for the terms that hold its unknown coefficients, and adds these when
-they are known. Partial sums are kept of a sum of products as a whole. The factor 1 / (k + 1) goes
-into the constants of the terms of a rate where that costs no multiplication more.
+over orders (see `series_sums`), and a row u with the rate F has u_{k+1} = F_k / (k + 1). All orders
+are kept of what stands in a product and of nothing else. Partial sums of an odd order are kept of a
+sum of products as a whole. The factor 1 / (k + 1) goes into the constants of the terms of a rate
+where that costs no multiplication more.
 """
 
 from pendula.graph import CONSTANT, Node, in_order, node
@@ -24,6 +19,7 @@ from .series_graph import (
     with_carried,
     with_half_squares,
 )
+from .series_sums import Sums
 from .statements import Code, Names, require_alike
 
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
@@ -64,6 +60,7 @@ class Series:
         self.flows = nodes[len(rates) + 1 :: 2]
         self.products = [one for one in in_order([*self.rates, *self.flows]) if is_product(one)]
         self.kept = self._kept()  # what is kept of each block beside the fields, and its place
+        self.sums = Sums(self.products, self.load, self.clocks)
         if alike:
             require_alike(model_rates, self.kept)
         self.partial: dict[Node, int] = {}  # sums of products that are not kept
@@ -127,7 +124,7 @@ class Series:
             for one in self.kept:
                 if one.operation != "carried" and depth[one] == now - 1:
                     code(f"store(m, {self.place(one, 'k')}, {self._value(code, one, even)})")
-            self._sum_products(code, [one for one in self.products if depth[one] == now], even)
+            self.sums.write(code, [one for one in self.products if depth[one] == now], even)
         factors: dict[str, str] = {}
         rows = [self._next(code, rate, even, factors) for rate in [*self.rates, *self.flows]]
         for i, found in enumerate(rows):
@@ -167,81 +164,6 @@ class Series:
             case "add" | "sub" | "mul" as how:
                 return f"({operands[0]}) {SIGNS[how]} ({operands[1]})"
         return self._text(code, one, True)
-
-    # --- Products: sums over orders
-
-    def _sum_products(self, code: Code, products: list[Node], even: bool) -> None:
-        """Write the sums over orders of products whose operands are known up to order k."""
-        squares = [one for one in products if one.operation == "half_square"]
-        others = [one for one in products if one.operation != "half_square"]
-        if even:
-            self._sum_squares(code, squares)
-            self._sum_others(code, others)
-            return
-        for one in squares:
-            a0, ak = self._ends(code, one.operands[0])
-            code.alias(("last", one), f"{a0} * {ak}")
-        for one in others:
-            (a0, ak), (b0, bk) = (self._ends(code, operand) for operand in one.operands)
-            both = f"({ak} * {b0} + {a0} * {bk})"
-            code.alias(("last", one), f"{a0} * {bk}" if one.operands[0] in self.clocks else both)
-
-    def _ends(self, code: Code, one: Node) -> list[str]:
-        """Return the names of the coefficients of orders 0 and k."""
-        return [code.name((one, order), self.load(one, order)) for order in ("0", "k")]
-
-    def _sum_squares(self, code: Code, squares: list[Node]) -> None:
-        """Write the sums q of order k, and those qn of order k + 1 but for a_0 a_{k+1}."""
-        if not squares:
-            return
-        names = self._sums_of(squares)
-        for (a,), q in names:
-            middle = code.name((a, "k // 2"), self.load(a, "k // 2"))
-            code(f"{q}, {q}n = 0.5 * {middle} * {middle}, fill(0.0)")
-            code(f"{q}l = {self.load(a, '0')}")
-        code("for j in range(1, k // 2 + 1):")
-        for (a,), q in names:
-            code(f"{q}h = {self.load(a, 'k + 1 - j')}", 1)
-            code(f"{q} = {q} + {q}l * {q}h", 1)
-            code(f"{q}l = {self.load(a, 'j')}", 1)
-            code(f"{q}n = {q}n + {q}l * {q}h", 1)
-        self._name_sums(code, squares)
-
-    def _sum_others(self, code: Code, products: list[Node]) -> None:
-        """Write the sums q of a_j b_{k-j}, and qn of a_{j+1} b_{k-j} for order k + 1: one loop."""
-        if not products:
-            return
-        names = self._sums_of(products)
-        firsts = {a: f"a{i}" for i, (a, _) in enumerate(one.operands for one in products)}
-        seconds = {b: f"b{i}" for i, (_, b) in enumerate(one.operands for one in products)}
-        for a, name in firsts.items():
-            code(f"{name} = {self.load(a, '0')}")
-        for _, q in names:
-            code(f"{q}, {q}n = fill(0.0), fill(0.0)")
-        code("for j in range(k):")
-        for b, name in seconds.items():
-            code(f"{name} = {self.load(b, 'k - j')}", 1)
-        for (a, b), q in names:
-            code(f"{q} = {q} + {firsts[a]} * {seconds[b]}", 1)
-        for a, name in firsts.items():
-            code(f"{name} = {self.load(a, 'j + 1')}", 1)
-        for (a, b), q in names:
-            code(f"{q}n = {q}n + {firsts[a]} * {seconds[b]}", 1)
-        for (a, b), q in names:
-            (_, last), (first, _) = self._ends(code, a), self._ends(code, b)
-            code(f"{q} = {q} + {last} * {first}")
-            if a in self.clocks:  # whose next order is known
-                code(f"{q}n = {q}n + {self.load(a, 'k + 1')} * {first}")
-        self._name_sums(code, products)
-
-    def _sums_of(self, products: list[Node]) -> list[tuple[tuple[Node, ...], str]]:
-        """Return the operands of each product, and the name of its sum."""
-        return [(one.operands, f"q{self.products.index(one)}") for one in products]
-
-    def _name_sums(self, code: Code, products: list[Node]) -> None:
-        for one, (_, q) in zip(products, self._sums_of(products), strict=True):
-            code.alias(("now", one), q)
-            code.alias(("next", one), f"{q}n")
 
     def _combined(self, code: Code, one: Node, which: str) -> str:
         """Return a sum of products, each by its sum `which`: now, next or last."""
