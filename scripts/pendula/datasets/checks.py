@@ -41,20 +41,20 @@ def rounded(values, digits: int) -> np.ndarray:
     return np.array(texts, dtype=float).reshape(values.shape)
 
 
-def columns(dims: Iterable[str], about: Mapping[str, tuple], numbers: Mapping) -> dict[str, dict]:
+def columns(dims: Iterable[str], about: Mapping, numbers: Mapping) -> dict[str, dict]:
     """Return variables of the same dimensions: the `numbers` by their names.
 
-    `about` has the long name of each and its tolerance, or None.
+    `about` has the long name of each, or a pair of that and its tolerance.
     """
-    described = {name: (values, *about[name]) for name, values in numbers.items()}
+    pairs = {name: (one, None) if isinstance(one, str) else one for name, one in about.items()}
     return {
-        name: variable(values, dims, long_name, tolerance=tolerance)
-        for name, (values, long_name, tolerance) in described.items()
+        name: variable(values, dims, pairs[name][0], tolerance=pairs[name][1])
+        for name, values in numbers.items()
     }
 
 
 def tabulate(
-    title: str, coords: dict, rows: Iterable[Mapping], about: Mapping[str, tuple], **others: dict
+    title: str, coords: dict, rows: Iterable[Mapping], about: Mapping, **others: dict
 ) -> dict:
     """Return the table of `rows`: the numbers at each point of `coords`, whose last one runs first.
 

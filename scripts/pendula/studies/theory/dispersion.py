@@ -104,7 +104,7 @@ def check_dispersion(points, epsilon: float, sites: int, gamma_times: float = 1.
     about = {
         "eigenvalue_error": ("relative error of the squared eigenvalues", 1e-12),
         "first_growth": ("bound of the growth rate of the first pair, per unit of tau", 1e-12),
-        "second_growth": ("largest growth rate of the second pair, per unit of tau", None),
+        "second_growth": "largest growth rate of the second pair, per unit of tau",
         "contradictions": ("second roots that are real or not against |kappa| > 2 gamma", 0),
     }
     error = factorisation_error(gamma_times)

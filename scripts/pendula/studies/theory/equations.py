@@ -227,8 +227,8 @@ def check_conservation(
         rows.append(row)
     about = {
         "energy_drift": ("largest |H - H(0)|", 1e-7),
-        "l2_change": ("largest relative change of the squared l2 norm", None),
-        "gauge_defect": ("defect of turning all phases", None),
+        "l2_change": "largest relative change of the squared l2 norm",
+        "gauge_defect": "defect of turning all phases",
         "gauge_defect_alike": ("the same on A = B", 1e-13),
         "sign_defect": ("defect of turning the sign of gamma", 1e-13),
     }

@@ -69,11 +69,11 @@ def check_theorem_2_case(constants: Constants, pair, sites: int) -> dict:
     }
     about = {
         **{name: NUMBERS[name] for name in ("start", "delta_0", "c_0")},
-        "depth": ("-H, which Theorem 2 takes for positive", None),
-        "barrier": ("barrier of -H in (25)", None),
-        "widened_barrier": ("barrier of -H with the bonds kept", None),
-        "widened_delta_0": ("radius of the widened theorem", None),
-        "widened_bound": ("its bound on P", None),
+        "depth": "-H, which Theorem 2 takes for positive",
+        "barrier": "barrier of -H in (25)",
+        "widened_barrier": "barrier of -H with the bonds kept",
+        "widened_delta_0": "radius of the widened theorem",
+        "widened_bound": "its bound on P",
     }
     title = "The small case at Omega = -4 and the region that Theorem 2 covers"
     return tabulate(title, {}, [numbers], about)

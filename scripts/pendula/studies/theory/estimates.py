@@ -31,7 +31,7 @@ def picard(constants, boundary, start, span: float, times: int, first: np.ndarra
     weights = span * integration_matrix(nodes)
     states, changes = np.repeat(first[None], NODES, axis=0), []
     for _ in range(times):
-        rates = np.array([right_hand_side(constants, boundary, state) for state in states])
+        rates = right_hand_side(constants, boundary, states)
         if root:
             size = np.sqrt(modulus(states))
             rates = rates + root * np.where(size > 0.0, states / np.maximum(size, 1e-300), 0.0)

@@ -168,9 +168,9 @@ def check_pt_form(
         "rates": ("rates of (10) minus those of (4)", 1e-13),
         "trajectory": ("(10) minus (4) at the end", 1e-9),
         "pt": ("defect of PT", 1e-13),
-        "p_alone": ("defect of P without T", None),
-        "t_alone": ("defect of T without P", None),
-        "gauge_defect": ("defect of turning all phases", None),
+        "p_alone": "defect of P without T",
+        "t_alone": "defect of T without P",
+        "gauge_defect": "defect of turning all phases",
         "energy_gradient": ("rates of (10) minus gradient of H / 8", 1e-12),
     }
     title = "The PT-symmetric form (10) against (4), and the symmetries (11)"

@@ -29,14 +29,14 @@ TINY = 1e-130
 CURVE_POINTS = 1601  # resolves the teeth of the finite chain's threshold
 
 ABOUT = {
-    "measured": ("growth rate of tiny data, per unit of tau", None),
-    "exact_flow": ("the same by the exact linear flow, per unit of tau", None),
-    "finite_rate": ("largest rate of the finite chain, per unit of tau", None),
-    "infinite_rate": ("largest rate of the infinite chain, per unit of tau", None),
-    "infinite_threshold": ("gamma_0 of (12)", None),
-    "finite_threshold": ("threshold of N sites", None),
-    "infinite_curve": ("gamma_0 of (12), finely", None),
-    "finite_curve": ("threshold of N sites, finely", None),
+    "measured": "growth rate of tiny data, per unit of tau",
+    "exact_flow": "the same by the exact linear flow, per unit of tau",
+    "finite_rate": "largest rate of the finite chain, per unit of tau",
+    "infinite_rate": "largest rate of the infinite chain, per unit of tau",
+    "infinite_threshold": "gamma_0 of (12)",
+    "finite_threshold": "threshold of N sites",
+    "infinite_curve": "gamma_0 of (12), finely",
+    "finite_curve": "threshold of N sites, finely",
     "rate_error": ("measured minus exact flow, per unit of tau", 1e-6),
     "misclassified": ("cells whose measured growth contradicts the finite chain's threshold", 0),
 }
@@ -128,8 +128,8 @@ def check_windows(epsilon: float, boundary: str, half_widths, gammas) -> dict:
         rows.append({"count": len(windows), "share": share})
     largest = [widest_gamma(epsilon, 2 * m + 1, boundary) for m in half_widths]
     about = {
-        "count": ("number of windows of stability", None),
-        "share": ("share of [0, 4 epsilon] that is stable", None),
+        "count": "number of windows of stability",
+        "share": "share of [0, 4 epsilon] that is stable",
     }
     title = "Windows of stability of finite chains inside [0, 4 epsilon]"
     closing = variable(largest, ("half_width",), "drive at which the last window closes")

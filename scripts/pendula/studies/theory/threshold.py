@@ -119,8 +119,8 @@ def check_threshold(
     }
     about = {
         "wave_error": ("distance to one of the growth of a wave over 4 gamma tau", 1e-8),
-        "threshold": ("threshold of the finite chain", None),
-        "finite_gap": ("threshold of the finite chain minus gamma_0", None),
+        "threshold": "threshold of the finite chain",
+        "finite_gap": "threshold of the finite chain minus gamma_0",
     }
     grown, dims = 4.0 * gammas[:, None] * times * ratios, ("omega", "decay", "norm")
     wave = "growth of the threshold mode, |Im D| / |D(0)|"

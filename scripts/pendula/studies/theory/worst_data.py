@@ -215,13 +215,13 @@ def check_worst(
         }
         rows.append(row)
     about = {
-        "searched_family": ("family of the bound", None),
-        "boundary": ("ends of the chain", None),
+        "searched_family": "family of the bound",
+        "boundary": "ends of the chain",
         "worst": ("largest P over its bound found", LIMIT),
         "followed": ("the same along a run from those data", LIMIT),
-        "agreeing": ("share of the searches that end there", None),
+        "agreeing": "share of the searches that end there",
         "last_rise": ("rise over the last quarter of the generations", SAME_HILL),
-        "small_data": ("its value for tiny data in the nearest mode", None),
+        "small_data": "its value for tiny data in the nearest mode",
     }
     numbers = {name: [row[name] for row in rows] for name in about}
     coords = {
