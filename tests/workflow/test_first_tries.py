@@ -5,6 +5,7 @@ import shutil
 from hashlib import sha256
 
 import pytest
+import yaml
 from helpers import ROOT, edit, planned, run_ready, snakemake, snakemake_with
 
 
@@ -126,3 +127,13 @@ def test_what_is_misspelt_is_named(tmp_path, wrong):
     command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), *wrong]
     result = run_ready(command, tmp_path)
     assert result.returncode == 1 and wrong[-1] in result.stdout + result.stderr
+
+
+def test_the_catalogue_of_workflows_finds_what_it_looks_for():
+    """It searches READMEs for two words, and shows how to use what has these files."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8").lower()
+    assert "snakemake" in readme and "workflow" in readme
+    assert (ROOT / "workflow/Snakefile").exists() and (ROOT / "config/README.md").exists()
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert usage.keys() == {"mandatory-flags", "software-stack-deployment", "report"}
+    assert usage["mandatory-flags"].keys() == {"desc", "flags"}
