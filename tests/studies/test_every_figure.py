@@ -1,12 +1,10 @@
 """What holds for every figure, whatever it shows, and that each shows what is accepted."""
 
-import itertools
 import json
 from pathlib import Path
 from typing import NamedTuple
 
 import matplotlib
-import numpy as np
 import pytest
 import xarray as xr
 from accepted import BASELINE, changed, check_words, dataset, datasets, differing, wrong_changes
@@ -17,9 +15,6 @@ from pendula.datasets.netcdf import read, save
 from pendula.drawing import style
 from pendula.drawing.description import describe
 from pendula.own_cases import figures as own
-from pendula.studies.breathers import figures as breathers
-from pendula.studies.pendula import figures as pendula
-from pendula.studies.pendula import figures_phases
 
 
 def gather_own_norms(run, other):
@@ -121,63 +116,3 @@ def test_text_is_legible_and_everything_is_on_the_page(plot):
     assert texts
     assert min(text.get_fontsize() for text in texts) >= 7
     assert min(margins(plot.figure)) >= 0
-
-
-def places_of(axes):
-    """Return where marks of each colour stand in a panel, in points of the page."""
-    lines = [line for line in axes.lines if line.get_marker() not in ("None", "", None)]
-    with_marks = (line for line in lines if line.get_linestyle() == "None")
-    return [
-        (line.get_color(), line.get_markersize(), place * 72.0 / axes.figure.dpi)
-        for line in with_marks
-        for place in line.get_transform().transform(line.get_xydata())
-        if axes.bbox.contains(*place)
-    ]
-
-
-@style.styled
-def test_marks_of_collisions_cover_no_other_mark():
-    """Each is further from any other mark than both are wide; each panel and inset by itself."""
-    figure = breathers.draw_breathers(dataset("figures/breathers"))
-    figure.canvas.draw()
-    panels = [panel for axes in figure.axes for panel in (axes, *axes.child_axes)]
-    shown = [places_of(panel) for panel in panels]
-    assert sum(colour == "black" for marks in shown for colour, _, _ in marks) == 4
-    for marks in shown:
-        for one, other in itertools.combinations(marks, 2):
-            if "black" in (one[0], other[0]):
-                assert np.hypot(*(one[2] - other[2])) > 0.5 * (one[1] + other[1])
-
-
-def test_it_is_said_of_which_instant_the_p_of_a_periodic_breather_is():
-    drawn = dataset("figures/breathers")
-    families = breathers.draw_breathers(drawn).axes[: drawn.sizes["omega"]]
-    assert all("real" in axes.get_ylabel() for axes in families)
-
-
-def test_a_line_shows_mu_by_its_colour_alone():
-    """Shades and dashes of one colour lie on each other where norms are nearly equal."""
-    figure = figures_phases.draw_phases(dataset("figures/pendula_phases"))
-    for axes in figure.axes:
-        assert len({line.get_color() for line in axes.lines}) == len(axes.lines)
-        assert {line.get_linestyle() for line in axes.lines} <= {"-"}
-    colours = [matplotlib.colors.to_rgb(line.get_color()) for line in figure.axes[0].lines]
-    hues = [matplotlib.colors.rgb_to_hsv(one)[0] for one in colours[1:]]
-    apart = [abs((a - b + 0.5) % 1.0 - 0.5) for a, b in itertools.combinations(hues, 2)]
-    assert min(apart) > 0.08
-
-
-def test_each_width_of_a_line_is_named_and_each_axis_says_what_it_is():
-    drawn = dataset("figures/pendula_remainder")
-    _, growth, horizon = pendula.draw_remainder(drawn).axes
-    looks = {(line.get_linewidth(), line.get_alpha()) for line in growth.lines}
-    named = {
-        (line.get_linewidth(), line.get_alpha()): text.get_text()
-        for line, text in zip(
-            growth.get_legend().get_lines(), growth.get_legend().get_texts(), strict=True
-        )
-    }
-    assert looks == set(named) and len(looks) == 4
-    pairs = zip(drawn["mu"].values[2:], named.values(), strict=True)
-    assert all(f"{mu:g}" in text for mu, text in pairs)
-    assert "at which the error is visible" in horizon.get_ylabel()

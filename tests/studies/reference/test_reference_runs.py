@@ -1,12 +1,10 @@
 """How references are made: the equations once more, decimals, precision, and what goes wrong."""
 
-import re
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from helpers import chosen, package
 from oracle import hamiltonian, random_chain, slope
 from pendula.datasets.netcdf import as_xarray, read
@@ -67,16 +65,6 @@ def test_without_heyoka_the_message_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "heyoka", None)
     with pytest.raises(HeyokaMissingError, match=HEYOKA):
         reference_contents("x", problem_of(), [1], (64, 80), True)
-
-
-def test_heyoka_is_pinned_alike_and_needed_by_the_reference_only():
-    conda = yaml.safe_load((ROOT / "workflow/envs/reference.yaml").read_text())
-    extra = set(conda["dependencies"][-1]["pip"])
-    extra -= set((ROOT / "environment.txt").read_text().split())
-    assert {pin.split("==")[0] for pin in extra} == {"heyoka", "cloudpickle"}
-    assert HEYOKA in extra
-    for text in ("docs/datasets.md", "workflow/rules/reference.smk"):
-        assert set(re.findall(r"heyoka==[\d.]+", (ROOT / text).read_text())) == {HEYOKA}
 
 
 def test_a_parameter_is_the_decimal_that_is_printed():
