@@ -9,7 +9,6 @@ import json
 from fractions import Fraction
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 from pendula.article.values import UPWARD, counts, upward
 from pendula.datasets.json_files import load_json
@@ -63,19 +62,12 @@ def proved(baseline: Baseline) -> dict:
     curves = {case: baseline[f"{'proofs' if case in framed else 'certified'}/{case}"]
               for case in cases}  # fmt: skip
     whole = lines["contained_until"] == lines["run_end"]
-    share = lines["largest_distance"] / lines["half_line"]
     short = json.loads((BASELINE / "proofs/short_case.json").read_text(encoding="utf-8"))
     return {
-        "rows": [_curve(case, one) for case, one in curves.items() if case not in framed],
-        "framed": [
-            [*_curve(case, one), number(one["error_exponent"][-1])]
-            for case, one in curves.items() if case in framed
-        ],
         "count": str(len(curves)),
         "largest": upward(max(one["bound"].max() for one in curves.values())),
         "until": number(min(float(one["tau"][-1]) for one in curves.values())),
         "contained": number(int(whole.sum())),
-        "in_lines": upward(share.where(whole & np.isfinite(share)).max()),
         "short_sites": number(len(short["initial"][0])),
         "short_steps": number(len(short["steps"])),
         "short_end": number(float(Fraction(short["end_time"]))),
@@ -90,18 +82,6 @@ def proved(baseline: Baseline) -> dict:
         "constants": str(baseline["certified/constants"].sizes["constant"]),
         "constants_off": upward(baseline["certified/constants"]["stored_error"].max()),
     }  # fmt: skip
-
-
-def _curve(case: str, curve: xr.Dataset) -> list[str]:
-    last = curve.isel(tau=int(curve["bound"].argmax("tau")))
-    part = last.isel(bound_part=int(last["bound_parts"].argmax("bound_part")))
-    return [
-        f"`{case}`",
-        number(float(curve["tau"][-1])),
-        upward(last["bound"]),
-        f"{part['bound_part'].item()}: {number(part['bound_parts'], 2)}",
-        number(float(curve["reference_distance"].max()), 2),
-    ]
 
 
 def hard_cases(data: xr.Dataset) -> dict[str, str]:

@@ -11,7 +11,7 @@ use rule figure as fig1 with:
 
 
 use rule figure as norms_in_time with:
-    "Figs 2 to 4: norms against time for small and for large data, and where the chain moves"
+    "Figs 2 to 4: norms against time for small and large amplitudes, and where the chain moves"
     input:
         runs=expand("<results>/trajectories/fig{{n}}_{size}.nc", size=["small", "large"]),
         ensembles=lambda wildcards: ensembles_of(*SHOWN[wildcards.n]),

@@ -15,7 +15,7 @@ use rule dataset as check_equations with:
 
 
 use rule check_equations as check_not_shown with:
-    "Section 5: the sweep for small data at Omega = 8, which the paper mentions and does not show"
+    "Section 5: the sweep for small amplitudes at Omega = 8, which the paper mentions and does not show"
     output:
         checks(*GROUPS["not_shown"]),
     pathvars:

@@ -60,7 +60,7 @@ def _look(data: xr.Dataset, case: str) -> dict:
 
 
 def _marked(data: xr.Dataset, case: str) -> dict:
-    """Return the same with a dot, hollow for small data."""
+    """Return the same with a dot, hollow for small amplitudes."""
     look = _look(data, case)
     face = look["color"] if look["lw"] > 1 else "white"
     return {**look, "marker": "o", "markersize": 4, "markerfacecolor": face}
