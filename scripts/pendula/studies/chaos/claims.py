@@ -6,6 +6,7 @@ sentence holds where the confidence limits of both satisfy the criterion.
 """
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -138,21 +139,18 @@ def wrong_cases(right: str, *wrongs: str) -> tuple[Control, ...]:
 
 # --- Fig 3, lower ---------------------------------------------------------------------------------
 
-NEAR_NEEDS = (*NEEDS, SENSITIVITY)
+
+def fig3(says: str, *wrongs: str, reading: str = "") -> Callable:
+    """Return the decorator of a claim, whose controls are members of these other cases.
+
+    It needs the shares of runs that spread as well, and they must not spread by data far away.
+    """
+    place = "Section 5, Fig 3 lower" + ("" if reading else ", in ensembles")
+    controls = (*wrong_cases("fig3_large", *wrongs), FAR_AS_NEAR)
+    return claim(place, says, (*NEEDS, SENSITIVITY), controls, ("fig3_large",), reading)
 
 
-def cases_of_fig3(*wrongs: str) -> tuple[Control, ...]:
-    """Return controls: members of other cases, and shares that do not spread close to the data."""
-    return (*wrong_cases("fig3_large", *wrongs), FAR_AS_NEAR)
-
-
-@claim(
-    "Section 5, Fig 3 lower, in ensembles",
-    "As a result, the l2 norm of the solution grows.",
-    NEAR_NEEDS,
-    controls=cases_of_fig3("fig3_small", "fig2_large", "fig2_small"),
-    on=("fig3_large",),
-)
+@fig3("As a result, the l2 norm of the solution grows.", "fig3_small", "fig2_large", "fig2_small")
 def ensemble_fig3_grows(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
     found = limits(members, "fig3_large", over_start, "l2")
@@ -161,12 +159,11 @@ def ensemble_fig3_grows(members, sensitivity) -> Finding:
     return near.judge(named(found, "value") | lows, Above(FACTOR, *lows, says=says))
 
 
-@claim(
-    "Section 5, Fig 3 lower, in ensembles",
+@fig3(
     "The central pendulum excites large oscillations of other pendula in the chain.",
-    NEAR_NEEDS,
-    controls=cases_of_fig3("fig3_small", "fig2_large", "fig2_small"),
-    on=("fig3_large",),
+    "fig3_small",
+    "fig2_large",
+    "fig2_small",
 )
 def ensemble_fig3_excites(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
@@ -182,13 +179,7 @@ def ensemble_fig3_excites(members, sensitivity) -> Finding:
     return near.judge(named(found, "value") | lows, Above(SEVERAL, *lows, says=says))
 
 
-@claim(
-    "Section 5, Fig 3 lower, in ensembles",
-    "The A and B modes mix up.",
-    NEAR_NEEDS,
-    controls=cases_of_fig3("fig2_large", "fig2_small", "fig3_small"),
-    on=("fig3_large",),
-)
+@fig3("The A and B modes mix up.", "fig2_large", "fig2_small", "fig3_small")
 def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     near = almost_equal(sensitivity, members.attrs["perturbation"])
 
@@ -206,12 +197,9 @@ def ensemble_fig3_mixes(members, sensitivity) -> Finding:
     return near.judge(ends | together, alike, Above(ANTICORRELATED, *together, says=says))
 
 
-@claim(
-    "Section 5, Fig 3 lower",
+@fig3(
     "The l-infinity norm stays at its initial level.",
-    NEAR_NEEDS,
-    controls=cases_of_fig3("fig4_small", "fig2_small", "fig3_small"),
-    on=("fig3_large",),
+    *("fig4_small", "fig2_small", "fig3_small"),
     reading="ensembles",
 )
 def ensemble_fig3_maximum(members, sensitivity) -> Finding:
@@ -228,6 +216,7 @@ def ensemble_fig3_maximum(members, sensitivity) -> Finding:
 # --- Fig 4 ----------------------------------------------------------------------------------------
 
 BOTH = ("fig4_small", "fig4_large")
+fig4 = partial(claim, "Section 5, Fig 4, in ensembles", needs=NEEDS, on=BOTH)
 
 
 def of_both(members, *reduce) -> dict[str, Limits]:
@@ -239,16 +228,13 @@ def of_both(members, *reduce) -> dict[str, Limits]:
     }
 
 
-@claim(
-    "Section 5, Fig 4, in ensembles",
+@fig4(
     "The growth of oscillation amplitudes stabilises at a certain level of the l-infinity norm, and"
     " the l2 norm is significantly larger than the l-infinity norm.",
-    NEEDS,
     controls=(
         *wrong_cases("fig4_small", "fig2_small", "fig3_small", "fig3_large"),
         *wrong_cases("fig4_large", "fig2_large"),
     ),
-    on=BOTH,
 )
 def ensemble_fig4_settles(members) -> Finding:
     changes = named(distance(of_both(members, change, "linf")), "high", "change")
@@ -298,10 +284,8 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
     return found
 
 
-@claim(
-    "Section 5, Fig 4, in ensembles",
+@fig4(
     "There are no visible differences between the upper and lower panels.",
-    NEEDS,
     controls=(
         *wrong_cases("fig4_small", "fig3_large", "fig3_small"),
         Control(
@@ -311,7 +295,6 @@ def fig4_differences(members, norm: str, window: str) -> dict[str, Limits]:
             on=BOTH,
         ),
     ),
-    on=BOTH,
 )
 def ensemble_fig4_alike(members) -> Finding:
     """Each panel shows one run, so that a difference is seen where it is wider than their band."""

@@ -5,6 +5,7 @@ The means over the ensembles do not, and Student's t says how far they can be tr
 `claims`, a sentence must hold in both kinds of ensembles.
 """
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -135,11 +136,11 @@ CROSSED = keep(half_width=slice(None, 100))
 
 # --- Fig 5, right ---------------------------------------------------------------------------------
 
+fig5 = partial(claim, "Section 5, Fig 5 right, in ensembles", needs=NEEDS, on=("fig5_right",))
 
-@claim(
-    "Section 5, Fig 5 right, in ensembles",
+
+@fig5(
     "The maximal l2 norm grows nearly monotonically with M at Omega = 0.",
-    NEEDS,
     controls=(
         *stable("fig5_right", "fig5_left", "fig6_left"),
         Control(
@@ -148,7 +149,6 @@ CROSSED = keep(half_width=slice(None, 100))
             on=("fig5_right", "fig6_right"),
         ),
     ),
-    on=("fig5_right",),
 )
 def ensemble_fig5_grows(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
@@ -166,10 +166,8 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
     return judge(growth | rising | {"level_from": first}, criterion, caveat)
 
 
-@claim(
-    "Section 5, Fig 5 right, in ensembles",
+@fig5(
     "The growth with M confirms growth on the unbounded lattice as time goes to infinity.",
-    NEEDS,
     controls=(
         *stable("fig5_right", "fig6_left", "fig5_left"),
         Control(
@@ -178,7 +176,6 @@ def ensemble_fig5_grows(even, uneven) -> Finding:
             confirms=True,
         ),
     ),
-    on=("fig5_right",),
 )
 def ensemble_fig5_conjecture(even, uneven) -> Finding:
     found = both(even, uneven, "fig5_right", "l2", TEXT_5)
@@ -197,17 +194,14 @@ def ensemble_fig5_conjecture(even, uneven) -> Finding:
     return judge(measured, criterion, caveat, fails)
 
 
-@claim(
-    "Section 5, Fig 5 right, in ensembles",
+@fig5(
     "The l-infinity norm saturates to the same level independently of M.",
-    NEEDS,
     controls=(
         Control(
             "the l2 norm, which grows with M",
             {"ensembles": take(linf_mean="l2_mean", linf_error="l2_error")},
         ),
     ),
-    on=("fig5_right",),
 )
 def ensemble_fig5_maximum(even, uneven) -> Finding:
     """Ask whether short, middle and long chains have the same level.
@@ -226,7 +220,14 @@ def ensemble_fig5_maximum(even, uneven) -> Finding:
 
 # --- Fig 6, right ---------------------------------------------------------------------------------
 
-NEAR_NEEDS = (*NEEDS, SENSITIVITY)
+
+def fig6(says: str, *on: str, place: str = "Section 5, Fig 6 right, in ensembles"):
+    """Return the decorator of a claim that needs the shares of runs that spread as well.
+
+    Its controls are sweeps of stable cases, and shares that do not spread close to the data.
+    """
+    controls = (*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR)
+    return claim(place, says, (*NEEDS, SENSITIVITY), controls, (*on, "fig6_right"))
 
 
 def nearest(even, uneven, sensitivity) -> AlmostEqual:
@@ -234,13 +235,7 @@ def nearest(even, uneven, sensitivity) -> AlmostEqual:
     return almost_equal(sensitivity, max(even.attrs["perturbation"], uneven.attrs["perturbation"]))
 
 
-@claim(
-    "Section 5, Fig 6 right, in ensembles",
-    "At Omega = -4 and from the large initial condition the maximal l2 norm grows with M.",
-    NEAR_NEEDS,
-    controls=(*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR),
-    on=("fig6_right",),
-)
+@fig6("At Omega = -4 and from the large initial condition the maximal l2 norm grows with M.")
 def ensemble_fig6_grows(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)
     measured, lows, peaks, back = {}, {}, [], []
@@ -286,12 +281,9 @@ def ensemble_fig6_diverges(even, uneven) -> Finding:
     return judge(measured, NeverLevels(*levels), fails=fails)
 
 
-@claim(
-    "Section 5, Fig 6 right, in ensembles",
+@fig6(
     "The limitation of Theorem 2 to small initial conditions is not a technical shortfall.",
-    NEAR_NEEDS,
-    controls=(*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR),
-    on=("fig3_large", "fig6_right"),
+    "fig3_large",
 )
 def ensemble_fig6_not_technical(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)
@@ -306,12 +298,10 @@ def ensemble_fig6_not_technical(even, uneven, sensitivity) -> Finding:
     return near.judge(lows | {"C_0": c_0}, Above(c_0, *lows, says=says), caveat=fixed)
 
 
-@claim(
-    "Section 5, Fig 6, in ensembles",
+@fig6(
     "The time span [10, 70] gives the oscillations enough time to be excited in the chain.",
-    NEAR_NEEDS,
-    controls=(*stable("fig6_right", "fig6_left", "fig5_left"), FAR_AS_NEAR),
-    on=("fig3_large", "fig6_right"),
+    "fig3_large",
+    place="Section 5, Fig 6, in ensembles",
 )
 def ensemble_fig6_time(even, uneven, sensitivity) -> Finding:
     near = nearest(even, uneven, sensitivity)

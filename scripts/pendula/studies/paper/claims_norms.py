@@ -1,5 +1,7 @@
 """Section 5, Figs 2 to 4: the norms against time."""
 
+from functools import partial
+
 import numpy as np
 
 from pendula.ledger.changes import repeat, take_from
@@ -73,10 +75,11 @@ def fig2_bounded(small, large, sweep) -> Finding:
     return judge(measured, AtMost(1.0, *measured, says="largest P over the bound of Theorem 1"))
 
 
-@claim(
-    "Section 5, Fig 2 upper",
+fig2_upper = partial(claim, "Section 5, Fig 2 upper", needs=runs("fig2_small"))
+
+
+@fig2_upper(
     "The central pendulum excites other pendula in the chain, so that its oscillation decreases.",
-    runs("fig2_small"),
     controls=(
         Control("the large case, which stays at the centre", "fig2_large"),
         Control("the unstable case at Omega = 0", "fig4_small"),
@@ -112,10 +115,8 @@ AS_AT_MINUS_FOUR = Control(
 """No wrong case: what small data do where the chain at rest is stable holds at both Omega."""
 
 
-@claim(
-    "Section 5, Fig 2 upper",
+@fig2_upper(
     "The l2 norm oscillates between A and B.",
-    runs("fig2_small"),
     controls=(
         Control("the large case, where A and B are separate", "fig2_large"),
         Control("the unstable case at Omega = 0", "fig4_small"),
@@ -133,11 +134,9 @@ def fig2_exchange(small) -> Finding:
     )
 
 
-@claim(
-    "Section 5, Fig 2 upper",
+@fig2_upper(
     "While the central oscillation decreases, the l-infinity norms of A and B become comparable "
     "and stay so.",
-    runs("fig2_small"),
     controls=(
         Control("the large case, where B stays small", "fig2_large"),
         Control("the small case at Omega = 0, which grows", "fig4_small"),
