@@ -37,11 +37,14 @@ SIGNIFICANT = Cutoff(0.05, '"significant": the level that is customary in statis
 REPEATED = Cutoff(1e-3, "one trajectory on two chains: norms within a tenth of what a reader sees")
 
 SWEEPS = sweeps("fig5_left", "fig5_right", "fig6_left", "fig6_right")
-TEXT = {"fig5": ("[10, 50]", ("l2", "linf")), "fig6": ("[10, 70]", ("l2",))}
-"""What the text says Figs 5 and 6 draw: maxima over these windows of these norms."""
 NORMS = ("l2", "linf")
-CAPTION = {"fig5": "[10, 50]", "fig6": "[10, 40]"}
-"""The windows over which their captions average."""
+DRAWN = {"fig5": NORMS, "fig6": ("l2",)}
+"""The norms that the text says Figs 5 and 6 draw."""
+READINGS = {
+    "fig5": {"text": ("max", "[10, 50]"), "caption": ("mean", "[10, 50]")},
+    "fig6": {"text": ("max", "[10, 70]"), "caption": ("mean", "[10, 40]")},
+}
+"""The statistic and the window that text and caption give these figures."""
 REGULAR = ("largest_regular", "beyond_step_error", "at_half_step")
 """What is measured of the regular cases: the difference, what the step's error leaves, at half."""
 SECOND, SECOND_SWEEPS = by("crank_nicolson", (*SMALL, *LARGE)), by("crank_nicolson", SWEEPS)
@@ -183,8 +186,12 @@ def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
 
 
 @once
-def _chances_of(name: str, second, ensembles, statistic: str, window: str):
-    """Return the chances of `swept_chances` by half-width, (norm, half_width), and the norms."""
+def swept_chances(name: str, second, ensembles, statistic: str, window: str) -> list[float]:
+    """Return by distinct run the chance that a draw is as far from the mean as the second solver.
+
+    The chance of a run is that of the least of the norms that the text draws and of its
+    half-widths, by Bonferroni's bound. Where the second solver has draws too, means are compared.
+    """
     drawn = ensembles.sel(sweep=name, quantity="pair", statistic=statistic, window=window)
     second = second.sel(quantity="pair", statistic=statistic, window=window)
     drawn = drawn.dropna("half_width", subset=["l2_mean"])
@@ -194,33 +201,19 @@ def _chances_of(name: str, second, ensembles, statistic: str, window: str):
     second, drawn = second.sel(half_width=shared), drawn.sel(half_width=shared)
     members = int(drawn["swept_members"])
     chances = []
-    for norm in TEXT[name[:4]][1]:
+    for norm in DRAWN[name[:4]]:
         first = drawn[f"{norm}_mean"].values, drawn[f"{norm}_deviation"].values, members
         if "draw" in second.dims:
             chances.append(chance_of_means(_moments(second[norm]), first))
         else:
             chances.append(chance_of_draw(second[norm].values, *first))
     norms = second.isel(draw=0) if "draw" in second.dims else second
-    return np.stack(chances), [norms[norm].values for norm in NORMS]
+    runs = distinct_runs(norms[norm].values for norm in NORMS)
+    return [together(np.stack(chances)[:, places]) for places in runs]
 
 
 def _moments(draws) -> tuple[np.ndarray, np.ndarray, int]:
     return draws.mean("draw").values, draws.std("draw", ddof=1).values, draws.sizes["draw"]
-
-
-def swept_chances(name: str, second, ensembles, statistic: str, window: str) -> list[float]:
-    """Return by distinct run the chance that a draw is as far from the mean as the second solver.
-
-    The chance of a run is that of the least of the norms that the text draws and of its
-    half-widths, by Bonferroni's bound. Where the second solver has draws too, means are compared.
-    """
-    found, norms = _chances_of(name, second, ensembles, statistic, window)
-    return [together(found[:, places]) for places in distinct_runs(norms)]
-
-
-def readings(name: str) -> dict[str, tuple[str, str]]:
-    """Return the statistic and the window that text and caption give a figure."""
-    return {"text": ("max", TEXT[name[:4]][0]), "caption": ("mean", CAPTION[name[:4]])}
 
 
 def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
@@ -231,11 +224,11 @@ def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
     if name not in ensembles["sweep"].values:
         raise UndecidableError(f"there is no ensemble of {name}")
     found = {}
-    for reading, (statistic, window) in readings(name).items():
+    for reading, (statistic, window) in READINGS[name[:4]].items():
         if window not in ensembles["window"].values or window not in second["window"].values:
             raise UndecidableError(f"{name} or its ensemble has no window {window}")
         found[reading] = swept_chances(name, second, ensembles, statistic, window)
-    at = {"quantity": "pair", "statistic": "mean", "window": CAPTION[name[:4]]}
+    at = {"quantity": "pair", "statistic": statistic, "window": window}  # of the caption
     l2 = second["l2"].sel(at)
     l2 = l2.mean("draw") if "draw" in l2.dims else l2
     found["off"] = [float(abs(l2 / ensembles["l2_mean"].sel(sweep=name, **at) - 1.0).max())]
@@ -249,8 +242,8 @@ def coverage(name: str, second, ensembles) -> str:
     Between two half-widths the mean moves by more than its deviation, so that an ensemble in
     between would be a guess: such a point does not decide. It is shown with its neighbours.
     """
-    window, _ = TEXT[name[:4]]
-    at = {"quantity": "pair", "statistic": "max", "window": window}
+    statistic, window = READINGS[name[:4]]["text"]
+    at = {"quantity": "pair", "statistic": statistic, "window": window}
     run = second["l2"].sel(at)
     drawn = ensembles["l2_mean"].sel(sweep=name, **at).dropna("half_width")
     widths, known = run["half_width"].values, drawn["half_width"].values
@@ -323,9 +316,9 @@ def chance_by_step(name: str, steps) -> float:
     """Return the chance that the means of a sweep by the assumed and by a finer step are one."""
     own, finer = runs_by_step(steps)
     found = []
-    for statistic, window in readings(name).values():
+    for statistic, window in READINGS[name[:4]].values():
         at = {"quantity": "pair", "statistic": statistic, "window": window}
-        for norm in TEXT[name[:4]][1]:
+        for norm in DRAWN[name[:4]]:
             found.append(chance_of_means(*(_moments(run[norm].sel(at)) for run in (own, finer))))
     return together(found)
 
