@@ -20,8 +20,8 @@ source file: a copied project compiles everything again, and two processes that 
 for two types of arguments at once may write both to the same file. `kernel_cache` keeps it instead.
 
 What this rests upon, all of it private to numba:
-- a dispatcher compiles in `compile`, tells callers its types in `get_call_template` and the key of
-  its code in `get_overload`, keeps a result in `add_overload`, and asks its `_cache` for
+- a dispatcher tells callers its types in `get_call_template` and the key of its code in
+  `get_overload`, keeps a result in `add_overload`, and asks its `_cache` for
   `load_overload`, `save_overload` and `cache_path`;
 - a `CodeLibrary` optimises in `_optimize_final_module`, makes machine code in
   `_finalize_final_module`, and `_reduce` and `_rebuild` turn a result into bytes and back;
@@ -98,7 +98,6 @@ class KernelCache:
 
     def __init__(self, function: Callable, root: Path):
         self._files = KernelFiles(function, root, self.ENDING)
-        self.release = self._files.release
 
     @property
     def cache_path(self) -> str:
@@ -161,13 +160,6 @@ class Kept(CPUDispatcher):
     def keep_in(self, root: Path) -> None:
         """Keep code below the folder `root`, and take from it what is there."""
         self.root, self._cache = root, self.CACHE(self.py_func, root)
-
-    def compile(self, sig):
-        try:
-            return super().compile(sig)
-        finally:  # also where it fails: other processes wait
-            if self.root:
-                self._cache.release()
 
 
 class Part(Kept):

@@ -22,11 +22,6 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-try:
-    import fcntl
-except ImportError:  # Windows has none: two processes then compile what both need
-    fcntl = None
-
 import llvmlite
 import numba
 import platformdirs
@@ -37,8 +32,6 @@ VARIABLE = "PENDULA_CACHE"
 OFF = "off"
 UNUSED = 30 * 86400.0
 """Seconds after which machine code of a text that nobody runs any more is removed."""
-PATIENCE, LOOK = 120.0, 0.02
-"""Seconds that a process waits for another that compiles what it needs, and between two looks."""
 DIGEST = hashlib.sha256().digest_size
 DIGITS = 16
 """Hexadecimal digits of a digest in the name of a folder or a file."""
@@ -54,18 +47,16 @@ def kept_in() -> Path | None:
 
 @cache
 def _trusted(folder: Path) -> Path | None:
-    """Return the folder, or a temporary one where others could have put code into it."""
+    """Return the folder, or None where others could have put code into it."""
     if _is_private(folder):
         return folder
-    other = Path(tempfile.gettempdir()) / f"pendula-{os.geteuid()}"
-    other = other if _is_private(other) else None
     warnings.warn(
         f"compiled kernels in {folder} are not used, because other users own or can write that"
-        f" folder; kernels are kept in {other or 'memory only'}. Name a folder of your own by"
-        f" {VARIABLE}, or make this one yours alone (chmod go-w)",
+        f" folder; kernels are kept in memory only. Name a folder of your own by {VARIABLE}, or"
+        " make this one yours alone (chmod go-w)",
         stacklevel=4,
     )
-    return other
+    return None
 
 
 def _is_private(place: Path | int) -> bool:
@@ -86,18 +77,23 @@ def keep_source(name: str, text: str) -> Path:
     file = (root or Path("generated")) / "sources" / _digest(text) / name
     if root and (not file.exists() or file.read_text(encoding="utf-8") != text):
         try:
-            _write_source(file, text)
+            _write(file, text.encode())
         except OSError:  # kernels cannot be kept either, and those who keep them say so
             file = Path(tempfile.mkdtemp(prefix="pendula-")) / name
             file.write_text(text, encoding="utf-8")
     return file
 
 
-def _write_source(file: Path, text: str) -> None:
+def _write(file: Path, content: bytes) -> None:
+    """Write a file that appears whole or not at all, and that nobody else can write."""
     file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
-    partial.write_text(text, encoding="utf-8")
-    partial.replace(file)
+    try:
+        partial.touch(mode=0o600, exist_ok=False)
+        partial.write_bytes(content)
+        partial.replace(file)
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def folder_of(function: Callable, root: Path | None) -> Path | None:
@@ -108,34 +104,19 @@ def folder_of(function: Callable, root: Path | None) -> Path | None:
 
 
 class KernelFiles:
-    """The files that keep the machine code of one function, each for some types of arguments.
-
-    What several processes need at once is compiled by one of them, and the others wait for it: a
-    function that is not there is looked up under a lock, which its compiler holds until it is kept.
-    """
+    """The files that keep the machine code of one function, each for some types of arguments."""
 
     def __init__(self, function: Callable, root: Path, ending: str):
         """Keep the machine code of `function`, which is no closure, below the folder `root`."""
         self._name, self._ending = function.__qualname__, ending
         self.folder = folder_of(function, root)
-        self._locks = {}
 
     def load(self, *key) -> bytes | None:
         """Return what was saved by the types of arguments and the processor that are the `key`.
 
-        None if there is nothing: whoever asked then compiles it, and must `save` or `release`.
+        None if there is nothing, or what is there is damaged or written by others.
         """
         file = self._file(key)
-        kept = self._read(file)
-        if kept is None:
-            self._lock(file)
-            kept = self._read(file)
-        if kept is not None:
-            self.release()
-        return kept
-
-    def _read(self, file: Path) -> bytes | None:
-        """Return what is kept in a file; None if it is absent, damaged, or written by others."""
         try:
             with file.open("rb") as kept:
                 content = kept.read() if _is_private(kept.fileno()) else b""
@@ -153,16 +134,9 @@ class KernelFiles:
         """Keep machine code. Where that is impossible the run goes on, with a warning."""
         file = self._file(key)
         try:
-            self._make_folder()
-            partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
-            try:
-                with open(
-                    partial, "xb", opener=lambda path, flags: os.open(path, flags, 0o600)
-                ) as new:
-                    new.write(self._seal(file, payload) + payload)
-                partial.replace(file)
-            finally:
-                partial.unlink(missing_ok=True)
+            if not self.folder.exists():
+                self._remove_unused()
+            _write(file, self._seal(file, payload) + payload)
         except OSError as fault:
             warnings.warn(
                 f"compiled kernels cannot be kept in {self.folder.parent}, so that each job"
@@ -170,43 +144,9 @@ class KernelFiles:
                 f" `{VARIABLE}={OFF}`",
                 stacklevel=2,
             )
-        self.release()
-
-    def _lock(self, file: Path) -> None:
-        """Wait for another process that compiles the function of this file.
-
-        The system unlocks what a killed process locked. Whoever waits for too long, or finds no
-        locks in this folder, compiles too: that costs time, and both write the same.
-        """
-        if fcntl is None:
-            return
-        with suppress(OSError):
-            self._make_folder()
-            path = file.with_suffix(".lock")
-            self._locks[path] = lock = os.open(path, os.O_CREAT | os.O_RDWR)
-            give_up = time.monotonic() + PATIENCE
-            while time.monotonic() < give_up:
-                try:
-                    return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                except BlockingIOError:
-                    time.sleep(LOOK)
-
-    def release(self) -> None:
-        """Let the processes go on that wait for this one, whether or not it compiled anything."""
-        while self._locks:
-            path, lock = self._locks.popitem()
-            with suppress(OSError):
-                path.unlink()
-            os.close(lock)
 
     def _file(self, key: tuple) -> Path:
         return self.folder / f"{self._name}-{_digest(*key)}{self._ending}"
-
-    def _make_folder(self) -> None:
-        if not self.folder.exists():
-            self._remove_unused()
-            self.folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            self.folder.mkdir(mode=0o700, exist_ok=True)
 
     def _remove_unused(self) -> None:
         """Remove what was compiled from former texts of this module, unless it was used of late.
@@ -218,7 +158,7 @@ class KernelFiles:
         ours = f"{former}-{'[0-9a-f]' * DIGITS}"
         for folder in self.folder.parent.glob(ours):
             if time.time() - folder.stat().st_mtime > UNUSED:
-                for ending in ("kernel", "part", "lock"):
+                for ending in ("kernel", "part"):
                     for file in folder.glob(f"*.{ending}"):
                         file.unlink(missing_ok=True)
                 with suppress(OSError):  # something else lies in it

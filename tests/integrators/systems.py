@@ -9,7 +9,6 @@ import numpy as np
 from pendula.compiled import kernel, uncached
 from pendula.integrators import (
     crank_nicolson,
-    delfour_fortin_payre,
     dop853,
     ode45,
     taylor,
@@ -66,7 +65,7 @@ solve_dop853 = dop853.build(oscillate, keep)
 solve_taylor = taylor.build(continue_oscillation, keep)
 solve_crank_nicolson = crank_nicolson.build(riccati, keep)
 solve_implicit_midpoint = crank_nicolson.build_midpoint(riccati, keep)
-solve_delfour_fortin_payre = delfour_fortin_payre.build(mean_riccati, keep)
+solve_delfour_fortin_payre = crank_nicolson.build_conserving(mean_riccati, keep)
 
 
 @kernel
@@ -105,7 +104,7 @@ METHODS = {
     "taylor": (run_taylor, taylor.WORK),
     "crank_nicolson": (run_crank_nicolson, crank_nicolson.WORK),
     "implicit_midpoint": (run_implicit_midpoint, crank_nicolson.WORK),
-    "delfour_fortin_payre": (run_delfour_fortin_payre, delfour_fortin_payre.WORK),
+    "delfour_fortin_payre": (run_delfour_fortin_payre, crank_nicolson.WORK),
 }
 
 

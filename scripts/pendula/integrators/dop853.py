@@ -21,14 +21,7 @@ import numpy as np
 from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.simd import largest_magnitude
 
-from . import (
-    DONE,
-    INTERRUPTED,
-    NOT_FINITE,
-    SMALLEST_PART,
-    STEP_TOO_SMALL,
-    Outcome,
-)
+from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
 from .dop853_coefficients import D4, D5, D6, D7, E3, E5, NODES, STAGES
 from .tiles import count_tiles, give, take, tile_length, tile_place

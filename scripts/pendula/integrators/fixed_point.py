@@ -1,8 +1,7 @@
-"""Implicit steps by fixed-point iteration: what the two second-order schemes share.
+"""Implicit steps by fixed-point iteration: what the schemes of `crank_nicolson` share.
 
-Both solve new = base + part G(new) for the new state. `crank_nicolson` is the trapezoidal rule, the
-literal reading of the paper; `delfour_fortin_payre` is its variant that conserves the energy. They
-share no step control and no error estimate with the explicit methods.
+All solve new = base + part G(new) for the new state, see `crank_nicolson`. They share no step
+control and no error estimate with the explicit methods.
 
 The iteration starts from the extrapolation of the last six steps by a polynomial, and stops when
 the largest change of a part (real or imaginary) falls below tolerance * |y|, where |y| is the

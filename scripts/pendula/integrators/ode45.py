@@ -25,14 +25,7 @@ from pendula.compiled import copy, inlined_by_numba, kernel, uncached
 from pendula.numerics import elementary
 from pendula.simd import largest_in_rows
 
-from . import (
-    DONE,
-    INTERRUPTED,
-    NOT_FINITE,
-    SMALLEST_PART,
-    STEP_TOO_SMALL,
-    Outcome,
-)
+from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
 from .weighted_sums import table, write_sum
 

@@ -26,14 +26,7 @@ import numpy as np
 from pendula.compiled import inlined_by_llvm, inlined_by_numba, kernel
 from pendula.simd import LANES, fill, larger_magnitude, largest_lane, load, store
 
-from . import (
-    DONE,
-    INTERRUPTED,
-    NOT_FINITE,
-    SMALLEST_PART,
-    STEP_TOO_SMALL,
-    Outcome,
-)
+from . import DONE, INTERRUPTED, NOT_FINITE, SMALLEST_PART, STEP_TOO_SMALL, Outcome
 from .autonomous import at_any_time
 
 # --- A power series in memory -------------------------------------------------------------------

@@ -59,7 +59,15 @@ def simulate(
     if reduction is None:
         reduction = model_of(problem).find_reduction(problem)
     times, record, y, outcome = integrate(problem, reduction, interruptible, energy)
-    return _collect(problem, times, record, y, reduction, outcome)
+    both = Reduction(even=False, synchronised=reduction.synchronised)
+    return Trajectory(
+        tau=times,
+        linf=unfold(record.linf, both),
+        l2=unfold(record.l2, both),
+        outcome=outcome,
+        solver=dict(problem.solver),
+        **model_of(problem).collect(problem, record, y, reduction),
+    )
 
 
 def integrate(
@@ -102,25 +110,6 @@ def integrate(
 
 def _stopped(problem: Problem, time: float, reason: str) -> IntegrationError:
     return IntegrationError(f"{problem.solver['name']} stopped at tau = {time:.6g}: {reason}")
-
-
-def _collect(
-    problem: Problem,
-    times: np.ndarray,
-    record: Any,
-    y: np.ndarray,
-    reduction: Reduction,
-    outcome: Outcome,
-) -> Trajectory:
-    both = Reduction(even=False, synchronised=reduction.synchronised)
-    return Trajectory(
-        tau=times,
-        linf=unfold(record.linf, both),
-        l2=unfold(record.l2, both),
-        outcome=outcome,
-        solver=dict(problem.solver),
-        **model_of(problem).collect(problem, record, y, reduction),
-    )
 
 
 def _simulate_to_error(problem: Problem, reduction: Reduction | None) -> Trajectory:

@@ -6,19 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import kernel
-from pendula.integrators import (
-    crank_nicolson,
-    delfour_fortin_payre,
-    dop853,
-    ode45,
-    taylor,
-)
-from pendula.models.amplitudes import (
-    chain_of_tile,
-    continue_series,
-    midpoint_rates,
-    rates,
-)
+from pendula.integrators import crank_nicolson, dop853, ode45, taylor
+from pendula.models.amplitudes import chain_of_tile, continue_series, midpoint_rates, rates
 from pendula.models.chain import can_be_tiled
 
 from .lattice import aligned
@@ -28,7 +17,7 @@ solve_ode45 = ode45.build(rates, observe)
 solve_dop853 = dop853.build(rates, observe, can_be_tiled, chain_of_tile)
 solve_crank_nicolson = crank_nicolson.build(rates, observe)
 solve_implicit_midpoint = crank_nicolson.build_midpoint(rates, observe)
-solve_delfour_fortin_payre = delfour_fortin_payre.build(midpoint_rates, observe)
+solve_delfour_fortin_payre = crank_nicolson.build_conserving(midpoint_rates, observe)
 solve_taylor = taylor.build(continue_series, observe)
 
 
@@ -87,7 +76,7 @@ SOLVERS = {
     "ode45": Solver(run_ode45, ("rtol", "atol"), ode45.WORK),
     "crank_nicolson": Solver(run_crank_nicolson, ITERATED, crank_nicolson.WORK),
     "implicit_midpoint": Solver(run_implicit_midpoint, ITERATED, crank_nicolson.WORK),
-    "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, delfour_fortin_payre.WORK),
+    "delfour_fortin_payre": Solver(run_delfour_fortin_payre, ITERATED, crank_nicolson.WORK),
     "dop853": Solver(run_dop853, ("rtol", "atol"), dop853.WORK, dop853.work_arrays),
     "taylor": Solver(run_taylor, ("rtol", "atol"), taylor.WORK),
 }
