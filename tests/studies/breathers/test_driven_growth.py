@@ -9,7 +9,7 @@ from pendula.studies.breathers import driven_growth
 
 @pytest.fixture(scope="module")
 def family():
-    return driven_growth.free_breathers(FREE, np.arange(5.0, 8.3, 0.1), 20)
+    return driven_growth.free_breathers(FREE, [*np.arange(5.0, 7.95, 0.1), 8.0], 20)
 
 
 def test_free_breathers_have_no_b_and_more_power_at_higher_frequency(family):
@@ -73,9 +73,3 @@ def test_the_law_ends_at_the_edge_of_the_band(frequencies):
     first, last = (driven_growth.free_breathers(FREE, [at], 20)[0].power for at in (5.0, 8.0))
     assert 0.0 == law[0] < law[1] <= law[-1] == pytest.approx(last - first, rel=1e-8)
     assert last - first == pytest.approx(5.998, abs=5e-4)
-
-
-def test_between_two_members_the_end_is_interpolated(family):
-    law = driven_growth.predicted(FREE, family[:30:2] + family[31:], 0, np.array([0.0, 1.0, 2.0]))
-    assert family[30].frequency == pytest.approx(8.0)
-    assert law[1] == law[2] == pytest.approx(family[30].power, rel=1e-4)

@@ -34,12 +34,8 @@ from pendula.problem import Constants, output_times
 from pendula.simulation.simulate import simulate
 
 from .contents import kept
-from .periodic import problem_from, shoot, single_site, unfolded
+from .periodic import DECIMALS, problem_from, shoot, single_site, unfolded
 from .steady import power, second_difference
-
-DECIMALS = 9
-"""Of a breather without drive. LAPACK's last bits differ between processors; runs that start from
-rounded data have the same bits on all."""
 
 
 class FreeBreather(NamedTuple):
@@ -111,15 +107,11 @@ def predicted(
     """Return P of the breather by the law (G) at `times`, from the member `start` of a family.
 
     The frequency follows from P along the free family. Since dtau = dP / rate(P), time is a sum
-    over the family. It ends at the edge of the band, where sin k = 0 in (G) and dtau / dP vanishes;
-    from there on P stays. P at the edge is interpolated where no member stands there.
+    over the family. It ends with the last member, at the edge of the band, where sin k = 0 in (G)
+    and dtau / dP vanishes; from there on P stays.
     """
-    frequencies = np.array([one.frequency for one in family])
-    powers = np.array([one.power for one in family])
-    inside = [one for one in family[start:] if one.frequency < edge(constants)]
-    slowness = np.append([1.0 / rate(constants, one) for one in inside], 0.0)
-    last = interpolated(edge(constants), frequencies, powers)
-    passed = np.append([one.power for one in inside], last)
+    slowness = np.append([1.0 / rate(constants, one) for one in family[start:-1]], 0.0)
+    passed = np.array([one.power for one in family[start:]])
     spans = np.diff(passed) * 0.5 * (slowness[1:] + slowness[:-1])
     return interpolated(times, np.append(0.0, np.cumsum(spans)), passed)
 

@@ -38,6 +38,9 @@ FAMILIES = ("A only", "A = -B", "A = B")
 """B = 0 where gamma = 0, and follows by the drive; B opposite to A; B equal to A."""
 TOLERANCE = 1e-13
 """Largest |Re A| and |Re B| at a quarter of a period, relative to the largest at the start."""
+DECIMALS = 9
+"""Of breathers from which runs start: LAPACK finds breathers, whose last bits differ between
+processors, and runs from rounded data have the same bits on all."""
 ITERATIONS = 30
 SLOWEST = 0.3
 """An error that falls by less in one iteration requires a new matrix."""

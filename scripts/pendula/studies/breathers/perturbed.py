@@ -13,10 +13,8 @@ from pendula.numerics.elementary import log
 from pendula.simulation.simulate import simulate
 
 from .multipliers import growth
-from .periodic import Breather, problem_from, unfolded
+from .periodic import DECIMALS, Breather, problem_from, unfolded
 
-DECIMALS = 9
-"""Of the data of runs: LAPACK finds breathers, and their last bits differ between processors."""
 SMALLEST, LARGEST = 1e-8, 1e-4
 """Of the difference of two runs, relative to the breather, while its growth is measured."""
 TOLERANCE = 1e-14

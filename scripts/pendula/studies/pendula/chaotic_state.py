@@ -128,8 +128,7 @@ def passed_by(times: np.ndarray, tau: np.ndarray) -> Limits:
     All are watched equally long, so that this is one minus the estimate of Kaplan and Meier.
     """
     counts = (times[:, None] <= tau).sum(axis=0)
-    known = {int(count): share_limits(int(count), len(times)) for count in np.unique(counts)}
-    return Limits(*np.array([known[int(count)] for count in counts]).T)
+    return Limits(*np.array([share_limits(int(count), len(times)) for count in counts]).T)
 
 
 def measure_over_the_top(

@@ -26,26 +26,18 @@ from pendula.ledger.cutoff import once
 from pendula.measures.confidence import Limits, mean_limits
 from pendula.numerics.elementary import interpolated
 
-from .bulk import (
-    TERMS,
-    bulk_powers,
-    late_means,
-    mean_powers,
-    mean_terms,
-    slope_powers,
-    thermal_powers,
-)
+from . import bulk
 from .claims import sure, times_of
 from .measured import BULK, FRONT
 
 SECTION = 5
 
-slopes_of = once(slope_powers)
+slopes_of = once(bulk.slope_powers)
 
 
 def ratios_of(limits: list[Limits], thermal, omegas: np.ndarray) -> list[Limits]:
     """Return limits of P at each Omega over the P of the thermal state there."""
-    pairs = zip(limits, thermal_powers(thermal, omegas), strict=True)
+    pairs = zip(limits, bulk.thermal_powers(thermal, omegas), strict=True)
     return [Limits(*(bound / expected for bound in one)) for one, expected in pairs]
 
 
@@ -117,7 +109,7 @@ def with_power(warm: bool) -> Callable:
 
     def change(run, thermal):
         energies = run["bulk_terms"].sum("term").transpose(*run["bulk_power"].dims)
-        mean = float(mean_terms(run, BULK)[0].sum(axis=1).mean())
+        mean = float(bulk.mean_terms(run, BULK)[0].sum(axis=1).mean())
         state = at_energy(thermal, mean if warm else 0.0)
         follows = state["rise"] * (energies - mean) if warm else 0.0 * energies
         power = state["power"] + follows + on_every_second(run, SCATTER)
@@ -155,10 +147,10 @@ STILL = tuple(
 )
 def unbounded_equilibrium(run, thermal) -> Finding:
     times_of(run)
-    omegas, powers = run["omega"].values, bulk_powers(run, FRONT)
-    limits = [mean_limits(one, sure(len(omegas))) for one in mean_powers(run, FRONT)]
+    omegas, powers = run["omega"].values, bulk.bulk_powers(run, FRONT)
+    limits = [mean_limits(one, sure(len(omegas))) for one in bulk.mean_powers(run, FRONT)]
     ratios = ratios_of(limits, thermal, omegas)
-    third, last = late_means(powers, run, 2).mean(axis=2)
+    third, last = bulk.late_means(powers, run, 2).mean(axis=2)
     change = last / third
     measured = {
         "least": min(one.value for one in ratios),
@@ -204,7 +196,7 @@ def unbounded_slope(run, band, thermal) -> Finding:
     times_of(run)
     slopes, omegas = slopes_of(run, sure()), band["omega"].values
     slope, centre = slopes[0], ratios_of(slopes, thermal, run["omega"].values)[0]
-    bulk = mean_limits(mean_powers(run, FRONT)[0], sure())
+    behind = mean_limits(bulk.mean_powers(run, FRONT)[0], sure())
     ratios = ratios_of(slopes_of(band, sure(len(omegas))), thermal, omegas)
     measured = {
         "centre": centre.value,
@@ -212,9 +204,9 @@ def unbounded_slope(run, band, thermal) -> Finding:
         "centre_at_most": centre.high,
         "power_of_slope": slope.value,
         "power_of_slope_error": slope.half,
-        "power_of_bulk": bulk.value,
-        "power_of_bulk_error": bulk.half,
-        "thermal_power": thermal_powers(thermal, run["omega"].values)[0],
+        "power_of_bulk": behind.value,
+        "power_of_bulk_error": behind.half,
+        "thermal_power": bulk.thermal_powers(thermal, run["omega"].values)[0],
     } | {f"at_omega_{omega:g}": one.value for omega, one in zip(omegas, ratios, strict=True)}
     says = "confidence interval of the slope of l2^2 over 2 v P at Omega = 0"
     criterion = Near(1.0, CONSTANT, "centre_at_least", "centre_at_most", says=says)
@@ -294,17 +286,17 @@ def unbounded_warm(run, thermal) -> Finding:
 
 def bulk_with_energy(run, thermal) -> dict[str, float]:
     """Return the energy and P of the bulk, beside P of the thermal states."""
-    terms, powers = mean_terms(run, BULK)[0], mean_powers(run, BULK)[0]
+    terms, powers = bulk.mean_terms(run, BULK)[0], bulk.mean_powers(run, BULK)[0]
     energies = terms.sum(axis=1)
     energy, power = mean_limits(energies, sure()), mean_limits(powers, sure())
-    cubic = mean_limits(terms[:, TERMS.index("cubic")], sure())
+    cubic = mean_limits(terms[:, bulk.TERMS.index("cubic")], sure())
     warm, cold = at_energy(thermal, float(energy.value)), at_energy(thermal, 0.0)
     off = powers - warm["power"] - warm["rise"] * (energies - energy.value)
     off = mean_limits(off, sure())
     # by how much P off its thermal state may have moved in the last quarter of the run
     now = run["bulk_terms"].sel(front_power=BULK).sum("term")
     now = now.transpose("variant", "member", "piece_tau").values[0]
-    third, last = late_means(bulk_powers(run, BULK)[0] - warm["rise"] * now, run, 2)
+    third, last = bulk.late_means(bulk.bulk_powers(run, BULK)[0] - warm["rise"] * now, run, 2)
     moved = mean_limits(last - third, sure())
     return {
         "energy": energy.value,
