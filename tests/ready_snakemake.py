@@ -2,9 +2,8 @@
 
 Nearly half of a dry run is the import of Snakemake and of the packages that it uses. A run here is
 still a process of its own, with its own folder, screen and exit code, and it imports the project
-anew. What is there already is what other people wrote, and the rules that an earlier run has
-parsed. `helpers.py` starts this process and asks it. It asks for `python -m doctest` too, for which
-the same packages are imported.
+anew. What is there already is what other people wrote. `helpers.py` starts this process and asks
+it. It asks for `python -m doctest` too, for which the same packages are imported.
 """
 
 import atexit
@@ -12,13 +11,8 @@ import gc
 import importlib
 import json
 import os
-import pickle
 import runpy
-import shutil
 import sys
-from hashlib import sha256
-from pathlib import Path
-from tempfile import mkdtemp
 
 PACKAGES = (
     *("snakemake.cli", "snakemake.report.html_reporter"),
@@ -53,32 +47,6 @@ def _take(opened: int, number: int) -> None:
         os.close(opened)
 
 
-def keep_what_is_parsed(folder: Path) -> None:
-    """Have Snakemake parse each text of rules once for all forks, and keep the code in `folder`.
-
-    Its parser takes a fifth of a dry run, and nearly all runs read the same rules. The code holds
-    the path of the rules, and numbers of rules that have no name.
-    """
-    workflow = sys.modules["snakemake.workflow"]
-    parse = workflow.parse
-
-    def parsed(path, *others, linemap, rulecount):
-        place = path.get_path_or_uri(secret_free=True)
-        text = f"{rulecount} {Path(place).read_text()}"
-        kept = folder / sha256(text.encode()).hexdigest()
-        if kept.exists():
-            first, lines, code, rulecount = pickle.loads(kept.read_bytes())
-            linemap |= lines
-            return code.replace(repr(first), repr(place)), rulecount
-        code, rulecount = parse(path, *others, linemap=linemap, rulecount=rulecount)
-        partial = kept.with_suffix(".partial")
-        partial.write_bytes(pickle.dumps((place, linemap, code, rulecount)))
-        partial.replace(kept)
-        return code, rulecount
-
-    workflow.parse = parsed
-
-
 def get_ready() -> None:
     """Import what other people wrote, and find the plugins of Snakemake, which is slow too."""
     for name in PACKAGES:
@@ -102,10 +70,9 @@ def main() -> None:
     atexit.register(leave)  # the first that is registered is the last that is done
     get_ready()
     sys.path[0] = ""  # as `python -m` does, so that no test's helper is found by a workflow
-    keep_what_is_parsed(folder := Path(mkdtemp()))
     request = serve()
     if request is None:
-        return shutil.rmtree(folder)
+        return
     sys.argv[:] = request
     try:
         if sys.argv[0] == "doctest":
