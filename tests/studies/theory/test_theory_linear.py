@@ -5,7 +5,6 @@ import pytest
 from accepted import dataset
 from pendula.models.linear_chain import (
     finite_rate,
-    finite_threshold,
     gamma_0,
     growth_rate,
     infinite_rate,
@@ -14,7 +13,6 @@ from pendula.models.linear_chain import (
 )
 from pendula.problem import Constants
 from pendula.studies.theory import figures
-from pendula.studies.theory.dispersion import measured_threshold
 from pendula.studies.theory.equations import run
 from pendula.studies.theory.stability_chart import misclassified
 from pendula.studies.theory.threshold import decaying, exponents, spreading_norms
@@ -60,12 +58,6 @@ def test_exponents_of_a_power_beside_a_constant_are_those_of_the_power():
     bounded = np.stack([np.sqrt(times), np.ones(4)])
     found = exponents(np.stack([growing, bounded]), times, decays)
     np.testing.assert_allclose(found, [[0.9, 0.4], [0.5, 0.0]])
-
-
-@pytest.mark.parametrize("omega", [-4.0, 8.0])
-def test_measured_threshold_is_that_of_the_finite_chain(omega):
-    expected = finite_threshold(omega, 1.0, 9, "dirichlet")
-    assert measured_threshold(1.0, omega, 9) == pytest.approx(float(expected), abs=1e-8)
 
 
 def test_cells_are_misclassified_beyond_what_time_resolves():
