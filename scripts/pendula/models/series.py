@@ -9,7 +9,7 @@ whole.
 """
 
 from pendula.compiled import inlined_by_llvm, uncached
-from pendula.ends import FREE, PERIODIC
+from pendula.ends import PERIODIC
 from pendula.integrators.taylor import (
     BLOCK_SIZE,
     LEFT,
@@ -23,84 +23,46 @@ from pendula.integrators.taylor import (
 )
 from pendula.simd import LANES, fill, keep_lanes, load, store
 
-from .chain import MIRROR, seen_at
+from .chain import seen_at
 
-# --- The ends of the chain: `close` of `amplitudes`, one order at a time ------------------------
+# --- The ends of the chain: `close` of `chain`, one order at a time ------------------------
 # The padding of a last block holds what its ghost holds, in every order: so it never exceeds what
 # the sites hold, and what sums or compares whole blocks needs no mask.
 
 
 @inlined_by_llvm
-def close_right_end(chain, m, first, last, sites_in_last, ghost):
-    """Write padding and right ghost of Re or Im, which lies in the blocks at `first` and `last`."""
-    seen = 0.0
-    if chain.right == FREE:
-        seen = m[last + sites_in_last - 1]
-    elif chain.right == PERIODIC:
-        seen = m[first]
-    store(m, last, keep_lanes(load(m, last), sites_in_last, seen))
-    store(m, ghost, fill(seen))
+def place_of(chain, series, site):
+    """Return where from the start of an order a site lies that stands for `site`; -1 if at rest."""
+    at = seen_at(chain, site, (series.blocks - 1) * LANES + series.sites_in_last)
+    return at // LANES * BLOCK_SIZE + at % LANES if at >= 0 else -1
 
 
-@inlined_by_llvm
-def close_left_end(chain, m, first, last, sites_in_last, ghost):
-    """Write the left ghost of Re or Im, which lies in the blocks at `first` and `last`."""
-    seen = 0.0
-    if chain.left == FREE:
-        seen = m[first]
-    elif chain.left == PERIODIC:
-        seen = m[last + sites_in_last - 1]
-    elif chain.left == MIRROR:
-        seen = m[first + 1]
-    store(m, ghost, fill(seen))
-
-
-@inlined_by_llvm
-def close_order(chain, series, k, at_left, at_right):
-    """Fill ghosts and padding of order `k`, at the left end, the right end, or both."""
-    m, sites = series.memory, series.sites_in_last
-    for component in range(series.components):
-        ghosts = ghosts_start(series, component)
-        for part in range(X, Y + 1, Y - X):
-            first = block_start(series, component, 0) + k * ORDER_STRIDE + part
-            last = block_start(series, component, series.blocks - 1) + k * ORDER_STRIDE + part
-            if at_right:
-                close_right_end(chain, m, first, last, sites, ghosts + RIGHT + part)
-            if at_left:
-                close_left_end(chain, m, first, last, sites, ghosts + LEFT + part)
-
-
-def close_widely(reach):
+def close_ends(reach):
     """Return what fills ghosts and padding of an order where equations look `reach` sites far."""
 
     @inlined_by_llvm
-    def value_at(chain, series, start, site):
-        sites = (series.blocks - 1) * LANES + series.sites_in_last
-        at = seen_at(chain, site, sites)
-        return series.memory[start + at // LANES * BLOCK_SIZE + at % LANES] if at >= 0 else 0.0
-
-    @inlined_by_llvm
     def close(chain, series, k, at_left, at_right):
-        m, kept = series.memory, series.sites_in_last
-        sites = (series.blocks - 1) * LANES + kept
-        for component in range(series.components):
-            ghosts = ghosts_start(series, component)
-            for part in range(X, Y + 1, Y - X):
-                start = block_start(series, component, 0) + k * ORDER_STRIDE + part
-                last = start + (series.blocks - 1) * BLOCK_SIZE
-                if at_right:
-                    end = value_at(chain, series, start, sites)
-                    store(m, last, keep_lanes(load(m, last), kept, end))
-                    for i in range(reach):
-                        lane, value = kept + i, value_at(chain, series, start, sites + i)
-                        if lane < LANES:
-                            m[last + lane] = value
+        m, kept, before = series.memory, series.sites_in_last, series.blocks - 1
+        for i in range(reach):
+            after_end = place_of(chain, series, before * LANES + kept + i)
+            before_start = place_of(chain, series, -1 - i)
+            for component in range(series.components):
+                ghosts = ghosts_start(series, component)
+                for part in range(X, Y + 1, Y - X):
+                    start = block_start(series, component, 0) + k * ORDER_STRIDE + part
+                    last = start + before * BLOCK_SIZE
+                    if at_right:
+                        value = m[start + after_end] if after_end >= 0 else 0.0
+                        if i == 0:
+                            store(m, last, keep_lanes(load(m, last), kept, value))
+                            store(m, ghosts + RIGHT + part, fill(value))
+                        elif kept + i < LANES:
+                            m[last + kept + i] = value
                         else:
-                            m[ghosts + RIGHT + part + lane - LANES] = value
-                if at_left:
-                    for i in range(1, reach + 1):
-                        value = value_at(chain, series, start, -i)
-                        m[ghosts + LEFT + part + LANES - i] = value
+                            m[ghosts + RIGHT + part + kept + i - LANES] = value
+                    if at_left:
+                        value = m[start + before_start] if before_start >= 0 else 0.0
+                        m[ghosts + LEFT + part + LANES - 1 - i] = value
 
     return close
 
@@ -126,12 +88,13 @@ GROUP = 4
 """Blocks that take an order together in a wave: 17 groups of them fit into the cache."""
 
 
-def in_waves(write_next_order, close_order=close_order):
+def in_waves(write_next_order, reach):
     """Return the function that continues a series, given the rule for one order of some blocks.
 
     write_next_order(chain, series, k, first, last) writes the coefficients of order k + 1 of the
-    blocks `first` to `last` - 1 of each component, and `close_order` fills what lies beyond ends.
+    blocks `first` to `last` - 1 of each component from what lies up to `reach` sites beyond them.
     """
+    close_order = close_ends(reach)
 
     @uncached
     def continue_series(chain, series):

@@ -39,7 +39,7 @@ def write_next_order(system, series, k, first, last):
 {work}
 
 
-continue_in_waves = in_waves(write_next_order{close})
+continue_in_waves = in_waves(write_next_order, {reach})
 '''
 
 
@@ -281,7 +281,7 @@ class Series:
             components=self.components,
             shifts="\n".join(f"shift_{by} = define_shift({by})" for by in range(2, 7)),
             work="\n".join(work),
-            close=f", close_widely({reach})" if reach > 1 else "",
+            reach=reach,
         )
 
     def _begin(self, clocks: int) -> list[str]:

@@ -23,7 +23,7 @@ from pendula.simd import (
 )
 
 from .chain import at_every_site, close, widen
-from .series import close_widely, in_waves, sides_of
+from .series import in_waves, sides_of
 from .sines import sine_and_cosine
 
 
