@@ -26,7 +26,7 @@ from pendula.report.words import (
     told,
 )
 
-from .section_solvers import gather_solvers
+from .tables import gather_solvers
 
 OF_TIME = {which: [f"fig{which}_{size}" for size in ("small", "large")] for which in (2, 3, 4)}
 OF_WIDTH = {which: [f"fig{which}_{side}" for side in ("left", "right")] for which in (5, 6)}
