@@ -6,6 +6,7 @@ The rule names the functions in `params.call`, and gives their arguments by name
 import atexit
 import gc
 import os
+import resource
 import signal
 import sys
 import time
@@ -115,8 +116,8 @@ def run(body: Callable, snakemake) -> None:
     """Call `body` with Snakemake's object.
 
     Where it fails, so does the job, and its log says why, with the traceback. The last line of a
-    log is the time that the job took, its start included; it stands in no dataset, for two runs
-    differ in it.
+    log is the time that the job took, its start included, and its largest memory; they are in no
+    dataset, because they differ between two runs.
     """
     # A cluster sends this signal to a job at its limit of time: then it acts as Ctrl-C does.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -156,7 +157,13 @@ def say(error: Exception) -> str:
 
 
 def _took(log: _Log) -> None:
-    log.write(f"{TOOK}{_age():.1f} s\n")
+    log.write(f"{TOOK}{_age():.1f} s, largest memory: {_memory():.0f} MB\n")
+
+
+def _memory() -> float:
+    """Return the largest memory that this process has held so far, in MB."""
+    unit = 1 if sys.platform == "darwin" else 1024  # of getrusage, in bytes
+    return 1e-6 * unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def _age() -> float:

@@ -53,7 +53,7 @@ def test_a_fault_is_a_sentence_in_the_log_above_its_traceback(tmp_path, body, sa
     assert job.returncode == 1 and screen == ""
     log = (tmp_path / "a.log").read_text()
     assert log.startswith(f"failed: {says}\nTraceback")
-    assert re.search(r"\nwall time: [\d.]+ s\n$", log)
+    assert re.search(r"\nwall time: [\d.]+ s, largest memory: [1-9]\d+ MB\n$", log)
     assert [path.name for path in tmp_path.iterdir()] == ["a.log"]
 
 

@@ -21,7 +21,7 @@ OURS = ("pendula", "job", "benchmarks")
 """Only imports of these packages are followed: others may lie beside an installed library."""
 
 TOOK = "wall time: "
-"""How the last line of a job's log begins, with its time in seconds."""
+"""How the last line of a job's log begins, with its time in s and its memory in MB."""
 
 _LIST = r"(?:\([\w\s,]*\)|[\w.]+(?:[ ]as[ ]\w+)?(?:,[ ][\w.]+(?:[ ]as[ ]\w+)?)*)"
 _IMPORT = re.compile(rf"\n[ ]*((?:from[ ][\w.]+[ ])?import[ ]{_LIST})[ ]*(?:[#][^\n]*)?$", re.M)

@@ -77,11 +77,11 @@ def test_times_without_peers_are_shown_and_a_dataset_without_times_is_rejected()
 
 def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
     (tmp_path / "checks").mkdir()
-    (tmp_path / "checks/a.log").write_text("said much\nwall time: 1.5 s\n")
-    (tmp_path / "b.log").write_text("wall time: 12.0 s\n")
+    (tmp_path / "checks/a.log").write_text("said much\nwall time: 1.5 s, largest memory: 9 MB\n")
+    (tmp_path / "b.log").write_text("wall time: 12.0 s, largest memory: 80 MB\n")
     (tmp_path / "old.log").write_text("nothing\n")
     (tmp_path / "empty.log").write_text("")
-    assert sections.run_times(tmp_path) == [("b", 12.0), ("checks/a", 1.5)]
+    assert sections.run_times(tmp_path) == [("b", 12.0, "80"), ("checks/a", 1.5, "9")]
     assert sections.run_times(tmp_path / "absent") == []
 
 

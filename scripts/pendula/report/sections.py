@@ -6,6 +6,7 @@ versions, processor, hashes of what went in, and times of the rules.
 
 import hashlib
 import platform
+import re
 from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
@@ -118,7 +119,7 @@ def gather_provenance(
         **{name: digest[:SHOWN] for name, digest in sorted(made_by.items())},
         **{name: _digest(content) for name, content in files.items()},
     }
-    total = sum(seconds for _, seconds in times)
+    total = sum(seconds for _, seconds, _ in times)
     return {
         "versions": Table("Processor and versions", ("what", "which"),
                           [*(versions() | machine).items()]),
@@ -127,9 +128,9 @@ def gather_provenance(
             "references", ("what", "hash"), [*hashes.items()], folded=True,
         ),
         "times": Table(
-            f"Wall times of the jobs: {total:.0f} s in all, start-up included; several ran side by "
-            "side", ("job", "s"), [(name, f"{seconds:.1f}") for name, seconds in times],
-            folded=True,
+            f"Wall times and largest memory of the jobs: {total:.0f} s in all, start-up included; "
+            "several ran side by side", ("job", "s", "MB"),
+            [(name, f"{seconds:.1f}", memory) for name, seconds, memory in times], folded=True,
         ),
     }  # fmt: skip
 
@@ -139,14 +140,14 @@ def versions() -> dict[str, str]:
     return describe_machine() | {name: version(name) for name in PACKAGES}
 
 
-def run_times(logs: Path) -> list[tuple[str, float]]:
-    """Return the wall time of each job whose log tells it, the longest first."""
+def run_times(logs: Path) -> list[tuple[str, float, str]]:
+    """Return the wall time in s and the memory in MB of each job with a log, the longest first."""
     found = []
     for log in sorted(logs.rglob("*.log")):
         last = log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
-        if last.startswith(TOOK):
+        if took := re.match(rf"{TOOK}([\d.]+) s, largest memory: (\d+) MB", last):
             name = log.relative_to(logs).with_suffix("").as_posix()
-            found.append((name, float(last.removeprefix(TOOK).split()[0])))
+            found.append((name, float(took[1]), took[2]))
     return sorted(found, key=lambda job: (-job[1], job[0]))
 
 

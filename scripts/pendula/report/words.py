@@ -21,6 +21,9 @@ NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}
 STATISTICS = {"max": "maximum", "mean": "average"}
 SYMBOLS = {
     "Omega": "Ω",
+    "A_0": "A₀",
+    "B_0": "B₀",
+    "C_0": "C₀",
     "gamma_0": "γ₀",
     "gamma": "γ",
     "epsilon": "ε",
