@@ -18,58 +18,51 @@ from .solvers import ITERATED, Solver
 
 PADDING = {None: "constant", (0, -1): "symmetric", (-1, 0): "wrap"}
 """How numpy.pad goes on beyond the ends of a chain, by the sites that these see."""
-USED = {
-    "pendula.integrators": "crank_nicolson, dop853, kahan_li, ode45",
-    "pendula.simulation.observables": "observe_angles, observe_fields",
+EXPLICIT = ("rtol", "atol")
+SOLVERS = {
+    "taylor": ("continue_series", EXPLICIT, None),  # the generated module has its number
+    "dop853": ("rates", EXPLICIT, dop853.WORK),
+    "ode45": ("rates", EXPLICIT, ode45.WORK),
+    "kahan_li": ("rates", ("step",), kahan_li.WORK),
+    "crank_nicolson": ("rates", ITERATED, crank_nicolson.WORK),
 }
-"""What the runs of a generated module take from the library."""
+"""Of each solver its rule of a generated module, its controls, and the number of work arrays."""
+HEAD = """
+from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
+from pendula.simulation.observables import observe_angles, observe_fields
+"""
 RUN = """
-solve_{name} = {method}({rule}, {observe}{time})
+solve_{name} = {name}.build({rule}, {observe}{time})
 @kernel
 def run_{name}(system, y, times, controls, work, record, stop):
     return solve_{name}(system, y, times, controls, work, record, stop)
 """
 
 
-def solvers_text(model: Model) -> str:
-    """Return the runs of a model by all solvers that take it."""
-    observe = "observe_angles" if model.second_order else "observe_fields"
-    time = ", at_time=at_time" if model.driven else ""
-    methods = [("taylor", "taylor.build", "continue_series")]
-    methods += [(name, f"{name}.build", "rates") for name in ("dop853", "ode45")]
-    if model.second_order:
-        methods.append(("kahan_li", "kahan_li.build", "rates"))
-    if not model.driven:
-        methods.append(("crank_nicolson", "crank_nicolson.build", "rates"))
-    head = [f"\nfrom {module} import {names}\n" for module, names in USED.items()]
-    return "".join(head) + "".join(
-        RUN.format(name=name, method=method, rule=rule, observe=observe, time=time)
-        for name, method, rule in methods
-    )
+def solver_names(model: Model) -> list[str]:
+    """Return the solvers that take a model: each of the last two needs equations of one kind."""
+    takes = {"kahan_li": model.second_order, "crank_nicolson": not model.driven}
+    return [name for name in SOLVERS if takes.get(name, True)]
 
 
 @cache
 def kernels_of(model: Model, site_dependent: frozenset[str]):
     """Return the generated module of a model some of whose parameters depend on the site."""
-    text = module_text(model.rates, model.reach, site_dependent) + solvers_text(model)
-    return load_text(text)
+    about = {
+        "observe": "observe_angles" if model.second_order else "observe_fields",
+        "time": ", at_time=at_time" if model.driven else "",
+    }
+    runs = [RUN.format(name=name, rule=SOLVERS[name][0], **about) for name in solver_names(model)]
+    text = module_text(model.rates, model.reach, site_dependent)
+    return load_text("".join([text, HEAD, *runs]))
 
 
 def solvers_of(problem: Problem) -> dict[str, Solver]:
     """Return the solvers that take the model of a problem."""
     made = kernels_of(problem.model, site_dependent(problem))
-    explicit = ("rtol", "atol")
-    controls = {
-        "taylor": (explicit, made.WORK),
-        "dop853": (explicit, dop853.WORK),
-        "ode45": (explicit, ode45.WORK),
-        "kahan_li": (("step",), kahan_li.WORK),
-        "crank_nicolson": (ITERATED, crank_nicolson.WORK),
-    }
     return {
-        name: Solver(getattr(made, f"run_{name}"), *given)
-        for name, given in controls.items()
-        if hasattr(made, f"run_{name}")
+        name: Solver(getattr(made, f"run_{name}"), SOLVERS[name][1], SOLVERS[name][2] or made.WORK)
+        for name in solver_names(problem.model)
     }
 
 
