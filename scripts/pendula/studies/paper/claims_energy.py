@@ -23,27 +23,25 @@ def drifts(trajectories, size: str) -> Finding:
     if end < 2.0 * EARLY:
         raise UndecidableError(f"the runs end at tau = {end:g}, before {2.0 * EARLY:g}")
     cases = [str(ds.attrs["case"]) for ds in trajectories]
+    order, measured, tenfold, limits, kept = STATED_DRIFT[size], {}, {}, [], []
     # ASSUME: the order is that of |H - H(0)| itself, as figures and tables show it.
-    absolute, kept = _kept(trajectories, size, relative=False)
-    relative, kept_relative = _kept(trajectories, size, relative=True)
-    tenfold, tenfold_relative = (
-        sum(found[case] <= 10.0 * STATED_DRIFT[size] for case in cases)
-        for found in (absolute, relative)
-    )
-    measured = absolute | {f"{name}_relative": value for name, value in relative.items()}
-    measured |= {"cases_within_tenfold": tenfold, "cases_within_tenfold_relative": tenfold_relative}
-    allowed, limits = ORDER.value * STATED_DRIFT[size], []
     for suffix, of in (("", ""), ("_relative", " / |H(0)|")):
-        says = f"largest |H - H(0)|{of} to tau ="
-        early = [f"{case}_early{suffix}" for case in cases]
-        whole = [f"{case}{suffix}" for case in cases]
-        limits.append(AtMost(allowed, *early, says=f"{says} {EARLY:g}"))
-        limits.append(AtMost(allowed, *whole, says=f"{says} {end:g}"))
+        found, until = _kept(trajectories, size, relative=bool(suffix))
+        kept.append(until)
+        measured |= {f"{name}{suffix}": value for name, value in found.items()}
+        near = sum(found[case] <= 10.0 * order for case in cases)
+        tenfold[f"cases_within_tenfold{suffix}"] = near
+        for part, to in (("_early", EARLY), ("", end)):
+            names = (f"{case}{part}{suffix}" for case in cases)
+            says = f"largest |H - H(0)|{of} to tau = {to:g}"
+            limits.append(AtMost(ORDER.value * order, *names, says=says))
+    measured |= tenfold
     held = [limit.holds(measured) for limit in limits]
-    fails = f"|H - H(0)| stays below {ORDER.value:g} times that order {kept}"
+    fails = f"|H - H(0)| stays below {ORDER.value:g} times that order {kept[0]}"
+    first, second = tenfold.values()
     divided = (
-        f"|H - H(0)| / |H(0)| does so {kept_relative}; the first stays below 10 times that order to"
-        f" the end in {tenfold} of {len(cases)} cases, and the second in {tenfold_relative}"
+        f"|H - H(0)| / |H(0)| does so {kept[1]}; the first stays below 10 times that order to"
+        f" the end in {first} of {len(cases)} cases, and the second in {second}"
     )
     if held[:2] != held[2:]:
         return undecided(measured, f"{fails}, and {divided}; the paper does not say which it means")
