@@ -154,31 +154,27 @@ def _beside(coarse: xr.Dataset, fine: xr.Dataset) -> dict[str, Variable]:
 def _of_cases(cases: Mapping[str, Problem], periodic: xr.Dataset) -> dict[str, Variable]:
     """Return what becomes of the paper's data."""
     omegas = [one.constants.omega for one in cases.values()]
-    a0, b0 = zip(*(one.initial[:, one.initial.shape[1] // 2].real for one in cases.values()),
-                 strict=True)  # fmt: skip
+    centres = [one.initial[:, one.initial.shape[1] // 2].real for one in cases.values()]
+    a0, b0 = np.transpose(centres)
     found = [ends([one], Families.of(periodic, one.constants.omega)) for one in cases.values()]
-    fates, is_periodic, frequencies, distances = (
-        [getattr(one, field)[0] for one in found]
-        for field in ("fate", "periodic", "frequency", "distances")
-    )
-    along = ("case",)
+    end, along = End(*map(np.concatenate, zip(*found, strict=True))), ("case",)
     return {
         "case": Variable(along, list(cases)),
         "case_omega": Variable(along, omegas, "detuning Omega of the case"),
         "case_a0": Variable(along, a0, "A_0 of the case"),
         "case_b0": Variable(along, b0, "B_0 of the case"),
-        "case_fate": _stored(along, fates, "fate of the data of the case", FATES),
+        "case_fate": _stored(along, end.fate, "fate of the data of the case", FATES),
         "case_periodic": _stored(
-            along, is_periodic, "whether the case, if it stays, is periodic, a breather", PERIODIC
+            along, end.periodic, "whether the case, if it stays, is periodic, a breather", PERIODIC
         ),
         "case_breather_frequency": _stored(
-            along, frequencies, "frequency of the final breather of the case"
+            along, end.frequency, "frequency of the final breather of the case"
         ),
         "family": Variable(
             ("family",), [*map(str, periodic["family"].values)], "family of periodic breathers"
         ),
         "case_distance": _stored(
-            (*along, "family"), distances,
+            (*along, "family"), end.distances,
             "relative distance of the final breather of the case from each family",
         ),
     }  # fmt: skip

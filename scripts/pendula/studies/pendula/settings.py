@@ -46,7 +46,7 @@ class Threshold(Model):
     growth: model(omegas=Numbers, gammas=Steps)
     curve: Steps
 
-    def faults(self) -> Faults:
+    def faults(self, settings: Configuration) -> Faults:
         """Yield where Mathieu's equation is not known well enough."""
         mu, gamma, driven = max(self.mus), self.growth.gammas.last, self.growth.omegas
         lowest = {"omegas": min(self.omegas), "growth.omegas": min(driven)}
@@ -256,9 +256,6 @@ class Settings(Model):
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the faults of each topic."""
-        found = {"threshold": self.threshold.faults()}
-        for topic in ("remainder", "phases", "sea", "over_the_top", "film"):
-            found[topic] = getattr(self, topic).faults(settings)
-        for topic, faults in found.items():
-            for key, text in faults:
+        for topic in ("threshold", "remainder", "phases", "sea", "over_the_top", "film"):
+            for key, text in getattr(self, topic).faults(settings):
                 yield f"{topic}.{key}", text
