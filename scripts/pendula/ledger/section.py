@@ -51,9 +51,14 @@ def gather(results: Results, ledger: "Ledger") -> dict[str, Any]:
     wrong = results.say(LEDGER, str(asked.count(False)))
     cutoffs, head = cutoff_lines(rows), ("cut-off", "origin", "claims decided by it",
                                          "claims whose verdict changes")  # fmt: skip
-    found = {"counts": counts_by_origin(results, rows)}
+    verdicts = [one for one in Verdict if any(row["verdict"] == one for row in rows)]
+    counts = [[origin, *(results.say(LEDGER, str(own.get(one, 0))) for one in verdicts)]
+              for origin, own in tally(rows).items()]  # fmt: skip
     title = "Claims that are not reproduced, do not carry over, or cannot be decided"
-    found["others"] = _claims(title, others, results, folded=False)
+    found = {
+        "counts": Table("Verdicts, computed from the datasets", ("claims", *verdicts), counts),
+        "others": _claims(title, others, results, folded=False),
+    }
     for verdict in FOLDED:
         own = [row for row in rows if row["verdict"] == verdict]
         found[verdict] = _claims(f"{len(own)} claims {verdict}", own, results)
@@ -73,16 +78,6 @@ def gather(results: Results, ledger: "Ledger") -> dict[str, Any]:
 
 
 FED = ("claim", "fed", "must", "verdict", "because")
-
-
-def counts_by_origin(results: Results, rows: list[dict]) -> Table:
-    """Return a table: how many claims of each origin have each verdict."""
-    verdicts = [one for one in Verdict if any(row["verdict"] == one for row in rows)]
-    return Table(
-        "Verdicts, computed from the datasets", ("claims", *verdicts),
-        [[origin, *(results.say(LEDGER, str(counts.get(one, 0))) for one in verdicts)]
-         for origin, counts in tally(rows).items()],
-    )  # fmt: skip
 
 
 def _cell(value: float | str, digits: int = 3) -> str:

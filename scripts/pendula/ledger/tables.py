@@ -8,7 +8,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterable, Mapping
 
-from pendula.datasets.checks import broken, deciding
+from pendula.datasets.checks import deciding
 from pendula.report.words import markdown
 
 from .claim import Origin, controls_of, cutoff_lines
@@ -74,12 +74,51 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
 
 def tables(rows: list[dict], checks: Iterable[list]) -> list[str]:
     """Return the parts of a page on these rows of the ledger and these lines of checks."""
-    return [
-        *claims_section(rows),
-        *cutoffs_section(rows),
-        *controls_section(controls_of(rows)),
-        *checks_section(checks),
+    claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
+    cutoffs = [
+        _item(f"{value} ({origin}) decides {decides}{f'; it turns {rest}' if rest else ''}")
+        for value, origin, decides, rest in cutoff_lines(rows)
     ]
+    passed = {True: "yes", False: "NO", None: "not applicable"}
+    keys = ("claim", "fed", "must", "verdict", "because")
+    controls = [(*(one[key] for key in keys), passed[one["passes"]]) for one in controls_of(rows)]
+    return [
+        "# What the paper says, and what the numbers say",
+        "\n".join(f"- {line}" for line in counted(rows)),
+        markdown(("name", "where", "claim", "verdict"), claims),
+        "# What decides each claim",
+        *map(_grounds, rows),
+        "# The cut-offs, each moved by a third either way",
+        "\n".join(cutoffs),
+        "# The controls",
+        markdown(("claim", "wrong case", "required", "verdict", "reason", "as required"), controls),
+        "# The checks",
+        markdown(("check", "quantity", "largest", "tolerance", "holds"), checks),
+    ]
+
+
+def _grounds(row: dict) -> str:
+    """Return reason, numbers and criterion of a claim, and the command that makes its data."""
+    measured = [f"{k} = {v if isinstance(v, str) else f'{v:.4g}'}"
+                for k, v in row["measured"].items()]  # fmt: skip
+    lines = {
+        "reason": row["because"],
+        "measured": ", ".join(measured),
+        "criterion": row["criterion"],
+        "data": f"`snakemake {' '.join(files_of(row).values())}`",
+    }
+    items = [_item(f"{name}: {text}") for name, text in lines.items() if text]
+    return "\n".join([f"## {row['name']}: {row['verdict']}", "", *items])
+
+
+def files_of(row: dict) -> dict[str, str]:
+    """Return the dataset files that decide a claim, by name; `snakemake <file>` makes each."""
+    return {name: f"results/{name}.nc" for name in row["decided_by"]}
+
+
+def _item(text: str) -> str:
+    return textwrap.fill(f"- {text}", 100, subsequent_indent="  ", break_long_words=False,
+                         break_on_hyphens=False)  # fmt: skip
 
 
 def in_short(rows: list[dict]) -> str:
@@ -107,71 +146,18 @@ def as_sentence(verdict: str, count: int) -> str:
     return f"{'is' if count == 1 else 'are'} {verdict}"
 
 
-def claims_section(rows: list[dict]) -> list[str]:
-    """Return a table of the claims with their verdicts, and below what decides each of them."""
-    counts = "\n".join(f"- {line}" for line in counted(rows))
-    cells = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
-    table = markdown(("name", "where", "claim", "verdict"), cells)
-    title = "# What the paper says, and what the numbers say"
-    return [title, counts, table, "# What decides each claim", *map(_grounds, rows)]
-
-
-def _grounds(row: dict) -> str:
-    """Return reason, numbers and criterion of a claim, and the command that makes its data."""
-    measured = [f"{k} = {v if isinstance(v, str) else f'{v:.4g}'}"
-                for k, v in row["measured"].items()]  # fmt: skip
-    lines = {
-        "reason": row["because"],
-        "measured": ", ".join(measured),
-        "criterion": row["criterion"],
-        "data": f"`snakemake {' '.join(files_of(row).values())}`",
-    }
-    items = [_item(f"{name}: {text}") for name, text in lines.items() if text]
-    return "\n".join([f"## {row['name']}: {row['verdict']}", "", *items])
-
-
-def files_of(row: dict) -> dict[str, str]:
-    """Return the dataset files that decide a claim, by name; `snakemake <file>` makes each."""
-    return {name: f"results/{name}.nc" for name in row["decided_by"]}
-
-
-def _item(text: str) -> str:
-    return textwrap.fill(f"- {text}", 100, subsequent_indent="  ", break_long_words=False,
-                         break_on_hyphens=False)  # fmt: skip
-
-
-def cutoffs_section(rows: list[dict]) -> list[str]:
-    """Return every cut-off with its origin, the claims that read it, and those that rest on it."""
-    lines = [
-        _item(f"{value} ({origin}) decides {decides}{f'; it turns {rest}' if rest else ''}")
-        for value, origin, decides, rest in cutoff_lines(rows)
-    ]
-    return ["# The cut-offs, each moved by a third either way", "\n".join(lines)]
-
-
-def controls_section(controls: list[dict]) -> list[str]:
-    """Return the verdict of every deciding function on its wrong cases."""
-    keys = ("claim", "fed", "must", "verdict", "because")
-    words = {True: "yes", False: "NO", None: "not applicable"}
-    lines = [(*(one[key] for key in keys), words[one["passes"]]) for one in controls]
-    head = ("claim", "wrong case", "required", "verdict", "reason", "as required")
-    return ["# The controls", markdown(head, lines)]
-
-
 def check_lines(checks: Mapping[str, dict]) -> dict[str, list[list[str]]]:
     """Return by check a line for every number that has a tolerance."""
-    lines: dict[str, list[list[str]]] = {}
-    for name, check in checks.items():
-        faults, own = broken(check), name.removeprefix("checks/")
-        lines[name] = []
-        for variable, (worst, limit) in deciding(check).items():
-            title = f"{variable}: {check['data_vars'][variable]['attrs']['long_name']}"
-            holds = "NO" if variable in faults else "yes"
-            lines[name].append([own, title, f"{worst:.3g}", f"{limit:.10g}", holds])
-    return lines
-
-
-def checks_section(lines: Iterable[list]) -> list[str]:
-    """Return every number of a check that has a tolerance, beside it."""
-    head = ("check", "quantity", "largest", "tolerance", "holds")
-    return ["# The checks", markdown(head, lines)]
+    return {
+        name: [
+            [
+                name.removeprefix("checks/"),
+                f"{variable}: {check['data_vars'][variable]['attrs']['long_name']}",
+                f"{worst:.3g}",
+                f"{limit:.10g}",
+                "yes" if worst <= limit else "NO",
+            ]
+            for variable, (worst, limit) in deciding(check).items()
+        ]
+        for name, check in checks.items()
+    }

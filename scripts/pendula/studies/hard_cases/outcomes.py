@@ -46,15 +46,8 @@ def evaluate(case: Mapping[str, Any], solver: Mapping[str, Any]) -> dict[str, An
         "limit": np.nan if must_refuse else expected,
         "refusal": refusal,
         "reference": case["against"],
-        "sound": sound and must_refuse == bool(refusal),
+        "sound": np.int8(sound and must_refuse == bool(refusal)),
     }
-
-
-def variables(results: list[dict]) -> dict[str, Variable]:
-    """Return the variables of the dataset, each of shape (row,)."""
-    columns = {name: np.array([row[name] for row in results]) for name in LONG_NAMES}
-    columns["sound"] = columns["sound"].astype(np.int8)
-    return {name: Variable(("row",), columns[name], words) for name, words in LONG_NAMES.items()}
 
 
 def hard_cases_contents(cases: list[dict]) -> Contents:
@@ -63,6 +56,10 @@ def hard_cases_contents(cases: list[dict]) -> Contents:
     for row in results:
         if not row["sound"]:
             print(f"NOT AS EXPECTED: {row['case']}, {row['solver']}: {row['error']:.3g} ")
+    variables = {
+        name: Variable(("row",), np.array([row[name] for row in results]), words)
+        for name, words in LONG_NAMES.items()
+    }
     title = "Hard cases for the solvers: errors against what is known, or refusals in words"
     seeds = "the number of sites, for random data; cases say their constants"
-    return variables(results), {"title": title, "seed": seeds}
+    return variables, {"title": title, "seed": seeds}

@@ -1,11 +1,13 @@
-"""The hard cases in the report: results with their error, or a rejection with its reason."""
+"""The hard cases in the report and as a table: errors, or rejections with their reasons."""
 
 import numpy as np
+import xarray as xr
 
+from pendula.datasets.netcdf import read
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results, Section, Table
-from pendula.report.words import number, symbols
+from pendula.report.words import markdown, number, symbols, write_markdown
 
 SOURCE = "checks/hard_cases"
 
@@ -53,6 +55,29 @@ def _row(results: Results, index: int) -> list:
     texts = [str(row["case"].values), str(row["solver"].values), outcome,
              str(row["reference"].values)]  # fmt: skip
     return [*map(symbols, texts), "yes" if int(row["sound"]) else "no"]
+
+
+def tabulate_hard_cases(data: str, table: str) -> None:
+    """Write the page of Markdown `table` on the dataset of the hard cases."""
+    write_markdown(table, *page(read(data)))
+
+
+def page(data: xr.Dataset) -> list[str]:
+    """Return the parts of a page of Markdown on the dataset of the hard cases."""
+    lines = []
+    for index in range(data.sizes["row"]):
+        row = {name: variable.values[index] for name, variable in data.items()}
+        refusal = row["refusal"]
+        outcome = f"refused: {refusal}" if refusal else f"error {row['error']:.1e}"
+        as_expected = "yes" if row["sound"] else "NO"
+        lines.append((row["case"], row["solver"], outcome, row["reference"], as_expected))
+    unsound = int((data["sound"] == 0).sum())
+    words = (
+        f"{len(lines)} runs, {unsound} with an outcome that is not the expected one. An error is "
+        "that of the largest component over the largest, or of what the reference names."
+    )
+    head = ("case", "solver", "outcome", "reference", "as expected")
+    return ["# Hard cases", words, markdown(head, lines)]
 
 
 SECTIONS = (Section("hard_cases", "Hard cases", gather),)
