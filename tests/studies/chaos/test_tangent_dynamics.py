@@ -10,10 +10,11 @@ from pendula.models.linear_chain import finite_rate
 from pendula.models.tangent import ROWS, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos.lopsided import lopsided_rates, odd_part
+from pendula.studies.chaos.asymmetric import asymmetric_rates, odd_part
 from pendula.studies.chaos.lyapunov import random_tangent
 from pendula.studies.chaos.symmetry import break_symmetry
 from pendula.studies.chaos.tangent_dynamics import (
+    asymmetric_rates,
     follow_odd_part,
     grow,
     inner,
@@ -127,22 +128,22 @@ def problem(case, **changes):
     return problem_of(case, **{"half_width": 10, "end_time": 6.0, "output_step": 0.25} | changes)
 
 
-def lopsided(z, boundary):
+def asymmetric(z, boundary):
     y = pack(z, WHOLE)
     dy = np.zeros_like(y)
-    lopsided_rates(Chain(*CONSTANTS, *choose_ends(boundary, WHOLE)), y, dy)
+    asymmetric_rates(Chain(*CONSTANTS, *choose_ends(boundary, WHOLE)), y, dy)
     return unpack(dy, WHOLE)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_the_lopsided_rates_are_equation_4(boundary):
+def test_the_asymmetric_rates_are_equation_4(boundary):
     z = random_chain(4)
     expected = slope(z, CONSTANTS, boundary)
-    np.testing.assert_allclose(lopsided(z, boundary), expected, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(asymmetric(z, boundary), expected, rtol=1e-13, atol=1e-13)
 
 
-def test_the_lopsided_rates_of_even_data_are_even_but_for_rounding():
-    rate = lopsided(random_chain(30, even=True), "dirichlet")
+def test_the_asymmetric_rates_of_even_data_are_even_but_for_rounding():
+    rate = asymmetric(random_chain(30, even=True), "dirichlet")
     assert 0 < np.abs(rate - rate[:, ::-1]).max() < 1e-13
 
 

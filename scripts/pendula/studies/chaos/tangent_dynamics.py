@@ -22,7 +22,7 @@ from pendula.simulation.lattice import WHOLE, Reduction, aligned, pack
 from pendula.simulation.models import make_chain
 from pendula.simulation.simulate import IntegrationError
 
-from .lopsided import lopsided_rates, odd_part
+from .asymmetric import asymmetric_rates, odd_part
 
 
 @kernel
@@ -88,20 +88,20 @@ class Growth(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """What is integrated: a solution and its tangent vectors, or a solution in lopsided sums.
+    """What is integrated: a solution and its tangent vectors, or a solution in asymmetric sums.
 
     The two share one solver, since a second one would take as long to compile.
     """
 
     chain: Chain
-    lopsided: bool
+    asymmetric: bool
 
 
 @kernel
 def motion_rates(motion, bundle, slopes):
     """Write the rates of a bundle, or those of a solution alone in an arithmetic that is uneven."""
-    if motion.lopsided:
-        lopsided_rates(motion.chain, bundle, slopes)
+    if motion.asymmetric:
+        asymmetric_rates(motion.chain, bundle, slopes)
     else:
         bundle_rates(motion.chain, bundle, slopes)
 
@@ -118,7 +118,7 @@ solve = dop853.build(motion_rates, observe_nothing)
 def carry(motion, bundle, span, controls, work, record, lengths, sizes, odd, stop):
     """Carry the bundle over as many spans of time as `lengths` (span, vector) has rows.
 
-    Write `sizes` and, in lopsided sums, the `odd` parts of the solution; return the status of the
+    Write `sizes` and, in asymmetric sums, the `odd` parts of the solution; return the status of the
     solver.
     """
     for i in range(lengths.shape[0]):
@@ -127,7 +127,7 @@ def carry(motion, bundle, span, controls, work, record, lengths, sizes, odd, sto
             return outcome.status
         orthonormalise(motion.chain, bundle, lengths[i])
         sizes[i] = sqrt(inner(motion.chain, bundle[:ROWS], bundle[:ROWS]))
-        if motion.lopsided:
+        if motion.asymmetric:
             odd[i] = odd_part(bundle)
     return DONE
 
@@ -146,7 +146,7 @@ def grow(
     Raises IntegrationError where dop853 gives up.
     """
     reduction = Reduction(even, synchronised=False)
-    motion = Motion(make_chain(problem.constants, problem.boundary, reduction), lopsided=False)
+    motion = Motion(make_chain(problem.constants, problem.boundary, reduction), asymmetric=False)
     bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *tangents)])
     tau = output_times(end_time, step)
     lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
@@ -162,9 +162,9 @@ def follow_odd_part(
 ) -> np.ndarray:
     """Return the relative size of the odd part at steps of time, (time,), from data (2, N).
 
-    Sums over neighbours are lopsided. Raises IntegrationError where dop853 gives up.
+    Sums over neighbours are asymmetric. Raises IntegrationError where dop853 gives up.
     """
-    motion = Motion(make_chain(problem.constants, problem.boundary, WHOLE), lopsided=True)
+    motion = Motion(make_chain(problem.constants, problem.boundary, WHOLE), asymmetric=True)
     tau, y = output_times(problem.end_time, step), pack(amplitudes, WHOLE)
     odd = np.empty(tau.size)
     odd[0] = odd_part(y)

@@ -13,7 +13,7 @@ from pendula.models.generated import load_rule
 from pendula.symbols import Value, abs2, conj
 
 
-def lopsided_i_dt(p, a: Value, b: Value) -> list[Value]:
+def asymmetric_i_dt(p, a: Value, b: Value) -> list[Value]:
     """Return i dA_n/dtau and i dB_n/dtau of (4), its neighbours summed from right to left."""
     return [
         p.epsilon * ((u.right - 2.0 * u) + u.left)
@@ -22,14 +22,14 @@ def lopsided_i_dt(p, a: Value, b: Value) -> list[Value]:
     ]
 
 
-write_lopsided = at_every_site(load_rule(traced(lopsided_i_dt).rates, "y"))
+write_asymmetric = at_every_site(load_rule(traced(asymmetric_i_dt).rates, "y"))
 
 
 @kernel
-def lopsided_rates(chain, y, dy):
+def asymmetric_rates(chain, y, dy):
     """Write the right-hand side of (4) at `y` into `dy`, in an arithmetic that is not even."""
     close(chain, y)
-    write_lopsided(chain, (y,), dy)
+    write_asymmetric(chain, (y,), dy)
 
 
 @kernel
