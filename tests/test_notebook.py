@@ -70,7 +70,7 @@ def test_faults_are_told_in_words_and_all_at_once():
     with pytest.raises(pendula.ConfigurationError) as told:
         pendula.Case(omega="fast", half_width=1, initial={5: (1, 0)}, solver="dop835")
     assert str(told.value).splitlines() == [
-        "the case has 2 faults:",
+        "the case has 2 errors:",
         "  omega: is 'fast', not a number",
         "  solver: there is no solver 'dop835'; did you mean 'dop853'?",
     ]

@@ -75,7 +75,7 @@ class Case(cases.Case):
     30
     >>> Case(omgea=-4)
     Traceback (most recent call last):
-    pendula.configuration.files.ConfigurationError: the case has 2 faults:
+    pendula.configuration.files.ConfigurationError: the case has 2 errors:
       omega: is missing
       omgea: is not a known key; did you mean 'omega'?
     """

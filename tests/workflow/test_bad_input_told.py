@@ -20,7 +20,7 @@ def test_a_bad_configuration_stops_before_any_job(tmp_path):
     settings = {"cases": {"mine": {"omgea": 3, "half_width": -2, "solver": "dop835"}}, "swepes": {}}
     said = refused(snakemake_with(settings, ROOT, tmp_path))
     for part in (
-        "the configuration has 5 faults:\n  ",
+        "the configuration has 5 errors:\n  ",
         "cases.mine.omega: is missing",
         "cases.mine.omgea: is not a known key; did you mean 'omega'?",
         "cases.mine.half_width: is -2; it must be at least 0",

@@ -36,12 +36,12 @@ WHOLE = ("initial", "lengths", "end_times", "between")
 
 
 class ConfigurationError(ValueError):
-    """The configuration has faults; the message lists them all."""
+    """The configuration has errors; the message lists them all."""
 
 
 def list_faults(lines: list[str], what: str) -> ConfigurationError:
-    """Return the error that lists all faults of `what`, a line each."""
-    many = f"{what} has {len(lines)} fault{'s' * (len(lines) > 1)}:"
+    """Return the exception that lists all errors of `what`, a line each."""
+    many = f"{what} has {len(lines)} error{'s' * (len(lines) > 1)}:"
     return ConfigurationError("\n  ".join([many, *lines]))
 
 

@@ -14,7 +14,6 @@ from pendula.studies.chaos.asymmetric import asymmetric_rates, odd_part
 from pendula.studies.chaos.lyapunov import random_tangent
 from pendula.studies.chaos.symmetry import break_symmetry
 from pendula.studies.chaos.tangent_dynamics import (
-    asymmetric_rates,
     follow_odd_part,
     grow,
     inner,

@@ -166,9 +166,9 @@ def draw_sensitivity(data: xr.Dataset) -> Figure:
                     elinewidth=0.8, capsize=2)  # fmt: skip
     shares.set_xscale("log")
     shares.set_ylim(-0.03, 1.05)
-    shares.set_xlabel("relative change of the data")
+    shares.set_xlabel("relative perturbation of $A_0$ and $B_0$")
     shares.set_ylabel("share of runs that spread")
-    shares.set_title("(a) random changes", loc="left")
+    shares.set_title("(a) random perturbations", loc="left")
     for spread, colour, label in ((0, style.BLUE, "does not spread"), (1, style.RED, "spreads")):
         some = data["spread"].values == spread
         scan.plot(

@@ -183,7 +183,7 @@ def _draw_growth(axes: Axes, data: xr.Dataset, looks: dict) -> None:
     axes.legend(handles=named, loc="upper left", fontsize=7)
     axes.set(xlabel=r"slow time $\tau$", ylabel=r"error of (3) over $\mu^3$, rad")
     _without_minor_ticks(axes)
-    axes.set_title("(b) from small data", loc="left")
+    axes.set_title("(b) small initial amplitudes", loc="left")
 
 
 def _draw_horizons(axes: Axes, data: xr.Dataset, looks: dict) -> None:

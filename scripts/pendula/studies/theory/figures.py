@@ -15,7 +15,7 @@ DASHES = [(1, 0), (5, 1.5), (3, 1.5), (1.2, 1.2), (6, 1.5, 1.2, 1.5)]
 CHART = ["measured", "infinite_curve", "finite_curve", "sites"]
 CHARTS = {"long": ("o", "#f2a15f", 3.5), "short": ("x", style.BLUE, 3)}
 ERRORS = {
-    "exact_flow": ("s", "#16876b", "linear flow of the data"),
+    "exact_flow": ("s", "#16876b", "linearised flow"),
     "finite_rate": (".", "0.55", "fastest mode"),
 }
 CURVES = {

@@ -94,7 +94,7 @@ def at_the_next_omega(right, omegas):
         Control("largest amplitudes higher by 5 %", {MAIN: scale(LARGEST, 1.05)}),
         Control("largest amplitudes lower by 5 %", {MAIN: scale(LARGEST, 0.95)}, undecided=True),
         Control(
-            "a maximum that does not grow from 16 sites on",
+            "a maximum that stops growing with the number of sites",
             {MAIN: repeat("neighbours", 4, slice(4, None), "bulk_maximum")},
             undecided=True,
         ),
