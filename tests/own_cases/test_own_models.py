@@ -7,7 +7,6 @@ from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import load
 from pendula.model import ModelError
 from pendula.problem import Problem
-from pendula.simulation import simulate as simulation
 
 DAMPED = """from pendula.model import abs2, lap
 fields = "u"
@@ -103,20 +102,3 @@ def test_the_papers_equations_as_a_model_of_ones_own_give_the_papers_run():
     assert float(found["conserved_drift"][0]) < 1e-11
     late = float(check(paper, expected)["exponent"])
     assert float(found["exponent"]) == pytest.approx(late, abs=0.1)
-
-
-def test_tangents_of_the_trace_are_finite_differences():
-    model = Model.of_text("amplitudes.py", AMPLITUDES)
-    rng = np.random.default_rng(2)
-    state, change = rng.normal(size=(2, 2, 7, 2)) @ (1.0, 1j)
-    numbers = {"half_width": 3, "boundary": "free", "end_time": 1e-3, "output_step": 1e-3}
-    controls = {"solver": {"name": "ode45", "rtol": 1e-10, "atol": 1e-10}}
-
-    def end(model, data):
-        return simulation.simulate(
-            Problem(constants=None, initial=data, model=model, **numbers, **controls)
-        ).final
-
-    tangent = end(model.tangent(), np.concatenate([state, change]))[2:]
-    ends = [end(model, state + size * change) for size in (1e-5, -1e-5)]
-    np.testing.assert_allclose(tangent, (ends[0] - ends[1]) / 2e-5, rtol=0, atol=1e-8)

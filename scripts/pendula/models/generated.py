@@ -27,13 +27,9 @@ def at_time(system, t):
     clocks = ({values})
     others = system.at, system.wide, system.left, system.right
     return System(system.constants, clocks, *others)
-
-
 @inlined_by_llvm
 def write_clocks(system, m, d):
 {series}
-
-
 @kernel
 def continue_series(system, series):
     write_clocks(system, series.memory, spare_start(series))

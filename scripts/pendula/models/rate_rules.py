@@ -18,13 +18,10 @@ def rates_at_site(system, states, re, j, dy):
 """
 RATES = """
 write_rates = at_every_site(rates_at_site, {rows})
-
-
 @kernel
 def rates(system, y, dy):
     {prepare}
     write_rates(system, ({states},), dy)
-
 """
 
 

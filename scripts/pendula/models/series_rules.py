@@ -25,22 +25,17 @@ from .statements import Code, Names, require_alike
 SIGNS = {"add": "+", "sub": "-", "mul": "*"}
 NEGATED = {"+": "-", "-": "+"}
 SHIFTS = {1: "right_neighbours", -1: "left_neighbours"}
-RULE = '''
+RULE = """
 SPARE = {spare} * LANES
-"""Numbers of a block beside those of its fields."""
 WORK = taylor.work_arrays(-(-(SPARE + {clocks}) // {components}))
 {shifts}
-
-
 @inlined_by_llvm
 def write_next_order(system, series, k, first, last):
     m, d, share = series.memory, spare_start(series), 1.0 / (k + 1)
     at_start = 1.0 if k == 0 else 0.0
 {work}
-
-
 continue_in_waves = in_waves(write_next_order, {reach})
-'''
+"""
 
 
 class Series:
