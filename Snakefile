@@ -115,6 +115,7 @@ include: "workflow/rules/ledger.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/article.smk"
 include: "workflow/rules/archive.smk"
+include: "workflow/rules/baseline.smk"
 include: "workflow/rules/figure_diff.smk"
 include: "workflow/rules/speed.smk"
 

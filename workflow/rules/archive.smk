@@ -3,12 +3,6 @@
 ARCHIVE = f"<results>/archive/pendula-{__version__}.tar.gz"
 
 
-def code_of_jobs():
-    """Return the names of all files of code that jobs rest on."""
-    files = {module for entries in CALLED.values() for module in modules_of(*entries)}
-    return sorted(file.relative_to(PROJECT).as_posix() for file in files)
-
-
 use rule job as archive with:
     "Code, environment, datasets, figures and metadata in one file to deposit"
     input:

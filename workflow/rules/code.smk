@@ -47,3 +47,9 @@ def differs_of(wildcards, input):
 def maker_of(path):
     """Return the name of the rule that makes a dataset."""
     return next(rule.name for rule in workflow.rules if rule.is_producer(path))
+
+
+def code_of_jobs():
+    """Return the names of all files of code that jobs rest on."""
+    files = {module for entries in CALLED.values() for module in modules_of(*entries)}
+    return sorted(file.relative_to(PROJECT).as_posix() for file in files)

@@ -27,7 +27,7 @@ for folder in filter(os.path.exists, (".", ".snakemake")):
         )
 
 # Jobs find the library and the benchmarks.
-os.environ["PYTHONPATH"] = os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)])
+os.environ.update(PYTHONPATH=os.pathsep.join([f"{PROJECT}/scripts", str(PROJECT)]))
 
 from benchmarks.problems import REGIMES
 from pendula import __version__
@@ -167,12 +167,12 @@ def kernels(*solvers):
     return [f"<results>/kernels/{name}.txt" for name in compiled]
 
 
-def kernels_of(problem):
-    """Return the kernels that a run of this problem waits for.
+def kernels_of(problem, *solvers):
+    """Return the kernels that a run of this problem waits for, by its own solver or by these.
 
     Those of other equations are compiled by the first job that needs them, and others wait for it.
     """
-    return [] if "model" in problem else kernels(problem["solver"]["name"])
+    return [] if "model" in problem else kernels(*solvers or [problem["solver"]["name"]])
 
 
 def committed(**files):

@@ -5,11 +5,7 @@
 use rule dataset as own_checks with:
     "The checks of a case of your own: results/own/cases/{case}.checks.nc"
     input:
-        kernels=lambda wildcards: [
-            file
-            for solver in ("taylor", "dop853")
-            for file in kernels_of(SETTINGS.problem(wildcards.case, solver))
-        ],
+        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), "taylor", "dop853"),
         run="<results>/trajectories/{case}.nc",
     pathvars:
         made="own/cases/<own_case>.checks",

@@ -44,7 +44,7 @@ use rule dataset as trajectory_by_solvers with:
 use rule trajectory as own_trajectory_by_solver with:
     "A case of your own by another solver: results/trajectories/{case}.{solver}.nc"
     input:
-        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case, wildcards.solver)),
+        kernels=lambda wildcards: kernels_of(SETTINGS.problem(wildcards.case), wildcards.solver),
     pathvars:
         made="trajectories/<own_case>.<any_solver>",
     params:

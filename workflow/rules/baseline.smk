@@ -1,0 +1,74 @@
+# What the baseline holds: the files of a full run, the settings they are of, and what is accepted.
+if not isinstance(OPTIONS["baseline"], str | None):
+    stop(f"--config baseline={OPTIONS['baseline']}: give the path of a folder, as in baseline=./7")
+ACCEPTED = str(OPTIONS["accept"] or "").split()
+BASELINE = os.path.abspath(OPTIONS["baseline"] or f"{PROJECT}/tests/baseline")
+PAGE, VERDICT = "results/figure_diff/index.html", "results/figure_diff/verdict.json"
+if OPTIONS["bits"] not in (None, "any"):
+    stop(
+        f"--config bits={OPTIONS['bits']}: the only value is bits=any, which compares the numbers of "
+        "files with other bits; without it they are faults"
+    )
+
+
+def everything():
+    """Return each file that a full run makes, but for logs."""
+    parts = expand("results/claims/{part}.json", part=RESTS_ON)
+    tables = expand("results/tables/claims_{part}.md", part=RESTS_ON)
+    return sorted({*rules.all.input, *parts, *tables})
+
+
+def plain(settings):
+    """Return the configuration without the limits of a run, which change no number."""
+    return json.loads(settings.model_dump_json(exclude={"limits"}))
+
+
+def baseline_told_at_the_end(wildcards):
+    if workflow.execution_settings.no_hooks:
+        stop("figure_diff fails at the end of a run: call it without --no-hooks")
+    return BASELINE
+
+
+def accepted_files(wildcards):
+    """Return the files to accept, or stop before any job with the reason."""
+    from pendula.figure_diff import acceptance  # here, since only accepting needs it
+
+    try:
+        names = [path.removeprefix("results/") for path in everything()]
+        names = acceptance.choose(ACCEPTED, names) if ACCEPTED else names
+        if not OPTIONS["baseline"]:
+            committed, whose = load(gather(CONFIG_FILES, {})), "the configuration of config/*.yaml"
+            acceptance.check(plain(SETTINGS), plain(committed), whose, acceptance.OWN)
+        return [f"results/{name}" for name in names]
+    except acceptance.AcceptanceError as error:
+        stop(error)
+
+
+def tell_faults():
+    """Say in one line each what is not as in the baseline, and fail if any of it is a fault."""
+    from pendula.datasets.json_files import load_json  # here, since few runs compare
+
+    verdict = load_json(VERDICT)
+    print(*verdict["lines"], sep="\n", end=f"; see {from_outside(PAGE)}\n", file=sys.stderr)
+    if verdict["faults"]:
+        sys.exit(1)
+
+
+# Variables, by dataset, that rest on chaos although no chaotic case or sweep stands in the name of the
+# file or along a dimension. Where their bits differ, they cannot be judged.
+RESTS_ON_CHAOS = [
+    # Maps and scans over data, some of which lead to chaos
+    *("breathers/fates:*", "breathers/sensitivity:*", "figures/fates:*", "figures/sensitivity:*"),
+    *("checks/lifetimes:*", "figures/lifetimes:*"),
+    # Chains of other lengths, and without ends, at the detuning of a chaotic case
+    *("checks/chain_growth:*power*", "figures/bounds:late_power", "figures/front:*"),
+    *(f"unbounded/{name}:*" for name in ("amplitudes", "front", "omegas", "tolerances")),
+    *("unbounded/front:modulus", "figures/front:modulus"),
+    # The sea that fills a chain of pendula
+    *("pendula/sea:*", "figures/pendula_over_the_top:wave_power"),
+    "figures/pendula_over_the_top:sea_density",
+    # The largest of all sweeps; and a count of errors of rounding that are larger than some bound
+    *("checks/sweeps:swept_ratio", "checks/wrong/dispersion:contradictions"),
+]
+# Variables that are divided by the largest value of a whole run: in a chaotic case it is one of the tail.
+DIVIDED_BY_THE_TAIL = ["checks/*:difference", "figures/*:largest_so_far"]
