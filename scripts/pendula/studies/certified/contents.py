@@ -13,6 +13,8 @@ from . import frames, regular
 from .norm import NotDefiniteError, find_form
 from .polynomials import find_curve
 
+MEANT = {"parameters_mean": "the printed decimals"}
+
 
 def curve_contents(
     name: str, problem: Problem, made_for: Mapping | None = None, reference=None
@@ -33,10 +35,8 @@ def curve_contents(
         proof = regular.leave_unproved(curve)
         about["not_certified"] = str(reason)
     solver = {"name": "polynomials", "order": len(curve.terms) - 1, "step": curve.step}
-    described = {**_describe(name, problem, solver), **about}
-    return _variables(
-        regular.norms_at(proof, problem.times), regular.PARTS, reference, described
-    ), described
+    about = describe_run(name, problem, solver) | MEANT | about
+    return _contents(about, regular.norms_at(proof, problem.times), regular.PARTS, reference)
 
 
 def frame_contents(name: str, problem: Problem, proof: Mapping, reference=None) -> Contents:
@@ -44,23 +44,13 @@ def frame_contents(name: str, problem: Problem, proof: Mapping, reference=None) 
 
     `proof` are the arguments of `frames.certify` beside the problem.
     """
-    found = frames.certify(problem, **proof)
-    described = _describe(name, problem, {"name": "polynomials of integers", **proof})
-    return _variables(found, frames.PARTS, reference, described), described
+    about = describe_run(name, problem, {"name": "polynomials of integers", **proof}) | MEANT
+    return _contents(about, frames.certify(problem, **proof), frames.PARTS, reference)
 
 
-def _describe(name: str, problem: Problem, solver: Mapping) -> dict:
-    return {
-        "title": f"Norms of {name} against time, with a proven bound of their distance to the "
-        "true ones",
-        **describe_run(name, problem, solver),
-        "parameters_mean": "the printed decimals",
-    }
-
-
-def _variables(
-    found: regular.Certified, parts: tuple[str, ...], reference, described: Mapping
-) -> dict[str, Variable]:
+def _contents(
+    about: Mapping, found: regular.Certified, parts: tuple[str, ...], reference
+) -> Contents:
     """Return norms, the bound of their distance to the true ones, and the parts of its sum.
 
     The distance to a reference is NaN if that has other parameters or lacks the time.
@@ -86,11 +76,12 @@ def _variables(
             "logarithm of how much the proof lets an error of the start grow",
         ),
     }
-    if reference is None:
-        return variables
-    apart = np.full(found.tau.shape, np.nan)
-    if all(reference.attrs[key] == described[key] for key in PARAMETERS):
-        known = reference.reindex(tau=found.tau, method="nearest", tolerance=1e-9)
-        apart = np.max([abs(known[one] - getattr(found, one)) for one in NORMS], axis=(0, 1))
-    words = "largest distance of a norm to that of the multiprecision reference"
-    return variables | {"reference_distance": Variable(of_tau, apart, words)}
+    if reference is not None:
+        apart = np.full(found.tau.shape, np.nan)
+        if all(reference.attrs[key] == about[key] for key in PARAMETERS):
+            known = reference.reindex(tau=found.tau, method="nearest", tolerance=1e-9)
+            apart = np.max([abs(known[one] - getattr(found, one)) for one in NORMS], axis=(0, 1))
+        words = "largest distance of a norm to that of the multiprecision reference"
+        variables["reference_distance"] = Variable(of_tau, apart, words)
+    title = f"Norms of {about['case']} against time, with a proven bound of their distance to "
+    return variables, {"title": f"{title}the true ones", **about}
