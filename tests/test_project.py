@@ -122,19 +122,6 @@ def test_a_record_has_the_imports_that_python_finds():
     assert len(sizes) > 100 and read < 0.2 * whole
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        *("if a: import job", "import os; import job", "import os, \\\n    job\n"),
-        *("from pendula import (\n    problem,  # why\n    compiled,\n)", "import  job"),
-        *("from pendula import *", "from .  import style", "x = 1; from . import style"),
-        *('"""Say import once."""\nimport job', "def f():\n\timport job", "import job  # this"),
-    ],
-)
-def test_an_import_of_any_shape_is_found(text):
-    assert imports_in(sources._tree_of(text)) == imports_in(ast.parse(text)) != []
-
-
 def test_no_part_of_a_reproduction_depends_on_the_benchmarks():
     of_library = [name for name in CALLED if name.startswith("pendula.")]
     files = {(name, file) for name in of_library for file in files_behind(name)}

@@ -27,10 +27,11 @@ SOLVERS = {
     "crank_nicolson": ("rates", ITERATED, crank_nicolson.WORK),
 }
 """Of each solver its rule of a generated module, its controls, and the number of work arrays."""
-HEAD = """
-from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
-from pendula.simulation.observables import observe_angles, observe_fields
-"""
+USED = {
+    "pendula.integrators": "crank_nicolson, dop853, kahan_li, ode45",
+    "pendula.simulation.observables": "observe_angles, observe_fields",
+}
+"""What the runs of a generated module take from the library."""
 RUN = """
 solve_{name} = {name}.build({rule}, {observe}{time})
 @kernel
@@ -53,8 +54,9 @@ def kernels_of(model: Model, site_dependent: frozenset[str]):
         "time": ", at_time=at_time" if model.driven else "",
     }
     runs = [RUN.format(name=name, rule=SOLVERS[name][0], **about) for name in solver_names(model)]
+    head = [f"\nfrom {module} import {names}\n" for module, names in USED.items()]
     text = module_text(model.rates, model.reach, site_dependent)
-    return load_text("".join([text, HEAD, *runs]))
+    return load_text("".join([text, *head, *runs]))
 
 
 def solvers_of(problem: Problem) -> dict[str, Solver]:
