@@ -231,8 +231,7 @@ def configuration() -> dict:
     raw = {key: value for file in files for key, value in yaml.safe_load(file.read_text()).items()}
     whole = json.loads(load(raw).model_dump_json())
     kept = {name: whole[name] for name in SECTIONS}
-    parts = ("periodic", "sensitivity", "fates")
-    breathers = (kept["breathers"][name] for name in parts)
+    breathers = (kept["breathers"][name] for name in ("sensitivity", "fates"))
     for long in (kept["unbounded"], *breathers, kept["pendula"]["over_the_top"]):
         del long["long"]
     return kept
