@@ -1,6 +1,9 @@
-"""The rule `report` by the real snakemake: what reruns it."""
+"""The rule `report` by the real snakemake: what reruns it, and whose measurements it shows."""
 
+import pytest
+from accepted import Report
 from helpers import planned
+from pendula.report.sections import Measured, gather_speed
 
 
 def put_measurements(clone, finished) -> None:
@@ -24,3 +27,11 @@ def test_a_template_and_measurements_of_this_machine_rerun_pages_alone(finished,
     path.write_text(path.read_text()[:-1])
     put_measurements(clone, finished)
     assert set(planned(clone, finished)) == {"report", "all"}
+
+
+@pytest.mark.parametrize(
+    ("fresh", "whose"), [(False, "kept by the project"), (True, "measured by snakemake speed")]
+)
+def test_the_page_says_who_measured_the_speed(fresh, whose):
+    measured = Measured("speed/work_precision.nc", "table.md", [], fresh)
+    assert whose in gather_speed(Report(), measured)["least"].title

@@ -5,9 +5,10 @@ import xarray as xr
 from helpers import change, planned
 from pendula.datasets.checks import broken, table, variable
 from pendula.datasets.json_files import load_json
+from pendula.datasets.netcdf import DatasetError
 from pendula.ledger.claim import all_claims, needed
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.decide import decide_claims
+from pendula.ledger.decide import decide_claims, join_claims
 from pendula.studies.theory import checks as theory_checks
 from pendula.studies.theory.settings import GROUPS, OBSERVED
 
@@ -116,6 +117,16 @@ def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path, capsy
     turned = {name: after[name] for name in applicable if after[name] != before[name]}
     assert turned == {"hamiltonian": Verdict.NOT_REPRODUCED}
     assert "| NO |" in table.read_text()
+
+
+def test_a_changed_byte_of_a_part_reaches_no_ledger(full_run, tmp_path):
+    content = bytearray((full_run / "results/claims/theory.json").read_bytes())
+    content[len(content) // 2] ^= 1
+    (part := tmp_path / "theory.json").write_bytes(content)
+    made = [tmp_path / name for name in ("claims.json", "controls.json", "claims.md")]
+    with pytest.raises(DatasetError, match=r"theory\.json is damaged and cannot be read"):
+        join_claims([str(part)], [], *map(str, made))
+    assert not any(path.exists() for path in made)
 
 
 def test_an_edit_of_the_theory_reruns_its_jobs_and_figures_only(full_run, clone):
