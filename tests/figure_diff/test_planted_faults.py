@@ -6,10 +6,10 @@ from typing import NamedTuple
 import made_up_results as made_up
 import numpy as np
 import pytest
-import xarray as xr
 from made_up_results import HORIZON, PICTURE, TAU
 from pendula.datasets.netcdf import save
 from pendula.figure_diff import Status
+from pendula.ledger.changes import exchange, put, scale, shift
 
 REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP = made_up.NAMES[:7]
 LEDGER, PART, TABLE, REPORT = made_up.NAMES[7:11]
@@ -33,19 +33,6 @@ def data(name: str, file: str, change: Callable, any_bits=DIFFERENT, says: str =
     return Fault(name, file, lambda run: run.change(file, change), any_bits, says)
 
 
-def values(name: str, file: str, change: Callable, any_bits=DIFFERENT, says: str = "") -> Fault:
-    """Return the fault of the only variable of numbers, or of l2, whose array is changed."""
-
-    def plant(found: xr.Dataset) -> xr.Dataset:
-        key = "l2" if "l2" in found else next(iter(found.data_vars))
-        array = found[key].values.copy()
-        changed = change(array)
-        found[key] = (found[key].dims, array if changed is None else changed, found[key].attrs)
-        return found
-
-    return data(name, file, plant, any_bits, says)
-
-
 def text(name: str, file: str, old: str, new: str, any_bits=DIFFERENT, status=DIFFERENT, **how):
     """Return the fault of a text in which `old` is replaced once."""
     plant = lambda run: run.edit(file, old, new, **how)  # noqa: E731
@@ -64,20 +51,6 @@ def content(name: str, file: str, change: Callable, status, any_bits=None) -> Fa
 def drawn(name: str, file: str = "figures/fig2.json", **how) -> Fault:
     """Return the fault of a figure that is drawn otherwise."""
     return Fault(name, file, lambda run: made_up.put(run.made, "fig2", made_up.norms(False), **how))
-
-
-def put(*index: int, value: float) -> Callable:
-    """Return a change of one number."""
-
-    def change(array):
-        array[index] = value
-
-    return change
-
-
-def half(found: bytes) -> bytes:
-    """Return half of a file."""
-    return found[: len(found) // 2]
 
 
 def flip(found: bytes) -> bytes:
@@ -114,23 +87,13 @@ def stale(run):
     save(run.made / REGULAR, made_up.norms(True).assign_attrs(omega=-4.0))
 
 
-def without_omega(found):
-    """Lose an attribute."""
-    del found.attrs["omega"]
-    return found
-
-
-def swap(array):
-    """Exchange the components, or two points of a sweep."""
-    return array[::-1].copy()
-
-
 FAULTS = [
     # Numbers of a regular run
-    values("last bit", REGULAR, lambda a: np.nextafter(a, 9), WITHIN, "off by"),
-    values("a part in 1e9", REGULAR, lambda a: a * (1 + 1e-9), WITHIN),
-    values("a part in 1e5", REGULAR, lambda a: a * (1 + 1e-5), says="1e-06 is allowed"),
-    values("NaN", REGULAR, put(0, 77, value=np.nan), says="NaN or infinity elsewhere, at 1 "),
+    data("last bit", REGULAR, shift("l2", 1e-15), WITHIN, "off by"),
+    data("a part in 1e9", REGULAR, scale("l2", 1 + 1e-9), WITHIN),
+    data("a part in 1e5", REGULAR, scale("l2", 1 + 1e-5), says="1e-06 is allowed"),
+    data("NaN", REGULAR, put("l2", np.nan, component="A", tau=TAU[77]),
+         says="NaN or infinity elsewhere, at 1 "),
     Fault("stale dataset", REGULAR, stale),
     # What a dataset holds
     data("tau moved", REGULAR, lambda d: d.assign_coords(tau=d["tau"] + 1e-9), says="coordinates"),
@@ -139,17 +102,17 @@ FAULTS = [
     data("whole number", REGULAR, lambda d: d.assign(sites=d["sites"] + 1), says="0 is allowed"),
     data("lost variable", REGULAR, lambda d: d.drop_vars("bound"), says="bound is gone"),
     data("other type", REGULAR, lambda d: d.astype("float32"), says="l2 is float32"),
-    data("lost attribute", REGULAR, without_omega, says="absent"),
+    data("lost attribute", REGULAR, lambda d: d.drop_attrs(deep=False), says="absent"),
     data("other steps", REGULAR, lambda d: d.assign_attrs(steps=1600), BEYOND, "steps is 1600"),
     # What rests on chaos
-    values("tail of another run", CHAOTIC, lambda a: np.where(TAU > HORIZON, a + 1, a), BEYOND),
-    values("before the horizon", CHAOTIC, put(0, 60, value=2.5), says="off by"),
+    data("another tail", CHAOTIC, shift("l2", 1.0, tau=slice(HORIZON + 0.1, None)), BEYOND),
+    data("before the horizon", CHAOTIC, put("l2", 2.5, component="A", tau=TAU[60]), says="off by"),
     data("tau of chaos moved", CHAOTIC, lambda d: d.assign_coords(tau=d["tau"] * (1 + 1e-12))),
-    values("points of a sweep exchanged", SWEEP, swap, BEYOND),
-    values("exponent of a regular case", EXPONENTS, lambda a: a + np.array([0.01, 0])),
-    values("a horizon", TRUST, lambda a: a * [[[1.0]], [[1.1]]], BEYOND),
-    values("roundings", ROUNDING, lambda a: 2 * a, BEYOND, "errors of rounding"),
-    values("roundings that are none", ROUNDING, lambda a: 1e9 * a),
+    data("points of a sweep exchanged", SWEEP, exchange("half_width"), BEYOND),
+    data("exponent of a regular case", EXPONENTS, shift("exponent", 0.01, case="fig2_small")),
+    data("a horizon", TRUST, scale("difference", 1.1, case="fig4_small"), BEYOND),
+    data("roundings", ROUNDING, scale("defect", 2.0), BEYOND, "errors of rounding"),
+    data("roundings that are none", ROUNDING, scale("defect", 1e9)),
     # Texts
     text("verdict", LEDGER, "confirmed", "not reproduced"),
     text("verdict by hand", LEDGER, "confirmed", "refuted", DAMAGED, DAMAGED, sealed=False),
@@ -171,7 +134,7 @@ FAULTS = [
     # Files
     content("empty picture", "figures/fig4.png", lambda found: b"", DAMAGED),
     Fault("lost dataset", REGULAR, lambda run: (run.made / REGULAR).unlink(), MISSING, "", MISSING),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=[fault.name for fault in FAULTS])
