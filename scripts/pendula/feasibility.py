@@ -10,6 +10,7 @@ from math import frexp, isfinite
 
 import numpy as np
 
+from pendula.model import Model
 from pendula.numerics.elementary import log
 from pendula.problem import Constants, Problem
 
@@ -33,10 +34,10 @@ def find_obstacle(problem: Problem) -> str | None:
     parts = np.abs(np.stack([problem.initial.real, problem.initial.imag]))
     peak = float(parts.max(initial=0.0))  # NaN where there is one
     span = float(problem.end_time)
-    if problem.is_own:  # whose rates are what its author says
-        found = _find_in_steps(problem.solver, span) or _find_in_tolerances(problem.solver, peak)
-        return found and found[1]
-    found = find_fault(problem.constants, peak, span, problem.solver, problem.mu)
+    if problem.is_own:
+        found = find_fault_of_model(problem.model, problem.parameters, peak, span, problem.solver)
+    else:
+        found = find_fault(problem.constants, peak, span, problem.solver, problem.mu)
     return found and found[1]
 
 
@@ -47,12 +48,28 @@ def find_fault(
 
     Both are of the amplitudes; `mu` is that of pendula.
     """
-    rates = _rates(constants, peak, mu)
+    rates, fast = _rates(constants, peak, mu), 1.0 if mu is None else _fast(mu)
+    return _find(vars(constants), rates, peak, span, solver, fast)
+
+
+def find_fault_of_model(
+    model: Model, parameters: Mapping, peak: float, span: float, solver: Mapping
+) -> Obstacle | None:
+    """Return what `find_fault` does, for a user's own model, whose equations bound the rates."""
+    linear = model.rate(parameters, 0.0)
+    rates = {"parameters": linear, "initial": model.rate(parameters, peak) - linear}
+    return _find({}, rates, peak, span, solver, 1.0)
+
+
+def _find(
+    constants: Mapping, rates: Mapping, peak: float, span: float, solver: Mapping, fast: float
+) -> Obstacle | None:
+    """Return the obstacle to a run; its solver counts the time in `fast` units in one of tau."""
     return (
         _find_in_data(constants, peak, span, rates)
-        or _find_in_steps(solver, span if mu is None else _fast(mu) * span)
+        or _find_in_steps(solver, fast * span)
         or _find_in_tolerances(solver, peak)
-        or _find_in_series(peak, span, solver, rates, 1.0 if mu is None else _fast(mu))
+        or _find_in_series(peak, span, solver, rates, fast)
     )
 
 
@@ -85,9 +102,9 @@ def rate(constants: Constants, peak: float, mu: float | None = None) -> float:
 
 
 def _find_in_data(
-    constants: Constants, peak: float, span: float, rates: Mapping[str, float]
+    constants: Mapping, peak: float, span: float, rates: Mapping[str, float]
 ) -> Obstacle | None:
-    values = {**vars(constants), "initial": peak, "end_time": span}
+    values = {**constants, "initial": peak, "end_time": span}
     endless = [key for key, value in values.items() if not isfinite(value)]
     if endless:
         return endless[0], "the data or the constants are not finite"

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, model_validator
 
 from pendula.ends import ENDS
-from pendula.feasibility import find_fault, rate
+from pendula.feasibility import Obstacle, find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants
 
 from . import cost
@@ -183,11 +183,10 @@ class Case(Model):
         if given["name"] == "auto":  # its first run, which asks for least
             tolerance = cost.auto_tolerances(given["error"])[0]
             given = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
-        constants = Constants(epsilon=self.epsilon, gamma=self.gamma, omega=self.omega)
         amplitudes = [z for pair in self.initial.values() for z in pair]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
-        found = find_fault(constants, peak, span, given, self.mu)
-        angle = rate(constants, peak, self.mu) * span
+        found, angle = self._fault_and_rate(peak, span, given)
+        angle *= span
         took = cost.estimate(self.problem(solver=given, end_time=span, snapshot_step=None))
         if found is not None and cost.HOUR < took.seconds < inf:
             found = found[0], f"{found[1]}, and would take {took}"
@@ -195,6 +194,14 @@ class Case(Model):
             text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
             found = "end_time", f"{span:g} {text}"
         return [found] if found else []
+
+    def _fault_and_rate(
+        self, peak: float, span: float, solver: dict
+    ) -> tuple[Obstacle | None, float]:
+        """Return what keeps data of the size `peak` from being followed, and how fast they turn."""
+        constants = Constants(epsilon=self.epsilon, gamma=self.gamma, omega=self.omega)
+        found = find_fault(constants, peak, span, solver, self.mu)
+        return found, rate(constants, peak, self.mu)
 
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed."""
