@@ -7,6 +7,7 @@ import pytest
 from pendula.own_cases.breathers import State, exponents, find_state
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
+from problems import constants_of
 
 FOLDER = Path(__file__).parents[2] / "docs/models"
 
@@ -73,6 +74,17 @@ def test_long_range_coupling_has_the_exact_waves_on_a_ring():
     angles = 2.0 * np.pi * np.arange(21) / 21.0
     waves = sum(2.0 * (np.cos(m * angles) - 1.0) / m**3 for m in range(1, 6))
     np.testing.assert_allclose(found, np.sort([*waves, *-waves]), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.7])
+def test_pairs_of_another_frequency_are_a_chain_of_that_detuning(shift):
+    """Disorder that is the same everywhere; the chain is the paper's."""
+    data = {0: (1.0, 0.1), 1: (0.2j, 0.0)}
+    run = simulate(problem("disordered_pairs", data, disorder=shift))
+    chain = problem("disordered_pairs", data).changed(
+        model="amplitudes", parameters={}, constants=constants_of((1.0, 1.0, shift - 4.0))
+    )
+    np.testing.assert_allclose(run.linf, simulate(chain).linf, rtol=1e-10)
 
 
 def test_disorder_and_long_range_coupling_conserve_the_power():

@@ -14,14 +14,10 @@ parameters = {"epsilon": 1.0, "gamma": 0.1}
 def i_dt(p, u):
     return p.epsilon * lap(u) + abs2(u) * u - 1j * p.gamma * u
 """
-AMPLITUDES = """from pendula.model import abs2, conj, lap
+AMPLITUDES = """from pendula.model import abs2
+from pendula.models.amplitudes import i_dt
 fields = "A", "B"
 parameters = {"epsilon": 1.0, "gamma": 1.0, "omega": -4.0}
-def i_dt(p, a, b):
-    return [
-        p.epsilon * lap(u) + p.omega * u + p.gamma * (conj(v) - conj(u)) + 0.5 * abs2(u) * u
-        for u, v in ((a, b), (b, a))
-    ]
 def conserved(p, a, b):
     def of(u):
         return abs2(u) ** 2 / 4 + p.omega * abs2(u) - p.epsilon * abs2(u.right - u)
@@ -54,11 +50,20 @@ def test_a_case_holds_the_text_of_its_model_and_no_path(configured, tmp_path):
     ("keys", "message"),
     [
         ("initial: {0: [1]}, parameters: {gama: 1}", "did you mean 'gamma'?"),
+        (
+            "initial: {0: [1]}, parameters: {gamma: {a: 1}}",
+            "not a number or a list of one for each",
+        ),
+        ("initial: {0: [1]}, parameters: {gamma: .inf}", "gamma: is inf, which is not finite"),
         ("initial: {0: [1, 2]}", "site 0 has 2 values; give 1, [u]"),
         ("initial: {0: [1]}, omega: 1", "omega: belongs to the paper's equations"),
         ("initial: {0: [1]}, half_width: 2, parameters: {gamma: [1, 2]}", "2 values for 5 sites"),
         ("initial: {0: [1]}, solver: kahan_li", "kahan_li does not take models of one's own"),
         ("half_width: 2", "initial: is missing"),
+        ("initial: {0: [1.0e+6]}", "initial: the run turns the data by"),
+        ("initial: {0: [1.0e+200]}", "initial: the squares of the data or the constants overflow"),
+        ("initial: {0: [1.0e-160]}", "initial: the data are so small"),
+        ("initial: {0: [1]}, parameters: {epsilon: 1.0e+9}", "parameters: the run turns the data"),
     ],
 )
 def test_faults_of_a_case_are_told_by_key(configured, keys, message):

@@ -15,13 +15,14 @@ from pydantic import (
     model_validator,
 )
 
+from pendula.feasibility import Obstacle, find_fault_of_model
 from pendula.model import Model as Traced
 from pendula.model import ModelError
 
 from .cases import Case, sites_of
 from .files import OF_MODELS
 from .solvers import OF_OWN_MODELS, OF_SECOND_ORDER
-from .values import Complex, Number, Whole, fault, faults
+from .values import Complex, Number, Whole, fault, faults, shown
 
 OF_THE_PAPER = ("epsilon", "gamma", "omega", "mu")
 """Constants of the paper's equations, which mean nothing here."""
@@ -42,6 +43,18 @@ def _as_model(value: Any) -> Traced:
         raise fault(str(error)) from None
 
 
+def _as_parameter(value: Any) -> float | list[float]:
+    several = isinstance(value, list | tuple | np.ndarray)
+    try:
+        found = [float(one) for one in (value if several else [value])]
+    except (TypeError, ValueError):
+        text = f"is {shown(value)}, not a number or a list of one for each site"
+        raise fault(f"{text}; a function of the sites stands in the model's file") from None
+    if not np.isfinite(found).all():
+        raise fault(f"is {shown(value)}, which is not finite")
+    return found if several else found[0]
+
+
 class OwnCase(Case):
     """An initial-value problem of traced equations: data and parameters as the model names them."""
 
@@ -57,7 +70,7 @@ class OwnCase(Case):
     model: Annotated[
         Any, BeforeValidator(_as_model), PlainSerializer(lambda model: model.plain, dict | Any)
     ]
-    parameters: dict[str, Number | list[Number]] = {}
+    parameters: dict[str, Annotated[float | list[float], BeforeValidator(_as_parameter)]] = {}
 
     @model_validator(mode="before")
     @classmethod
@@ -93,11 +106,11 @@ class OwnCase(Case):
             text = f"{solver.name} does not take models of one's own"
             yield "solver.name", f"{text}; give one of {', '.join(known)}"
 
-    def obstacles(self, solver: Any = None, span: float = 0.0) -> list[tuple[str, str]]:
-        """Return why the run could not reach its end; what shows in the data alone is known."""
-        values = [z for values in self.initial.values() for z in values]
-        largest = max(max(abs(z.real), abs(z.imag)) for z in values)
-        return [] if np.isfinite(largest * largest) else [("initial", "the squares overflow")]
+    def _fault_and_rate(
+        self, peak: float, span: float, solver: dict
+    ) -> tuple[Obstacle | None, float]:
+        found = find_fault_of_model(self.model, self.parameters, peak, span, solver)
+        return found, self.model.rate(self.parameters, peak)
 
     def problem(self, **changes) -> dict:
         """Return the case as plain values of a Problem, some of them changed."""

@@ -132,8 +132,9 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
     values = problem.plain()
     plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
     if problem.is_own:
-        numbers = {k: v for k, v in problem.model.parameters.items() if not callable(v)}
-        plain["parameters"] = json.dumps(numbers | values["parameters"])
+        known = problem.model.parameters.items()
+        given = {k: "a function of the site" if callable(v) else v for k, v in known}
+        plain["parameters"] = json.dumps(given | values["parameters"])
         plain |= {"model": problem.model.name, "model_text": problem.model.text}
     return {
         "case": name,

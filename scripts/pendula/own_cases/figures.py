@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from textwrap import shorten
 
 import numpy as np
 import xarray as xr
@@ -31,9 +32,9 @@ LONGEST = 46
 def name_parameters(attributes: Mapping) -> str:
     """Return the constants of the equations, and the half-width where there is only one."""
     if "model_text" in attributes:
-        numbers = json.loads(attributes["parameters"]).items()
-        given = ", ".join(f"{k} {v:.4g}" for k, v in numbers if not isinstance(v, list))
-        return f"{attributes['model']}: {given}"[:LONGEST]
+        given = json.loads(attributes["parameters"]).items()
+        numbers = ", ".join(f"{k} {v:.4g}" for k, v in given if isinstance(v, int | float))
+        return shorten(f"{attributes['model']}: {numbers}", LONGEST, placeholder=" ...")
     symbols = {"omega": r"\Omega", "gamma": r"\gamma", "epsilon": r"\epsilon", "half_width": "M"}
     symbols |= {"mu": r"\mu"}
     known = {symbol: attributes[key] for key, symbol in symbols.items() if key in attributes}

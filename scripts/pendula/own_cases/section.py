@@ -304,6 +304,8 @@ def _sweep(name: str, case: str, folder: Path) -> dict[str, Any]:
 
 def exact(value: Any) -> str:
     """Return a number as a configuration has it, to the digits that a reader needs."""
+    if isinstance(value, list):
+        return f"{len(value)} values, in the dataset"
     if isinstance(value, complex):
         return str(value).strip("()") if value.imag else number(value.real, 8)
     return number(value, 8) if isinstance(value, int | float | np.number) else str(value)
