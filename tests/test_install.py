@@ -27,19 +27,6 @@ DECLARED = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["depe
 OPTIONAL = {"heyoka"}
 """What one command needs, which its page has the reader install."""
 
-USE = """
-import pendula, sys
-assert "numpy" not in sys.modules
-assert pendula.__file__.startswith({root!r}), pendula.__file__
-from pendula import Case, simulate
-print(simulate(Case(omega=8, end_time=1))["l2"].shape)
-for name in ("job", "figures", "trajectories"):
-    try:
-        __import__(name)
-    except ImportError:
-        continue
-    raise SystemExit(name + " was installed too")
-"""
 RUN_THE_PAGE = """
 import doctest, pendula, sys
 text = open(sys.argv[1], encoding="utf-8").read().replace("```", "")  # they would be output
@@ -115,16 +102,6 @@ def pip(*words):
     if "No matching distribution found for setuptools" in installed.stderr:
         skip("setuptools, which builds the package, cannot be fetched", "run it with a network")
     assert installed.returncode == 0, installed.stdout + installed.stderr
-
-
-def test_an_editable_install_is_found_from_anywhere(new, tmp_path):
-    python, packages = new
-    (packages / "ours.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    pip("--python", python, "install", "--no-deps", "-e", ROOT)
-    (tmp_path / "empty").mkdir()
-    used = run(python, "-c", USE.format(root=str(ROOT)), cwd=tmp_path / "empty")
-    assert used.returncode == 0, used.stderr
-    assert used.stdout == "(2, 41)\n" and not list((tmp_path / "empty").iterdir())
 
 
 def test_a_wheel_in_an_empty_environment_runs_the_page_on_notebooks(new, project, tmp_path):

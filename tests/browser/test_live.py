@@ -4,7 +4,6 @@ import csv
 import json
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import problems
@@ -31,24 +30,18 @@ def problem_of(case: str, **changes) -> Problem:
     return problems.problem_of(case, **{"end_time": 50.0, "solver": solver, **changes})
 
 
-def page_of(folder: Path, *cases: str, **changes) -> Path:
-    """Return the page on cases of the paper; the runs are written beside it."""
-    runs = [str(folder / f"{case}.ode45.nc") for case in cases]
-    for case, path in zip(cases, runs, strict=True):
-        write(path, *run_case(case, problem_of(case, **changes)))
-    page = folder / "live.html"
-    write_live(runs, BASELINE / "checks/trust.nc", BASELINE / "certified/lines.nc", str(page))
-    return page
-
-
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """Return the page on the paper's cases, made of runs that are found to be the accepted ones."""
-    page = page_of(tmp_path_factory.mktemp("live"), *CASES, snapshot_every=4)
+    folder = tmp_path_factory.mktemp("live")
     accepted = json.loads((BASELINE / "hashes.json").read_text())["files"]
-    for case in CASES:
-        variables = accepted[f"trajectories/{case}.ode45.nc"]["variables"]
-        assert hashes.of(read(page.with_name(f"{case}.ode45.nc")))["variables"] == variables
+    runs = [folder / f"{case}.ode45.nc" for case in CASES]
+    for case, path in zip(CASES, runs, strict=True):
+        write(path, *run_case(case, problem_of(case, snapshot_every=4)))
+        variables = accepted[f"trajectories/{path.name}"]["variables"]
+        assert hashes.of(read(path))["variables"] == variables
+    page, checks = folder / "live.html", ("checks/trust.nc", "certified/lines.nc")
+    write_live([*map(str, runs)], *(BASELINE / name for name in checks), str(page))
     assert page.stat().st_size < 400_000
     return page
 
@@ -78,12 +71,6 @@ def settle(page) -> None:
     wait_for(lambda: run(page, "Boolean(state) && !asked"))
 
 
-def move(page, name: str, value: float, event: str = "input") -> None:
-    script = f"const one = document.getElementById('{name}'); one.value = arguments[0];"
-    page.execute_script(f"{script} one.dispatchEvent(new Event('{event}'))", value)
-    settle(page)
-
-
 def change(page, **settings) -> None:
     page.execute_script("apply({...settings, ...arguments[0]})", settings)
     settle(page)
@@ -95,12 +82,6 @@ def test_all_cases_have_the_accepted_bits(live):
     wait_for(lambda: text(live, "same-bits") == "6 of 6")
     settle(live)
     assert text(live, "bits").count("the same at all 2001 times") == 6
-
-
-def test_a_case_whose_run_keeps_no_moduli_has_a_page_too(browser, tmp_path):
-    browser.get(page_of(tmp_path, "fig2_small", end_time=5.0).as_uri() + "#same-bits")
-    settle(browser)
-    assert text(browser, "same-bits") == "1 of 1" and text(browser, "fault") == ""
 
 
 @pytest.mark.parametrize("wrong", ["energy[1200]", "linf[1][1200]", "modulus[1][4 * 501 + 300]"])
@@ -177,20 +158,6 @@ def test_the_exported_case_gives_the_numbers_of_the_page(live, tmp_path):
     assert names == ["tau", "l2_A", "l2_B", "linf_A", "linf_B", "energy"]
     of_pipeline = [found["tau"], *found["l2"], *found["linf"], found["energy"]]
     assert np.array_equal(np.array(rows, float).T, np.array(of_pipeline))
-
-
-def test_it_plays_and_marks_who_goes_over_the_top(live):
-    move(live, "case", run(live, "data.cases.at(-1).title"), "change")
-    move(live, "tau", 18)
-    move(live, "mu", 0.4)
-    swings = 0.8 * abs(simulate(problem_of("fig4_large", end_time=18)).final)
-    over = int((swings > np.pi).sum())
-    assert over > 0 and f"Over the top at this τ: {over} of 122" in text(live, "swings")
-    play = live.find_element("id", "play")
-    play.click()
-    wait_for(lambda: run(live, "now() > 18.5"))
-    play.click()
-    assert play.text == "Play"
 
 
 def test_firefox_gets_the_same_bits(made, tmp_path):
