@@ -151,8 +151,9 @@ def test_half_of_an_even_chain_has_the_bits_of_the_whole(boundary):
 def pendulum(p, x):
     """A driven chain with a sine of each angle and of each bond, linear bonds, and a force."""
     bond = p.bond * np.sin(x.right - x)
-    drive = p.strength * np.cos(p.frequency * p.t + 0.3)
-    return (bond - bond.left) + 0.2 * lap(x) - np.sin(x) + drive * x + 0.1 * p.t - p.force
+    wave = np.cos(p.frequency * p.t + 0.3)
+    drive = p.strength * (wave * np.sin(p.t)) * x + wave * x
+    return (bond - bond.left) + 0.2 * lap(x) - np.sin(x) + drive + 0.1 * p.t - p.force
 
 
 @pytest.mark.parametrize("solver", ["taylor", "dop853", "kahan_li"])
@@ -165,7 +166,7 @@ def test_sines_drives_and_functions_of_time_equal_scipy(solver):
         x, v = flat.reshape(2, -1)
         after, before = beside(x, 1, "free") - x, x - beside(x, -1, "free")
         bonds = 0.5 * (np.sin(after) - np.sin(before)) + 0.2 * (after - before)
-        drive = 0.4 * np.cos(2.2 * t + 0.3)
+        drive = (1.0 + 0.4 * np.sin(t)) * np.cos(2.2 * t + 0.3)
         return np.ravel([v, bonds - np.sin(x) + drive * x + 0.1 * t - 0.05])
 
     start = np.ravel([initial[0].real, initial[0].imag])

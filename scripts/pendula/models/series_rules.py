@@ -102,7 +102,7 @@ class Series:
     def load(self, one: Node, order: str) -> str:
         """Return the coefficient of an order of what is kept or stored, from memory."""
         if one in self.clocks:
-            return f"m[d + {self.clocks[one] * (ORDER + 1)} + {order}]"
+            return f"fill(m[d + {self.clocks[one] * (ORDER + 1)} + {order}])"
         if one.operation == "sub" and one not in self.kept:
             a, b = one.operands
             return f"(load(m, {self.place(a, order)}) - load(m, {self.place(b, order)}))"
@@ -185,7 +185,7 @@ class Series:
             numbers = f"at_start * {self._constant(one)}"
             return numbers if one in self.names.at_sites else f"fill({numbers})"
         if one in self.clocks:
-            return f"fill({self.load(one, 'k')})"
+            return self.load(one, "k")
         match one.operation, *one.operands:
             case ("field", _, _, 0) | ("carried", _):
                 return self.load(one, "k")
