@@ -43,9 +43,9 @@ def dense(band, state):
 
 
 @pytest.mark.parametrize("boundary", ["dirichlet", "free"])
-@pytest.mark.parametrize("omega", [8.0, -4.0])
-def test_the_bands_are_the_forms(omega, boundary):
-    given = problem(omega, boundary=boundary, gamma=0.7)
+@pytest.mark.parametrize(("omega", "epsilon"), [(8.0, 1.0), (-4.0, 1.0), (-4.0, -0.6), (8.0, -0.6)])
+def test_the_bands_are_the_forms(omega, epsilon, boundary):
+    given = problem(omega, boundary=boundary, epsilon=epsilon, gamma=0.7)
     form, draws = find_form(given.constants), np.random.default_rng(1)
     state, e = draws.normal(size=(2, 1, 2, 2, 9))
     quadratic, change = bands(state, given, form)
