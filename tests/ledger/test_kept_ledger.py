@@ -40,6 +40,11 @@ def test_a_row_could_have_failed_and_says_on_what_it_rests(row):
     assert row["verdict"] != "not reproduced" or row["origin"] == Origin.PAPER
 
 
+def test_every_text_is_filled_in():
+    texts = {row["name"]: [row[key] for key in ("says", "criterion", "because")] for row in ROWS}
+    assert [name for name, parts in texts.items() if "{" in "".join(parts)] == []
+
+
 def test_without_datasets_nothing_is_decided():
     rows = evaluate({})
     assert {row["verdict"] for row in rows} == {"cannot be decided"}

@@ -68,7 +68,7 @@ def page(data: xr.Dataset) -> list[str]:
     for index in range(data.sizes["row"]):
         row = {name: variable.values[index] for name, variable in data.items()}
         refusal = row["refusal"]
-        outcome = f"refused: {refusal}" if refusal else f"error {row['error']:.1e}"
+        outcome = f"rejected: {refusal}" if refusal else f"error {row['error']:.1e}"
         as_expected = "yes" if row["sound"] else "NO"
         lines.append((row["case"], row["solver"], outcome, row["reference"], as_expected))
     unsound = int((data["sound"] == 0).sum())

@@ -241,7 +241,7 @@ def fig6_caption(left, ensembles) -> Finding:
     if flat[1] and any(growth.low <= FACTOR.value <= growth.high for growth in grows):
         return undecided(
             measured,
-            "the confidence interval of the growth with M contains the cut-off, {FACTOR.value:g}",
+            f"the confidence interval of the growth with M contains the cut-off, {FACTOR.value:g}",
         )
     grows = [growth.low > FACTOR.value for growth in grows]
     measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}

@@ -120,7 +120,7 @@ def sign_of_gamma(conservation) -> Finding:
 
 @claim(
     "Section 4, (17), (18), (22) and (27)",
-    "For sequences, the sum of |a_{n+1} - a_n|^2 is at most 4 times the squared l2 norm; the l2 "
+    "For sequences, the sum of |a_(n+1) - a_n|^2 is at most 4 times the squared l2 norm; the l2 "
     "norm of a product is at most the product of the l2 norms; the l4 norm is at most the l2 "
     "norm, which on N sites is at most N^(1/4) times the l4 norm.",
     checks("inequalities"),
