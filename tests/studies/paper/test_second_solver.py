@@ -2,9 +2,15 @@
 
 import numpy as np
 import pytest
+from accepted import dataset
 from pendula.simulation import sweep as sweeps
 from pendula.simulation.simulate import simulate
-from pendula.studies.paper.claims_second_solver import distinct_runs, of_most, together
+from pendula.studies.paper.claims_second_solver import (
+    distinct_runs,
+    is_drawn,
+    of_most,
+    together,
+)
 from pendula.studies.paper.second_solver import DRAWS, SCHEMES, measure
 from problems import problem_of
 
@@ -58,3 +64,10 @@ def test_one_norm_of_many_does_not_tell_runs_apart_and_most_of_them_do():
 def test_chains_that_show_one_trajectory_are_one_run():
     l2 = np.array([10.0, 12.0, 14.0, 14.001, 13.0, 15.0, 15.0, 15.0])
     assert distinct_runs([l2, l2 / 4]) == [[0], [1], [2, 3], [4], [5, 6, 7]]
+
+
+def test_draws_count_only_for_the_sweep_that_the_first_of_them_repeats():
+    sweep, steps = dataset("sweeps/fig6_right.crank_nicolson"), dataset("checks/second_solver")
+    assert is_drawn(sweep, steps)
+    assert not is_drawn(1.01 * sweep[["l2", "linf"]], steps)
+    assert not is_drawn(sweep.isel(half_width=slice(5)), steps)
