@@ -48,7 +48,10 @@ def solver_names(model: Model) -> list[str]:
 
 @cache
 def kernels_of(model: Model, site_dependent: frozenset[str]):
-    """Return the generated module of a model some of whose parameters depend on the site."""
+    """Return the generated module of a model some of whose parameters depend on the site.
+
+    No chain goes in tiles: their margins are made for equations that look one site far.
+    """
     about = {
         "observe": "observe_angles" if model.second_order else "observe_fields",
         "time": ", at_time=at_time" if model.driven else "",
