@@ -37,30 +37,20 @@ NOTE = 130
 RED, BLUE = "#e8402f", "#123b8c"
 """The paper's two colours, of a lightness so different that they stay apart in grey."""
 
-COLOURS = {
-    "A": RED,
-    "B": BLUE,
-    "x": RED,
-    "y": BLUE,
-    "l2": RED,
-    "linf": BLUE,
-    "ode45": "#111111",
-    "crank_nicolson": "#e0a100",
-    "delfour_fortin_payre": "#7a2e0e",
-    "dop853": "#16876b",
-    "taylor": "#7b4fa3",
-    "kahan_li": "#c2558f",
+SOLVERS = {
+    "ode45": ("#111111", "o"),
+    "crank_nicolson": ("#e0a100", "s"),
+    "delfour_fortin_payre": ("#7a2e0e", "v"),
+    "dop853": ("#16876b", "^"),
+    "taylor": ("#7b4fa3", "D"),
+    "kahan_li": ("#c2558f", "X"),
 }
-
-MARKERS = {
-    "ode45": "o",
-    "crank_nicolson": "s",
-    "delfour_fortin_payre": "v",
-    "dop853": "^",
-    "taylor": "D",
-    "kahan_li": "X",
+"""The colour of each solver, and the mark that tells it apart in grey too."""
+MARKERS = {name: marker for name, (_, marker) in SOLVERS.items()}
+COLOURS = {name: colour for name, (colour, _) in SOLVERS.items()} | {
+    **dict.fromkeys(("A", "x", "l2"), RED),
+    **dict.fromkeys(("B", "y", "linf"), BLUE),
 }
-"""The solvers' marks, which tell them apart in grey too."""
 
 # the library's own defaults first: a reader's matplotlibrc must not change the figures
 _RC = {key: value for key, value in matplotlib.rcParamsDefault.items() if key != "backend"} | {
