@@ -11,7 +11,7 @@ from pendula.datasets.netcdf import save
 from pendula.figure_diff import Status
 from pendula.ledger.changes import exchange, put, scale, shift
 
-REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING, MAP = made_up.NAMES[:7]
+REGULAR, CHAOTIC, SWEEP, TRUST, EXPONENTS, ROUNDING = made_up.NAMES[:6]
 LEDGER, PART, TABLE, REPORT = made_up.NAMES[7:11]
 DIFFERENT, DAMAGED, MISSING = Status.DIFFERENT, Status.DAMAGED, Status.MISSING
 BEYOND, WITHIN = Status.BEYOND, Status.WITHIN
