@@ -4,8 +4,6 @@ import gc
 import os
 from pathlib import Path
 
-import pytest
-
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in jobs: waiting threads take a core
 
 FIRST = ("docs/test_commands.py", "workflow/")
@@ -18,20 +16,6 @@ def pytest_configure(config):
         gc.disable()  # modules and tests stay in memory: among them there is no garbage to find
         for name in ("shared_fixtures", "figure_fixtures"):
             config.pluginmanager.import_plugin(name)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_make_collect_report(collector):
-    """Let every second worker import the files of tests from the last one on.
-
-    In a new clone pytest compiles each file for its assertions, and keeps it: two workers that
-    meet in the middle compile half of the files each.
-    """
-    report = yield
-    backwards = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:]) % 2
-    if backwards and isinstance(collector, pytest.Directory):
-        report.result.reverse()
-    return report
 
 
 def pytest_collection_modifyitems(items):

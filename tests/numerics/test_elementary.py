@@ -105,17 +105,6 @@ def test_a_geometric_series_has_the_doubles_next_to_the_exact_ones():
     assert ulps(found, [Decimal(400) ** (Decimal(i) / 89) for i in range(90)]) <= 0.5
 
 
-@pytest.mark.parametrize("name", [*EXACT, "power", "geometric"])
-def test_numbers_of_single_precision_are_taken_as_the_doubles_that_they_are(name):
-    """The accepted data keep single precision, and figures are drawn from them."""
-    single = np.float32([0.3, 0.7, 1.9])
-    more = {"power": (np.float32(0.3),), "geometric": (np.float32(2.6), 5)}.get(name, ())
-    for one in (single, *single) if name != "geometric" else single:
-        found = getattr(e, name)(one, *more)
-        expected = getattr(e, name)(np.float64(one), *map(float, more[:1]), *more[1:])
-        assert found.dtype == float and np.array_equal(found, expected)
-
-
 def test_limits_are_values_and_no_warnings():
     ends = np.array([-np.inf, -1e9, 0.0, 1e9, np.inf, np.nan])
     with np.errstate(all="raise", under="ignore"):
