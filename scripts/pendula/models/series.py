@@ -62,7 +62,10 @@ def close_ends(reach):
                             m[ghosts + RIGHT + part + kept + i - LANES] = value
                     if at_left:
                         value = m[start + before_start] if before_start >= 0 else 0.0
-                        m[ghosts + LEFT + part + LANES - 1 - i] = value
+                        if i == 0:  # at once: a vector is read sooner if it is written as one
+                            store(m, ghosts + LEFT + part, fill(value))
+                        else:
+                            m[ghosts + LEFT + part + LANES - 1 - i] = value
 
     return close
 
