@@ -13,7 +13,7 @@ def test_a_copy_that_lost_its_times_reruns_nothing(full_run, tmp_path):
     made = shutil.copytree(full_run, tmp_path / "made", copy_function=shutil.copy)
     for path in made.glob("results/kernels/*"):
         os.utime(path)
-    assert planned(ROOT, made) == {}
+    assert planned(ROOT, made, "paper") == {}
 
 
 def test_a_tolerance_reruns_what_uses_it_and_compiles_nothing(full_run, tmp_path):
