@@ -91,7 +91,7 @@ PLANTED = [
      "controls.json says another thing of hamiltonian"),
     ((run_with("fig3_large", gamma=0.5), row_of("ends_near_stable", lambda row: [
         one.update(verdict="not reproduced") for one in row["controls"]])),
-     "ends_near_stable was fed the large data at Omega = -4"),
+     "ends_near_stable was fed the large case at Omega = -4"),
     ((replaced("figures/fig2.json", "Omega = 8", "Omega = 6"),), "fig2 has titles at Omega = [6.0"),
     ((replaced("figures/fig2.json", "Not the paper's", "As"),), "fig2 and its data do not both"),
     ((dataset("figures/fig2", lambda figure: figure.drop_attrs(deep=False)),),
