@@ -47,7 +47,7 @@ def test_a_change_leaves_the_rest_as_it_was():
     problem = make_problem(PAIR, numbers=(0.5, 0.7, 3.0))
     other = problem.changed(omega=1.0, half_width=4, end_time=2.0)
     assert other.plain() == problem.plain() | {"omega": 1.0, "half_width": 4, "end_time": 2.0}
-    assert other.amplitudes.shape == (2, 9)
+    assert other.amplitudes.shape == (2, 9) and other.sites == 9
 
 
 @given(chains(widths=(0, 3)), st.sampled_from(["dirichlet", "free", "periodic"]))
