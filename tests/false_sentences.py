@@ -127,7 +127,7 @@ def controls(run: Run):
             failing += one["passes"] is False
             if one["passes"] is False and row["verdict"] in DECIDED and "," not in row["reading"]:
                 yield f"{row['name']} is {row['verdict']}, and its control {one['fed']} is wrong"
-            fed = re.search(r"\b(small|large) data at Omega = (-?[\d.]+)", one["fed"])
+            fed = re.search(r"\b(small|large) case at Omega = (-?[\d.]+)", one["fed"])
             for case in CASES if fed and one["verdict"] != "not applicable" else ():
                 is_it = case.endswith(fed[1]) and float(CASES[case]["omega"]) == float(fed[2])
                 if is_it and run.edited[case] & (DATA | {"boundary"}):

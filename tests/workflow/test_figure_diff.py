@@ -28,7 +28,7 @@ def test_comparing_failing_and_accepting_by_name(accepted):
     finished, clone = accepted
     results = finished / "results"
     log, report = results / "logs/claims.log", results / "report.html"
-    log.write_text(log.read_text() + "wall time: 1234.5 s\n")
+    log.write_text(log.read_text() + "wall time: 1234.5 s, largest memory: 90 MB\n")
     report.unlink()
     result = snakemake(clone, finished, "figure_diff", *MINE)
     assert result.returncode == 0, said(result)

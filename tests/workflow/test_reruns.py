@@ -97,5 +97,5 @@ def test_an_edit_of_the_equations_reaches_the_numbers(clone):
 
     before = drift()
     equations = clone / "scripts/pendula/models/amplitudes.py"
-    edit(equations, "+ 0.5 * squared_modulus", "+ 0.25 * squared_modulus")
+    edit(equations, "+ 0.5 * abs2(u) * u", "+ 0.25 * abs2(u) * u")
     assert before < 1e-4 < 1e-3 < drift()

@@ -11,7 +11,7 @@ from pendula.studies.paper import claims_energy
     ("drifts", "start", "verdict", "said"),
     [
         (((1e-6, 1.9e-6), (1e-7, 1e-7)), 1.0, Verdict.CONFIRMED, ""),
-        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "at which time it ends"),
+        (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "up to which time"),
         (((1e-6, 3e-6), (1e-7, 1e-7)), 1.0, Verdict.UNDECIDED, "case0 to tau = 11, in case1 to"),
         (((1e-7, 1e-7), (3e-6, 3e-6)), 1.0, Verdict.NOT_REPRODUCED, "case1 to tau = 1"),
         (((1e-7, 1e-7), (3e-6, 3e-6)), 100.0, Verdict.UNDECIDED, "which it means"),
