@@ -18,12 +18,13 @@ from pendula.numerics.elementary import log
 from .changes import exchange
 from .claim import Control
 from .criterion import Above, AllOf, Criterion, Finding, judge
-from .cutoff import Cutoff
+from .cutoff import Cutoff, once
 
 MUCH_GROWTH = Cutoff(MANY, "logarithm of a growth by a hundred, where tau^6 has grown by 64")
 SURE = Cutoff(ERRORS, "three standard errors, which chance exceeds a few times in a thousand")
 
 
+@once
 def chaotic(lyapunov: xr.Dataset) -> xr.DataArray:
     """Return whether tangent vectors of either parity grow exponentially, (case).
 

@@ -99,21 +99,22 @@ def once(measure: Callable) -> Callable:
     """Let a deciding function measure the same datasets once, however often it decides.
 
     Datasets are the same if they are one object; words and numbers are if they are equal. What
-    reads a cut-off changes as that moves, so it is measured each time.
+    reads a cut-off changes as that moves, so it is measured each time while that one is moved.
     """
     kept: dict[tuple, tuple] = {}
 
     @wraps(measure)
     def measured(*given: Any) -> Any:
         key = tuple(one if isinstance(one, str | float | int) else ("", id(one)) for one in given)
-        if key in kept:
-            return kept[key][0]
-        with recorded() as read:
-            found = measure(*given)
+        moved, _ = _move.get()
+        found, read, _ = kept.get(key, (None, {moved}, ()))
+        if moved in read:
+            with recorded() as read:
+                found = measure(*given)
+            if moved not in read:
+                kept[key] = found, read, given  # kept too: no other object gets the same id
         for cutoff in read:
             _ = cutoff.value  # the decision has read it too
-        if not read:
-            kept[key] = found, given  # kept too, so that no other object gets the same id
         return found
 
     return measured

@@ -168,9 +168,13 @@ def of_numbers(change: Callable[[np.ndarray], np.ndarray]) -> Change:
 
     def changed(name: str, sources: Mapping[str, xr.Dataset]) -> xr.Dataset:
         dataset = sources[name]
-        numbers = {each: one for each, one in dataset.items() if one.dtype.kind in "fiu"}
+        variables = {each: dataset.variables[each] for each in dataset}  # which need no alignment
         return dataset.assign(
-            {each: one.copy(data=change(one.values.astype(float))) for each, one in numbers.items()}
+            {
+                each: one.copy(data=change(one.values.astype(float)))
+                for each, one in variables.items()
+                if one.dtype.kind in "fiu"
+            }
         )
 
     return changed

@@ -2,7 +2,7 @@
 
 from pendula.ledger.claim import Control, claim, runs
 from pendula.ledger.criterion import AllOf, AtMost, Finding, judge
-from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.cutoff import Cutoff, once
 from pendula.measures.difference import NORMS
 
 from .lines import distance, half_lines
@@ -18,6 +18,7 @@ def raised(run):
     return run.assign({name: run[name] + width.sel(norm=name, drop=True) for name in NORMS})
 
 
+@once
 def _in_lines(run, proved) -> float:
     return float((distance(run, proved) / half_lines(run)).max())
 

@@ -12,7 +12,7 @@ import numpy as np
 from pendula.ledger import missing
 from pendula.ledger.changes import repeat
 from pendula.ledger.chaos import chaotic, regular
-from pendula.ledger.claim import FEWEST, LARGE, SMALL, Control, checks, claim, sweeps
+from pendula.ledger.claim import FEWEST, LARGE, SMALL, Control, checks, claim, number, sweeps
 from pendula.ledger.criterion import (
     Above,
     AllOf,
@@ -23,9 +23,8 @@ from pendula.ledger.criterion import (
     undecided,
 )
 from pendula.ledger.cutoff import Cutoff, once
-from pendula.measures import difference as differences
 from pendula.measures.confidence import chance_of_draw, chance_of_means
-from pendula.measures.difference import VISIBLE, divergence_time
+from pendula.measures.difference import VISIBLE, difference, divergence_time
 from pendula.measures.norms import largest, total_power
 
 from .solvers import by
@@ -66,7 +65,17 @@ def are_chaotic(lyapunov, datasets) -> list[bool]:
     return found
 
 
-difference = once(differences.difference)
+@once
+def parted(first, second) -> tuple[float, float]:
+    """Return the first tau at which two runs differ visibly, and their largest difference."""
+    apart = difference(first, second)
+    return float(divergence_time(apart)), float(apart.max())
+
+
+@once
+def off_by(steps, case: str, scheme: str, step: float) -> float:
+    """Return the largest difference in a case of a scheme with this step from the first solver."""
+    return number(steps, "scheme_difference", case=case, scheme=scheme, step=step)
 
 
 @once
@@ -113,21 +122,20 @@ def late_chances(run, members, case: str, since: float) -> list[np.ndarray]:
 def second_solver(*datasets) -> Finding:
     (lyapunov, members, steps), count = datasets[-3:], len(SECOND)
     chances, off = [], {}
-    measured = dict.fromkeys(REGULAR, 0.0)
+    measured, step = dict.fromkeys(REGULAR, 0.0), float(steps.attrs["configured_step"])
     pairs = zip(datasets[:count], datasets[count : 2 * count], strict=True)
     chaos = are_chaotic(lyapunov, datasets[:count])
     for (first, second), is_chaotic in zip(pairs, chaos, strict=True):
-        case, apart = str(first.attrs["case"]), difference(first, second)
-        time = measured[f"divergence_{case}"] = float(divergence_time(apart))
+        case, (time, apart) = str(first.attrs["case"]), parted(first, second)
+        measured[f"divergence_{case}"] = time
         if is_chaotic:
             if np.isfinite(time):
                 chances.append(of_most(late_chances(second, members, case, time)))
             continue
-        at = steps.sel(case=case, scheme="crank_nicolson")
-        off[case] = float(apart.max())
-        half = float(at["scheme_difference"].sel(step=0.5 * at.attrs["configured_step"]))
-        beyond = off[case] - float(at["step_error"])
-        for name, value in zip(REGULAR, (off[case], beyond, half), strict=True):
+        off[case] = apart
+        beyond = apart - number(steps, "step_error", case=case, scheme="crank_nicolson")
+        half = off_by(steps, case, "crank_nicolson", 0.5 * step)
+        for name, value in zip(REGULAR, (apart, beyond, half), strict=True):
             measured[name] = max(measured[name], value)
     measured["chance"] = together(chances)
     criterion = AllOf(
@@ -147,14 +155,13 @@ def _caveat(regular: dict[str, float], measured, schemes) -> str:
     step, said = float(schemes.attrs["configured_step"]), []
     for case, off in regular.items():
         if off > SEEN.value:
-            found = schemes["scheme_difference"].sel(case=case)
-            half = found.sel(scheme="crank_nicolson", step=0.5 * step)
-            other = found.sel(scheme="implicit_midpoint", step=step)
+            half = off_by(schemes, case, "crank_nicolson", 0.5 * step)
+            other = off_by(schemes, case, "implicit_midpoint", step)
             said.append(
                 f"{case} differs visibly from tau = {measured[f'divergence_{case}']:.3g} on, by up "
                 f"to {100 * off:.2g} % with the assumed step, {step:g}, and "
-                f"{100 * float(half):.2g} % with half of it (the midpoint rule, the other reading "
-                f"of the scheme: {100 * float(other):.2g} %)"
+                f"{100 * half:.2g} % with half of it (the midpoint rule, the other reading "
+                f"of the scheme: {100 * other:.2g} %)"
             )
     times = {
         name.removeprefix("divergence_"): at for name, at in measured.items() if "_fig" in name
@@ -185,7 +192,6 @@ def distinct_runs(norms: Iterable[np.ndarray]) -> list[list[int]]:
     return groups
 
 
-@once
 def swept_chances(name: str, second, ensembles, statistic: str, window: str) -> list[float]:
     """Return by distinct run the chance that a draw is as far from the mean as the second solver.
 
@@ -216,6 +222,7 @@ def _moments(draws) -> tuple[np.ndarray, np.ndarray, int]:
     return draws.mean("draw").values, draws.std("draw", ddof=1).values, draws.sizes["draw"]
 
 
+@once
 def swept_draws(name: str, second, ensembles) -> dict[str, list[float]]:
     """Return the chances of a chaotic sweep by the reading of the text and by that of the caption.
 
@@ -299,6 +306,7 @@ def runs_by_step(steps) -> list:
     return [steps[["l2", "linf"]].isel(finer_step=i) for i in range(steps.sizes["finer_step"])]
 
 
+@once
 def is_drawn(second, steps) -> bool:
     """Return whether the draws by the assumed step are those of a sweep: the first one repeats it.
 
@@ -312,6 +320,7 @@ def is_drawn(second, steps) -> bool:
     return max(off) <= REPEATED.value
 
 
+@once
 def chance_by_step(name: str, steps) -> float:
     """Return the chance that the means of a sweep by the assumed and by a finer step are one."""
     own, finer = runs_by_step(steps)
