@@ -77,10 +77,10 @@ def operators(chain: Chain, s: float, state: np.ndarray, even: bool) -> tuple:
     """Return L and K of the module's text, on even or odd perturbations, each (2 N, 2 N)."""
     kept = state if even else state[:, 1:]
     sites = kept.shape[1]
-    one = np.eye(sites)
-    linear = chain.epsilon * second_difference(sites, even) + chain.omega * one
-    exchange = s * np.kron([[1.0, -1.0], [-1.0, 1.0]], one)
-    both = np.kron(np.eye(2), linear)
+    linear = chain.epsilon * second_difference(sites, even) + chain.omega * np.eye(sites)
+    both = np.zeros((2 * sites, 2 * sites))
+    both[:sites, :sites] = both[sites:, sites:] = linear
+    exchange = s * (np.eye(2 * sites) - np.eye(2 * sites, k=sites) - np.eye(2 * sites, k=-sites))
     squares = np.diag(kept.ravel() ** 2)
     return both + 0.5 * squares + exchange, both + 1.5 * squares - exchange
 
