@@ -152,7 +152,8 @@ Needs = dict[Name, Positive]
 class Model(BaseModel):
     """A mapping of the configuration: unknown keys are faults."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+    # `defer_build`: most models are parts of one, and are validated with it alone
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
 def model(**keys: Any) -> type[Model]:
