@@ -48,8 +48,12 @@ def write_article(
     paper's: then there is a notice in place of the article, which would tell of other cases.
     """
     results = Results([*datasets, *pictures, ledger, *kept], html, differs=differs)
-    made = {html: page(results).encode(), pdf: typeset(results)}
-    made[metadata] = describe(results).encode()
+    text = source(results, VECTORS)
+    made = {
+        html: page(results).encode(),
+        pdf: typeset(text, _folder(results)),
+        metadata: describe(text).encode(),
+    }
     for path, content in made.items():
         with complete_or_absent(path) as partial:
             Path(partial).write_bytes(content)
@@ -66,10 +70,13 @@ def page(results: Results) -> str:
     return _converted(text, "html", "article.html", *options)
 
 
-def typeset(results: Results) -> bytes:
-    """Return the article as PDF; equal articles have equal bytes."""
-    text = _converted(source(results, VECTORS), "typst", "article.typ")
-    return typst.compile(text.encode(), root=_folder(results), ignore_system_fonts=True)
+def typeset(text: str, folder: Path) -> bytes:
+    """Return as PDF the article in Markdown, whose pictures lie in `folder`.
+
+    Equal articles have equal bytes.
+    """
+    text = _converted(text, "typst", "article.typ")
+    return typst.compile(text.encode(), root=folder, ignore_system_fonts=True)
 
 
 def markdown(results: Results) -> str:
@@ -77,10 +84,10 @@ def markdown(results: Results) -> str:
     return source(results, f"{KEPT}/figures/{{}}.png", captions_below=True)
 
 
-def describe(results: Results) -> str:
-    """Return what the journal asks authors for, as YAML."""
+def describe(text: str) -> str:
+    """Return what the journal asks authors of the article in Markdown for, as YAML."""
     given = yaml.safe_load((HERE / "metadata.yaml").read_text(encoding="utf-8"))
-    abstract = source(results, "").split("**Abstract.**")[1].split("\n\n")[0]
+    abstract = text.split("**Abstract.**")[1].split("\n\n")[0]
     given |= {"title": TITLE, "abstract": " ".join(abstract.split())}
     return yaml.safe_dump(given, sort_keys=False, allow_unicode=True)
 
