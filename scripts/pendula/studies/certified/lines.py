@@ -72,8 +72,7 @@ def _of_case(run: xr.Dataset, proved: xr.Dataset | None, reference: xr.Dataset) 
 
 def _curves(run: xr.Dataset) -> xr.DataArray:
     """Return the four curves of a run, (norm, component, tau), without their descriptions."""
-    both = xr.concat([run[name] for name in NORMS], xr.Variable("norm", list(NORMS)))
-    return both.drop_attrs(deep=False)
+    return run[list(NORMS)].to_dataarray("norm").drop_attrs(deep=False)
 
 
 def half_lines(run: xr.Dataset) -> xr.DataArray:
