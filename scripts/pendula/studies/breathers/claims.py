@@ -16,7 +16,7 @@ from pendula.ledger.criterion import (
     UndecidableError,
     judge,
 )  # fmt: skip
-from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.cutoff import Cutoff, once
 from pendula.models.pairs import FAMILIES
 
 SECTION = 7
@@ -76,6 +76,7 @@ def steady_unstable(steady) -> Finding:
     return judge(measured, criterion)
 
 
+@once
 def known(periodic):
     """Return breathers; raise UndecidableError if a family has a gap above its first frequency."""
     found = periodic["power"].notnull().all("component")
