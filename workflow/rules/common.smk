@@ -1,5 +1,6 @@
 # What the rules share: the validated configuration and names of files.
 import atexit
+import gc
 import json
 import os
 import re
@@ -8,6 +9,11 @@ from functools import cache
 from pathlib import Path
 
 from snakemake.logging import logger
+
+# Looking for cycles among the objects of Snakemake and pandas, of which few can go, takes a third of a
+# second, most of it when Python ends.
+gc.set_threshold(100_000)
+atexit.register(gc.freeze)
 
 PROJECT = Path(str(workflow.current_basedir)).parents[1]
 sys.path[:0] = [str(PROJECT / part) for part in ("workflow", "scripts", "")]

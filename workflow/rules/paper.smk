@@ -62,6 +62,7 @@ use rule dataset as measure_second_solver with:
         firsts=runs_by("ode45"),
     pathvars:
         made="checks/second_solver",
+    priority: 1  # with all that it needs, because the report waits longest for it
     params:
         call=function("pendula.studies.paper.second_solver.measure"),
         problems={case: SETTINGS.problem(case, "crank_nicolson") for case in PAPER_CASES},

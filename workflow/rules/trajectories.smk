@@ -7,6 +7,7 @@ use rule job as compile_solver with:
         kernels="<results>/<made>.txt",
     pathvars:
         made=f"kernels/{{solver,{one_of(ALL_SOLVERS)}}}",
+    priority: 1
     params:
         call=function("pendula.studies.paper.compile_solver.compile_solver"),
         solver="{solver}",
@@ -33,6 +34,7 @@ use rule dataset as trajectory_by_solvers with:
         by_solvers("<results>/trajectories/<paper_case>", ALL_SOLVERS),
     pathvars:
         made="trajectories/<paper_case>.solvers",
+    priority: 1
     params:
         call=function("pendula.studies.paper.runs.run_by_solvers"),
         name="{case}",

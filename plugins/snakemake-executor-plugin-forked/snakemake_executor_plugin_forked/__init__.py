@@ -26,5 +26,5 @@ class ExecutorSettings(ExecutorSettingsBase):
     modules: str = field(default="", metadata={"help": HELP})
 
     def __post_init__(self):
-        """Mind Ctrl-C while Snakemake reads the workflow; the imports begin with the first job."""
+        """Begin the imports now, since Snakemake takes a while to read the workflow."""
         self.forks = Forks(self.modules.split())

@@ -13,6 +13,7 @@ from pathlib import Path
 SERVER = Path(__file__).with_name("server.py")
 LETTER = 65536
 """Bytes that are more than any message has."""
+PATH = "PYTHONPATH"
 INTERRUPTED = 128 + signal.SIGINT
 """The exit status after Ctrl-C."""
 LIBRARIES = ("OMP_NUM", "GOTO_NUM", "OPENBLAS_NUM", "MKL_NUM", "VECLIB_MAXIMUM", "NUMEXPR_NUM")
@@ -29,13 +30,16 @@ class RefusedError(Exception):
 class Forks:
     """The process that forks jobs."""
 
-    process, interrupted = None, False
+    process, begun, interrupted = None, False, False
 
     def __init__(self, modules: list[str]):
-        """Remember what to import, and end without a traceback at Ctrl-C from now on."""
+        """Start the process, which imports modules; from now on Ctrl-C shows no traceback."""
         self.modules = modules
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, self._interrupt)
+        if sys.platform == "linux":
+            self.start()
+            atexit.register(self.end)
 
     def _interrupt(self, number, frame) -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -45,9 +49,8 @@ class Forks:
         raise SystemExit(INTERRUPTED)
 
     def start(self) -> None:
-        """Start the process, unless it is there; it imports the modules while jobs run."""
-        if self.process or sys.platform != "linux":
-            return
+        """Start the process, with the environment as it is now."""
+        self.found = surroundings()
         self.control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             self.process = subprocess.Popen(
@@ -56,7 +59,22 @@ class Forks:
                 env={**os.environ, **THREADS},
                 start_new_session=True,  # Ctrl-C is for Snakemake, which ends the jobs
             )
-        atexit.register(self.end)
+
+    def begin(self) -> None:
+        """Tell the process, before the first job, where the workflow has its modules.
+
+        If the workflow has set more than PYTHONPATH, the imports begin anew.
+        """
+        if not self.process or self.begun:
+            return
+        self.begun = True
+        path = "" if PATH in self.found[1] else os.environ.get(PATH, "")
+        if surroundings(without=path and PATH) != self.found:
+            self.end()
+            self.start()
+            path = ""
+        with suppress(OSError):  # it has ended, as the first job will hear
+            self.control.send(json.dumps(path).encode())
 
     def fork(self, script: str, place: str | None) -> tuple[int, socket.socket]:
         """Return the number of a process that runs `script`, once its socket is shut down."""
@@ -88,6 +106,11 @@ class Forks:
                 with suppress(ProcessLookupError):  # another thread was faster
                     os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
+
+
+def surroundings(without: str = "") -> tuple[str, dict[str, str]]:
+    """Return what a module may read at its import: the folder, and all other variables."""
+    return os.getcwd(), {name: text for name, text in os.environ.items() if name != without}
 
 
 def in_words(status: int) -> str:

@@ -46,7 +46,7 @@ class Executor(snakemake.executors.local.Executor):
         """
         if self.forks.interrupted:
             raise SystemExit(INTERRUPTED)  # it is lost if Snakemake hears Ctrl-C while it logs
-        self.forks.start()
+        self.forks.begin()
         scheduler = self.workflow.scheduler
         limiter = scheduler.job_rate_limiter
         if limiter and (limiter.max_jobs, limiter.timespan) == UNASKED:

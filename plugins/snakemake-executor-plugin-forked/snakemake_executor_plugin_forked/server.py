@@ -5,7 +5,7 @@ It imports while nobody asks; a job that comes earlier imports for itself what i
 
 import atexit
 import gc
-import importlib
+import importlib.util
 import json
 import os
 import pkgutil
@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 from contextlib import suppress
+from importlib.machinery import PathFinder
 from types import ModuleType
 
 LETTER = 65536
@@ -32,14 +33,18 @@ class Server:
         """Listen at `control`, and import `modules` meanwhile."""
         self.control, self.modules = control, modules
         self.jobs: dict[int, socket.socket] = {}
+        self.begun = False
         signal.signal(signal.SIGCHLD, self.bury)
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # a job hears it in its script
 
     def serve(self) -> dict[str, str | dict]:
         """Return in each child what it shall do; end with all jobs when Snakemake has ended."""
         while True:
-            if self.modules and not select.select([self.control], [], [], 0)[0]:
+            if self.can_prepare() and not select.select([self.control], [], [], 0)[0]:
                 self.prepare(self.modules.pop(0))
+                continue
+            if not self.begun and (path := self.control.recv(LETTER, socket.MSG_PEEK)):
+                self.begin(json.loads(path))
                 continue
             message, streams, _, _ = socket.recv_fds(self.control, LETTER, 1)
             if not message:
@@ -52,6 +57,22 @@ class Server:
         while self.jobs and time.monotonic() < end:
             time.sleep(0.01)
         os.killpg(0, signal.SIGKILL)
+
+    def can_prepare(self) -> bool:
+        """Return whether to import: the workflow may not yet have told where the next module is."""
+        name = self.modules[0].partition(".")[0] if self.modules else ""
+        return bool(name) and (self.begun or importlib.util.find_spec(name) is not None)
+
+    def begin(self, path: str) -> None:
+        """Look for modules in these folders first; start anew if imported ones would be others."""
+        if path and path != os.environ.get("PYTHONPATH"):
+            os.environ["PYTHONPATH"] = path
+            folders = [os.path.abspath(folder) for folder in path.split(os.pathsep)]
+            if any(PathFinder.find_spec(name, folders) for name in sys.modules if "." not in name):
+                os.execv(sys.executable, [sys.executable, __file__, *sys.argv[1:]])
+            sys.path[:0] = folders
+        self.begun = True
+        self.control.recv(LETTER)
 
     def prepare(self, name: str) -> None:
         """Import a module, and put those of a package before all that are still to come."""

@@ -27,7 +27,7 @@ def folder(tmp_path):
     return shutil.copytree(Path(__file__).with_name("workflow"), tmp_path / "it's here")
 
 
-def run(folder, *targets, modules="json", executor="forked", meanwhile=None):
+def run(folder, *targets, modules="json", executor="forked", meanwhile=None, path=True):
     """Return the exit status of a run and what it said; `meanwhile` is done with its process.
 
     Each of its processes has the pipe that is read here to the end: none is left when this returns.
@@ -41,7 +41,7 @@ def run(folder, *targets, modules="json", executor="forked", meanwhile=None):
         stderr=subprocess.STDOUT,
         text=True,
         start_new_session=True,
-        env={**os.environ, "PYTHONPATH": str(folder.parent)},
+        env={**os.environ, "PYTHONPATH": str(folder.parent)} if path else None,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     if meanwhile:
@@ -58,12 +58,29 @@ def hear(process, words, times=1):
         assert line, f"it has ended: {said}"
 
 
-def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder):
-    assert run(folder, "a.json", executor="local")[0] == 0
+SETS = "import os; os.environ['PYTHONPATH'] = os.path.abspath('..')\n"
+
+
+@pytest.mark.parametrize(
+    ("sets", "modules"),
+    [
+        ("", "held no_such_module json.*"),
+        (SETS, "colorsys held no_such_module json.*"),
+        (f"{SETS}os.environ['NEW'] = ''", "held no_such_module json.*"),
+        (SETS, "colorsys no_such_module json.*"),  # there is another below
+    ],
+)
+def test_a_fork_finds_what_snakemake_alone_gives_a_job(folder, sets, modules):
+    """Whether the workflow sets where modules are and more, or puts one in another's place."""
+    (folder.parent / "colorsys.py").write_text("import held")
+    with open(folder / "Snakefile", "a") as file:
+        file.write(f"\n{sets}\n")
+    path = not sets
+    assert run(folder, "a.json", executor="local", path=path)[0] == 0
     alone, forked, _ = json.loads((folder / "a.json").read_text())
     (folder / "a.json").unlink()
-    modules = "held no_such_module json.*"
-    status, said = run(folder, "a.json", "b.json", "--cores", "1", modules=modules)
+    targets = ("a.json", "b.json", "--cores", "1")
+    status, said = run(folder, *targets, modules=modules, path=path)
     assert not forked and status == 0
     assert said.count("forked: ") == said.count("forked: cannot import no_such_module: ") == 1
     # the file that their parent holds open is at its old place for the second one too
