@@ -60,20 +60,20 @@ def draw_chart(data: xr.Dataset) -> Figure:
     """Draw the chart of the long chain above; below the short chain's, and the windows' share."""
     figure = style.new_figure(style.DOUBLE, 5.2)
     panels = figure.subplot_mosaic([["long", "long"], ["short", "share"]])
-    _draw_rates_over(figure, panels["long"], data)
+    _draw_rates_over(figure, panels["long"], data, "(a)")
     hollow = {"color": "white", "markeredgecolor": "black", "markersize": 6}
     label = data.attrs.get("points", "the paper's figures")
     panels["long"].plot(data["point_omega"], data["point_gamma"], "o", label=label, **hollow)
     short = data[[name for name in data.data_vars if name.startswith("short_")]]
     short = short.drop_vars(["omega", "gamma", "curve_omega"], errors="ignore")
     short = short.rename({name: str(name).removeprefix("short_") for name in short.variables})
-    _draw_rates_over(figure, panels["short"], short)
+    _draw_rates_over(figure, panels["short"], short, "(b)")
     _draw_share(panels["share"], data)
     style.name_legend(figure, panels["long"])
     return figure
 
 
-def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
+def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset, letter: str) -> None:
     rate = chart["measured"].transpose("gamma", "omega").clip(min=0)
     look = {"shading": "nearest", "cmap": HEAT, "vmin": 0, "rasterized": True}
     image = axes.pcolormesh(chart["omega"], chart["gamma"], rate, **look)
@@ -84,7 +84,7 @@ def _draw_rates_over(figure: Figure, axes: Axes, chart: xr.Dataset) -> None:
     axes.set_xlim(float(chart["omega"][0]), float(chart["omega"][-1]))
     axes.set_ylim(0, float(chart["gamma"][-1]))
     axes.set(xlabel=r"$\Omega / \epsilon$", ylabel=r"$\gamma / \epsilon$")
-    axes.set_title(f"$N = {int(chart['sites'])}$ sites, Dirichlet ends", loc="left")
+    axes.set_title(f"{letter} $N = {int(chart['sites'])}$ sites, Dirichlet ends", loc="left")
 
 
 def _draw_share(axes: Axes, data: xr.Dataset) -> None:
@@ -96,7 +96,7 @@ def _draw_share(axes: Axes, data: xr.Dataset) -> None:
     ends = float(data["window_gamma"][0]), float(data["window_gamma"][-1])
     axes.set(xscale="log", xlim=ends, ylim=(0, 1), xlabel=r"$\gamma / \epsilon$")
     axes.set_ylabel(r"stable share of $0 \leq \Omega \leq 4 \epsilon$")
-    axes.set_title("windows of stability of finite chains", loc="left")
+    axes.set_title("(c) windows of stability of finite chains", loc="left")
     axes.legend()
 
 
@@ -136,8 +136,11 @@ def draw_rates(data: xr.Dataset) -> Figure:
         look = {"color": colour, "markersize": 2.5, "label": label}
         errors.plot(growing["finite_rate"], error.where(error > 0), marker, **look)
     errors.set(yscale="log", xlabel=PREDICTED, ylabel="relative error of the measured rate")
+    errors.set_ylim(top=100)  # the letter of the panel has room above the largest errors
     _legend_above(errors, title="measured against the")
     _draw_threshold(threshold, data)
+    for letter, axes in zip("abc", figure.axes, strict=True):
+        axes.text(0.03, 0.97, f"({letter})", transform=axes.transAxes, va="top")
     return figure
 
 
