@@ -14,8 +14,9 @@ KINDS = 4
 def draw(snakemake) -> None:
     """Draw by each function that `params.call` names, draw_x, what gather_x beside it returns.
 
-    gather_x is given those of the inputs and parameters that it names, datasets in place of paths,
-    and by their names what the figures before it show.
+    gather_x is given those of the inputs and parameters that it names, datasets in place of paths
+    and lists of datasets in place of lists (`rules.x.output` is one), and by their names what the
+    figures before it show.
     """
     given = {name: _taken(value) for name, value in arguments(snakemake).items()}
     differs = given.pop("differs")
