@@ -65,16 +65,10 @@ def test_without_the_next_order_the_rates_are_those_of_equation_4():
     np.testing.assert_array_equal(library_rates(z, squared_mu=0.0), unpack(dy, WHOLE))
 
 
-def test_half_of_an_even_chain_has_the_bits_of_the_whole():
-    z = random_chain(6, even=True)
-    half = library_rates(z, reduction=Reduction(even=True, synchronised=False))
-    np.testing.assert_array_equal(half, library_rates(z))
-
-
-def test_one_component_has_the_bits_of_both_where_a_equals_b():
-    z = random_chain(6, synchronised=True)
-    one = library_rates(z, reduction=Reduction(even=False, synchronised=True))
-    np.testing.assert_array_equal(one, library_rates(z))
+@pytest.mark.parametrize("reduction", [Reduction(True, False), Reduction(False, True)])
+def test_half_of_a_chain_and_one_component_have_the_bits_of_the_whole(reduction):
+    z = random_chain(6, **reduction._asdict())
+    np.testing.assert_array_equal(library_rates(z, reduction=reduction), library_rates(z))
 
 
 def test_the_corrected_start_has_the_angles_of_the_data():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from oracle import boundaries, chains, random_chain
+from oracle import chains, random_chain
 from pendula.ends import DIRICHLET, FREE, PERIODIC
 from pendula.models.amplitudes import Chain, energy
 from pendula.models.chain import MIRROR
@@ -109,14 +109,6 @@ def test_the_largest_site_is_found_anywhere(site):
     z = np.full((2, 5), 0.5 + 0.5j)
     z[1, site] = 3 - 4j
     assert observed(z)[2].linf[1, 0] == 5.0
-
-
-@given(chains(widths=(1, 4), even=True), boundaries)
-def test_half_of_an_even_chain_has_the_bits_of_the_whole(z, boundary):
-    half, whole = (
-        observed(z, reduction, boundary)[2] for reduction in (Reduction(True, False), WHOLE)
-    )
-    np.testing.assert_array_equal([half.linf, half.l2], [whole.linf, whole.l2])
 
 
 def test_an_output_is_written_in_its_place_and_the_moduli_at_chosen_outputs_only():
