@@ -7,12 +7,7 @@ solutions in closed form, and so have the implicit schemes for q = 0.
 
 import numpy as np
 from pendula.compiled import kernel, uncached
-from pendula.integrators import (
-    crank_nicolson,
-    dop853,
-    ode45,
-    taylor,
-)
+from pendula.integrators import crank_nicolson, dop853, ode45, taylor
 from pendula.integrators.taylor import BLOCK_SIZE, ORDER
 from pendula.simd import LANES
 from scipy.integrate import solve_ivp

@@ -2,12 +2,7 @@
 
 import numpy as np
 import pytest
-from pendula.measures.growth import (
-    is_chaotic,
-    local_exponents,
-    mean_rate,
-    mean_rate_error,
-)
+from pendula.measures.growth import is_chaotic, local_exponents, mean_rate, mean_rate_error
 
 
 def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts():

@@ -90,8 +90,5 @@ def test_angles_are_the_real_parts_of_both_harmonics():
     leading = 2 * (mu * z * turn).real
     np.testing.assert_allclose(angles(mu, z, phases, 0.0), leading, rtol=1e-13)
     np.testing.assert_allclose(
-        angles(mu, z, phases),
-        leading + 2 * (mu**3 * third * turn**3).real,
-        rtol=1e-12,
-        atol=1e-15,
+        angles(mu, z, phases), leading + 2 * (mu**3 * third * turn**3).real, rtol=1e-12, atol=1e-15
     )

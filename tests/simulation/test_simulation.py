@@ -19,12 +19,7 @@ CLOSE = {  # over a unit of time, worst case
 }
 KEPT = CLOSE | {"crank_nicolson": 5e-2}
 """How well norms are kept that the equations keep: the trapezoidal rule keeps them nearly only."""
-DRIFTS = {
-    "ode45": 1e-3,
-    "dop853": 1e-9,
-    "taylor": 1e-9,
-    "delfour_fortin_payre": 1e-9,
-}
+DRIFTS = {"ode45": 1e-3, "dop853": 1e-9, "taylor": 1e-9, "delfour_fortin_payre": 1e-9}
 """How well the energy is kept, relative to it where it is above one."""
 each_solver = pytest.mark.parametrize("name", SOLVERS)
 each_boundary = pytest.mark.parametrize("boundary", BOUNDARIES)

@@ -35,8 +35,7 @@ def test_maxima_are_those_of_the_trajectory_over_the_whole_window(swept, run, wi
         swept.l2[1, :, 0, window], [*run.l2[:, inside].max(axis=1), pair.max()], rtol=1e-14
     )
     np.testing.assert_allclose(
-        swept.linf[1, :, 0, window],
-        [*run.linf[:, inside].max(axis=1), run.linf[:, inside].max()],
+        swept.linf[1, :, 0, window], [*run.linf[:, inside].max(axis=1), run.linf[:, inside].max()]
     )
 
 

@@ -5,12 +5,7 @@ import pytest
 from accepted import dataset
 from pendula.simulation import sweep as sweeps
 from pendula.simulation.simulate import simulate
-from pendula.studies.paper.claims_second_solver import (
-    distinct_runs,
-    is_drawn,
-    of_most,
-    together,
-)
+from pendula.studies.paper.claims_second_solver import distinct_runs, is_drawn, of_most, together
 from pendula.studies.paper.second_solver import DRAWS, SCHEMES, measure
 from problems import problem_of
 
