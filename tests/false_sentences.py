@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from pendula.configuration.paper import paper
-from pendula.ledger.claim import all_claims
+from pendula.ledger.verdicts import all_claims
 from pendula.report.words import case_in_words
 
 CASES, SWEEPS = paper()["cases"], paper()["sweeps"]

@@ -19,7 +19,7 @@ import pytest
 import yaml
 from pendula.configuration.files import gather
 from pendula.configuration.messages import load
-from pendula.ledger.claim import _row, all_claims
+from pendula.ledger.verdicts import _row, all_claims
 
 ROOT = Path(__file__).resolve().parents[1]
 Finished = subprocess.CompletedProcess

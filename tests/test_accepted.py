@@ -24,7 +24,7 @@ from accepted import (
 )
 from held_digits import unlike
 from pendula.datasets.json_files import load_json
-from pendula.ledger.claim import all_claims, decide, evaluate, needed
+from pendula.ledger.verdicts import all_claims, decide, evaluate, needed
 
 CLAIM = {claim.name: claim for claim in all_claims()}
 

@@ -11,7 +11,7 @@ from helpers import skip
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
 from pendula.configuration.paper import differences, paper, reason, rests_on
-from pendula.ledger.claim import all_claims, needed
+from pendula.ledger.verdicts import all_claims, needed
 
 ROOT = Path(__file__).resolve().parents[2]
 EDITS = {

@@ -5,8 +5,9 @@ from functools import partial
 import pytest
 from accepted import datasets
 from pendula.configuration.paper import paper
-from pendula.ledger.claim import Claim, Control, all_claims, apart, decide, evaluate, feed, needed
+from pendula.ledger.claim import Claim, Control
 from pendula.ledger.criterion import Above, Verdict, judge
+from pendula.ledger.verdicts import all_claims, apart, decide, evaluate, feed, needed
 
 FIG2 = {"cases.fig2_small.omega": "fig2_small.omega (1 in place of 8)"}
 
@@ -17,7 +18,7 @@ def grows(*runs):
 
 def row_of(monkeypatch, differs, needs, controls=(), on=()):
     claim = Claim("it", "Section 0", "It is so.", needs, grows, controls, on)
-    monkeypatch.setattr("pendula.ledger.claim.all_claims", lambda: (claim,))
+    monkeypatch.setattr("pendula.ledger.verdicts.all_claims", lambda: (claim,))
     sources = dict.fromkeys(("trajectories/fig3_small", "checks/members"), 5.0)
     (row,) = evaluate(sources | {"trajectories/fig2_small": 1.0}, differs)
     return row

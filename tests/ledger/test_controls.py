@@ -5,18 +5,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from pendula.ledger.claim import (
-    Claim,
-    Control,
-    claim,
-    controls_of,
-    evaluate,
-    late,
-    needed,
-    passes,
-)
+from pendula.ledger.claim import Claim, Control, claim, late
 from pendula.ledger.criterion import Above, Below, UndecidableError, Verdict, judge, undecided
 from pendula.ledger.cutoff import Cutoff
+from pendula.ledger.verdicts import controls_of, evaluate, needed, passes
 
 GROWS = Cutoff(2.0, '"grows"')
 
@@ -42,7 +34,7 @@ def rows(monkeypatch):
     """Return a function of datasets and claims: the rows of the ledger."""
 
     def rows_of(sources, *claims):
-        monkeypatch.setattr("pendula.ledger.claim.all_claims", lambda: claims)
+        monkeypatch.setattr("pendula.ledger.verdicts.all_claims", lambda: claims)
         return evaluate(sources)
 
     return rows_of

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from accepted import BASELINE, datasets
 from pendula.datasets.json_files import load_json
-from pendula.ledger.claim import Origin, all_claims, decide, evaluate, needed
+from pendula.ledger.claim import Origin
 from pendula.ledger.decide import join_claims
 from pendula.ledger.distortions import BLIND, distorted, in_words
 from pendula.ledger.tables import by_sentence, tables, tally
+from pendula.ledger.verdicts import all_claims, decide, evaluate, needed
 
 ROWS = load_json(BASELINE / "claims.json")["rows"]
 TURNS = {

@@ -6,9 +6,9 @@ from helpers import change, planned
 from pendula.datasets.checks import broken, table, variable
 from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import DatasetError
-from pendula.ledger.claim import all_claims, needed
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.decide import decide_claims, join_claims
+from pendula.ledger.verdicts import all_claims, needed
 from pendula.studies.theory import checks as theory_checks
 from pendula.studies.theory.settings import GROUPS, OBSERVED
 

@@ -1,6 +1,6 @@
 """The ledger of claims: every sentence of the paper that numbers can decide, with its verdict.
 
-`claim`      a claim, as a study declares it above the function that decides it; all their verdicts
+`claim`      a claim, as a study declares it above the function that decides it
 `changes`    the verbs that make wrong cases
 `chaos`      which cases are chaotic, and what ensembles of almost equal data may say
 `criterion`  what decides, and prints itself
@@ -9,6 +9,7 @@
 `missing`    what is missing from a dataset, and confirms nothing
 `section`    the ledger's part of the report
 `tables`     the readings of a sentence as one row, counts of rows, and the ledger as files
+`verdicts`   all claims, and the verdict on each with what its controls say
 
 Each study keeps its claims in its own folder, in modules whose names start with `claims`.
 """

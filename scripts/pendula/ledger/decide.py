@@ -7,10 +7,10 @@ from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import read
 from pendula.report.words import write_markdown
 
-from .claim import all_claims, controls_of, evaluate, in_order, needed, sections
 from .criterion import Verdict
 from .distortions import distorted, in_words
 from .tables import by_sentence, check_lines, in_short, tables
+from .verdicts import all_claims, controls_of, evaluate, in_order, needed, sections
 
 CHECKS, OF_WRONG_STATEMENTS = "checks/", "checks/wrong/"
 

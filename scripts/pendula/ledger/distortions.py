@@ -16,8 +16,9 @@ import xarray as xr
 
 from pendula.numerics.draws import normal
 
-from .claim import Claim, confirmed, decide
+from .claim import Claim
 from .criterion import Finding, Verdict, undecided
+from .verdicts import confirmed, decide
 
 OMEGA, EXCHANGE, ORDER, SIZE = "another Omega", "A and B exchanged", "another order", "other sizes"
 """The kinds of distortions that may have a reason: what is missing has none."""

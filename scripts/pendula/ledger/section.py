@@ -10,9 +10,10 @@ from pendula.datasets.json_files import load_json
 from pendula.report.results import Results, Table
 from pendula.report.words import Quote, number, plainly, symbols, told
 
-from .claim import Origin, controls_of, cutoff_lines
+from .claim import Origin
 from .criterion import Verdict
 from .tables import as_sentence, files_of, tally
+from .verdicts import controls_of, cutoff_lines
 
 LEDGER = "claims.json"
 CONFIRMED = (Verdict.CONFIRMED, Verdict.CAVEAT)

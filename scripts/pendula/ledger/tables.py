@@ -11,8 +11,9 @@ from collections.abc import Iterable, Mapping
 from pendula.datasets.checks import deciding
 from pendula.report.words import markdown
 
-from .claim import Origin, controls_of, cutoff_lines
+from .claim import Origin
 from .criterion import REFUTED, Verdict
+from .verdicts import controls_of, cutoff_lines
 
 WORST_FIRST = (*REFUTED, Verdict.UNDECIDED, Verdict.NOT_APPLICABLE, Verdict.CAVEAT)
 """Verdicts in the order in which one of them is that of several readings; else all confirm."""

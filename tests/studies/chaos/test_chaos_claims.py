@@ -2,7 +2,7 @@
 
 import pytest
 from accepted import datasets
-from pendula.ledger.claim import all_claims, decide, feed
+from pendula.ledger.verdicts import all_claims, decide, feed
 
 OF_SOME = [claim for claim in all_claims("chaos/claims") if claim.on]
 

@@ -1,0 +1,238 @@
+"""All claims in the order of the paper, and the verdict on each with what its controls say."""
+
+import math
+from collections.abc import Iterable, Mapping
+from functools import cache
+from types import ModuleType
+
+from pendula import studies
+from pendula.configuration.paper import Differences, reason
+
+from .claim import Claim, Control, Wrong
+from .criterion import REFUTED, Finding, UndecidableError, Verdict, not_applicable, undecided
+from .cutoff import Cutoff, Flip, flips, recorded
+from .missing import missing
+
+
+@cache
+def all_claims(*modules: str) -> tuple[Claim, ...]:
+    """Return the claims of all studies, or those in `modules`, in the order of the paper.
+
+    `modules` are starts of names, such as "theory/claims" and "paper/claims_norms".
+    """
+    return tuple(
+        function.claim
+        for module in _in_order(modules)
+        for function in vars(module).values()
+        if hasattr(function, "claim")
+    )
+
+
+def _in_order(modules: tuple[str, ...]) -> list[ModuleType]:
+    found = [module for start in modules or ("claims",) for module in studies.all_modules(start)]
+    return sorted(found, key=lambda module: module.SECTION)
+
+
+def sections(*modules: str) -> dict[str, int]:
+    """Return the section of the paper with which each module begins, by its name in the rows."""
+    return {_home(module.__name__): module.SECTION for module in _in_order(modules)}
+
+
+def _home(module: str) -> str:
+    return module.removeprefix(f"{studies.__name__}.")
+
+
+def in_order(rows: Iterable[dict], sections: Mapping[str, int]) -> list[dict]:
+    """Return rows of several parts of the ledger in the order of the paper.
+
+    Each module of claims names the SECTION of the paper with which it begins; modules of one
+    section come in the order of the list of studies.
+    """
+
+    def place(row: dict) -> tuple:
+        module = row["function"].rpartition(".")[0]
+        return sections[module], studies.STUDIES.index(module.partition(".")[0]), module
+
+    return sorted(rows, key=place)
+
+
+def needed(*modules: str) -> list[str]:
+    """Return every dataset that the claims in `modules` read, once each, in their order."""
+    names: list[str] = []
+    for claim in all_claims(*modules):
+        names += claim.needs
+        names += [name for control in claim.controls for name in control.names]
+    return list(dict.fromkeys(names))
+
+
+def decide(claim: Claim, sources: Mapping) -> Finding:
+    """Return the finding of one claim; without its datasets it cannot be decided."""
+    absent = [name for name in claim.needs if name not in sources]
+    if absent:
+        return undecided({}, f"{', '.join(absent)} was not made")
+    try:
+        finding = claim.decide(*(sources[name] for name in claim.needs))
+    except UndecidableError as reason:
+        return undecided({}, str(reason))
+    if finding.verdict in REFUTED:
+        return finding._replace(verdict=claim.refuted)
+    lacking = missing(claim.needs, sources, claim.on) if confirmed(finding) else ""
+    return undecided(finding.measured, lacking) if lacking else finding
+
+
+def feed(claim: Claim, control: Control, sources: Mapping) -> Finding:
+    """Return the finding of a claim's function on a control."""
+    absent = [name for name in (*claim.needs, *control.names) if name not in sources]
+    if absent:
+        return undecided({}, f"{', '.join(absent)} was not made")
+
+    def made(name: str, wrong: Wrong):
+        if isinstance(wrong, str):
+            return sources[wrong]
+        if isinstance(wrong, tuple):
+            other, change = wrong
+            return change(sources[name], sources[other])
+        return wrong(sources[name])
+
+    try:
+        fed = {name: made(name, wrong) for name, wrong in control.fed.items()}
+    except UndecidableError as reason:
+        return undecided({}, str(reason))
+    return decide(claim, {**sources, **fed})
+
+
+def passes(control: Control, finding: Finding) -> bool | None:
+    """Return whether a finding is what the control must give, None where it does not apply.
+
+    A refusal must come from numbers: what is missing or no number refuses everything.
+    """
+    if finding.verdict == Verdict.NOT_APPLICABLE:
+        return None
+    if control.confirms:
+        return confirmed(finding)
+    if control.undecided:
+        return finding.verdict == Verdict.UNDECIDED
+    judged = finding.criterion.names if finding.criterion else ()
+    known = not any(math.isnan(finding.measured[name]) for name in judged)
+    return finding.verdict in REFUTED and known
+
+
+def confirmed(finding: Finding) -> bool:
+    """Return whether a claim is confirmed, with a caveat or without."""
+    return finding.verdict in (Verdict.CONFIRMED, Verdict.CAVEAT)
+
+
+def apart(differs: Differences, claim: Claim, control: Control | None = None) -> str:
+    """Return why a claim, or a control of it, is not on the paper's cases; empty where it is."""
+    own = reason(differs, claim.needs, claim.on)
+    if own or control is None:
+        return own
+    of_same = reason(differs, claim.needs, control.on) if control.on else ""
+    return of_same or reason(differs, control.names, control.on)
+
+
+def evaluate(
+    sources: Mapping, differs: Differences | None = None, modules: Iterable[str] = ()
+) -> list[dict]:
+    """Return every claim with its verdict, ready for JSON, from {dataset name: opened dataset}.
+
+    `modules` are those of the claims, as `all_claims` takes them; without any they are all.
+
+    A verdict that changes where a cut-off moves by a third says so. Where a control comes out
+    wrong, its function cannot decide the claim. `differs` says where the
+    configuration is not the paper's: a claim or a control that rests on such a key is not
+    applicable.
+    """
+    return [_row(claim, sources, differs or {}) for claim in all_claims(*modules)]
+
+
+def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
+    why = apart(differs, claim)
+    if why:
+        finding, cutoffs, moved = not_applicable(why), set(), []
+    else:
+        with recorded() as cutoffs:
+            finding = decide(claim, sources)
+        moved = flips(finding.verdict, cutoffs, lambda: str(decide(claim, sources).verdict))
+    controls = [
+        (control, not_applicable(why) if why else feed(claim, control, sources))
+        for control in claim.controls
+        for why in (apart(differs, claim, control),)
+    ]
+    finding = _severe(finding, moved, controls)
+    return {
+        "name": claim.name,
+        "names": [claim.name],
+        "place": claim.place,
+        "origin": str(claim.origin),
+        "says": claim.says,
+        "reading": claim.reading,
+        "decided_by": list(claim.needs),
+        "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
+        "measured": _plain(finding),
+        "criterion": str(finding.criterion or ""),
+        "verdict": str(finding.verdict),
+        "because": finding.because,
+        "cutoffs": [_cutoff_row(cutoff) for cutoff in sorted(cutoffs)],
+        "rests_on": [
+            _cutoff_row(flip.cutoff) | {"moved_to": plain(flip.value), "verdict": flip.verdict}
+            for flip in moved
+        ],
+        "controls": [
+            {
+                "fed": control.says,
+                "must": control.must,
+                "verdict": str(fed.verdict),
+                "because": fed.because,
+                "measured": _plain(fed),
+                "passes": passes(control, fed),
+            }
+            for control, fed in controls
+        ],
+    }
+
+
+def _severe(
+    finding: Finding, moved: list[Flip], controls: list[tuple[Control, Finding]]
+) -> Finding:
+    """Return the finding with what the moved cut-offs and the controls say against it."""
+    failed = next(((c, fed) for c, fed in controls if passes(c, fed) is False), None)
+    if failed is not None and finding.verdict != Verdict.UNDECIDED:
+        control, fed = failed
+        wrong = f"{control.says}: must {control.must}, found: {fed.verdict}"
+        return undecided(finding.measured, f"its function fails a control: {wrong}")
+    if not moved:
+        return finding
+    rests = f"depends on the cut-off: {'; '.join(map(str, moved))}"
+    because = f"{finding.because}; {rests}" if finding.because else rests
+    kept = Verdict.CAVEAT if finding.verdict == Verdict.CONFIRMED else finding.verdict
+    return finding._replace(because=because, verdict=kept)
+
+
+def _cutoff_row(cutoff: Cutoff) -> dict:
+    return {"value": plain(cutoff.number), "from": cutoff.origin}
+
+
+def _plain(finding: Finding) -> dict:
+    return {name: plain(value) for name, value in finding.measured.items()}
+
+
+def plain(value: float) -> float | str:
+    """Return a number as JSON can hold it: six digits, the infinite as a word."""
+    return float(f"{value:.6g}") if math.isfinite(value) else "infinite" if value > 0 else "none"
+
+
+def controls_of(rows: list[dict]) -> list[dict]:
+    """Return what every claim's function said of its controls, from the rows of the ledger."""
+    return [{"claim": row["name"], **control} for row in rows for control in row["controls"]]
+
+
+def cutoff_lines(rows: list[dict]) -> list[tuple]:
+    """Return (value, origin, claims that read it, claims that rest on it) of every cut-off."""
+    decides: dict[tuple, dict] = {}
+    rest: dict[tuple, dict] = {}
+    for key, users in (("cutoffs", decides), ("rests_on", rest)):
+        for row in rows:
+            for cutoff in row[key]:
+                users.setdefault((cutoff["value"], cutoff["from"]), {})[row["name"]] = None
+    return [(*one, ", ".join(decides[one]), ", ".join(rest.get(one, ()))) for one in decides]
