@@ -10,7 +10,6 @@ from pendula.models import bounds
 from pendula.numerics.draws import complex_normal, uniform
 from pendula.numerics.elementary import modulus, square_modulus
 from pendula.problem import Constants
-from pendula.simulation.simulate import Trajectory
 
 from .bounds import NUMBERS
 from .equations import (
@@ -134,25 +133,6 @@ def check_bootstrap(
     )
 
 
-def run_small_data(omega: float, half_width: int, end_time: float, solver: Mapping) -> Trajectory:
-    """Run the paper's small data, (A_0, B_0) = (1, 0.1), as the paper's figures have them."""
-    constants = Constants(epsilon=1.0, gamma=1.0, omega=omega)
-    data = one_pair(2 * half_width + 1, (1.0, 0.1))
-    return run(constants, "dirichlet", data, end_time, round(40 * end_time), solver)
-
-
-def check_energy_drift(solver: Mapping, end_time: float, omegas) -> dict:
-    """Run the small cases by the paper's solver: is H kept to the order of 1e-6?"""
-    energies = [run_small_data(omega, 30, end_time, solver).energy for omega in omegas]
-    drift = [np.abs(energy - energy[0]).max() for energy in energies]
-    return table(
-        f"Drift of the energy by tau = {end_time:g}, (A0, B0) = (1, 0.1), {solver['name']}",
-        {"point": np.arange(len(omegas))},
-        omega=variable(omegas, ("point",), "detuning Omega"),
-        energy_drift=variable(drift, ("point",), "largest |H - H(0)|"),
-    )
-
-
 def check_opposite(constants: Constants, sites: int, end_time: float, seed: int) -> dict:
     """Show that A = -B is invariant too: the drive acts there as -2 gamma conj(A).
 
@@ -169,9 +149,11 @@ def check_opposite(constants: Constants, sites: int, end_time: float, seed: int)
 
 def check_not_shown(half_widths, window, omega: float, solver: Mapping) -> dict:
     """Run the sweep at Omega = 8, small data, that the paper mentions and does not show."""
-    peaks = []
+    constants, peaks = Constants(epsilon=1.0, gamma=1.0, omega=omega), []
     for half_width in half_widths:
-        trajectory = run_small_data(omega, half_width, window[1], solver)
+        data = one_pair(2 * half_width + 1, (1.0, 0.1))
+        outputs = round(40 * window[1])
+        trajectory = run(constants, "dirichlet", data, window[1], outputs, solver)
         inside = trajectory.tau >= window[0]
         peaks.append(np.sqrt(squared_norm(trajectory.l2)[inside].max()))
     return table(

@@ -107,7 +107,6 @@ CHECKS = {
         "theorem_2_case": check("constants pair sites"),
         "negative_depth": check("constants count seed"),
         "bootstrap": check("constants part longest"),
-        "energy_drift": check("solver end_time omegas"),
     },
     # alone, since `snakemake paper` needs no other check of the theory
     "not_shown": {"not_shown": check("half_widths window omega solver")},
