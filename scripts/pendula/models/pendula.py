@@ -28,7 +28,7 @@ from pendula.numerics.elementary import SPLITTER, complex_of, modulus, product
 
 from .chain import at_every_site, close
 from .generated import load_rule, load_series
-from .sines import sine_and_cosine
+from .toolbox import sine_and_cosine
 
 TURN = 6.283185307179586
 PI = "3.14159265358979323846264338327950288419716939937511"
