@@ -156,7 +156,7 @@ for name, (text, files) in NAMED.items():
 # Of a target, whose files may be hundreds, Snakemake says in one line that they are there.
 for target in workflow.rules:
     if not target.output and not target.message:
-        target.message = f"There: {target.docstring}"
+        target.message = f"Ready: {target.docstring}"
 
 
 # Said when Snakemake has ended, below its own last lines

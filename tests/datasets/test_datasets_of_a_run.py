@@ -13,7 +13,7 @@ def test_every_dataset_explains_itself_and_a_name_has_one_meaning(full_run):
         with netCDF4.Dataset(path) as data:
             about = {key: data.getncattr(key) for key in data.ncattrs()}
             assert all(about[key] for key in ("title", "Conventions", "version", "history")), path
-            assert " " in about["title"], f"{path} has no title in words"
+            assert " " in about["title"], f"the title of {path} is a single word"
             for name, variable in data.variables.items():
                 assert variable.units in UNITS, (path, name)
                 assert variable.long_name.startswith(NAMES.get(name, "")), (path, name)

@@ -16,7 +16,8 @@ EVALUATIONS = {
     "dop853": lambda tried, interpolated: 2 + 12 * tried + 3 * interpolated,
     "taylor": lambda tried, interpolated: ORDER * tried,
 }
-"""Right-hand sides of so many steps tried, some of which are interpolated."""
+"""How often each method evaluates the right-hand side, by the numbers of steps tried and of those
+in which outputs are interpolated."""
 
 
 def published_run(name, z, times, numbers, boundary, rtol):

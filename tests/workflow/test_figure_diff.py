@@ -21,9 +21,9 @@ def flip(path) -> None:
 
 
 def test_comparing_failing_and_accepting_by_name(accepted):
-    """It looks at every file, and no job is asked of Snakemake for what was flipped.
+    """It compares every file, and Snakemake reruns no job for a file with a flipped bit.
 
-    The report is made anew from other times of jobs, which are not compared.
+    The report is written again with other wall times of jobs, which are not compared.
     """
     finished, clone = accepted
     results = finished / "results"

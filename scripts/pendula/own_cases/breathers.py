@@ -6,10 +6,9 @@ exp(-i lambda tau) with the power of the user's data is looked for:
     F(phi) + i lambda phi = nu phi,    |phi|^2 = P,
 
 F the rates of the model. The unknown nu must come out as zero: elsewhere the state would grow or
-decay. Other models are
-asked for a steady state F(phi) = 0. The coupling of the sites is turned on in steps from zero,
-where the state lies on the one site at which the data are largest, and each step is solved by
-Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
+decay. In other models a steady state F(phi) = 0 is looked for. The coupling of the sites is turned
+on in steps from zero, where the state lies on the one site at which the data are largest, and each
+step is solved by Newton's method (R. S. MacKay and S. Aubry, Nonlinearity 7 (1994) 1623).
 
 In the frame that turns with the state, a perturbation grows as exp(mu tau) with the eigenvalues mu
 of the derivative of F + i lambda; exp(2 pi mu / abs(lambda)) is its Floquet multiplier.

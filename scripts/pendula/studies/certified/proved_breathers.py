@@ -42,7 +42,7 @@ def breathers_contents(
     of, of_wrong = ("proof",), ("wrong_proof",)
 
     def numbers(names: Mapping[str, str]) -> dict[str, Variable]:
-        """Return what is proved of all states, by name and in words."""
+        """Return a variable for each number that is proved; `names` has their long names."""
         return {
             name: Variable(of, [one[name] for one in found], words) for name, words in names.items()
         }

@@ -128,7 +128,7 @@ def _run(results: Results, name: str) -> list:
 
 
 def trusted(results: Results, case: str) -> tuple[str, str]:
-    """Return in words when a run leaves its reference, and the dataset that has this time.
+    """Return the sentence on when a run leaves its reference, and the dataset with that time.
 
     A run by other controls than its solver's in checks/trust was not judged there, and is here.
     """
