@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, model_validator
 
 from pendula.ends import ENDS
-from pendula.feasibility import Obstacle, find_fault, rate
+from pendula.feasibility import MOST_STEPS, Obstacle, find_fault, rate
 from pendula.problem import AMPLITUDES, PENDULA, Constants
 
 from . import cost
@@ -185,11 +185,14 @@ class Case(Model):
             given = {"name": "taylor", "rtol": tolerance, "atol": tolerance}
         amplitudes = [z for pair in self.initial.values() for z in pair]
         peak = max(max(abs(z.real), abs(z.imag)) for z in amplitudes)
-        found, angle = self._fault_and_rate(peak, span, given)
-        angle *= span
+        found, speed = self._fault_and_rate(peak, span, given)
+        angle = speed * span
         took = cost.estimate(self.problem(solver=given, end_time=span, snapshot_step=None))
         if found is not None and cost.HOUR < took.seconds < inf:
             found = found[0], f"{found[1]}, and would take {took}"
+        if found is not None and MOST_STEPS < angle < inf:
+            longest = 0.99 * MOST_STEPS / speed  # which three digits never round up beyond it
+            found = found[0], f"{found[1]}; end_time may be at most {longest:.3g} here"
         if found is None and 0.0 < angle < SMALLEST_ANGLE:
             text = f"is so short that the data turn by {angle:.0e} radians: nothing would be seen"
             found = "end_time", f"{span:g} {text}"
