@@ -104,6 +104,11 @@ def test_the_page_says_what_the_checks_say(own_run):
     assert not re.findall(r"\bnan\b", text)
 
 
+def test_the_caption_of_a_sweep_with_one_window_names_that_window(own_run):
+    page = (own_run / REPORT).read_text()
+    assert "hollow marks: average [1, 4]" in page and "second window" not in page
+
+
 def test_nothing_is_to_be_done_afterwards(made):
     assert planned_with(SETTINGS, ROOT, made, "own") == {}
 

@@ -267,7 +267,7 @@ def _sweep(name: str, case: str, folder: Path) -> dict[str, Any]:
                zip(panel["statistic"].values, panel["window"].values, strict=True)]  # fmt: skip
     caption = (
         f"Norms of {pair} against the half-width M, ℓ∞ left and ℓ² right. "
-        f"Full marks: {read_as[0]}; hollow ones: the second window."
+        f"Full marks: {read_as[0]}; hollow marks: {read_as[1]}."
     )
     rows = []
     for width in panel["half_width"].values:
