@@ -58,7 +58,7 @@ def repeat(
     return Times(float(np.median(times)), min(times), max(times))
 
 
-def in_turns(one: Run, other: Run, turns: int, block: float = 0.0) -> np.ndarray:
+def in_turns(one: Run, other: Run, turns: int, block: float) -> np.ndarray:
     """Return `turns` ratios of the time of `one` to that of `other`, measured alternately.
 
     What slows the machine down slows both of a pair, so that ratios scatter less than times. Short

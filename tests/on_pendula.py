@@ -38,18 +38,23 @@ def final(problem: Problem, solver="taylor", **changes):
     return simulate(problem.changed(**changes)).final
 
 
+def coupling(problem: Problem, angles):
+    """Return C (x_{n+1} - 2 x_n + x_{n-1}) of angles (2, N)."""
+    pad = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[problem.boundary]
+    wide = np.pad(angles, ((0, 0), (1, 1)), mode=pad)
+    square = problem.mu * problem.mu
+    return problem.constants.epsilon * square * (wide[:, 2:] - 2 * angles + wide[:, :-2])
+
+
 def slope(problem: Problem):
     """Return f(t, state) of y' = f for a state (2, 2, N) of angles and velocities, laid flat."""
     numbers, square = problem.constants, problem.mu * problem.mu
     omega = np.sqrt(1 + square * numbers.omega)
-    pad = {"dirichlet": "constant", "free": "edge", "periodic": "wrap"}[problem.boundary]
 
     def f(t, flat):
         x, v = flat.reshape(2, 2, -1)
-        wide = np.pad(x, ((0, 0), (1, 1)), mode=pad)
-        bonds = numbers.epsilon * square * (wide[:, 2:] - 2 * x + wide[:, :-2])
         drive = 2 * numbers.gamma * square * np.cos(2 * omega * t)
-        return np.array([v, bonds + drive * (x[::-1] - x) - np.sin(x)]).ravel()
+        return np.array([v, coupling(problem, x) + drive * (x[::-1] - x) - np.sin(x)]).ravel()
 
     return f
 
@@ -59,3 +64,9 @@ def start(problem: Problem):
     omega = np.sqrt(1 + problem.mu**2 * problem.constants.omega)
     z = 2 * problem.mu * problem.amplitudes
     return np.array([z.real, -omega * z.imag])
+
+
+def undriven_energy(problem: Problem, angles, velocities) -> float:
+    """Return the energy that (1) conserves where x = y or gamma = 0; both states are (2, N)."""
+    own = 0.5 * velocities**2 + 2.0 * np.sin(0.5 * angles) ** 2
+    return float((own - 0.5 * angles * coupling(problem, angles)).sum())

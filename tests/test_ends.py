@@ -7,7 +7,6 @@ from pendula.datasets.trajectories import describe_run
 from pendula.ends import ENDS, neighbours
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
-from pendula.models.pendula import undriven_energy
 from pendula.own_cases.figures import name_data_and_ends
 from pendula.own_cases.section import parameters
 from pendula.problem import PENDULA
@@ -52,9 +51,6 @@ TAUGHT = {
     "pendula": pendula,
     "rates": lambda boundary: right_hand_side(problem("free").constants, boundary, Z),
     "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
-    "energy of pendula": lambda boundary: undriven_energy(
-        problem("free").constants, 0.1, boundary, Z.real, Z.imag
-    ),
     "proven energy": lambda boundary: float(
         constants.energy(constants.Parameters.of(problem("free").constants), boundary, Z)
     ),

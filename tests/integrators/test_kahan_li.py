@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from on_pendula import final, pendula
+from on_pendula import final, pendula, undriven_energy
 from pendula.integrators.kahan_li import DRIFTS, KICKS, NODES
-from pendula.models.pendula import undriven_energy
 from pendula.simulation.simulate import simulate
 
 
@@ -30,8 +29,7 @@ def test_its_energy_errs_but_does_not_drift():
     alike = {0: (1.0, 1.0), 1: (1j, 1j)}
     problem = pendula(mu=0.3, initial=alike, end_time=200.0, output_step=0.5, snapshot_every=1)
     states = np.moveaxis(by_steps_of(0.5, problem).snapshots, -1, 0)
-    given = problem.constants, problem.mu, problem.boundary
-    energies = np.array([undriven_energy(*given, *state) for state in states])
+    energies = np.array([undriven_energy(problem, *state) for state in states])
     spread = np.abs(energies / energies[0] - 1).max()
     halves = energies[:200].mean(), energies[200:].mean()
     assert 1e-9 < spread < 1e-7 and abs(halves[1] / halves[0] - 1) < 0.1 * spread

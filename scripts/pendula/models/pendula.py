@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pendula.compiled import inlined_by_llvm, kernel
-from pendula.ends import DIRICHLET, PERIODIC, kind_of, neighbours
+from pendula.ends import DIRICHLET
 from pendula.graph import node
 from pendula.integrators.taylor import ORDER, spare_start
 from pendula.model import Model, Value, lap, sin
@@ -188,20 +188,3 @@ def continue_series(pendula, series):
         share = pendula.frequency / (k + 1)
         cosine, sine = -share * sine, share * cosine
     continue_in_waves(pendula, series)
-
-
-# --- The energy of pendula that are not driven ---------------------------------------------------
-
-
-def undriven_energy(constants, mu: float, boundary: str, angles, velocities) -> float:
-    """Return the energy that (1) conserves where x = y or gamma = 0.
-
-    That is the sum of x'^2 / 2 + 1 - cos x over all pendula, and of C (x_i - x_j)^2 / 2 over all
-    bonds, those to the ends at rest among them. `angles` and `velocities` are (2, N).
-    """
-    own = 0.5 * velocities * velocities + 2.0 * elementary.sin(0.5 * angles) ** 2
-    right, left = neighbours(angles, boundary)
-    around = np.concatenate([left[:, :1], angles, right[:, -1:]], axis=1)
-    joined = kind_of(boundary) == PERIODIC  # one bond joins the two ends
-    bonds = np.diff(around[:, :-1] if joined else around)
-    return float(own.sum() + 0.5 * constants.epsilon * mu * mu * (bonds * bonds).sum())

@@ -40,7 +40,7 @@ def test_uneven_data_are_not_even_and_their_neighbours_move_a_little():
 
 def test_without_perturbation_every_member_is_the_run_itself():
     run = simulate(PROBLEM)
-    found = run_members(PROBLEM, 0.0, 2)
+    found = run_members(PROBLEM, 0.0, 2, 0, "even")
     np.testing.assert_array_equal(found, [[pair_l2(run)] * 2, [pair_linf(run)] * 2])
 
 
@@ -53,7 +53,7 @@ def test_members_differ_by_seed_and_kind_and_are_the_same_again():
 
 def test_half_widths_have_draws_of_their_own():
     long = PROBLEM.changed(end_time=1.0)  # before the ends matter
-    swept = sweep_members(long, [12, 13], [(0.5, 1.0)], 1e-3, 3)
+    swept = sweep_members(long, [12, 13], [(0.5, 1.0)], 1e-3, 3, 0, "even")
     assert swept.shape == (2, 3, 2, 3, 2, 1)
     assert not np.allclose(swept[:, :, 0], swept[:, :, 1], rtol=1e-9)
 

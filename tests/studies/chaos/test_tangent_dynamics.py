@@ -173,7 +173,8 @@ def test_evenness_is_lost_by_rounding_where_the_chain_is_chaotic_only():
 
 def test_members_are_perturbed_by_the_required_size_and_seeded():
     case = problem("fig3_small", end_time=1.0)
-    (_, one), (_, same), (_, other) = (break_symmetry(case, 1e-6, 2, seed) for seed in (1, 1, 2))
+    drawn = (break_symmetry(case, 1e-6, 2, seed, 0.25) for seed in (1, 1, 2))
+    (_, one), (_, same), (_, other) = drawn
     np.testing.assert_allclose(one[:, 0], 1e-6, rtol=1e-6)
     np.testing.assert_array_equal(one, same)
     assert not np.array_equal(one, other) and not np.array_equal(*one)

@@ -29,9 +29,7 @@ MOMENTS = {
 }
 
 
-def run_members(
-    problem: Problem, size: float, members: int, seed: int = 0, kind: str = "even"
-) -> np.ndarray:
+def run_members(problem: Problem, size: float, members: int, seed: int, kind: str) -> np.ndarray:
     """Return the norms l2 and l-infinity of each member, (norm, member, quantity, time)."""
     drawn = draw_members(problem, size, members, seed, kind)
     runs = [simulate(member, energy=False) for member in drawn]
@@ -39,7 +37,7 @@ def run_members(
 
 
 def sweep_members(
-    problem: Problem, half_widths, windows, size: float, members: int, seed: int = 0, kind="even"
+    problem: Problem, half_widths, windows, size: float, members: int, seed: int, kind: str
 ) -> np.ndarray:
     """Return the swept l2 and l-infinity of each member, (norm, member, *shape of a Sweep).
 
@@ -88,7 +86,7 @@ def measure_ensembles(
 
 def sweep_moments(
     problems: dict[str, Problem], swept: Mapping[str, Mapping], windows,
-    size: float, seed: int, kind: str = "even",
+    size: float, seed: int, kind: str,
 ) -> dict[str, Variable]:  # fmt: skip
     """Return mean, deviation and standard error of every swept norm of each sweep by name.
 

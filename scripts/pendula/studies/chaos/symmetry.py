@@ -16,7 +16,7 @@ BROKEN = 0.01
 
 
 def break_symmetry(
-    problem: Problem, size: float, members: int, seed: int = 0, step: float = 0.25
+    problem: Problem, size: float, members: int, seed: int, step: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return relative sizes of the odd part from even data (time,), and perturbed (member, time).
 

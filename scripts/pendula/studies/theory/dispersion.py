@@ -51,10 +51,10 @@ def asymmetry(matrix: np.ndarray) -> float:
     return max(np.abs(matrix - exchanged).max(), np.abs(square - square.swapaxes(1, 2)).max())
 
 
-def factorisation_error(gamma_times: float, samples: int = 200, seed: int = 4) -> float:
+def factorisation_error(gamma_times: float) -> float:
     """Return the largest error of the factorised form (15) of the determinant printed above it."""
     worst = 0.0
-    for kappa, g, omega in uniform(np.random.default_rng(seed), -3.0, 3.0, (samples, 3)):
+    for kappa, g, omega in uniform(np.random.default_rng(4), -3.0, 3.0, (200, 3)):
         matrix = [
             [kappa - omega, g, 0.0, -g],
             [g, kappa + omega, -g, 0.0],

@@ -210,12 +210,13 @@ def check_growth(
     return tabulate(title, {"sample": np.arange(samples)}, rows, about, sharpest=sharpest)
 
 
-def sharpest_growth(gamma: float = 1.0, end_time: float = 4.0) -> float:
+def sharpest_growth() -> float:
     """Return P(tau) over its bound (19) in the sharp case; one but for the tiny cubic term.
 
     That is one site with Omega = 2 epsilon, where kappa is zero and A = -B = x e^{i pi / 4} grows
     by e^{2 gamma tau} for as long as it is small.
     """
+    gamma, end_time = 1.0, 4.0
     a = 1e-8 * elementary.turn(0.25 * np.pi)
     data = np.array([[a], [-a]])
     constants = Constants(epsilon=1.0, gamma=gamma, omega=2.0)

@@ -239,7 +239,7 @@ def check_worst(
     )
 
 
-def attained_theorem_3(epsilon: float, gamma: float, gamma_times: float = 1.0) -> float:
+def attained_theorem_3(epsilon: float, gamma: float, gamma_times: float) -> float:
     """Return P / C_N for the state at which Theorem 3's bound is attained: it must be one.
 
     On a ring of two sites A = -B = (x, -x) with x^2 = 2 c, which is the larger root of
