@@ -35,7 +35,7 @@ NOISE = ("Traceback", "common.smk", 'File "', "WorkflowError", "Exception")
 """What of Snakemake's words tells a person nothing, and must not reach the screen with a fault."""
 
 MY_BASELINE = "my_baseline"
-"""The folder in the accepted quick run that is its baseline."""
+"""The folder in the shared quick run that is its baseline."""
 
 PARTS = (
     *("Snakefile", "workflow", "scripts", "benchmarks", "config", "profiles", "environment.txt"),

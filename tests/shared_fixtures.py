@@ -2,14 +2,13 @@
 
 import fcntl
 import os
-import shutil
 from contextlib import chdir
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-from helpers import MY_BASELINE, ROOT, copy_of_sources, snakemake
+from helpers import MY_BASELINE, ROOT, snakemake
 from hypothesis import settings
 from oracle import CASES, slope
 from scipy.integrate import solve_ivp
@@ -74,36 +73,11 @@ def made_once(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def full_run(made_once) -> Path:
-    """Return a folder with the results of a full run of config/quick.yaml."""
+    """Return a folder with a full run of config/quick.yaml, its archive and its own baseline."""
 
     def make(directory):
-        result = snakemake(ROOT, directory)
+        targets = ("all", "archive", "accept_figures")
+        result = snakemake(ROOT, directory, *targets, "--config", f"baseline={MY_BASELINE}")
         assert result.returncode == 0, result.stdout + result.stderr
 
     return made_once("full_run", make)
-
-
-@pytest.fixture(scope="session")
-def accepted_once(full_run, made_once) -> Path:
-    """Return a folder with a clone and a finished run with a baseline in it, not to be changed."""
-
-    def make(folder):
-        clone = copy_of_sources(folder / "clone")
-        finished = shutil.copytree(full_run, folder / "finished")
-        command = ("accept_figures", "--config", f"baseline={MY_BASELINE}")
-        result = snakemake(clone, finished, *command)
-        assert result.returncode == 0, result.stdout + result.stderr
-
-    return made_once("accepted", make)
-
-
-@pytest.fixture(scope="session")
-def packed(full_run, made_once) -> Path:
-    """Return a copy of the finished run with its archive."""
-
-    def make(folder):
-        shutil.copytree(full_run, folder, dirs_exist_ok=True)
-        result = snakemake(ROOT, folder, "archive")
-        assert result.returncode == 0, result.stderr
-
-    return made_once("packed", make)

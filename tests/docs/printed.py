@@ -103,8 +103,8 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
 
     It holds what git tracks, the finished quick run as its results, and the quick configuration as
     its own, so that no command has to ask for it. The accepted results, which are those of a full
-    run, are left out: the quick run is to be accepted in their place. The packages are those of the
-    tests.
+    run, and the archive are left out: the quick run is to be accepted, and the clone packed. The
+    packages are those of the tests.
     """
     for name in filter(is_wanted, code_files(project)):
         (clone / name).parent.mkdir(parents=True, exist_ok=True)
@@ -113,7 +113,8 @@ def prepare(project: Path, finished: Path, clone: Path) -> None:
     for words in (["init", "--quiet"], ["add", "--all"]):
         subprocess.run([*git, *words], check=True)
     for folder in ("results", ".snakemake"):
-        shutil.copytree(finished / folder, clone / folder)
+        left = shutil.ignore_patterns("archive")
+        shutil.copytree(finished / folder, clone / folder, ignore=left)
     _take_quick_configuration(clone / "config")
 
 

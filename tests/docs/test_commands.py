@@ -68,16 +68,15 @@ named alone, those of blocks too."""
 PLAYED = {block: dry(block) if first(block) in DRY else block for block in RUN}
 
 
-def accept_and_pack(clone: Path, accepted: Path, packed: Path) -> None:
+def accept_and_pack(clone: Path, full_run: Path) -> None:
     """Put into the clone what the blocks make that are dry runs and what others begin with."""
-    baseline = clone / "tests/baseline"
-    shutil.copytree(accepted / "finished" / MY_BASELINE, baseline, dirs_exist_ok=True)
-    shutil.copytree(packed / "results/archive", clone / "results/archive")
+    shutil.copytree(full_run / MY_BASELINE, clone / "tests/baseline", dirs_exist_ok=True)
+    shutil.copytree(full_run / "results/archive", clone / "results/archive")
 
 
 @pytest.fixture(scope="module")
-def played(request, made_once, full_run) -> dict[str, Done]:
-    """Return what became of each block, by its name."""
+def playground(made_once, full_run) -> Path:
+    """Return a folder with the clone in which all pages were played, and played.json."""
 
     def make(folder):
         clone = folder / "project"
@@ -86,7 +85,7 @@ def played(request, made_once, full_run) -> dict[str, Done]:
             accepted = snakemake(clone, clone, "accept_figures")
             assert accepted.returncode == 0, accepted.stderr
         else:
-            accept_and_pack(clone, *map(request.getfixturevalue, ("accepted_once", "packed")))
+            accept_and_pack(clone, full_run)
         tried = [block for block in ALL if block in RUN or block.kind in FILES]
         reader = Reader(clone)
         run = {
@@ -97,8 +96,22 @@ def played(request, made_once, full_run) -> dict[str, Done]:
         run |= {block.name: run[ASKED[0].name] for block in JOINED}
         (folder / "played.json").write_text(json.dumps(run))
 
-    found = json.loads((made_once("printed", make) / "played.json").read_text())
+    return made_once("printed", make)
+
+
+@pytest.fixture(scope="module")
+def played(playground) -> dict[str, Done]:
+    """Return what became of each block, by its name."""
+    found = json.loads((playground / "played.json").read_text())
     return {name: Done(*done) for name, done in found.items()}
+
+
+def test_lost_figures_are_drawn_from_the_deposited_datasets_alone(playground, full_run):
+    """A block of docs/archive.md deletes those of Fig 5 and draws them in an unpacked archive."""
+    drawn = list(playground.glob("project/results/archive/*/results/figures/fig5.*"))
+    assert len(drawn) == 4
+    for path in drawn:
+        assert path.read_bytes() == (full_run / "results/figures" / path.name).read_bytes(), path
 
 
 @pytest.mark.parametrize("block", RUN, ids=lambda block: block.name)

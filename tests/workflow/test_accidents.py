@@ -29,6 +29,12 @@ def test_who_only_looks_leaves_the_folder_as_it_is(looked):
     assert {path.name for path in (looked / "folder").iterdir()} <= {".snakemake"}
 
 
+def test_who_asks_for_the_graph_gets_nothing_else(tmp_path):
+    result = snakemake(ROOT, tmp_path, "--dag")
+    assert result.returncode == 0 and result.stdout.startswith("digraph"), result.stderr
+    assert {path.name for path in tmp_path.iterdir()} <= {".snakemake"}
+
+
 @pytest.fixture(params=["", ".snakemake"], ids=["the folder", "its notes"])
 def read_only(request, tmp_path):
     """Return a folder that nobody can write to; for root it must lie on a read-only disk."""

@@ -1,4 +1,7 @@
-"""The archive by the real snakemake: packed, unpacked elsewhere, and drawn anew there."""
+"""The archive of the quick run, unpacked elsewhere: what is in it, and what is to be done there.
+
+Lost figures are drawn anew there by tests/docs/test_commands.py, as docs/archive.md prints it.
+"""
 
 import getpass
 import json
@@ -25,14 +28,14 @@ DRAWING = {
 
 
 @pytest.fixture
-def unpacked(packed, tmp_path) -> Path:
+def unpacked(full_run, tmp_path) -> Path:
     """Return the folder that the archive holds, unpacked by tar."""
-    subprocess.run(["tar", "-xzf", packed / ARCHIVE, "-C", tmp_path], check=True)
+    subprocess.run(["tar", "-xzf", full_run / ARCHIVE, "-C", tmp_path], check=True)
     return tmp_path / NAME
 
 
-def test_the_checksums_hold(packed, unpacked):
-    for folder, name in ((packed / "results/archive", f"{NAME}.tar.gz.sha256"),
+def test_the_checksums_hold(full_run, unpacked):
+    for folder, name in ((full_run / "results/archive", f"{NAME}.tar.gz.sha256"),
                          (unpacked, "manifest-sha256.txt")):  # fmt: skip
         check = ["sha256sum", "--check", "--strict", "--quiet", name]
         assert subprocess.run(check, cwd=folder).returncode == 0
@@ -46,23 +49,11 @@ def test_nothing_is_to_be_done_where_it_is_unpacked(unpacked):
     assert planned(unpacked, unpacked) == {}
 
 
-def test_figures_are_drawn_from_the_deposited_datasets_alone(packed, unpacked):
-    figures = unpacked / "results/figures"
-    lost = [path for name in ("fig5", "lifetimes") for path in figures.glob(f"{name}.*")]
-    assert len(lost) == 8
-    for path in lost:
-        path.unlink()
-    result = snakemake(unpacked, unpacked, "figures")
-    assert result.returncode == 0, result.stderr
-    for path in lost:
-        assert path.read_bytes() == (packed / "results/figures" / path.name).read_bytes(), path.name
-
-
-def test_the_archive_is_packed_anew_when_any_file_changes(packed, unpacked):
+def test_the_archive_is_packed_anew_when_any_file_changes(full_run, unpacked):
     assert not (unpacked / ".git").exists()
-    assert planned(unpacked, packed, "archive") == {}
+    assert planned(unpacked, full_run, "archive") == {}
     edit(unpacked / "LICENSE", "BSD 3-Clause License", "BSD 3-Clause Licence")
-    assert planned(unpacked, packed, "archive") == {"archive": 1}
+    assert planned(unpacked, full_run, "archive") == {"archive": 1}
 
 
 def test_without_any_figure_jobs_that_draw_are_all_that_is_planned(unpacked):
@@ -71,27 +62,27 @@ def test_without_any_figure_jobs_that_draw_are_all_that_is_planned(unpacked):
     assert {"fig1", "norms_by_half_width", "bounds"} <= plan.keys() <= DRAWING
 
 
-def test_the_crate_describes_every_result(packed):
-    with tarfile.open(packed / ARCHIVE) as tar:
+def test_the_crate_describes_every_result(full_run):
+    with tarfile.open(full_run / ARCHIVE) as tar:
         graph = json.load(tar.extractfile(f"{NAME}/ro-crate-metadata.json"))["@graph"]
         files = [entry.name.removeprefix(f"{NAME}/") for entry in tar if entry.isfile()]
     results = {name for name in files if name.startswith("results/")}
     assert len(results) > 100 and results <= {entity["@id"] for entity in graph}
 
 
-def test_nothing_in_it_tells_of_the_machine(packed):
+def test_nothing_in_it_tells_of_the_machine(full_run):
     user = getpass.getuser()
-    telling = [str(packed), str(ROOT), str(Path.home() / "."), socket.gethostname(), f"{user}@"]
+    telling = [str(full_run), str(ROOT), str(Path.home() / "."), socket.gethostname(), f"{user}@"]
     secrets = [word.encode() for word in telling if len(word) > 4]
-    with tarfile.open(packed / ARCHIVE) as tar:
+    with tarfile.open(full_run / ARCHIVE) as tar:
         for entry in tar:
             content = tar.extractfile(entry).read()
             assert not [word for word in secrets if word in content], entry.name
             assert os.path.splitext(entry.name)[1] != ".log"
 
 
-def test_a_project_that_is_neither_cloned_nor_unpacked_is_refused_in_words(finished, clone):
-    result = snakemake(clone, finished, "archive")
+def test_a_project_that_is_neither_cloned_nor_unpacked_is_refused_in_words(full_run, clone):
+    result = snakemake(clone, full_run, "--dry-run", "archive")
     assert result.returncode != 0
-    assert "manifest-sha256.txt is missing" in result.stderr
-    assert "pack it from a clone or from an unpacked archive" in result.stderr
+    assert "manifest-sha256.txt is missing" in result.stdout
+    assert "pack it from a clone or from an unpacked archive" in result.stdout

@@ -5,7 +5,8 @@ The sentences are those of tests/configuration/bad_input.yaml. Here stands what 
 
 import subprocess
 
-from helpers import NOISE, ROOT, snakemake, snakemake_with
+import pytest
+from helpers import NOISE, ROOT, run_ready, snakemake, snakemake_with
 
 
 def refused(result: subprocess.CompletedProcess) -> str:
@@ -35,6 +36,13 @@ def test_own_without_a_case_is_told(tmp_path):
     settings = {"limits": {"hours": 2}}
     said = refused(snakemake_with(settings, ROOT, tmp_path, "own"))
     assert "the configuration has no case and no sweep of your own: give some by --config" in said
+
+
+@pytest.mark.parametrize("wrong", [("fgi5",), ("fig5", "--configfile", "nowhere.yaml")])
+def test_what_is_misspelt_is_named(tmp_path, wrong):
+    command = ["", "-m", "snakemake", "-n", "-s", str(ROOT / "Snakefile"), *wrong]
+    result = run_ready(command, tmp_path)
+    assert result.returncode == 1 and wrong[-1] in result.stdout + result.stderr
 
 
 def test_a_baseline_is_named_by_config_alone_and_is_a_folder(tmp_path):
