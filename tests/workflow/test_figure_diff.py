@@ -58,13 +58,13 @@ def test_comparing_failing_and_accepting_by_name(finished, clone):
     assert (finished / MY_BASELINE / "tables/solvers.md").read_text().endswith("changed")
 
 
-def test_everything_that_a_full_run_makes_is_in_the_baseline(finished):
-    """What is left out is named here: logs, and what this machine alone makes."""
-    accepted = load_json(finished / MY_BASELINE / "hashes.json")["files"]
-    results = finished / "results"
+def test_everything_that_a_full_run_makes_is_in_the_baseline(full_run):
+    """What is left out is named here: logs, what this machine alone makes, and the archive."""
+    accepted = load_json(full_run / MY_BASELINE / "hashes.json")["files"]
+    results = full_run / "results"
     made = {path.relative_to(results).as_posix() for path in results.rglob("*") if path.is_file()}
     left = {name for name in made - accepted.keys() if not name.startswith("logs/")}
-    assert {name.split("/")[0] for name in left} == {"kernels"}
+    assert {name.split("/")[0] for name in left} == {"archive", "kernels"}
     assert accepted.keys() <= made
 
 
