@@ -1,9 +1,9 @@
 """A claim is on the paper's case: where another one was run, neither it nor its controls decide."""
 
-from functools import partial
+from functools import cache, partial
 
 import pytest
-from accepted import datasets
+from accepted import dataset, datasets
 from pendula.configuration.paper import paper
 from pendula.ledger.claim import Claim, Control
 from pendula.ledger.criterion import Above, Verdict, judge
@@ -50,16 +50,18 @@ def test_a_claim_on_some_cases_of_a_check_rests_on_these_alone(monkeypatch, on, 
     assert row_of(monkeypatch, FIG2, ("checks/members",), on=on)["verdict"] == verdict
 
 
-def edited(dataset, along, name):
-    """Yield a dataset of many cases with other numbers in one of them, and without this case."""
-    here = dataset[along] == name
+@cache
+def edited(need, along, name):
+    """Return an accepted dataset with other numbers in one of its cases, and without this case."""
+    data = dataset(need)
+    here = data[along] == name
     numbers = {
         key: values.where(~here, 1.2345 * values)
-        for key, values in dataset.items()
+        for key, values in data.items()
         if along in values.dims and values.dtype.kind == "f"
     }
-    yield dataset.assign(numbers)
-    yield dataset.assign_coords({along: dataset[along].where(~here, "another")})
+    renamed = {along: data[along].where(~here, "another")}
+    return data.assign(numbers), data.assign_coords(renamed)
 
 
 def said(function, sources):
@@ -81,7 +83,7 @@ def silent_on(claim, control, names, sources):
         for need in names:
             held = set(sources[need][along].values) if along in sources[need].dims else set()
             for one in (held & set(paper()[f"{along}s"])) - told:
-                for wrong in edited(sources[need], along, one):
+                for wrong in edited(need, along, one):
                     if said(function, {**sources, need: wrong}) != right:
                         yield need, one
 
