@@ -10,8 +10,8 @@ from pathlib import Path
 
 from snakemake.logging import logger
 
-# Looking for cycles among the objects of Snakemake and pandas, of which few can go, takes a third of a
-# second, most of it when Python ends.
+# Python searches all objects for garbage whenever many are new, and once more when it ends. Here it would
+# find little, and the searches would take a third of a second.
 gc.set_threshold(100_000)
 atexit.register(gc.freeze)
 
