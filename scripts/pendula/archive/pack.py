@@ -1,16 +1,42 @@
-"""Pack the project and its results into one file to deposit."""
+"""Pack the project and its results into one file to deposit, which is a Workflow RO-Crate 1.0.
 
+The bytes of the archive depend on its members only, so that two people who pack the same files can
+compare one checksum. The library rocrate writes the time of the run where it is given no date, and
+random identifiers: so the root gets the date of the release, and each entity its identifier.
+"""
+
+import gzip
+import hashlib
+import io
 import json
+import tarfile
 from pathlib import Path
+from urllib.parse import quote
+
+import yaml
+from rocrate.model import ContextEntity
+from rocrate.rocrate import ROCrate
 
 from pendula import __version__
 from pendula.datasets import complete_or_absent
-from pendula.sources import SCRIPTS
+from pendula.datasets.netcdf import read
+from pendula.sources import SCRIPTS, digest_of
 
-from . import contents
-from .metadata import describe_archive
+from .contents import MANIFEST, ArchiveError, code_files
 
 PROJECT = SCRIPTS.parent
+MADE = 315532800
+"""All files get this time, 1980-01-01: if times differed, Snakemake would make some files again."""
+
+FORMATS = {".nc": "application/netcdf", ".png": "image/png", ".pdf": "application/pdf"}
+FORMATS |= {".html": "text/html", ".md": "text/markdown", ".json": "application/json"}
+
+
+class Whole(yaml.SafeDumper):
+    """Writes what occurs twice in a configuration twice, so that people can edit it."""
+
+    def ignore_aliases(self, data) -> bool:
+        return True
 
 
 def pack_results(
@@ -20,17 +46,101 @@ def pack_results(
 
     `made_by` names the code that made the results, `configuration` is what they were made with.
     """
-    code = contents.code_files(PROJECT)  # first, for it names what is missing
-    contents.check_code(made_by, code)
-    members = {name: PROJECT / name for name in code}
-    members |= {name: Path(name) for name in results}
-    members["configuration.yaml"] = contents.dump_configuration(configuration)
-    crate = json.dumps(describe_archive(PROJECT, members), indent=1, ensure_ascii=False)
-    members["ro-crate-metadata.json"] = f"{crate}\n".encode()
-    members[contents.MANIFEST] = contents.manifest(members)
+    code = code_files(PROJECT)  # first, for it names what is missing
+    if left := sorted(set(made_by) - set(code)):
+        raise ArchiveError(f"{left[0]} made these results but is not tracked; `git add` it")
+    members = {name: PROJECT / name for name in code} | {name: Path(name) for name in results}
+    crate = json.dumps(describe(PROJECT, members), indent=1, ensure_ascii=False)
+    words = yaml.dump(configuration, Dumper=Whole, allow_unicode=True)
     with complete_or_absent(archive) as new_archive, complete_or_absent(checksum) as new_checksum:
-        contents.pack(new_archive, f"pendula-{__version__}", members)
-        line = contents.checksum_line(Path(archive).name, new_archive)
-        new_checksum.write_text(line, "utf-8")
-    size = Path(archive).stat().st_size / 1e6
-    print(f"{archive}: {len(members)} files, {size:.1f} MB")
+        new = {"ro-crate-metadata.json": f"{crate}\n", "configuration.yaml": words}
+        count = pack(new_archive, f"pendula-{__version__}", members, new)
+        new_checksum.write_text(f"{digest_of(new_archive)}  {Path(archive).name}\n", "utf-8")
+    print(f"{archive}: {count} files, {Path(archive).stat().st_size / 1e6:.1f} MB")
+
+
+def pack(archive: Path, folder: str, files: dict[str, Path], texts: dict[str, str]) -> int:
+    """Write files and texts, and a manifest of their checksums, below `folder`; return how many."""
+    data = {name: path.read_bytes() for name, path in files.items()}
+    data |= {name: text.encode() for name, text in texts.items()}
+    lines = (f"{hashlib.sha256(data[name]).hexdigest()}  {name}\n" for name in sorted(data))
+    data[MANIFEST] = "".join(lines).encode()
+    with (
+        open(archive, "wb") as raw,
+        # The compressed bytes also depend on the version of zlib, the files in them do not. Level 9
+        # would take twice the time for two thousandths of the size.
+        gzip.GzipFile("", "wb", 6, raw, mtime=MADE) as zipped,
+        tarfile.open(mode="w", fileobj=zipped, format=tarfile.USTAR_FORMAT) as tar,
+    ):
+        for name, content in sorted(data.items()):
+            runs = name in files and files[name].stat().st_mode & 0o100
+            entry = tarfile.TarInfo(f"{folder}/{name}")  # belongs to nobody
+            entry.size, entry.mtime, entry.mode = len(content), MADE, 0o755 if runs else 0o644
+            tar.addfile(entry, io.BytesIO(content))
+    return len(data)
+
+
+def describe(project: Path, members: dict[str, Path]) -> dict:
+    """Return ro-crate-metadata.json: the workflow, whom to cite, and each result.
+
+    Facts come from CITATION.cff, LICENSE-DATA and environment.txt of the project.
+    """
+    cited = yaml.safe_load((project / "CITATION.cff").read_text("utf-8"))
+    pins = dict(
+        p.split("==") for p in (project / "environment.txt").read_text().split() if "==" in p
+    )
+    crate = ROCrate(version="1.1")
+    rights = [cited["license"], (project / "LICENSE-DATA").read_text("utf-8").split()[1]]
+    of_code, of_data = (
+        _entity(crate, f"https://spdx.org/licenses/{name}", "CreativeWork", name=name)
+        for name in rights
+    )
+    facts = {
+        "name": cited["title"],
+        "version": __version__,
+        "author": [_author(crate, author) for author in cited["authors"]],
+        "license": of_code,
+    }
+    of_root = {
+        "description": f"{cited['title']}: code, environment, datasets and figures",
+        "datePublished": str(cited["date-released"]),
+        "citation": _paper(crate, cited["references"][0]),
+    }
+    for key, value in (facts | of_root).items():
+        crate.root_dataset[key] = value
+    language = {"lang": "snakemake", "lang_version": pins["snakemake"]}
+    crate.add_workflow(dest_path="Snakefile", main=True, properties=facts, **language)
+    crate.add_file(dest_path="README.md", properties={"about": {"@id": "./"}})
+    for name in sorted(name for name in members if name.startswith("results/")):
+        crate.add_file(dest_path=name, properties={**_about(name, members), "license": of_data})
+    return crate.metadata.generate()
+
+
+def _about(name: str, members: dict[str, Path]) -> dict:
+    """Return facts on a result: of a dataset its title, of a figure the dataset that it shows."""
+    path, data = members[name], Path(name).with_suffix(".nc").as_posix()
+    kind = FORMATS.get(path.suffix, "text/plain")
+    facts = {"name": path.name, "encodingFormat": kind, "contentSize": str(path.stat().st_size)}
+    if path.suffix == ".nc":
+        facts["description"] = read(path).title
+    elif data in members:
+        facts["isBasedOn"] = {"@id": quote(data)}
+    return facts
+
+
+def _paper(crate: ROCrate, paper: dict) -> ContextEntity:
+    words = {"name": paper["title"], "datePublished": str(paper["year"])}
+    words["author"] = [_author(crate, author) for author in paper["authors"]]
+    return _entity(crate, f"https://doi.org/{paper['doi']}", "ScholarlyArticle", **words)
+
+
+def _author(crate: ROCrate, author: dict) -> ContextEntity:
+    """Return an author of CITATION.cff; one who has but one name is an organization."""
+    kind = "Organization" if "name" in author else "Person"
+    name = author.get("name") or f"{author['given-names']} {author['family-names']}"
+    page = author.get("orcid") or author.get("website") or f"#{name.replace(' ', '-')}"
+    return _entity(crate, page, kind, name=name)
+
+
+def _entity(crate: ROCrate, identifier: str, kind: str, **facts) -> ContextEntity:
+    return crate.add(ContextEntity(crate, identifier, properties={"@type": kind, **facts}))
