@@ -67,6 +67,14 @@ class Origin(StrEnum):
     OWN = "of this project"
 
 
+class Kind(StrEnum):
+    """What a claim is: only an observation could have come out otherwise in another run."""
+
+    IDENTITY = "identity"  # both sides are one polynomial, or differ by a sum of squares
+    THEOREM = "theorem"  # the paper proves it; numbers can only contradict it
+    OBSERVATION = "observation"
+
+
 BEYOND, BREATHERS, PENDULA = "Beyond the paper", "Section 6, breathers", "for the pendula (1)"
 """How the places of claims begin or end that are no sentences of the paper."""
 
@@ -87,6 +95,7 @@ class Claim(NamedTuple):
     controls: tuple[Control, ...]
     on: tuple[str, ...] = ()
     reading: str = ""
+    kind: Kind = Kind.OBSERVATION
 
     @property
     def origin(self) -> Origin:
@@ -109,6 +118,7 @@ def claim(
     controls: tuple[Control, ...] = (),
     on: tuple[str, ...] = (),
     reading: str = "",
+    kind: Kind = Kind.OBSERVATION,
 ) -> Callable:
     """Return a decorator: the function, which takes the datasets in `needs`, decides this claim.
 
@@ -117,7 +127,8 @@ def claim(
 
     def declare(function: Callable) -> Callable:
         fed = tuple(_by_name(control, needs) for control in controls)
-        function.claim = Claim(function.__name__, place, says, needs, function, fed, on, reading)
+        about = (function.__name__, place, says, needs, function, fed, on, reading, kind)
+        function.claim = Claim(*about)
         return function
 
     return declare

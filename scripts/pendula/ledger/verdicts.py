@@ -167,6 +167,7 @@ def _row(claim: Claim, sources: Mapping, differs: Differences) -> dict:
         "origin": str(claim.origin),
         "says": claim.says,
         "reading": claim.reading,
+        "kind": str(claim.kind),
         "decided_by": list(claim.needs),
         "function": f"{_home(claim.decide.__module__)}.{claim.decide.__name__}",
         "measured": _plain(finding),
