@@ -89,7 +89,7 @@ FIGURES = {
     "growth_rates": (theory.draw_rates, theory.gather_rates,
                      "checks/chart", "checks/short_chart", "checks/threshold"),
     "front": (front_figure.draw_front, front_figure.gather_front, "unbounded/front"),
-    "growth_law": (unbounded.draw_growth_law, lambda growth: growth, "unbounded/growth"),
+    "growth_law": (unbounded.draw_growth_law, unbounded.gather_growth_law, "unbounded/growth"),
     "window_map": (
         unbounded.draw_window_map,
         gather_map,

@@ -101,6 +101,21 @@ def test_every_variable_is_named_and_has_units(plot):
         assert variable.attrs["long_name"] and variable.attrs["units"], name
 
 
+GOING = {
+    "solver_agreement", "growth_rates", "symmetry", "lyapunov", "ensembles", "sensitivity", "front",
+    "breathers", "certified_curves", "pendula_threshold", "pendula_remainder", "pendula_phases",
+    "window_map", *OWN,
+}  # fmt: skip
+
+
+def test_every_figure_has_a_caption(plot):
+    """Plain sentences, without formulas in TeX, values left out or bounds of what is not known."""
+    if plot.name not in GOING:
+        caption = read(plot.file).attrs["caption"]
+        assert len(caption) > 80 and caption.endswith(".")
+        assert not set("${}\\") & set(caption) and "nan" not in caption
+
+
 @style.styled
 def margins(figure):
     """Return how far the figure stays from the left, lower, right and upper edge of its page."""

@@ -201,6 +201,13 @@ COLOURS = ListedColormap([*LOOKS.values()], name="kinds of ends")
 MAPS = ("fate", "periodic", "turned_fate", "turned_periodic")
 PAPERS = "the paper's initial conditions"
 OF_CASES = ("case_omega", "case_a0", "case_b0", "case_fate", "case_periodic")
+FATES_CAPTION = (
+    "What becomes of an excited central pair by τ = {end}: above by its amplitudes A₀ and B₀, "
+    "below by A₀ and the phase of B₀, at each Ω. A motion stays if the three central pairs hold "
+    "most of P, and moves away if three others do; else it disperses if P is no larger than "
+    "linear waves make it, and spreads if P is larger. Circles mark the initial conditions of "
+    "Figs 2 to 4, in the colour of their own fate."
+)
 
 
 def gather_fates(
@@ -216,7 +223,8 @@ def gather_fates(
         shown = fine.sel(omega=fates["omega"])
     maps = shown[[*MAPS]].assign(fates[[*OF_CASES]])
     about = {} if of_paper else {"marked": "initial conditions of Figs 2 to 4"}
-    return maps.assign_attrs(about, ratio=fates.attrs["ratio"])
+    caption = FATES_CAPTION.format(end=f"{float(fates.attrs['end_time']):g}")
+    return maps.assign_attrs(about, ratio=fates.attrs["ratio"], caption=caption)
 
 
 def kind_of(fate: np.ndarray, periodic: np.ndarray) -> np.ndarray:

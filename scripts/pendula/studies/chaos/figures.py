@@ -239,12 +239,21 @@ LINE = 0.075
 """The height of a line of text, as a share."""
 BESIDE = 0.18
 """How far the marks of means are beside those of medians, in units of A_0."""
+LIFETIMES_CAPTION = (
+    "How long a motion of large amplitude stays localised on the central pair. (a): share of the "
+    "runs that are still localised at τ, by initial amplitude A₀, with confidence intervals "
+    "(bands). Grey: amplitudes at which runs have no common rate of transition. (b): median time "
+    "of the transition, and its mean over the runs that are localised at τ = {settled}, with "
+    "confidence intervals. Triangles are lower bounds."
+)
 
 
 def gather_lifetimes(lifetimes: xr.Dataset) -> xr.Dataset:
     """Return the shares that survive, median lives and rates, all with their limits."""
     ends = ("", "_low", "_high")
-    return lifetimes[[f"{name}{end}" for name in ("surviving", "median", "rate") for end in ends]]
+    shown = [f"{name}{end}" for name in ("surviving", "median", "rate") for end in ends]
+    caption = LIFETIMES_CAPTION.format(settled=f"{float(lifetimes.attrs['settled']):g}")
+    return lifetimes[shown].assign_attrs(caption=caption)
 
 
 @style.styled

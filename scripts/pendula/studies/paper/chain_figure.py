@@ -12,6 +12,11 @@ PAIRS, ANGLES = 5, (-0.5, 0.35)
 SPACING, LENGTH, DEPTH, OVERHANG = 1.75, 1.0, 1.3, 0.5
 COILS, COIL_RADIUS, LEAD = 9, 0.08, 0.2
 COLOURS = {"x": style.COLOURS["A"], "y": style.COLOURS["B"]}  # A_n is the amplitude of x_n
+CAPTION = (
+    "The chain, redrawn after Fig 1 of the paper. Pairs of pendula xₙ (red) and yₙ (blue) hang "
+    "from common strings, whose coupling D(t) is driven. Springs of strength C couple "
+    "neighbouring pairs. Dashed lines show the pendula at rest."
+)
 
 
 def gather() -> xr.Dataset:
@@ -43,6 +48,7 @@ def gather() -> xr.Dataset:
             "pendulum": ("pendulum", ["x", "y"], _about("pendulum of the pair")),
             "axis": ("axis", ["across", "up"], _about("direction on the page")),
         },
+        {"caption": CAPTION},
     )
 
 

@@ -8,13 +8,54 @@ from matplotlib.figure import Figure
 from pendula.datasets.registry import SOLVER_NAMES
 from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
-from pendula.measures.difference import at_times, difference, divergence_time, is_of_same_case
+from pendula.measures.difference import (
+    VISIBLE,
+    at_times,
+    difference,
+    divergence_time,
+    is_of_same_case,
+)
 
 SIZES = ["small", "large"]
 BAND = [0.05, 0.5, 0.95]
 """The quantiles of an ensemble that are drawn: the ends of its band, and its middle."""
 MEMBERS = {"long_name": "number of runs in the ensemble", "units": "1"}
 DIVERGED = "from here on the run is off by 1 %"
+NORMS_CAPTION = (
+    "Norms of A (red) and of B (blue) against τ: ℓ∞ on the left and ℓ² on the right, small "
+    "initial amplitudes above and large ones below. Pale lines below a run are its multiprecision "
+    "reference, where both agree to the end."
+)
+PARTS_CAPTION = (
+    " A dashed line marks the time from which a run differs from its reference by "
+    f"{100 * VISIBLE:g} % of full scale. Below such a run stand the reference and, of a perturbed "
+    f"ensemble, the median and the band that contains {100 * (BAND[-1] - BAND[0]):g} % of the "
+    "runs."
+)
+SPACETIME_CAPTION = (
+    "Moduli |Aₙ| (left) and |Bₙ| (right) over time and sites, small initial amplitudes above and "
+    "large ones below. From a white dashed line on, the run differs from its multiprecision "
+    f"reference by {100 * VISIBLE:g} % of full scale."
+)
+SWEEPS_CAPTION = (
+    "Norms of the pair (A, B) against the half-width M of the chain. Filled marks are maxima over "
+    "the time window in the text of the paper, hollow marks are averages over the window in its "
+    "caption. Bars are the mean and the standard deviation of a perturbed ensemble of a chaotic "
+    "case. Marks on chains whose ends the front does not reach come from the same motion and are "
+    "not independent samples."
+)
+DRIFT_CAPTION = (
+    "Largest change of the energy H up to each time, by solver, for each case. The dashed line is "
+    "the order of magnitude that the paper states. Crank and Nicolson's scheme does not conserve "
+    "an energy of fourth degree; that of Delfour, Fortin and Payre does."
+)
+TRUST_CAPTION = (
+    "Largest error of the norms up to each time, relative to full scale, by solver. The dashed "
+    f"line is {100 * VISIBLE:g} %, where an error becomes visible. A mark on it shows when a "
+    "solver leaves the multiprecision reference; a curve that stays below has its mark at its "
+    "end. A case without a reference has an empty panel. The proven bound limits the error of a "
+    "computed curve, as far as its proof reaches."
+)
 
 
 def gather_norms(
@@ -28,7 +69,8 @@ def gather_norms(
     cases = [_beside(run, true) for run, true in zip(runs, references, strict=True)]
     if ensembles is not None:
         cases = [case.assign(_bands(case, ensembles)) for case in cases]
-    return style.join(cases, SIZES, "initial_size")
+    caption = NORMS_CAPTION + PARTS_CAPTION * any(map(strips.diverges, cases))
+    return style.join(cases, SIZES, "initial_size").assign_attrs(caption=caption)
 
 
 def _beside(run: xr.Dataset, reference: xr.Dataset) -> xr.Dataset:
@@ -93,7 +135,7 @@ def gather_spacetime(runs: list[xr.Dataset], norms: xr.Dataset) -> xr.Dataset:
     Beside them is when the runs leave their references, from what `gather_norms` returns of them.
     """
     cases = [panels.over_time(case) for case in runs]
-    data = style.join(cases, SIZES, "initial_size")
+    data = style.join(cases, SIZES, "initial_size").assign_attrs(caption=SPACETIME_CAPTION)
     return data.assign(divergence_time=norms["divergence_time"])
 
 
@@ -144,7 +186,7 @@ def gather_sweeps(
         for name in moments:
             values = read[name].transpose("sweep", "reading", "half_width").values
             data[name] = ("panel", "reading", "half_width"), values, every[name].attrs
-    return data
+    return data.assign_attrs(caption=SWEEPS_CAPTION)
 
 
 @style.styled
@@ -190,7 +232,8 @@ def _so_far(values: xr.DataArray, long_name: str) -> xr.DataArray:
 def gather_drift(solvers: xr.Dataset) -> xr.Dataset:
     """Return the largest drift of the energy up to each time, and the one that the paper states."""
     drift = _so_far(solvers["drift"], "largest drift of the energy up to this time")
-    return solvers[["stated_drift", *LABELS]].assign(drift_so_far=drift)
+    drawn = solvers[["stated_drift", *LABELS]].assign(drift_so_far=drift)
+    return drawn.assign_attrs(caption=DRIFT_CAPTION)
 
 
 @style.styled
@@ -259,7 +302,7 @@ def _draw_visible(axes: Axes, visible: float) -> None:
 def gather_trust(trust: xr.Dataset) -> xr.Dataset:
     """Return by case how far each solver is from the reference, when it leaves, and the proof."""
     drawn = trust[["horizon", "size", "proved_until", *LABELS]]
-    return drawn.assign(
+    return drawn.assign_attrs(caption=TRUST_CAPTION).assign(
         largest_so_far=_so_far(trust["difference"], DIFFERENCE),
         largest_bound=_so_far(trust["proven_bound"], BOUND),
     )

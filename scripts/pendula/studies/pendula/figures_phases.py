@@ -149,6 +149,15 @@ def _name_strips(highest: Axes, lowest: Axes, data: xr.Dataset) -> None:
 # --- The chaotic state, and pendula that leave it over the top -----------------------------------
 
 
+TOP_CAPTION = (
+    "(a), (b): the chaotic state at Ω = {omega}, of pendula at each μ and of the amplitude "
+    "equations (4), beside the thermal state of the infinite chain: spectrum, and distribution of "
+    "the moduli. (c): share of the runs in which a pendulum has gone over the top by τ, with "
+    "confidence intervals at the end. (d): the largest angle of any pendulum so far, as a mean "
+    "over the runs; the top is at half a turn (dashed)."
+)
+
+
 def gather_over_the_top(sea: xr.Dataset, over_the_top: xr.Dataset, thermal: xr.Dataset):
     """Return spectra and distributions beside the thermal ones, and passages by mu."""
     cell = float(sea["modulus"][1] - sea["modulus"][0])
@@ -169,7 +178,9 @@ def gather_over_the_top(sea: xr.Dataset, over_the_top: xr.Dataset, thermal: xr.D
         long_name="largest angle of any pendulum so far in turns, mean over the members", units="1"
     )
     shown |= {name: over_the_top[name] for name in ("passed", "passed_low", "passed_high")}
-    return xr.Dataset(shown, attrs={"omega": sea.attrs["omega"]})
+    omega = sea.attrs["omega"]
+    caption = TOP_CAPTION.format(omega=f"{float(omega):g}")
+    return xr.Dataset(shown, attrs={"omega": omega, "caption": caption})
 
 
 @style.styled

@@ -23,11 +23,19 @@ LOOKS = {
 LAW = {"color": "black", "lw": 0.9, "ls": (0, (4, 2))}
 OFFSET = {"color": "black", "lw": 0.8, "ls": ":"}
 NORMS = {name: panels.NORMS[name] for name in ("l2", "linf")}
+CAPTION = (
+    "Infinite chains against τ. (a): the square of the ℓ² norm over τ. (b): its relative "
+    "deviation from its law. (c): the exponent of τ in the ℓ² norm over each doubling of τ, with "
+    "a line at 1/2. (d): the ℓ∞ norm. The dashed law has no fitted constant: it takes the chain "
+    "to be in the thermal state up to the front. The dotted line adds a fitted constant to the "
+    "square of the norm. Bands reach from the lowest to the highest run of an ensemble; bars are "
+    "confidence intervals of the mean."
+)
 
 
 def gather_growth_law(growth: xr.Dataset) -> xr.Dataset:
     """Return what `measured.measure_growth` has made."""
-    return growth
+    return growth.assign_attrs(caption=CAPTION)
 
 
 @style.styled
