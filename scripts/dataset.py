@@ -1,30 +1,50 @@
 """A Snakemake job that computes datasets: its function is given what it takes, and returns them."""
 
+from collections.abc import Mapping
 from inspect import isgenerator, signature
 from pathlib import Path
 from typing import Any
 
-from job import arguments, called, run, step
+from job import arguments, called, datasets_in, name_of, run, step
 from pendula.datasets.netcdf import read, save, write
+from pendula.datasets.stated import stated
 from pendula.problem import Problem, by_name
 
 
 def make(snakemake) -> None:
     """Write what the function that `params.call` names returns, or all that it yields.
 
-    This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. A
+    This is an xarray.Dataset, or its variables and attributes, as `netcdf.write` takes them. Each
+    dataset states what the function was given, where the function does not state it already. A
     function that takes `step` is told by it how to say how far it is.
     """
     (function,) = called(snakemake)
+    files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
     given = {name: taken(name, value) for name, value in arguments(snakemake).items()}
+    plain = {name: value for name, value in given.items() if not files[name]}
+    names = [name_of(path) for paths in files.values() for path in paths]
     if "step" in signature(function).parameters:
         given.setdefault("step", step)
     made = function(**given)
     for path, contents in zip(snakemake.output, made if isgenerator(made) else [made], strict=True):
+        told = of_output(path, plain)
         if isinstance(contents, tuple):
-            write(path, *contents)
+            variables, attributes = contents
+            write(path, variables, stated(told, variables, names) | attributes)
         else:
-            save(path, contents)
+            said = stated(told, map(str, contents.variables), names)
+            save(path, contents.assign_attrs(said | contents.attrs))
+
+
+def of_output(path: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments, of a table by the names of the outputs only the entry of this one."""
+    found = {}
+    for name, value in given.items():
+        names = value if isinstance(value, Mapping) else ()
+        own = [key for key in names if path.endswith(f"/{key}.nc")]
+        entry = value[max(own, key=len)] if own else value
+        found |= entry if own and isinstance(entry, Mapping) else {name: entry}
+    return found
 
 
 def taken(name: str, value: Any) -> Any:
@@ -33,10 +53,10 @@ def taken(name: str, value: Any) -> Any:
     The path of a dataset becomes the dataset, and many paths a mapping of datasets by name. Plain
     values that describe a problem become a Problem.
     """
-    if isinstance(value, str) and value.endswith(".nc"):
+    if isinstance(value, str) and datasets_in(value):
         return read(value)
-    if isinstance(value, list) and value and all(str(one).endswith(".nc") for one in value):
-        return {Path(path).stem: read(path) for path in value}
+    if datasets_in(value):
+        return {Path(path).stem: read(path) for path in datasets_in(value)}
     if name.endswith("problem"):
         return Problem.of(value)
     if name.endswith("problems"):

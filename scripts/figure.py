@@ -3,8 +3,9 @@
 import sys
 from inspect import signature
 
-from job import arguments, called, run
+from job import arguments, called, datasets_in, name_of, run
 from pendula.datasets.netcdf import read
+from pendula.datasets.stated import stated
 from pendula.drawing.style import save
 
 KINDS = 4
@@ -18,6 +19,7 @@ def draw(snakemake) -> None:
     and lists of datasets in place of lists (`rules.x.output` is one), and by their names what the
     figures before it show.
     """
+    files = {name: datasets_in(value) for name, value in arguments(snakemake).items()}
     given = {name: _taken(value) for name, value in arguments(snakemake).items()}
     differs = given.pop("differs")
     given.setdefault("of_paper", not differs)
@@ -25,17 +27,18 @@ def draw(snakemake) -> None:
     for number, function in enumerate(called(snakemake)):
         topic = function.__name__.removeprefix("draw")
         gather = getattr(sys.modules[function.__module__], f"gather{topic}")
-        names = given.keys() & signature(gather).parameters.keys()
-        drawn = gather(**{name: given[name] for name in names})
+        wanted = given.keys() & signature(gather).parameters.keys()
+        drawn = gather(**{name: given[name] for name in wanted})
         given.setdefault(topic.lstrip("_"), drawn)
-        save(function(drawn), drawn, *paths[KINDS * number : KINDS * (number + 1)], differs)
+        names = [name_of(path) for name in wanted & files.keys() for path in files[name]]
+        shown = drawn.assign_attrs(stated({}, (), sorted(names)))
+        save(function(drawn), shown, *paths[KINDS * number : KINDS * (number + 1)], differs)
 
 
 def _taken(value):
-    if isinstance(value, str) and value.endswith(".nc"):
+    if isinstance(value, str) and datasets_in(value):
         return read(value)
-    is_files = isinstance(value, list) and all(str(one).endswith(".nc") for one in value)
-    return [read(path) for path in value] if is_files else value
+    return [read(path) for path in datasets_in(value)] or value
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import psutil
@@ -104,6 +105,20 @@ def _paths(files: list) -> str | list[str]:
     if files and isinstance(files[0], str):
         return str(SCRIPTS.parent / files[0])
     return [_paths(file) for file in files]
+
+
+def datasets_in(value: Any) -> list[str]:
+    """Return the paths of datasets that an argument consists of, none if it is something else."""
+    paths = value if isinstance(value, list) else [value]
+    return paths if all(isinstance(one, str) and one.endswith(".nc") for one in paths) else []
+
+
+def name_of(path: str) -> str:
+    """Return the name of a dataset: its path below the folder of results, or the project's."""
+    place = Path(path).with_suffix("")
+    if place.is_relative_to(SCRIPTS.parent):
+        return place.relative_to(SCRIPTS.parent).as_posix()
+    return Path(*place.parts[1:]).as_posix()
 
 
 def called(snakemake) -> list[Callable]:

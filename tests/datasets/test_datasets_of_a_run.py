@@ -3,7 +3,15 @@
 from collections import defaultdict
 
 import netCDF4
+import yaml
+from helpers import ROOT
+from pendula.datasets.netcdf import read
 from pendula.datasets.registry import NAMES, UNITS
+from pendula.datasets.stated import COMPUTED_FROM, stated
+
+ON_ALL = {"title", "Conventions", "version", "history", "caption", "comment"}
+NOT_COMPUTED = {"figures/fig1"}
+"""A drawing of the chain."""
 
 
 def test_every_dataset_explains_itself_and_a_name_has_one_meaning(full_run):
@@ -20,3 +28,31 @@ def test_every_dataset_explains_itself_and_a_name_has_one_meaning(full_run):
                 meanings[name].add((variable.long_name, variable.units))
     several = {name: found for name, found in meanings.items() if len(found) > 1}
     assert {name: found for name, found in several.items() if name not in NAMES} == {}
+
+
+def test_every_dataset_says_with_what_it_was_computed_or_names_datasets_that_do(full_run):
+    results = full_run / "results"
+    for path in sorted(results.rglob("*.nc")):
+        about = read(path).attrs
+        name = path.relative_to(results).with_suffix("").as_posix()
+        sources = about.get(COMPUTED_FROM, "").split(", ")
+        assert about.keys() - ON_ALL or name in NOT_COMPUTED, name
+        for source in filter(None, sources):
+            assert (results / f"{source}.nc").exists() or (ROOT / f"{source}.nc").exists(), name
+        # without names of others it says itself what was computed, not only how well
+        own = {"epsilon", "gamma", "seed", "case", "problems"} & about.keys()
+        assert own or any(sources) or name in NOT_COMPUTED, name
+
+
+def test_checks_of_the_theory_state_every_argument_of_the_configuration(full_run):
+    """They were the ones that did not; some arguments are also coordinates."""
+    quick = yaml.safe_load((ROOT / "config/quick.yaml").read_text())["theory"]
+    whole = yaml.safe_load((ROOT / "config/theory.yaml").read_text())["theory"]
+    asked = 0
+    for path in (full_run / "results/checks").glob("*.nc"):
+        arguments = whole.get(path.stem, {}) | quick.get(path.stem, {})
+        data = read(path)
+        for name, value in stated(arguments, map(str, data.variables), []).items():
+            asked += 1
+            assert data.attrs[name] == value, (path.stem, name)
+    assert asked > 80

@@ -1,18 +1,18 @@
 """Trajectories and sweeps as datasets: variables, and attributes that say what was solved."""
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from pendula.problem import PENDULA, Constants, Problem, name_window, write_initial
+from pendula.problem import PENDULA, Constants, Problem, name_window
 from pendula.simulation.models import MODELS, model_of
 from pendula.simulation.simulate import Trajectory
 from pendula.simulation.sweep import STATISTICS, Sweep
 
 from .netcdf import Variable
 from .registry import NAMES
+from .stated import describe_run, shared_by
 
 COMPONENTS = Variable(("component",), ["A", "B"])
 OF_PENDULA = Variable(("component",), list(MODELS[PENDULA].components))
@@ -127,24 +127,6 @@ def sweep_contents(
     return variables, {"title": title, **attributes, **count_work(sweep.outcomes)}
 
 
-def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
-    """Return the attributes that say what was solved, and by which controls."""
-    values = problem.plain()
-    plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
-    if problem.is_own:
-        known = problem.model.parameters.items()
-        given = {k: "a function of the site" if callable(v) else v for k, v in known}
-        plain["parameters"] = json.dumps(given | values["parameters"])
-        plain |= {"model": problem.model.name, "model_text": problem.model.text}
-    return {
-        "case": name,
-        **plain,
-        "initial": write_initial(values["initial"]),
-        "solver": solver["name"],
-        **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
-    }
-
-
 def describe_cases(problems: Mapping[str, Problem]) -> Contents:
     """Return names, detunings and initial data of several cases as variables, and attributes.
 
@@ -183,19 +165,6 @@ def side_by_side(arrays: Sequence[np.ndarray], axis: int) -> np.ndarray:
         return np.pad(one, beyond, constant_values=np.nan)
 
     return np.stack([padded(one) for one in arrays])
-
-
-def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:
-    """Return the attributes that have one value in all descriptions, but for those `without`.
-
-    Of runs and sweeps that are read again they say what problem all of them solve.
-    """
-    first, *others = descriptions
-    return {
-        key: value
-        for key, value in first.items()
-        if key not in without and all(other.get(key) == value for other in others)
-    }
 
 
 def count_work(outcomes: list) -> dict[str, int]:

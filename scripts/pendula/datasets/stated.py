@@ -1,0 +1,102 @@
+"""What was computed, as attributes of a dataset: the problem, and what else its job was given.
+
+So every file says with which constants, initial conditions, seeds and grids it was computed, or
+names the datasets that have them.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from pendula.problem import Problem, write_initial
+
+COMPUTED_FROM = "computed_from"
+"""The attribute that names the datasets that a job has read."""
+
+
+def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
+    """Return the attributes that say what was solved, and by which controls."""
+    values = problem.plain()
+    plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
+    if problem.is_own:
+        known = problem.model.parameters.items()
+        given = {k: "a function of the site" if callable(v) else v for k, v in known}
+        plain["parameters"] = json.dumps(given | values["parameters"])
+        plain |= {"model": problem.model.name, "model_text": problem.model.text}
+    return {
+        "case": name,
+        **plain,
+        "initial": write_initial(values["initial"]),
+        "solver": solver["name"],
+        **{f"solver_{key}": value for key, value in solver.items() if key != "name"},
+    }
+
+
+def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[str, Any]:
+    """Return the attributes that have one value in all descriptions, but for those `without`.
+
+    Of runs and sweeps that are read again they say what problem all of them solve.
+    """
+    first, *others = descriptions
+    return {
+        key: value
+        for key, value in first.items()
+        if key not in without and all(other.get(key) == value for other in others)
+    }
+
+
+def stated(given: Mapping[str, Any], variables: Iterable[str], read: list[str]) -> dict[str, Any]:
+    """Return what the function of a job was given as attributes, which are numbers and text.
+
+    A list is written as JSON, and a table as an attribute for each entry, or as JSON if they are
+    no single values. Several problems have an attribute for what all of them share, and one for
+    the rest. `variables` are those of the dataset: what they hold is left out. `read` names the
+    datasets that the job has read.
+    """
+    variables, found = set(variables), {}
+    for name, value in given.items():
+        problems = _problems(value)
+        if not problems:
+            found |= _plain(name, value)
+            continue
+        each = {key: describe_run("", one, one.solver) for key, one in problems.items()}
+        shared = shared_by(each.values(), "case")
+        own = {
+            key: {part: one for part, one in about.items() if part not in {"case", *shared}}
+            for key, about in each.items()
+        }
+        told = {part for one in own.values() for part in one} <= variables
+        found |= shared | ({} if told else {name: _json(own)})
+    found = {name: value for name, value in found.items() if name not in variables}
+    return found | ({COMPUTED_FROM: ", ".join(read)} if read else {})
+
+
+def _problems(value: Any) -> dict[str, Problem]:
+    """Return problems by name, none where the value is something else."""
+    if isinstance(value, Mapping):
+        named = {str(key): one for key, one in value.items()}
+    else:
+        named = {str(k): one for k, one in enumerate(value if isinstance(value, list) else [value])}
+    return named if all(isinstance(one, Problem) for one in named.values()) else {}
+
+
+def _plain(name: str, value: Any) -> dict[str, Any]:
+    if value is None:
+        return {}
+    if isinstance(value, Mapping) and all(map(_is_single, value.values())):
+        start = "" if name == "constants" else f"{name}_"
+        names = {key: name if key == "name" else f"{start}{key}" for key in value}
+        return {names[key]: said for key, one in value.items() for said in _plain("", one).values()}
+    as_it_is = isinstance(value, str | int | float | np.number) and not isinstance(value, bool)
+    return {name: value if as_it_is else _json(value)}
+
+
+def _is_single(value: Any) -> bool:
+    return value is None or isinstance(value, str | int | float | complex | np.generic)
+
+
+def _json(value: Any) -> str:
+    """Return JSON, and what it has no word for, such as a complex number, as Python writes it."""
+    return json.dumps(value, default=lambda one: getattr(one, "tolist", one.__repr__)())
