@@ -8,6 +8,7 @@ import numpy as np
 
 from pendula.ledger.changes import exchange, repeat, scale, take_from
 from pendula.ledger.claim import (
+    BEYOND,
     CONSTANT,
     FACTOR,
     Control,
@@ -120,8 +121,9 @@ def fig5_theorem_2(case, sweep) -> Finding:
 
 
 @claim(
-    "Section 5, Fig 5, and its caption",
-    "Fig 5 shows maxima over [10, 50], as the text says, and not averages, as its caption says.",
+    f"{BEYOND}, the text on Fig 5 and its caption",
+    "Only maxima over [10, 50] show the decrease in M that the text describes; the averages that"
+    " the caption names do not.",
     sweeps("fig5_left", "fig5_right"),
     controls=(
         Control("maxima and averages exchanged", {"fig5_left": EXCHANGED, "fig5_right": EXCHANGED}),
@@ -150,12 +152,7 @@ def fig5_caption(left, right) -> Finding:
     text, caption = (found[reading].holds(measured) for reading in ("text", "caption"))
     if text == caption:
         return undecided(measured, "the text is right on the figure by both readings or by neither")
-    caveat = (
-        f"text and caption contradict each other: on the left the maximum falls by"
-        f" {measured['fall_by_text']:.2%} from the shortest to the longest chain, as the text"
-        f" says, but the average only by {measured['fall_by_caption']:.2%}"
-    )
-    return judge(measured, found["text"], caveat)
+    return judge(measured, found["text"])
 
 
 @claim(
@@ -238,10 +235,14 @@ def fig6_caption(left, ensembles) -> Finding:
     for reading, growth in zip(("text", "caption"), grows, strict=True):
         measured |= {f"growth_by_{reading}": growth.value, f"low_by_{reading}": growth.low}
         measured[f"high_by_{reading}"] = growth.high
-    if flat[1] and any(growth.low <= FACTOR.value <= growth.high for growth in grows):
+    named = dict(zip(("maxima", "averages"), grows, strict=True))
+    unsure = [by for by, growth in named.items() if growth.low <= FACTOR.value <= growth.high]
+    if flat[1] and unsure:
+        found = (f"{one.low:.2f} to {one.high:.2f} by {by}" for by, one in named.items())
         return undecided(
             measured,
-            f"the confidence interval of the growth with M contains the cut-off, {FACTOR.value:g}",
+            f"the norm on the right grows with M by a factor of {' and '.join(found)}; the interval"
+            f" by {' and by '.join(unsure)} contains the cut-off, {FACTOR.value:g}",
         )
     grows = [growth.low > FACTOR.value for growth in grows]
     measured |= {"grows_by_text": grows[0], "grows_by_caption": grows[1]}
