@@ -73,7 +73,7 @@ rule all:
         datasets("trajectories", *OWN_CASES),
         datasets("sweeps", *OWN_SWEEPS),
         [file for name in FIGURES for file in files_of(f"<results>/figures/{name}")],
-        *("<results>/claims.json", "<results>/controls.json"),
+        "<results>/claims.json",
         expand("<results>/tables/{name}.md", name=["solvers", "claims", "trust", "hard_cases"]),
         *("<results>/report.html", "<results>/live.html"),
         expand("<results>/article.{kind}", kind=["pdf", "html", "yaml"]),

@@ -123,9 +123,9 @@ def test_a_changed_byte_of_a_part_reaches_no_ledger(full_run, tmp_path):
     content = bytearray((full_run / "results/claims/theory.json").read_bytes())
     content[len(content) // 2] ^= 1
     (part := tmp_path / "theory.json").write_bytes(content)
-    made = [tmp_path / name for name in ("claims.json", "controls.json", "claims.md")]
+    made = [tmp_path / name for name in ("claims.json", "claims.md")]
     with pytest.raises(DatasetError, match=r"theory\.json is damaged and cannot be read"):
-        join_claims([str(part)], [], *map(str, made))
+        join_claims([str(part)], *map(str, made))
     assert not any(path.exists() for path in made)
 
 

@@ -36,10 +36,6 @@ DECIDING = {
     part: function("pendula.ledger.decide.decide_claims", parts=modules)
     for part, modules in DECIDED_IN.items()
 }
-SHOWN_CHECKS = [
-    *(*CHECKS, "lyapunov", "symmetry", "ensembles", "ensembles_uneven", "members"),
-    *("lifetimes", "ensemble_runs", *SOLVER_CHECKS),
-]
 
 
 use rule job as decide_claims with:
@@ -68,10 +64,8 @@ use rule job as claims with:
         parts=expand("<results>/claims/{part}.json", part=RESTS_ON),
     output:
         ledger="<results>/claims.json",
-        controls="<results>/controls.json",
         table="<results>/tables/claims.md",
     pathvars:
         made="claims",
     params:
         call=function("pendula.ledger.decide.join_claims"),
-        names=[f"checks/{name}" for name in SHOWN_CHECKS],

@@ -5,7 +5,6 @@
 `chaos`      which cases are chaotic, and what ensembles of almost equal data may say
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
-`distortions` general distortions of every dataset, and what the claims' functions say of them
 `missing`    what is missing from a dataset, and confirms nothing
 `section`    the ledger's part of the report
 `tables`     the readings of a sentence as one row, counts of rows, and the ledger as files

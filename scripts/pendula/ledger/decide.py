@@ -7,10 +7,8 @@ from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import read
 from pendula.report.words import write_markdown
 
-from .criterion import Verdict
-from .distortions import distorted, in_words
 from .tables import by_sentence, check_lines, in_short, tables
-from .verdicts import all_claims, controls_of, evaluate, in_order, needed, sections
+from .verdicts import evaluate, in_order, needed, sections
 
 CHECKS, OF_WRONG_STATEMENTS = "checks/", "checks/wrong/"
 
@@ -25,8 +23,7 @@ def decide_claims(
 ) -> None:
     """Write the rows of the ledger on the claims in `modules`, and a table to read.
 
-    The file also holds what the functions of the claims found of distorted datasets. `makers` has
-    the rule that makes each of `datasets`, in their order, by its name in the claims.
+    `makers` has the rule that makes each of `datasets`, in their order, by its name in the claims.
     `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
     """
     absent = set(needed(*modules)) - set(makers)
@@ -43,15 +40,7 @@ def decide_claims(
         if name.startswith(CHECKS) and not name.startswith(OF_WRONG_STATEMENTS)
     }
     lines = check_lines(checks)
-    left_out = {row["name"] for row in rows if row["verdict"] == Verdict.NOT_APPLICABLE}
-    asked = [claim for claim in all_claims(*modules) if claim.name not in left_out]
-    told = {
-        "sections": sections(*modules),
-        "read": list(makers),
-        "rows": rows,
-        "checks": lines,
-        "distortions": in_words(distorted(asked, sources)),
-    }
+    told = {"sections": sections(*modules), "read": list(makers), "rows": rows, "checks": lines}
     write_json(part, told)
     write_markdown(table, *tables(by_sentence(rows), chain(*lines.values())))
     print(in_short(by_sentence(rows)))
@@ -60,18 +49,15 @@ def decide_claims(
             print(describe(name.removeprefix(CHECKS), check))
 
 
-def join_claims(parts: list[str], names: list[str], ledger: str, controls: str, table: str) -> None:
-    """Write the ledger and its controls as JSON, and both as Markdown, in the order of the paper.
+def join_claims(parts: list[str], ledger: str, table: str) -> None:
+    """Write the ledger as JSON and as Markdown, in the order of the paper.
 
-    `parts` are files that decide_claims wrote. `names` gives the order of the checks in the table.
+    `parts` are files that decide_claims wrote.
     """
     read = [load_json(path) for path in parts]
     sections = {module: at for part in read for module, at in part["sections"].items()}
     rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
     checks = {name: lines for part in read for name, lines in part["checks"].items()}
     write_json(ledger, {"rows": rows})
-    distortions = [row for part in read for row in part["distortions"]]
-    write_json(controls, {"rows": [*controls_of(rows), *distortions]})
-    lines = [line for name in names for line in checks.get(name, [])]
-    write_markdown(table, *tables(rows, lines))
+    write_markdown(table, *tables(rows, chain(*checks.values())))
     print(in_short(rows))
