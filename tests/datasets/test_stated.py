@@ -38,6 +38,8 @@ def test_several_problems_state_what_they_share_once_and_the_rest_by_name():
     assert found["problems"] == '{"a": {"omega": 8.0}, "b": {"omega": 0.0}}'
     assert found["computed_from"] == "checks/a, checks/b"
     assert "problems" not in stated({"problems": problems}, ("omega",), [])
+    infinite = problems["a"].changed(half_width=None)
+    assert "half_width" not in stated({"problem": infinite}, (), [])
 
 
 def test_each_dataset_of_a_job_states_its_own_entry_and_names_what_it_was_made_from(tmp_path):

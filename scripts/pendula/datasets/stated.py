@@ -69,7 +69,8 @@ def stated(given: Mapping[str, Any], variables: Iterable[str], read: list[str]) 
         }
         told = {part for one in own.values() for part in one} <= variables
         found |= shared | ({} if told else {name: _json(own)})
-    found = {name: value for name, value in found.items() if name not in variables}
+    known = {name: value for name, value in found.items() if value is not None}  # an infinite chain
+    found = {name: value for name, value in known.items() if name not in variables}
     return found | ({COMPUTED_FROM: ", ".join(read)} if read else {})
 
 
