@@ -13,16 +13,32 @@ place of numbers, which record each operation in a graph (`symbols`, `graph`).
 """
 
 import inspect
-import traceback
+import json
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from functools import cache, cached_property
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .graph import ZERO, Node, derivative, evaluate, leaf, leaves_in, neg, node, number, rebuilt
+from .graph import (
+    LEAVES,
+    MOTION,
+    ZERO,
+    Node,
+    derivative,
+    evaluate,
+    in_order,
+    leaf,
+    leaves_in,
+    neg,
+    node,
+    number,
+    rebuilt,
+)
+from .model_file import SEED, placed, run_file, same
 from .symbols import ModelError, Value, abs2, conj, cos, lap, shift, sin
 
 __all__ = ["Model", "ModelError", "Value", "abs2", "conj", "cos", "lap", "shift", "sin"]
@@ -52,8 +68,11 @@ class Model:
     ):
         if (i_dt is None) == (d2_dt2 is None):
             raise ModelError(f"{name} needs one function, i_dt or d2_dt2")
-        self.fields = (fields,) if isinstance(fields, str) else tuple(fields)
-        self.parameters, self.name, self.in_file = dict(parameters), name, False
+        self.fields = _names("fields", (fields,) if isinstance(fields, str) else fields, name)
+        if not isinstance(parameters, Mapping):
+            raise ModelError(f"{name}: parameters is not a dictionary of names with their values")
+        _names("parameters", parameters, name)
+        self.parameters, self.name = dict(parameters), name
         self.second_order = d2_dt2 is not None
         functions = [one for one in (i_dt, d2_dt2, conserved) if one is not None]
         self.text = text or "\n".join(_source_of(function) for function in functions)
@@ -63,38 +82,64 @@ class Model:
         ]
         self.rates = self._rates_of(self._called(i_dt or d2_dt2, symbols))
         kept = self._called(conserved, symbols) if conserved else {}
-        self.conserved = {name: Value.of(density).re for name, density in kept.items()}
+        self.conserved = self._densities(kept)
 
     @classmethod
     def read(cls, path: Path | str) -> "Model":
-        """Return the model of a file, whose code is run."""
+        """Return the model of a file, whose code is run twice and must give the same both times.
+
+        Modules beside the file can be imported, and `__file__` is its path.
+        """
+        path = Path(path)
         try:
-            text = Path(path).read_text(encoding="utf-8")
+            text = path.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            raise ModelError(f"{path} cannot be read: {error}") from None
-        return cls.of_text(Path(path).name, text)
+            why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+            raise ModelError(f"{path} cannot be read: {why}") from None
+        model, again = (cls._of_run(run_file(path, text), path.name, text) for _ in range(2))
+        if again.plain["nodes"] != model.plain["nodes"]:
+            raise ModelError(f"{path.name} gives other equations each time. {SEED}")
+        for name, value in model.parameters.items():
+            if not (callable(value) or same(value, again.parameters.get(name))):
+                raise ModelError(f"{path.name} gives {name} another value each time. {SEED}")
+        return model
 
     @classmethod
-    @cache
-    def of_text(cls, name: str, text: str) -> "Model":
-        """Return the model of the text of a file, which is run under that name."""
-        given: dict[str, Any] = {}
-        try:
-            exec(compile(text, name, "exec"), given)
-        except Exception as error:
-            raise ModelError(_placed(error, name, text)) from None
+    def _of_run(cls, given: Mapping[str, Any], name: str, text: str) -> "Model":
+        """Return the model that the names of a file make, once the file has run."""
         absent = [key for key in ("fields", "parameters") if key not in given]
         if absent:
             raise ModelError(f"{name} has no {' and no '.join(absent)}")
         known = ("fields", "parameters", "i_dt", "d2_dt2", "conserved")
-        model = cls(**{key: given[key] for key in known if key in given}, name=name, text=text)
-        model.in_file = True
-        return model
+        return cls(**{key: given[key] for key in known if key in given}, name=name, text=text)
 
-    @property
-    def plain(self):
-        """What of_text takes by name, if the model has a file; else the model itself."""
-        return {"name": self.name, "text": self.text} if self.in_file else self
+    @cached_property
+    def plain(self) -> dict[str, Any]:
+        """The model as plain values, from which `of_plain` makes it without running its code."""
+        roots = (*self.rates, *self.conserved.values())
+        order = in_order(roots)
+        place = {one: i for i, one in enumerate(order)}
+        count = len(self.rates)
+        at = [place[one] for one in roots]
+        return {
+            "name": self.name,
+            "text": self.text,
+            "fields": list(self.fields),
+            "second_order": self.second_order,
+            "nodes": [
+                [one.operation, *(place[a] for a in one.inputs)]
+                if one.inputs
+                else [one.operation, *one.operands]
+                for one in order
+            ],
+            "rates": at[:count],
+            "conserved": dict(zip(self.conserved, at[count:], strict=True)),
+        }
+
+    @classmethod
+    def of_plain(cls, values: Mapping[str, Any]) -> "Model":
+        """Return the model of `plain` values; its parameters are those of the problem."""
+        return _of_json(json.dumps(values))
 
     # --- The trace
 
@@ -103,7 +148,7 @@ class Model:
             return function(_Parameters(self.parameters), *symbols)
         except Exception as error:
             place = function.__code__.co_filename
-            raise ModelError(_placed(error, place, self.text, self.name)) from None
+            raise ModelError(placed(error, place, self.text, self.name)) from None
 
     def _rates_of(self, returned: Any) -> tuple[Node, ...]:
         """Return the rates of all rows from what `i_dt` or `d2_dt2` returned."""
@@ -118,6 +163,23 @@ class Model:
             text = "d2_dt2 returns complex numbers, and its fields are real"
             raise ModelError(f"{self.name}: {text}")
         return tuple(row for c, one in enumerate(found) for row in (leaf(c, 1), one.re))
+
+    def _densities(self, returned: Any) -> dict[str, Node]:
+        """Return the real densities by name from what `conserved` returned."""
+        if not isinstance(returned, Mapping):
+            text = 'conserved returns no dictionary of densities, such as {"P": abs2(u)}'
+            raise ModelError(f"{self.name}: {text}")
+        found = {}
+        for name, given in returned.items():
+            density, what = Value.of(given), f"{self.name}: the density {name!r} in conserved"
+            if density.im is not ZERO:
+                raise ModelError(f"{what} is complex; give its real part, (...).real")
+            if leaves_in([density.re], "time"):
+                raise ModelError(f"{what} depends on the time p.t, so that it is not conserved")
+            if density.re.level != MOTION:
+                raise ModelError(f"{what} depends on no field")
+            found[str(name)] = density.re
+        return found
 
     # --- What follows from it
 
@@ -202,21 +264,53 @@ class _Parameters:
         return Value(node("parameter", name, 0))
 
 
+@cache
+def _of_json(text: str) -> Model:
+    values, nodes = json.loads(text), []
+    for operation, *operands in values["nodes"]:
+        if operation not in LEAVES:
+            operands = [nodes[i] for i in operands]
+        nodes.append(number(*operands) if operation == "number" else node(operation, *operands))
+    model = object.__new__(Model)
+    model.__dict__.update(
+        fields=tuple(values["fields"]),
+        parameters={},
+        name=values["name"],
+        second_order=values["second_order"],
+        text=values["text"],
+        rates=tuple(nodes[i] for i in values["rates"]),
+        conserved={name: nodes[i] for name, i in values["conserved"].items()},
+    )
+    return model
+
+
+def _names(kind: str, given: Iterable[str], model: str) -> tuple[str, ...]:
+    """Return the names of fields or parameters, each of which can stand in Python as it is.
+
+    Raises ModelError with the first that cannot, and why.
+    """
+    found = tuple(given)
+    for place, name in enumerate(found):
+        why = None
+        if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
+            why = "is no name in Python; write fields = ('u', 'v') for two fields"
+            if kind == "parameters":
+                why = "is no name in Python; use letters, digits and _"
+        elif name.startswith("_"):
+            why = "begins with _; leave that out"
+        elif kind == "parameters" and name == "t":
+            why = "is the time, p.t; give the parameter another name, such as J for a hopping"
+        elif name in found[:place]:
+            why = "is given twice"
+        if why:
+            raise ModelError(f"{model}: the name {name!r} in {kind} {why}")
+    if kind == "fields" and not found:
+        raise ModelError(f"{model}: fields is empty; give the name of a field, such as ('u',)")
+    return found
+
+
 def _source_of(function: Callable) -> str:
     try:
         return inspect.getsource(function)
     except (OSError, TypeError):  # typed where no file keeps it
         return ""
-
-
-def _placed(error: Exception, place: str, text: str, name: str = "") -> str:
-    """Return what is wrong, with the line of the user's file where it is."""
-    frames = [one for one in traceback.extract_tb(error.__traceback__) if one.filename == place]
-    at = frames[-1].lineno if frames else getattr(error, "lineno", None)
-    lines = text.splitlines()
-    what = f"{error}" if isinstance(error, ModelError) else f"{type(error).__name__}: {error}"
-    if at is None:
-        return f"{name or place}: {what}"
-    line = frames[-1].line if frames else ""
-    line = line or (lines[at - 1] if at <= len(lines) else "")
-    return f"{name or place}, line {at}: {what}\n    {line.strip()}"

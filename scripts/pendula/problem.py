@@ -16,6 +16,7 @@ import numpy as np
 
 from pendula.ends import ends_of
 from pendula.model import Model
+from pendula.model_file import at_middle
 
 AMPLITUDES, PENDULA = MODELS = ("amplitudes", "pendula")
 """The amplitude equations (4), and Newton's equations (1) of the pendula."""
@@ -98,7 +99,7 @@ class Problem:
         rest = {key: value for key, value in values.items() if key not in Constants.__annotations__}
         initial = on_sites(rest.pop("initial"))
         if isinstance(model := rest.get("model"), Mapping | Model):
-            model = model if isinstance(model, Model) else Model.of_text(**model)
+            model = model if isinstance(model, Model) else Model.of_plain(model)
             return cls(**{**rest, "constants": None, "initial": initial, "model": model})
         return cls(constants=Constants.of(values), initial=initial, **rest)
 
@@ -111,7 +112,7 @@ class Problem:
         """Return the problem as plain values; `initial` is {site: (A, B)}, zero beyond.
 
         Problems of (4) name no model, as it was when there was no other. That of a traced model is
-        its name and its text.
+        its graph, so that no job runs its code again.
         """
         if self.is_own:
             equations = {"model": self.model.plain, "parameters": dict(self.parameters)}
@@ -130,10 +131,16 @@ class Problem:
         }
 
     def changed(self, **changes) -> "Problem":
-        """Return the problem with other values; those of `constants` may be given by name."""
+        """Return the problem with other values; those of `constants` may be given by name.
+
+        On a shorter chain, parameters have the values of the sites in its middle.
+        """
         named = {name: changes.pop(name) for name in Constants.__annotations__ if name in changes}
         if named:
             changes["constants"] = replace(changes.get("constants", self.constants), **named)
+        if self.parameters and "half_width" in changes:
+            values = changes.get("parameters", self.parameters).items()
+            changes["parameters"] = {k: at_middle(one, changes["half_width"]) for k, one in values}
         return replace(self, **changes)
 
     @property

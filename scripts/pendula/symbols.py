@@ -32,6 +32,16 @@ class Value:
         raise ModelError(f"{type(x).__name__} cannot be computed with; give numbers and parameters")
 
     @property
+    def real(self) -> "Value":
+        """The real part."""
+        return Value(self.re)
+
+    @property
+    def imag(self) -> "Value":
+        """The imaginary part."""
+        return Value(self.im)
+
+    @property
     def right(self) -> "Value":
         """The value at the site n + 1."""
         return shift(self, 1)
@@ -65,8 +75,10 @@ class Value:
 
     def __truediv__(self, other):
         other = Value.of(other)
-        if max(other.re.level, other.im.level) > CONSTANT or other.im is not ZERO:
-            raise ModelError("a division by a field, or by anything but a real parameter")
+        if max(other.re.level, other.im.level) > CONSTANT:
+            raise ModelError("only division by numbers and parameters is supported")
+        if other.im is not ZERO:
+            return self * other.conjugate() / abs2(other)
         inverse = reciprocal(other.re)
         return Value(mul(inverse, self.re), mul(inverse, self.im))
 
@@ -100,10 +112,14 @@ class Value:
         """Return the complex conjugate."""
         return Value(self.re, neg(self.im))
 
+    conj = conjugate
+
     def __array_ufunc__(self, ufunc, method, *operands, **_):
         """Do what NumPy's functions and its numbers ask for, where there is a rule for it."""
         rule = UFUNCS.get(ufunc.__name__)
         if rule is None or method != "__call__":
+            if ufunc.__name__ == "absolute":
+                return abs(self)
             raise ModelError(f"{ufunc.__name__} of a field or a parameter has no rule")
         return rule(*map(Value.of, operands))
 
@@ -114,7 +130,7 @@ class Value:
     __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = __getitem__ = _refuse
 
     def __abs__(self):
-        raise ModelError("abs has no rule; abs2 is the squared modulus")
+        raise ModelError("abs has no rule; use abs2(u), the squared modulus")
 
 
 def shift(w: Value, sites: int) -> Value:

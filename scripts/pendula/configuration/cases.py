@@ -121,7 +121,7 @@ class Case(Model):
             m = self.half_width
             text = f"site {outside[0]} lies outside the chain, whose sites run from -{m} to {m}"
             found.append(("initial", text))
-        if not any(key in ("mu", "solver.name") for key, _ in found):
+        if not any(key.startswith(("mu", "solver.name", "parameters")) for key, _ in found):
             found += self.obstacles()
         if found:
             raise faults(found)

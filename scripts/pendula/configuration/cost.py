@@ -173,7 +173,7 @@ def fastest_rate(problem: Mapping) -> float:
     peak = max(max(map(abs, values)) for values in problem["initial"].values())
     if "parameters" in problem:
         model = problem["model"]
-        model = Model.of_text(**model) if isinstance(model, Mapping) else model
+        model = Model.of_plain(model) if isinstance(model, Mapping) else model
         return model.rate(problem["parameters"], peak)
     if problem.get("mu"):
         mu = problem["mu"]

@@ -197,11 +197,8 @@ def merge(below: Mapping, above: Mapping) -> dict:
     return found
 
 
-def with_texts(configuration: dict, folder: Path) -> dict:
-    """Return a configuration with the name and the text of each file that is named as a model.
-
-    Raises ConfigurationError where there is no such file; `folder` is where paths start.
-    """
+def with_paths(configuration: dict, folder: Path) -> dict:
+    """Return a configuration whose paths of models start at `folder`."""
     cases = configuration.get("cases")
     if not isinstance(cases, dict):
         return configuration
@@ -209,12 +206,7 @@ def with_texts(configuration: dict, folder: Path) -> dict:
     for name, case in cases.items():
         path = case.get("model") if isinstance(case, dict) else None
         if isinstance(path, str) and path.endswith(OF_MODELS):
-            try:
-                text = (folder / path).read_text(encoding="utf-8")
-            except (OSError, UnicodeDecodeError) as error:
-                why = getattr(error, "strerror", None) or "it is not a text in UTF-8"
-                raise ConfigurationError(f"cases.{name}.model: {folder / path}: {why}") from None
-            found[name] = {**case, "model": {"name": Path(path).name, "text": text}}
+            found[name] = {**case, "model": str(folder / path)}
     return {**configuration, "cases": found}
 
 
@@ -222,5 +214,5 @@ def gather(files: list[Path], given: Mapping) -> dict:
     """Return what files hold, each laid over those before it, and `given` over all."""
     found: dict = {}
     for path in files:
-        found = merge(found, with_texts(read(path), Path(path).parent))
-    return merge(found, with_texts(dict(given), Path()))
+        found = merge(found, with_paths(read(path), Path(path).parent))
+    return merge(found, with_paths(dict(given), Path()))

@@ -1,6 +1,7 @@
 """Faults of a configuration in words: all at once, by dotted path, with the nearest valid key."""
 
 import difflib
+import re
 from collections.abc import Iterator, Mapping
 from typing import get_args
 
@@ -124,7 +125,11 @@ def in_words(error: ValidationError, what: str, place: tuple = ()) -> Configurat
     """Return the error that lists every fault of `what`, which stands at `place`."""
     faults = [{**fault, "loc": (*place, *fault["loc"])} for fault in error.errors()]
     inside = _dotted(place) + "." if place else ""
-    lines = [line.removeprefix(inside) for fault in faults for line in _describe(fault).split("\n")]
+    lines = [  # a line of a user's file, which is quoted below an error, belongs to it
+        line.removeprefix(inside)
+        for fault in faults
+        for line in re.split(r"\n(?! )", _describe(fault))
+    ]
     return list_faults(lines, what)
 
 

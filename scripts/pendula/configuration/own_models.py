@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import (
     BeforeValidator,
     Field,
@@ -18,11 +17,12 @@ from pydantic import (
 from pendula.feasibility import Obstacle, find_fault_of_model
 from pendula.model import Model as Traced
 from pendula.model import ModelError
+from pendula.model_file import at_middle, values_at
 
 from .cases import Case, sites_of
 from .files import OF_MODELS
 from .solvers import OF_OWN_MODELS, OF_SECOND_ORDER
-from .values import Complex, Number, Whole, fault, faults, shown
+from .values import Complex, Number, Whole, fault, faults
 
 OF_THE_PAPER = ("epsilon", "gamma", "omega", "mu")
 """Constants of the paper's equations, which mean nothing here."""
@@ -37,22 +37,13 @@ def is_own(value: Any) -> bool:
 def _as_model(value: Any) -> Traced:
     try:
         if isinstance(value, Mapping):
-            return Traced.of_text(str(value.get("name")), str(value.get("text")))
+            raise fault(
+                "is a mapping; give the path of a file, such as mine.py: a configuration"
+                " holds no code"
+            )
         return value if isinstance(value, Traced) else Traced.read(value)
     except ModelError as error:
         raise fault(str(error)) from None
-
-
-def _as_parameter(value: Any) -> float | list[float]:
-    several = isinstance(value, list | tuple | np.ndarray)
-    try:
-        found = [float(one) for one in (value if several else [value])]
-    except (TypeError, ValueError):
-        text = f"is {shown(value)}, not a number or a list of one for each site"
-        raise fault(f"{text}; a function of the sites stands in the model's file") from None
-    if not np.isfinite(found).all():
-        raise fault(f"is {shown(value)}, which is not finite")
-    return found if several else found[0]
 
 
 class OwnCase(Case):
@@ -67,10 +58,8 @@ class OwnCase(Case):
         BeforeValidator(partial(sites_of, most=None)),
         Field(min_length=1),
     ]
-    model: Annotated[
-        Any, BeforeValidator(_as_model), PlainSerializer(lambda model: model.plain, dict | Any)
-    ]
-    parameters: dict[str, Annotated[float | list[float], BeforeValidator(_as_parameter)]] = {}
+    model: Annotated[Any, BeforeValidator(_as_model), PlainSerializer(lambda model: model, Any)]
+    parameters: dict[str, Any] = {}
 
     @model_validator(mode="before")
     @classmethod
@@ -90,14 +79,43 @@ class OwnCase(Case):
         if self.half_width < self.model.reach:
             text = f"is {self.half_width}; the equations look {self.model.reach} sites far"
             yield "half_width", text
-        for name, value in self.parameters.items():
-            if name not in known:
-                near = difflib.get_close_matches(name, known, 1)
-                hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-                yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
-            elif isinstance(value, list) and len(value) != 2 * self.half_width + 1:
-                text = f"has {len(value)} values for {2 * self.half_width + 1} sites"
-                yield f"parameters.{name}", text
+        for name in self.parameters.keys() - known.keys():
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            yield f"parameters.{name}", f"is no parameter of {self.model.name}; {hint}"
+        yield from self.faults_of_parameters(self.half_width)
+
+    def faults_of_parameters(self, half_width: int) -> Iterator[tuple[str, str]]:
+        """Yield the fault of each parameter that has no values on the sites of such a chain."""
+        for name, value in self._given().items():
+            try:
+                values_at(value, half_width)
+            except ValueError as error:
+                where = "" if name in self.parameters else f" (the default in {self.model.name})"
+                yield f"parameters.{name}", f"{error}{where}"
+
+    def faults_of_half_widths(self, half_widths: list[int]) -> Iterator[tuple[str, str]]:
+        """Yield the fault of each parameter without values on all chains of a sweep.
+
+        All chains have the values of the longest at their sites, which must be those that a
+        function gives for them.
+        """
+        longest, found = max(half_widths), []
+        for name, text in self.faults_of_parameters(longest):
+            found.append(name)
+            yield name, f"on the longest chain: {text}"
+        for name, value in self._given().items():
+            if callable(value) and f"parameters.{name}" not in found:
+                whole = values_at(value, longest)
+                if any(at_middle(whole, m) != values_at(value, m) for m in half_widths):
+                    text = "is a function with other values at the same sites of a longer chain"
+                    yield f"parameters.{name}", f"{text}; let them follow from the site alone"
+
+    def _given(self) -> dict[str, Any]:
+        return {k: self.parameters.get(k, one) for k, one in self.model.parameters.items()}
+
+    def _values(self, half_width: int) -> dict[str, float | list[float]]:
+        return {name: values_at(value, half_width) for name, value in self._given().items()}
 
     def faults_of_solver(self, solver: Any) -> Iterator[tuple[str, str]]:
         """Yield the fault of a solver that does not take the equations of the case."""
@@ -109,12 +127,18 @@ class OwnCase(Case):
     def _fault_and_rate(
         self, peak: float, span: float, solver: dict
     ) -> tuple[Obstacle | None, float]:
-        found = find_fault_of_model(self.model, self.parameters, peak, span, solver)
-        return found, self.model.rate(self.parameters, peak)
+        values = self._values(self.half_width)
+        found = find_fault_of_model(self.model, values, peak, span, solver)
+        return found, self.model.rate(values, peak)
 
     def problem(self, **changes) -> dict:
-        """Return the case as plain values of a Problem, some of them changed."""
-        return {**super().problem(**changes), "model": self.model.plain}
+        """Return the case as plain values of a Problem, some of them changed.
+
+        Each parameter is what it is on the sites of the chain, so that a job depends on the values.
+        """
+        found = super().problem(**changes)
+        values = self._values(found["half_width"])
+        return {**found, "model": self.model.plain, "parameters": values}
 
 
 def _of_its_kind(value: Any, handler) -> Case:

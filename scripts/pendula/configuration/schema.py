@@ -14,7 +14,7 @@ from pendula.problem import AMPLITUDES, PENDULA, name_window
 
 from . import cost
 from .cases import is_multiple
-from .own_models import AnyCase
+from .own_models import AnyCase, OwnCase
 from .solvers import Solver, Solvers, with_controls
 from .values import Distinct, Model, Name, Natural, Positive, Window, faults, shown
 
@@ -180,6 +180,11 @@ class Configuration(Model):
         if reach > shortest:
             text = f"lies outside the chain of half-width {shortest}"
             found.append(("half_widths", f"site {reach} of case {sweep.case!r} {text}"))
+        if isinstance(case, OwnCase):
+            faults_of_own = case.faults_of_half_widths(sweep.half_widths)
+            found += [("half_widths", f"case {sweep.case!r}: {k}: {x}") for k, x in faults_of_own]
+            if found:
+                return found
         times = [time for window in sweep.windows for time in window if time > 0]
         off_grid = [time for time in times if not is_multiple(time, case.output_step)]
         if off_grid:
@@ -240,7 +245,10 @@ class Configuration(Model):
         if own is not None:
             changes["solver"] = own.model_dump()
         changes |= self._by(solver)
-        return self.cases[self.sweeps[sweep].case].problem(**changes)
+        case = self.cases[self.sweeps[sweep].case]
+        if isinstance(case, OwnCase):
+            changes["half_width"] = max(self.sweeps[sweep].half_widths)
+        return case.problem(**changes)
 
     def _by(self, solver: str | None) -> dict:
         return {} if solver is None else {"solver": getattr(self.solvers, solver).model_dump()}

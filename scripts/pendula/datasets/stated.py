@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from pendula.problem import Problem, write_initial
+from pendula.simulation.own_models import parameters_of
 
 COMPUTED_FROM = "computed_from"
 """The attribute that names the datasets that a job has read."""
@@ -21,9 +22,7 @@ def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]
     values = problem.plain()
     plain = {key: values[key] for key in sorted(values) if key not in ("solver", "initial")}
     if problem.is_own:
-        known = problem.model.parameters.items()
-        given = {k: "a function of the site" if callable(v) else v for k, v in known}
-        plain["parameters"] = json.dumps(given | values["parameters"])
+        plain["parameters"] = json.dumps(parameters_of(problem), default=np.ndarray.tolist)
         plain |= {"model": problem.model.name, "model_text": problem.model.text}
     return {
         "case": name,

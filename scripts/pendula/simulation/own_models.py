@@ -8,6 +8,7 @@ from pendula.ends import PERIODIC, ends_of, kind_of
 from pendula.graph import derivative, evaluate, leaves_in, number
 from pendula.integrators import crank_nicolson, dop853, kahan_li, ode45
 from pendula.model import Model
+from pendula.model_file import values_at
 from pendula.models.generated import load_text, module_text, parts_of_rates
 from pendula.models.toolbox import System
 from pendula.problem import Problem
@@ -71,18 +72,18 @@ def solvers_of(problem: Problem) -> dict[str, Solver]:
     }
 
 
-def parameters_of(problem: Problem) -> dict:
+def parameters_of(problem: Problem) -> dict[str, float | np.ndarray]:
     """Return the value of each parameter: a number, or an array (site,) of one for each site.
 
-    Raises ValueError where a list has another length than the chain.
+    Raises ValueError with the name of one that has none.
     """
-    sites = np.arange(-problem.half_width, problem.half_width + 1)
-    found = {**problem.model.parameters, **problem.parameters}
-    for name, value in found.items():
-        value = np.asarray(value(sites) if callable(value) else value, float)
-        if value.shape not in ((), sites.shape):
-            raise ValueError(f"parameter {name} has {value.size} values for {sites.size} sites")
-        found[name] = value if value.ndim else float(value)
+    found = {}
+    for name, given in {**problem.model.parameters, **problem.parameters}.items():
+        try:
+            value = values_at(given, problem.half_width)
+        except ValueError as error:
+            raise ValueError(f"parameter {name} {error}") from None
+        found[name] = value if np.ndim(value) == 0 else np.array(value)
     return found
 
 

@@ -1,0 +1,124 @@
+"""What a person writes of a model: the file that is run, the values of parameters, and messages."""
+
+import importlib
+import sys
+import traceback
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .symbols import ModelError
+
+SEED = "If it draws random numbers, seed them: numpy.random.default_rng(1)"
+
+
+def run_file(path: Path, text: str) -> dict[str, Any]:
+    """Return the names that a file makes; what it imports from its own folder is read anew.
+
+    Raises ModelError with the line of the file where it fails.
+    """
+    folder, given = path.resolve().parent, {"__file__": str(path), "__name__": path.stem}
+    known, bytecode = _modules_in(folder), sys.dont_write_bytecode
+    for name in known:
+        del sys.modules[name]
+    importlib.invalidate_caches()
+    sys.path.insert(0, str(folder))
+    sys.dont_write_bytecode = True
+    try:
+        exec(compile(text, str(path), "exec"), given)
+    except (Exception, SystemExit) as error:
+        raise ModelError(placed(error, str(path), text, path.name)) from None
+    finally:
+        sys.dont_write_bytecode = bytecode
+        sys.path.remove(str(folder))
+        for name in _modules_in(folder):
+            del sys.modules[name]
+        sys.modules.update(known)
+    return given
+
+
+def _modules_in(folder: Path) -> dict[str, Any]:
+    """Return the loaded modules whose files lie in a folder."""
+    files = {name: getattr(module, "__file__", None) for name, module in sys.modules.items()}
+    inside = [name for name, file in files.items() if file and Path(file).parent == folder]
+    return {name: sys.modules[name] for name in inside if name != "__main__"}
+
+
+def placed(error: BaseException, place: str, text: str, name: str) -> str:
+    """Return what is wrong, with the line of the user's file or notebook where it is."""
+    frames = [one for one in traceback.extract_tb(error.__traceback__) if one.filename == place]
+    at = frames[-1].lineno if frames else getattr(error, "lineno", None)
+    what = f"{error}" if isinstance(error, ModelError) else f"{type(error).__name__}: {error}"
+    if at is None:
+        return f"{name}: {what}"
+    in_file, lines = place.endswith(name), text.splitlines()
+    line = lines[at - 1] if in_file and at <= len(lines) else frames[-1].line if frames else ""
+    return f"{name}, line {at}: {what}\n    {(line or '').strip()}"
+
+
+def values_at(given: Any, half_width: int) -> float | list[float]:
+    """Return a parameter as a number, or as a list of one for each site -M..M.
+
+    `given` is a number, a list or an array of one for each site, or a function of the array of
+    sites that returns either. Raises ValueError with what is wrong, to stand behind its name.
+    """
+    sites = np.arange(-half_width, half_width + 1)
+    if callable(given):
+        given = _called(given, sites)
+    values = _as_array(given)
+    if values.shape not in ((), sites.shape):
+        size = " x ".join(map(str, values.shape))
+        raise ValueError(f"has {size} values for {sites.size} sites")
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if wrong.size:
+        where = f" at site {sites[wrong[0]]}" if values.ndim else ""
+        raise ValueError(f"is {values.flat[wrong[0]]:g}{where}, which is not finite")
+    return values.tolist()
+
+
+def at_middle(values: Any, half_width: int) -> Any:
+    """Return the values of a parameter on the sites -M..M in the middle of a longer chain."""
+    if np.ndim(values) == 0:
+        return values
+    margin = len(values) // 2 - half_width
+    return values[margin : len(values) - margin]
+
+
+def _as_array(given: Any) -> np.ndarray:
+    """Return real numbers as an array; a text may stand for a number, as YAML makes of 1e-5."""
+    kind = ""
+    with suppress(TypeError, ValueError, OverflowError):
+        values = np.asarray(given)
+        kind = values.dtype.kind
+        if kind in "iufU":
+            return values.astype(float)
+    real = ", and complex; give its real and its imaginary part" if kind == "c" else ""
+    raise ValueError(f"is {_shown(given)}, not a number or a list of one for each site{real}")
+
+
+def _called(function, sites: np.ndarray) -> Any:
+    """Return what a function of the sites gives, which must be the same each time."""
+    with np.errstate(all="ignore"):
+        try:
+            found, again = function(sites.copy()), function(sites.copy())
+        except Exception as error:
+            text = f"is a function of the sites that fails: {type(error).__name__}: {error}"
+            raise ValueError(text) from None
+    if not same(found, again):
+        raise ValueError(f"is a function of the sites with other values each time. {SEED}")
+    return found
+
+
+def same(a: Any, b: Any) -> bool:
+    """Return whether two values, or arrays of them, are equal."""
+    try:
+        return bool(np.array_equal(a, b, equal_nan=True))
+    except TypeError:  # no numbers; they are refused where values are asked for
+        return True
+
+
+def _shown(given: Any) -> str:
+    text = " ".join(repr(given).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
