@@ -145,7 +145,8 @@ def steps_of(solver: Mapping, problem: Mapping) -> tuple[float, float]:
         tolerance = max(solver["rtol"], 1e-17) ** (-1.0 / method.order)
         return max(1.0, method.per_angle * rate * span * tolerance), 0.0
     if solver["name"] == "kahan_li":
-        fast = 2.0 / (problem["mu"] * problem["mu"])
+        mu = problem.get("mu")
+        fast = 2.0 / (mu * mu) if mu else 1.0
         return span * fast / min(solver["step"], problem["output_step"] * fast), 0.0
     step = min(solver["step"], problem["output_step"])
     while rate * step > 2.0:  # it is halved until the iteration contracts
