@@ -24,7 +24,7 @@ STOREYS = (
     ("configuration",),
     ("feasibility",),
     ("problem",),
-    ("model", "ends"),
+    ("model", "model_file", "ends"),
     ("symbols",),
     ("graph",),
     ("simd", "compiled", "inside_numba", "kernel_cache", "numerics", "sources"),

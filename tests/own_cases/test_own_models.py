@@ -307,3 +307,14 @@ def test_each_solver_that_a_model_allows_runs_from_notebook_and_file(kind, solve
     text += f"def {name}(p, u):\n    return lap(u) - u\n"
     plain = configured(f"initial: {{0: [1]}}, end_time: 1, solver: {solver}", text)
     assert plain["solver"]["name"] == solver
+
+
+def test_an_error_of_a_model_counts_once(configured):
+    text = "from pendula.model import *\nfields = 'u'\nparameters = {}\ndef i_dt(p, u):\n"
+    with pytest.raises(ConfigurationError) as error:
+        configured("initial: {0: [1]}", f"{text}    return u / u\n")
+    assert str(error.value).splitlines() == [
+        "the configuration has 1 error:",
+        "  cases.mine.model: mine.py, line 5: only division by numbers and parameters is supported",
+        "    return u / u",
+    ]
