@@ -137,3 +137,15 @@ def test_code_that_holds_addresses_of_its_process_is_not_kept(module, kept):
     module.write_text(large + MADE.replace("2 * x", "2 * x * TABLE[x]"))
     assert compile_anew(module, kept)(3) == 6.0
     assert not list(kept.rglob("*.kernel"))
+
+
+@pytest.mark.parametrize("mask", [0o000, 0o002, 0o027, 0o077])
+def test_folders_are_private_whatever_the_umask(tmp_path, mask):
+    root, before = tmp_path / "cache" / "kept", os.umask(mask)
+    try:
+        kernel_cache._write(root / "module" / "name.kernel", b"code")
+    finally:
+        os.umask(before)
+    made = [root.parent, root, root / "module"]
+    assert [path.stat().st_mode & 0o777 for path in made] == [0o700] * 3
+    assert kernel_cache._trusted(root) == root

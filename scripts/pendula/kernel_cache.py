@@ -86,7 +86,10 @@ def keep_source(name: str, text: str) -> Path:
 
 def _write(file: Path, content: bytes) -> None:
     """Write a file that appears whole or not at all, and that nobody else can write."""
-    file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    # `mode` of a mkdir with parents is that of the last folder alone, whatever the umask gives them
+    absent = [folder for folder in file.parents if not folder.exists()]
+    for folder in reversed(absent):
+        folder.mkdir(mode=0o700, exist_ok=True)
     partial = file.with_suffix(f".{os.getpid()}-{time.monotonic_ns()}")
     try:
         partial.touch(mode=0o600, exist_ok=False)
