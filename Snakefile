@@ -36,7 +36,7 @@ MADE_TOGETHER = {
 }
 FIGURES = [
     *(*MADE_TOGETHER, "fig1", "trust_horizons", "bounds", "ensembles", "lifetimes", "breathers"),
-    *("sensitivity", "fates", "pendula_threshold", "pendula_phases", "certified_curves"),
+    *("sensitivity", "fates", "pendula_threshold", "pendula_phases"),
 ]
 
 
@@ -61,7 +61,7 @@ DATASETS = [
     *rules.breathers.input.datasets,
     *(*rules.pendula.input.datasets, rules.pendula.input.film),
     *datasets("unbounded", *SETTINGS.unbounded.names, *MAPS, "thermal", "growth", "front"),
-    *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "lines", "breathers", "constants")),
+    *(*PROVED_CURVES, *datasets("certified", "wrong/curve", "breathers")),
 ]
 
 

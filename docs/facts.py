@@ -6,7 +6,6 @@ number is typed here.
 """
 
 import json
-from fractions import Fraction
 from pathlib import Path
 
 import xarray as xr
@@ -55,23 +54,14 @@ def exponent(study: xr.Dataset) -> str:
 
 
 def proved(baseline: Baseline) -> dict:
-    """Return the proven bounds of curves and states, and the bound of the short certificate."""
-    lines, breathers = baseline["certified/lines"], baseline["certified/breathers"]
-    cases = [str(case) for case in lines["case"].values]
-    framed = {case for case in cases if (BASELINE / f"proofs/{case}.nc").exists()}
-    curves = {case: baseline[f"{'proofs' if case in framed else 'certified'}/{case}"]
-              for case in cases}  # fmt: skip
-    whole = lines["contained_until"] == lines["run_end"]
-    short = json.loads((BASELINE / "proofs/short_case.json").read_text(encoding="utf-8"))
+    """Return the proven bounds of curves and states."""
+    breathers = baseline["certified/breathers"]
+    curves = [baseline[f"{folder}/{path.stem}"] for folder in ("proofs", "certified")
+              for path in sorted((BASELINE / folder).glob("fig*.nc"))]  # fmt: skip
     return {
         "count": str(len(curves)),
-        "largest": upward(max(one["bound"].max() for one in curves.values())),
-        "until": number(min(float(one["tau"][-1]) for one in curves.values())),
-        "contained": number(int(whole.sum())),
-        "short_sites": number(len(short["initial"][0])),
-        "short_steps": number(len(short["steps"])),
-        "short_end": number(float(Fraction(short["end_time"]))),
-        "short_bound": upward(short["steps"][-1]["bound"] / 2 ** short["bound_bits"]),
+        "largest": upward(max(one["bound"].max() for one in curves)),
+        "until": number(min(float(one["tau"][-1]) for one in curves)),
         "states": str(breathers.sizes["proof"]),
         "radius": upward(breathers["radius"].max()),
         "unique": number(float(breathers["unique_radius"].min()) / UPWARD, 2),
@@ -79,8 +69,6 @@ def proved(baseline: Baseline) -> dict:
         "unstable": str(int((breathers["stable"] == 0).sum())),
         "chain_sites": number(2 * breathers.attrs["chain_half_width"] + 1),
         "bits": number(breathers.attrs["bits"]),
-        "constants": str(baseline["certified/constants"].sizes["constant"]),
-        "constants_off": upward(baseline["certified/constants"]["stored_error"].max()),
     }  # fmt: skip
 
 

@@ -142,7 +142,6 @@ def certified(baseline) -> dict[str, float]:
         "curves": max(_most(baseline[f"certified/{case}"]["bound"]) for case in cases),
         "frames": max(_most(baseline[f"proofs/{case}"]["bound"]) for case in framed),
         "breathers": max(radii),
-        "constants": _most(baseline["certified/constants"]["stored_error"]),
     }
 
 

@@ -2,7 +2,6 @@
 
 from accepted import dataset
 from pendula.studies.breathers import figures as breathers
-from pendula.studies.certified import figures as certified
 from pendula.studies.chaos import figures as chaos
 from pendula.studies.paper import chain_figure
 from pendula.studies.paper import figures as paper
@@ -63,8 +62,6 @@ FIGURES = {
               "breathers/fates", "quoted/breathers"),
     "sensitivity": (breathers.draw_sensitivity, breathers.gather_sensitivity,
                     "breathers/sensitivity"),
-    "certified_curves": (certified.draw_curves, lambda *curves: certified.gather_curves(curves),
-                         "certified/fig2_small", "certified/fig3_small"),
     "lyapunov": (chaos.draw_lyapunov, chaos.gather_lyapunov, "checks/lyapunov"),
     "symmetry": (chaos.draw_symmetry, chaos.gather_symmetry, "checks/symmetry", "checks/lyapunov"),
     "ensembles": (chaos.draw_ensembles, chaos.gather_ensembles,

@@ -12,7 +12,7 @@ from pendula.own_cases.section import parameters
 from pendula.problem import PENDULA
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
-from pendula.studies.certified import constants, norm, polynomials
+from pendula.studies.certified import norm, polynomials
 from pendula.studies.theory.equations import right_hand_side, total_energy
 from pendula.studies.theory.other_forms import pt_rates
 from problems import make_problem
@@ -51,9 +51,6 @@ TAUGHT = {
     "pendula": pendula,
     "rates": lambda boundary: right_hand_side(problem("free").constants, boundary, Z),
     "energy": lambda boundary: total_energy(problem("free").constants, boundary, Z),
-    "proven energy": lambda boundary: float(
-        constants.energy(constants.Parameters.of(problem("free").constants), boundary, Z)
-    ),
     "proven rates": rates_of_errors,
     "region": lambda boundary: proven_region(-1.0, 0.5, problem("free").constants, boundary),
     "bound": lambda boundary: best_bound(-1.0, 0.5, 7, problem("free").constants, boundary),

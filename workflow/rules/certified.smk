@@ -8,7 +8,6 @@ use rule dataset as certify_curve with:
         made=f"certified/{{case,{one_of([*CERTIFIED.curves.cases, *OWN_CASES])}}}",
     params:
         call=function("pendula.studies.certified.contents.curve_contents"),
-        committed=lambda wildcards: committed(**reference_of(wildcards.case)),
         name="{case}",
         problem=lambda wildcards: certified_problem(wildcards.case),
         made_for={},
@@ -26,24 +25,11 @@ use rule dataset as certify_by_frames with:
         made=f"certified/{{case,{one_of(CERTIFIED.frames)}}}",
     params:
         call=function("pendula.studies.certified.contents.frame_contents"),
-        committed=lambda wildcards: committed(**reference_of(wildcards.case)),
         name="{case}",
         problem=lambda wildcards: framed_problem(wildcards.case),
         proof=lambda wildcards: values_of(
             CERTIFIED.frames[wildcards.case], "bits", "order", "outputs_per_frame"
         ),
-
-
-use rule dataset as measure_lines with:
-    "Until when the printed lines of Figs 2 to 4 contain the true curves, as a theorem"
-    input:
-        runs=TRAJECTORIES,
-        proved=PROVED_CURVES,
-    pathvars:
-        made="certified/lines",
-    params:
-        call=function("pendula.studies.certified.lines.contain_curves"),
-        committed=committed(references=references(*PAPER_CASES), proofs=committed_proofs()),
 
 
 use rule certify_curve as certify_wrong_curve with:
@@ -56,20 +42,9 @@ use rule certify_curve as certify_wrong_curve with:
             **certified_problem(CERTIFIED.curves.wrong.case),
             **values_of(CERTIFIED.curves.wrong, "end_time"),
         },
-        committed={},
         made_for=CERTIFIED.curves.wrong.model_dump(
             include={"epsilon", "gamma", "omega"}, exclude_none=True
         ),
-
-
-use rule figure as certified_curves with:
-    "Proven bounds of the error of curves, what they are due to, and the error that is known"
-    input:
-        curves=PROVED_CURVES,
-    pathvars:
-        made="figures/certified_curves",
-    params:
-        call=function("pendula.studies.certified.figures.draw_curves"),
 
 
 use rule dataset as prove_breathers with:
@@ -79,34 +54,3 @@ use rule dataset as prove_breathers with:
     params:
         **values_of(CERTIFIED.breathers),
         call=function("pendula.studies.certified.proved_breathers.breathers_contents"),
-
-
-use rule dataset as enclose_constants with:
-    "The constants of the theorems that the theory stores, between bounds"
-    input:
-        datasets=checks(*ENCLOSED),
-    pathvars:
-        made="certified/constants",
-    params:
-        call=function("pendula.studies.certified.constants.enclose_checks"),
-        problems={case: SETTINGS.problem(case, snapshot_step=None) for case in PAPER_CASES},
-        theory={
-            name: arguments
-            for group in GROUPS
-            for name, arguments in SETTINGS.theory.arguments(group).items()
-            if name in ENCLOSED
-        },
-
-
-use rule job as certificate with:
-    "The proof of a short case as a file that others can check: results/certified/short_case.json"
-    output:
-        certificate="<results>/certified/short_case.json",
-    pathvars:
-        made="certified/certificate",
-    params:
-        call=function("pendula.studies.certified.certificate.write_certificate"),
-        problem={
-            **certified_problem(CERTIFIED.certificate.case),
-            **values_of(CERTIFIED.certificate, "half_width", "end_time"),
-        },

@@ -40,7 +40,7 @@ from pendula import __version__
 from pendula.archive.contents import code_files
 from pendula.configuration.files import ConfigurationError, gather
 from pendula.configuration.messages import STUDIES, load, require
-from pendula.configuration.paper import ENCLOSED, concerning, differences, paper, reason
+from pendula.configuration.paper import concerning, differences, paper, reason
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
 from pendula.configuration.values import Steps
 from pendula.problem import Constants, name_window
@@ -202,10 +202,6 @@ def references(*names):
 
 
 REFERENCES = references(*PAPER_CASES, "fig4_small.double")
-
-
-def reference_of(case):
-    return {"reference": references(case)[0]} if case in PAPER_CASES else {}
 
 
 def fine_maps(wildcards):

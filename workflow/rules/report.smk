@@ -24,7 +24,6 @@ use rule job as live with:
     input:
         runs=runs_by("ode45"),
         trust="<results>/checks/trust.nc",
-        lines="<results>/certified/lines.nc",
     output:
         html="<results>/live.html",
     pathvars:

@@ -219,22 +219,14 @@ def _pendula(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     return (*own, *ends, *(key for case in cases for key in _keys(case, *FINITE)))
 
 
-ENCLOSED = ("cases", "theorem_2_case", "theorem_3_constant", "threshold", "chart")
-"""The checks whose constants the study of proofs encloses."""
-
-
 def _certified(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     """Return what a proof rests on: its states or case, or what asks it about a wrong one."""
     given = paper()["certified"]
     wrong = given["curves"]["wrong"]
     if name == "breathers":
         return tuple(f"certified.breathers.{key}" for key in given["breathers"])
-    if name == "constants":
-        return tuple(dict.fromkeys(path for check in ENCLOSED for path in _check(check, ())))
     if name == "wrong/curve":
         return ("certified.curves.wrong", *_keys(wrong["case"], *FINITE))
-    if name == "lines":
-        return _of_all(paper()["cases"], *FINITE, "end_time", "solver")
     return _keys(name, *FINITE, "end_time")
 
 

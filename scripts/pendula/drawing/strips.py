@@ -22,13 +22,8 @@ PALE = {"A": "#f0a79f", "B": "#9db2de", "x": "#f0a79f", "y": "#9db2de"}
 """Colours of bands, and of curves that lie under others."""
 TALL, LOW = 1.5, 0.8
 """Heights in inches: of a panel that stands alone, and of a strip."""
-HIGHEST = 2.0
-"""No panel of a figure of two cases is higher, even if nothing else took room: see `draw_cases`."""
 HEADROOM = 1.3
 """The axis ends so far above the largest value: the name of the strip stands there."""
-SIMPLIFIED = 1.0 / 9.0
-"""matplotlib leaves out points of a line that move it by less than this, in points (at worst, in a
-PDF; its `path.simplify_threshold`)."""
 MARK = {"color": "black", "marker": "v", "markersize": 4, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 LABEL = {"ha": "right", "va": "top", "fontsize": 7, "bbox": BEHIND, "zorder": 4}
@@ -44,15 +39,6 @@ class Strip(NamedTuple):
     prefix: str
     label: str
     under: str = ""
-
-
-def half_line(top: float) -> float:
-    """Return, in units of a norm, how far a line surely reaches to either side of its points.
-
-    `top` is the largest value of the curves of the panel, in a figure of two cases.
-    """
-    points = 0.5 * style.LINE_WIDTH - SIMPLIFIED
-    return points / (72.0 * HIGHEST) * HEADROOM * top
 
 
 def draw_cases(cases: Sequence[xr.Dataset], strips: Sequence[Sequence[Strip]]) -> tuple:

@@ -32,20 +32,19 @@ OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
 change of one word changes it."""
 
 
-def write_live(runs: list[str], trust: str, lines: str, html: str) -> None:
+def write_live(runs: list[str], trust: str, html: str) -> None:
     """Write the page `html` on the trajectories `runs`, each <case>.<solver>.nc, of one solver.
 
-    `trust` is the dataset checks/trust, `lines` is certified/lines. A case with initial data beside
-    the central pair is left out, since the page cannot set them.
+    `trust` is the dataset checks/trust. A case with initial data beside the central pair is left
+    out, since the page cannot set them.
     """
     by_case = {Path(path).name.partition(".")[0]: read(path) for path in runs}
     about = next(iter(by_case.values())).attrs
     trusted = read(trust).sel(solver=about["solver"], level="visible")
-    proved = read(lines)
     data = {
         "solver": _solver(about),
         "cases": [
-            _case(name, run, trusted.sel(case=name), proved.sel(case=name))
+            _case(name, run, trusted.sel(case=name))
             for name, run in by_case.items()
             if set(read_initial(run.attrs["initial"])) == {0}
         ],
@@ -93,7 +92,7 @@ def _solver(about: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _case(name: str, run: xr.Dataset, trust: xr.Dataset, lines: xr.Dataset) -> dict[str, Any]:
+def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
     """Return what the page holds of a case; a time of `None` is not known."""
     about = run.attrs
     a, b = read_initial(about["initial"])[0]
@@ -108,7 +107,6 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset, lines: xr.Dataset) -> d
         "every": int(about["snapshot_every"]),
         "marks": _text(marks(run).tobytes()),
         "horizon": known or None,
-        "contained": float(lines["contained_until"].min(skipna=False).fillna(0.0)) or None,
     }
 
 

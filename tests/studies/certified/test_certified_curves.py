@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from helpers import ROOT
 from oracle import laplacian
-from pendula.datasets.netcdf import as_xarray, read
+from pendula.datasets.netcdf import read
 from pendula.models.linear_chain import flow
 from pendula.problem import Constants
 from pendula.studies.certified import norm, regular
 from pendula.studies.certified.contents import curve_contents
-from pendula.studies.certified.figures import draw_curves, gather_curves
 from pendula.studies.certified.norm import (
     NotDefiniteError,
     bands,
@@ -139,9 +138,6 @@ def test_where_no_norm_is_kept_the_bound_is_infinite_and_the_file_says_why():
     variables, attributes = curve_contents("mine", problem(omega=1.0))
     assert np.isinf(variables["bound"].values).all() and variables["l2"].values.max() < 10.0
     assert "lies in [-2, 6]" in attributes["not_certified"]
-    known = as_xarray(variables, attributes)
-    data = gather_curves([as_xarray(*curve_contents("mine", problem(omega=1.0), None, known))])
-    assert len(draw_curves(data).axes) == 1
 
 
 def test_no_step_is_short_enough_for_a_polynomial_of_low_order():

@@ -2,11 +2,8 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import COMPONENTS, Contents, describe_run
-from pendula.measures.difference import NORMS, PARAMETERS
 from pendula.problem import Problem
 
 from . import frames, regular
@@ -16,15 +13,12 @@ from .polynomials import find_curve
 MEANT = {"parameters_mean": "the printed decimals"}
 
 
-def curve_contents(
-    name: str, problem: Problem, made_for: Mapping | None = None, reference=None
-) -> Contents:
+def curve_contents(name: str, problem: Problem, made_for: Mapping | None = None) -> Contents:
     """Return the contents of the dataset on a curve with the bound that `regular` proves.
 
     `made_for` are constants that the curve is made with in place of those of the problem, an error
     that the bound must then show. Where the linear flow conserves no norm, the bound is infinite
-    and an attribute says why. `reference` is an xarray.Dataset of the same case in multiprecision,
-    or of another one, or None.
+    and an attribute says why.
     """
     curve = find_curve(problem.changed(**(made_for or {})))
     about = {f"made_for_{key}": value for key, value in (made_for or {}).items()}
@@ -36,25 +30,20 @@ def curve_contents(
         about["not_certified"] = str(reason)
     solver = {"name": "polynomials", "order": len(curve.terms) - 1, "step": curve.step}
     about = describe_run(name, problem, solver) | MEANT | about
-    return _contents(about, regular.norms_at(proof, problem.times), regular.PARTS, reference)
+    return _contents(about, regular.norms_at(proof, problem.times))
 
 
-def frame_contents(name: str, problem: Problem, proof: Mapping, reference=None) -> Contents:
+def frame_contents(name: str, problem: Problem, proof: Mapping) -> Contents:
     """Return the same of a curve whose bound `frames` proves.
 
     `proof` are the arguments of `frames.certify` beside the problem.
     """
     about = describe_run(name, problem, {"name": "polynomials of integers", **proof}) | MEANT
-    return _contents(about, frames.certify(problem, **proof), frames.PARTS, reference)
+    return _contents(about, frames.certify(problem, **proof))
 
 
-def _contents(
-    about: Mapping, found: regular.Certified, parts: tuple[str, ...], reference
-) -> Contents:
-    """Return norms, the bound of their distance to the true ones, and the parts of its sum.
-
-    The distance to a reference is NaN if that has other parameters or lacks the time.
-    """
+def _contents(about: Mapping, found: regular.Certified) -> Contents:
+    """Return norms, and the bound of their distance to the true ones."""
     norms, of_tau = ("component", "tau"), ("tau",)
     variables = {
         "tau": Variable(of_tau, found.tau),
@@ -66,22 +55,6 @@ def _contents(
             found.bound,
             "bound, as proved, of the l2 distance to the true state, and so of each norm's error",
         ),
-        "bound_part": Variable(("bound_part",), list(parts), "what a part of the bound is due to"),
-        "bound_parts": Variable(
-            ("bound_part", "tau"), found.parts, "part of the bound, which is their sum"
-        ),
-        "error_exponent": Variable(
-            of_tau,
-            found.exponent,
-            "logarithm of how much the proof lets an error of the start grow",
-        ),
     }
-    if reference is not None:
-        apart = np.full(found.tau.shape, np.nan)
-        if all(reference.attrs[key] == about[key] for key in PARAMETERS):
-            known = reference.reindex(tau=found.tau, method="nearest", tolerance=1e-9)
-            apart = np.max([abs(known[one] - getattr(found, one)) for one in NORMS], axis=(0, 1))
-        words = "largest distance of a norm to that of the multiprecision reference"
-        variables["reference_distance"] = Variable(of_tau, apart, words)
     title = f"Norms of {about['case']} against time, with a proven bound of their distance to "
     return variables, {"title": f"{title}the true ones", **about}

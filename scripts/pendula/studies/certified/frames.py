@@ -57,7 +57,7 @@ below y = the trial + (sum of t_k) |z|.
 
 The parts of the bound grow alike, so they are carried side by side: the bounds of |z_i| and |w| are
 sums over parts. One more part, which belongs to no error, is a unit error at the start: the
-logarithm of what becomes of it is how much the proof lets errors grow.
+order of the columns in a new frame depends on it.
 
 Rounding of the bound itself: sums, products and roots of numbers that are not negative, as in
 `regular`, with the factor `UP` each step.
@@ -69,7 +69,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pendula.numerics.elementary import log
 from pendula.problem import Problem
 
 from .fixed_point import (
@@ -284,7 +283,7 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
     state, off = start(problem, chain)
     tube = begin(chain, off)
     steps_between = follow(state, chain, order)
-    states, parts, exponents = [], [], []
+    states, parts = [], []
     for count, tau in enumerate(problem.times.tolist()):
         for step in whole(next(steps_between)) if count else ():
             tube = advance(tube, step, chain, jump(state, step, chain))
@@ -292,15 +291,13 @@ def certify(problem: Problem, bits: int, order: int, outputs_per_frame: int) -> 
         half = np.array([[value / 2**bits for value in part] for part in state])
         half = half.reshape(2, 2, chain.sites)
         states.append(np.concatenate([half[..., :0:-1], half], axis=-1))
-        *grown, unit_error = distances(tube)
+        grown = distances(tube)[:UNIT_ERROR]
         late = float(abs(Fraction(tau) - count * chain.interval))  # tau is a double
-        parts.append(round_up([*grown, evaluation(states[-1], np.array(grown), chain, late)]))
-        exponents.append(float(log(round_up(unit_error))))
+        parts.append(round_up([*grown, evaluation(states[-1], grown, chain, late)]))
         if count and count % outputs_per_frame == 0:
             tube = reframe(tube)
     found = np.array(states)
-    parts, exponents = np.array(parts).T, np.array(exponents)
-    return Certified(problem.times, *norms_of(found), parts, exponents, found)
+    return Certified(problem.times, *norms_of(found), np.array(parts).T, found)
 
 
 def evaluation(state: np.ndarray, parts: np.ndarray, chain: Chain, late: float) -> float:

@@ -77,7 +77,6 @@ class Certified(NamedTuple):
     linf: np.ndarray  # (component, time)
     l2: np.ndarray  # (component, time)
     parts: np.ndarray  # (part, time), in the order of PARTS
-    exponent: np.ndarray  # (time,), the integral of the rate
     states: np.ndarray  # (time, part of a complex number, component, site)
 
     @property
@@ -91,7 +90,6 @@ class Proof(NamedTuple):
 
     curve: Curve
     errors: np.ndarray  # in the l2 norm, (step, end of interval, part), parts as in GROWING
-    exponents: np.ndarray  # (interval + 1,), the integral of the rate
 
 
 def prove(problem: Problem, curve: Curve) -> Proof:
@@ -106,15 +104,14 @@ def prove(problem: Problem, curve: Curve) -> Proof:
         "jumps": _jumps(curve, sizes),
     }
     errors = _accumulate(inputs, growth, sizes, form, curve.step)
-    exponents = np.concatenate([[0.0], np.cumsum(growth)])
-    return Proof(curve, UP * errors / sqrt(form.m1), exponents)
+    return Proof(curve, UP * errors / sqrt(form.m1))
 
 
 def leave_unproved(curve: Curve) -> Proof:
     """Return an infinite distance, for problems whose linear flow conserves no norm."""
     steps = curve.terms.shape[1]
     errors = np.full((steps, SAMPLES + 1, len(GROWING)), np.inf)
-    return Proof(curve, errors, np.full(steps * SAMPLES + 1, np.inf))
+    return Proof(curve, errors)
 
 
 class Sizes(NamedTuple):
@@ -318,8 +315,7 @@ def norms_at(proof: Proof, tau: np.ndarray) -> Certified:
     parts[:-1] = proof.errors[index, interval].T
     # squares, the at most 16 levels of the sum, and the root: 12 roundings of the norm or fewer
     parts[-1] = UP * (_norms(off, 1) + 12.0 * UNIT * _norms(states, 1))
-    exponents = proof.exponents[index * SAMPLES + interval]
-    return Certified(tau, *norms_of(states), parts, exponents, states)
+    return Certified(tau, *norms_of(states), parts, states)
 
 
 def norms_of(states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""The report's part on proofs: how far computed curves, states and constants can be off."""
+"""The report's part on proofs: how far computed curves and states can be off."""
 
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
@@ -7,31 +7,25 @@ import numpy as np
 
 from pendula.ledger.section import Ledger
 from pendula.report.results import Results, Section, Table
-from pendula.report.words import NORMS, case_in_words, case_of, number, symbols
+from pendula.report.words import case_in_words, number, symbols
 
 from .states import Verdict
 
-LINES = "certified/lines"
-BREATHERS, CONSTANTS = "certified/breathers", "certified/constants"
+BREATHERS = "certified/breathers"
 VERDICTS = {Verdict.STABLE: "stable", Verdict.UNSTABLE: "unstable", Verdict.UNDECIDED: "open"}
 
 
 def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
-    """Return what is proved of curves, printed lines, breathers and constants."""
-    proved, constants = results[BREATHERS], results[CONSTANTS]
+    """Return what is proved of curves and breathers."""
+    proved = results[BREATHERS]
     cases = results.settings["certified"]["curves"]["cases"]
     names = [name for name in (f"certified/{case}" for case in cases) if name in results]
     return {
         "curves": Table(
             "Proven distance of computed curves to the true ones",
-            ["case", "until τ =", "proven bound", "largest distance to the reference"],
+            ["case", "until τ =", "proven bound"],
             [_curve(results, name) for name in names],
         ),
-        "certified_curves": results.figure("certified_curves", (
-            "The proven bound of the distance to the true solution, and its parts. The dotted line "
-            "is the largest distance of a norm to the multiprecision reference up to each time."
-        )),
-        "lines": _lines(results),
         "breathers": Table(
             "Steady breathers as theorems for the infinite chain, in arithmetic of "
             f"{int(proved.attrs['bits'])} bits with all rounding bounded; the spectrum is enclosed "
@@ -39,12 +33,6 @@ def gather(results: Results, ledger: Ledger) -> dict[str, Any]:
             ["family", "Ω", "ε", "a true state within", "no other within", "on the finite chain",
              "growth per unit of τ, at least"],
             [_breather(results, i) for i in range(proved.sizes["proof"])],
-        ),
-        "constants": Table(
-            "Constants of Lemma 1 and of Theorems 1 to 3, enclosed",
-            ["constants", "largest distance of a stored one, relative where it exceeds one"],
-            [[results.quote(CONSTANTS, constants.sizes["constant"]),
-              results.quote(CONSTANTS, float(constants["stored_error"].max()))]],
         ),
     }  # fmt: skip
 
@@ -55,25 +43,7 @@ def _curve(results: Results, name: str) -> list:
         case_in_words(one.attrs["omega"], one.attrs["initial"]),
         number(float(one["tau"][-1])),
         results.quote(name, _cut(one["bound"].max(), ROUND_CEILING)),
-        results.quote(name, float(one["reference_distance"].max())),
     ]
-
-
-def _lines(results: Results) -> Table:
-    """Return until when each printed line contains the true curve, proved and measured."""
-    lines = results[LINES]
-    curves = [(norm, one) for norm in lines["norm"].values for one in lines["component"].values]
-    rows = []
-    for case in (lines.sel(case=name) for name in lines["case"].values):
-        both = ([float(case[f"{how}_until"].sel(norm=norm, component=one))
-                 for how in ("contained", "measured")] for norm, one in curves)  # fmt: skip
-        said = (", ".join([f"{number(proved, 4)} proved" if np.isfinite(proved) else "not proved",
-                           f"{number(seen, 4)} measured" if np.isfinite(seen) else "not measured"])
-                for proved, seen in both)  # fmt: skip
-        rows.append([case_of(case), *(results.say(LINES, text) for text in said)])
-    head = ["case", *(f"{NORMS[str(norm)]} of {one}" for norm, one in curves)]
-    title = "τ up to which the printed lines of Figs 2 to 4 contain the true curves"
-    return Table(title, head, rows)
 
 
 def _breather(results: Results, index: int) -> list:

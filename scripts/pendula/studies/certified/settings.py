@@ -11,7 +11,6 @@ from pendula.configuration.values import (
     Model,
     Name,
     Names,
-    Natural,
     Needs,
     Number,
     Positive,
@@ -90,8 +89,6 @@ class Settings(Model):
     curves: model(cases=Names, wrong=WrongCurve)  # with a proven distance to the true ones
     frames: dict[Name, Frames]
     breathers: Breathers
-    # a case on a short chain for a short time, whose proof others can check
-    certificate: model(case=Name, half_width=Natural, end_time=Positive)
     needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
@@ -106,4 +103,3 @@ class Settings(Model):
         yield from settings.absent("cases", "curves.wrong.case", [self.curves.wrong.case])
         for key, fault in self.breathers.faults():
             yield f"breathers.{key}", fault
-        yield from settings.absent("cases", "certificate.case", [self.certificate.case])

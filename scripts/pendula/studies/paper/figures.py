@@ -329,6 +329,6 @@ def _draw_trust(axes: Axes, case: xr.Dataset) -> None:
         _draw_difference(axes, error, SOLVER_NAMES[solver], _look(solver), mark)
     if np.isfinite(case["proved_until"]):
         bound = case["largest_bound"].sel(tau=slice(case["proved_until"]))
-        _draw_difference(axes, bound, "proven bound", PROVEN, None)
+        _draw_difference(axes, bound, "bound proved for another curve", PROVEN, None)
     _draw_visible(axes, visible)
     axes.set_ylim(1e-17, 3.0)
