@@ -103,7 +103,7 @@ def test_every_variable_is_named_and_has_units(plot):
 
 GOING = {
     "solver_agreement", "growth_rates", "symmetry", "lyapunov", "ensembles", "sensitivity", "front",
-    "breathers", "certified_curves", "pendula_threshold", "pendula_remainder", "pendula_phases",
+    "breathers", "pendula_threshold", "pendula_remainder", "pendula_phases",
     "window_map", *OWN,
 }  # fmt: skip
 

@@ -87,8 +87,8 @@ def _trust_horizons(results: Results):
     return results.figure("trust_horizons", told(
         "Errors of the norms of each solver against τ. A mark on the dashed line shows when a "
         "solver leaves its reference; otherwise it stands at the end of the curve, and a case "
-        "without a reference has an empty panel. The proved bound is how far another curve, "
-        "of polynomials, can be from the true solution. At Ω = {omega} the solution that starts from "
+        "without a reference has an empty panel. The proven bound is how far a curve of "
+        "polynomials can be from the true solution. At Ω = {omega} the solution that starts from "
         "the double next to the printed tenth is off by {size} of full scale at τ = {first} and by "
         "{visible} at τ = {seen}.",
         omega=number(float(results[PRINTED].attrs["omega"])),

@@ -53,8 +53,8 @@ TRUST_CAPTION = (
     "Largest error of the norms up to each time, relative to full scale, by solver. The dashed "
     f"line is {100 * VISIBLE:g} %, where an error becomes visible. A mark on it shows when a "
     "solver leaves the multiprecision reference; a curve that stays below has its mark at its "
-    "end. A case without a reference has an empty panel. The proven bound limits the error of a "
-    "computed curve, as far as its proof reaches."
+    "end. A case without a reference has an empty panel. The bound is proved for another curve, of "
+    "polynomials, whose error is not drawn; so it can lie below the errors of the solvers."
 )
 
 
