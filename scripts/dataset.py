@@ -30,9 +30,9 @@ def make(snakemake) -> None:
         told = of_output(path, plain)
         if isinstance(contents, tuple):
             variables, attributes = contents
-            write(path, variables, stated(told, variables, names) | attributes)
+            write(path, variables, stated(told, variables, names, function) | attributes)
         else:
-            said = stated(told, map(str, contents.variables), names)
+            said = stated(told, map(str, contents.variables), names, function)
             save(path, contents.assign_attrs(said | contents.attrs))
 
 

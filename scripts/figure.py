@@ -31,7 +31,7 @@ def draw(snakemake) -> None:
         drawn = gather(**{name: given[name] for name in wanted})
         given.setdefault(topic.lstrip("_"), drawn)
         names = [name_of(path) for name in wanted & files.keys() for path in files[name]]
-        shown = drawn.assign_attrs(stated({}, (), sorted(names)))
+        shown = drawn.assign_attrs(stated({}, (), sorted(names), function))
         save(function(drawn), shown, *paths[KINDS * number : KINDS * (number + 1)], differs)
 
 

@@ -26,20 +26,20 @@ CONSTANTS = {"epsilon": 1.0, "gamma": 0.5, "omega": -4.0}
     ],
 )
 def test_arguments_become_numbers_and_text(given, says):
-    assert stated(given, (), []) == says
+    assert stated(given, (), [], make) == says | {"computed_by": f"{__name__}.make"}
 
 
 def test_several_problems_state_what_they_share_once_and_the_rest_by_name():
     problems = by_name(
         {name: problem_of(omega=at).plain() for name, at in (("a", 8.0), ("b", 0.0))}
     )
-    found = stated({"problems": problems}, (), ["checks/a", "checks/b"])
+    found = stated({"problems": problems}, (), ["checks/a", "checks/b"], make)
     assert found["half_width"] == problems["a"].half_width and "omega" not in found
     assert found["problems"] == '{"a": {"omega": 8.0}, "b": {"omega": 0.0}}'
     assert found["computed_from"] == "checks/a, checks/b"
-    assert "problems" not in stated({"problems": problems}, ("omega",), [])
+    assert "problems" not in stated({"problems": problems}, ("omega",), [], make)
     infinite = problems["a"].changed(half_width=None)
-    assert "half_width" not in stated({"problem": infinite}, (), [])
+    assert "half_width" not in stated({"problem": infinite}, (), [], make)
 
 
 def test_each_dataset_of_a_job_states_its_own_entry_and_names_what_it_was_made_from(tmp_path):

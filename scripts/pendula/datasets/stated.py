@@ -5,7 +5,7 @@ names the datasets that have them.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -13,8 +13,8 @@ import numpy as np
 from pendula.problem import Problem, write_initial
 from pendula.simulation.own_models import parameters_of
 
-COMPUTED_FROM = "computed_from"
-"""The attribute that names the datasets that a job has read."""
+COMPUTED_BY, COMPUTED_FROM = "computed_by", "computed_from"
+"""The attributes that name the function of a job, and the datasets that it has read."""
 
 
 def describe_run(name: str, problem: Problem, solver: Mapping) -> dict[str, Any]:
@@ -46,13 +46,15 @@ def shared_by(descriptions: Iterable[Mapping[str, Any]], *without: str) -> dict[
     }
 
 
-def stated(given: Mapping[str, Any], variables: Iterable[str], read: list[str]) -> dict[str, Any]:
+def stated(
+    given: Mapping[str, Any], variables: Iterable[str], read: list[str], function: Callable
+) -> dict[str, Any]:
     """Return what the function of a job was given as attributes, which are numbers and text.
 
     A list is written as JSON, and a table as an attribute for each entry, or as JSON if they are
     no single values. Several problems have an attribute for what all of them share, and one for
     the rest. `variables` are those of the dataset: what they hold is left out. `read` names the
-    datasets that the job has read.
+    datasets that the `function` has read.
     """
     variables, found = set(variables), {}
     for name, value in given.items():
@@ -70,6 +72,7 @@ def stated(given: Mapping[str, Any], variables: Iterable[str], read: list[str]) 
         found |= shared | ({} if told else {name: _json(own)})
     known = {name: value for name, value in found.items() if value is not None}  # an infinite chain
     found = {name: value for name, value in known.items() if name not in variables}
+    found[COMPUTED_BY] = f"{function.__module__}.{function.__name__}"
     return found | ({COMPUTED_FROM: ", ".join(read)} if read else {})
 
 
