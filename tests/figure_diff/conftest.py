@@ -2,13 +2,15 @@
 
 import json
 import shutil
+from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
 import made_up_results as made_up
+import netCDF4
 import pytest
 from pendula.datasets.json_files import load_json, write_json
-from pendula.datasets.netcdf import read
+from pendula.datasets.netcdf import LENGTH, MARK, read
 from pendula.figure_diff import Finding, Verdict, acceptance, baseline
 
 
@@ -37,6 +39,15 @@ class Run(NamedTuple):
         for variable in changed.variables.values():
             variable.encoding = {"_FillValue": None}
         changed.to_netcdf(self.made / name, engine="netcdf4", format="NETCDF4")
+        seal(self.made / name)
+
+    def hide(self, name: str, hidden) -> None:
+        """Put into a dataset of the run what `hidden` adds to its file and xarray does not show."""
+        path = self.made / name
+        path.write_bytes(path.read_bytes()[:-LENGTH])
+        with netCDF4.Dataset(path, "a") as file:
+            hidden(file)
+        seal(path)
 
     def edit(self, name: str, old: str, new: str, sealed: bool = True) -> None:
         """Replace a text in a file of the run, and renew the checksum of JSON if it is sealed."""
@@ -54,6 +65,12 @@ class Run(NamedTuple):
         record = load_json(self.accepted / baseline.RECORD)
         record["environment"][kind][package] = "0.0"
         write_json(self.accepted / baseline.RECORD, record)
+
+
+def seal(path: Path) -> None:
+    """Add the checksum that a dataset has in its last line."""
+    content = path.read_bytes()
+    path.write_bytes(content + MARK + sha256(content).hexdigest().encode() + b"\n")
 
 
 @pytest.fixture(scope="session")

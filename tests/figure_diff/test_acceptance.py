@@ -4,8 +4,9 @@ import netCDF4
 import numpy as np
 import pytest
 from made_up_results import CHAOTIC, CONFIGURATION, LEDGER, NAMES, PICTURE, REGULAR, REPORT, TABLE
+from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import read
-from pendula.figure_diff import Status, acceptance, baseline
+from pendula.figure_diff import Status, acceptance, baseline, hashes
 from pendula.figure_diff.acceptance import AcceptanceError, check, choose
 
 SHORT = {"cases": {"fig2_small": {"end_time": 4, "omega": 8}}}
@@ -114,6 +115,28 @@ def test_a_copy_in_the_baseline_that_is_not_as_accepted_is_a_fault(run, name, ho
     for any_bits in (False, True):
         found = run.findings(any_bits=any_bits)[name]
         assert found.status == Status.DAMAGED and how in found.says and "restore" in found.says
+
+
+@pytest.mark.parametrize("name", ["../thesis.md", "/thesis.md", "thesis.docx", "up/thesis.md"])
+def test_a_baseline_that_names_what_no_run_makes_is_refused_and_nothing_removed(run, name):
+    """`up` is a link that leads out of the baseline."""
+    (run.accepted / "up").symlink_to(run.made.parent)
+    thesis = run.accepted / name if name != "/thesis.md" else run.made.parent / "thesis.md"
+    thesis.write_text("mine")
+    record = load_json(run.accepted / baseline.RECORD)
+    named = str(thesis) if name == "/thesis.md" else name
+    record["files"][named] = hashes.of_bytes(b"mine")
+    write_json(run.accepted / baseline.RECORD, record)
+    with pytest.raises(AcceptanceError, match=r"thesis.* which no run makes"):
+        run.accept()
+    assert thesis.read_text() == "mine" and run.findings()[baseline.RECORD].status.is_fault
+
+
+def test_a_file_that_is_no_longer_made_is_not_removed_once_it_was_edited(run):
+    (run.accepted / TABLE).write_text("notes of mine")
+    with pytest.raises(AcceptanceError, match=r"claims.md, which no run makes, was edited"):
+        run.accept([name for name in NAMES if name != TABLE])
+    assert (run.accepted / TABLE).read_text() == "notes of mine"
 
 
 def test_edited_hashes_are_a_fault(run):

@@ -9,7 +9,7 @@ from pendula.datasets.json_files import load_json
 from pendula.datasets.netcdf import read
 from pendula.figure_diff import Status, baseline
 from pendula.figure_diff.chaos import Chaos, horizons
-from pendula.figure_diff.compare_shown import damage
+from pendula.figure_diff.compare_shown import comparable, damage
 from pendula.figure_diff.comparison_page import compare_results
 
 
@@ -64,8 +64,16 @@ def test_words_of_a_text_may_follow_no_number_and_numbers_only_what_moved(run):
 
 
 def test_times_and_speed_of_a_machine_are_no_part_of_the_report(run):
-    run.edit(REPORT, "96 s", "77 s")
+    for old, new in (("96 s", "77 s"), ("2 ms", "3 ms")):
+        run.edit(REPORT, old, new)
     assert run.findings()[REPORT].status == Status.IDENTICAL
+
+
+def test_code_for_a_processor_is_no_part_of_the_live_page_where_it_stands_once():
+    pages = [b'{"code": "%s", "sites": 61}' % code for code in (b"AA==", b"AB==")]
+    assert comparable("live.html", pages[0]) == comparable("live.html", pages[1]) != pages[0]
+    two = pages[0] + b'"code": "AC=="'
+    assert comparable("live.html", two) == two and comparable("own.html", pages[0]) == pages[0]
 
 
 # Which numbers rest on chaos

@@ -7,7 +7,7 @@ import made_up_results as made_up
 import numpy as np
 import pytest
 from made_up_results import HORIZON, PICTURE, TAU
-from pendula.datasets.netcdf import save
+from pendula.datasets.netcdf import LENGTH, save
 from pendula.figure_diff import Status
 from pendula.ledger.changes import exchange, put, scale, shift
 
@@ -82,6 +82,12 @@ def of_older_run(kind: str) -> Callable:
     return plant
 
 
+def hidden(name: str, hide: Callable) -> Fault:
+    """Return the fault of a dataset that holds more than xarray shows."""
+    plant = lambda run: run.hide(REGULAR, hide)  # noqa: E731
+    return Fault(name, REGULAR, plant, DAMAGED, name, DAMAGED)
+
+
 def stale(run):
     """Put the run of another case in place of a trajectory."""
     save(run.made / REGULAR, made_up.norms(True).assign_attrs(omega=-4.0))
@@ -104,6 +110,9 @@ FAULTS = [
     data("other type", REGULAR, lambda d: d.astype("float32"), says="l2 is float32"),
     data("lost attribute", REGULAR, lambda d: d.drop_attrs(deep=False), says="absent"),
     data("other steps", REGULAR, lambda d: d.assign_attrs(steps=1600), BEYOND, "steps is 1600"),
+    hidden("group", lambda file: file.createGroup("more")),
+    hidden("dimension", lambda file: file.createDimension("more", 3)),
+    content("lost seal", REGULAR, lambda found: found[:-LENGTH], DAMAGED),
     # What rests on chaos
     data("another tail", CHAOTIC, shift("l2", 1.0, tau=slice(HORIZON + 0.1, None)), BEYOND),
     data("before the horizon", CHAOTIC, put("l2", 2.5, component="A", tau=TAU[60]), says="off by"),
@@ -118,6 +127,10 @@ FAULTS = [
     text("verdict by hand", LEDGER, "confirmed", "refuted", DAMAGED, DAMAGED, sealed=False),
     text("number of a claim", LEDGER, "6.60403", "6.60404"),
     text("verdict in the report", REPORT, "confirmed", "refuted"),
+    text("verdict hidden in the report", REPORT, "<p>The claim is",
+         '<section id="provenance"><p>The claim is refuted.</p></section><p>The claim is'),
+    text("report without its speed", REPORT, '<section id="speed"><p>2 ms</p></section>', ""),
+    text("code of the live page in a report", REPORT, "</p>", '</p>"code": "AA=="'),
     content("emptied report", REPORT, lambda found: b"", DIFFERENT),
     content("flipped bit of a part", PART, flip, DAMAGED),
     # Pictures

@@ -13,7 +13,17 @@ from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import DatasetError, read
 
 from . import hashes
-from .baseline import FIGURES, PICTURES, RECORD, environment, is_kept, recorded, unlike_settings
+from .baseline import (
+    FIGURES,
+    PICTURES,
+    RECORD,
+    environment,
+    fault_of_kept,
+    is_kept,
+    recorded,
+    unlike_settings,
+)
+from .compare_datasets import fault_of_form
 from .compare_shown import comparable, damage
 
 ALL = "accept all files, so that all are of one run"
@@ -72,6 +82,9 @@ def accept(
         if words and was:
             check(configuration, record["configuration"], "the accepted configuration", ALL)
             check(here, record["environment"], "the accepted environment", ALL)
+        for name in taken - names:
+            if (folder / name).exists() and (fault := fault_of_kept(name, was, folder)):
+                raise AcceptanceError(f"{folder / name}, which no run makes, {fault}: delete it")
         contents = {name: _read(name, made / name) for name in sorted(taken & names)}
     except DatasetError as error:
         raise AcceptanceError(error) from error
@@ -91,7 +104,10 @@ def accept(
 def _read(name: str, path: Path) -> bytes | xr.Dataset:
     """Return what a file holds; raises DatasetError or AcceptanceError if it is damaged."""
     if name.endswith(".nc"):
-        return read(path)
+        data = read(path)
+        if fault := fault_of_form(path):
+            raise AcceptanceError(f"{path} {fault}; delete it and run snakemake to make it again")
+        return data
     if name.endswith(".json") and not name.startswith(FIGURES):
         load_json(path)
     content = path.read_bytes()

@@ -6,6 +6,7 @@ any bits are asked for, it is compared with what the baseline keeps.
 """
 
 import platform
+import re
 import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -25,6 +26,9 @@ from .chaos import TRUST, Chaos, horizons
 RECORD = "hashes.json"
 """The environment and the configuration of the baseline, and the hashes of its files."""
 
+MADE = re.compile(r"(?:[a-z_]+/)*(?!hashes\.json)[\w.]*\w\.(?:nc|json|md|html|yaml|png|pdf)")
+"""Names of the files of a run: below the folder of the results, in folders of words."""
+
 FIGURES, PICTURES = "figures/", (".png", ".pdf")
 """The folder where each dataset has two pictures and a description of them beside it."""
 
@@ -40,14 +44,34 @@ def environment() -> dict[str, dict[str, str]]:
 
 
 def recorded(folder: Path) -> dict[str, Any]:
-    """Return the record of a baseline, empty if there is none; raises DatasetError."""
-    nothing = {"environment": {}, "configuration": {}, "files": {}}
-    return load_json(folder / RECORD) if (folder / RECORD).exists() else nothing
+    """Return the record of a baseline, empty if there is none.
+
+    Raises DatasetError if it is damaged, or names what no run makes or what is not in `folder`: all
+    that it names is read, and removed once it is no longer made.
+    """
+    if not (folder / RECORD).exists():
+        return {"environment": {}, "configuration": {}, "files": {}}
+    record, whole = load_json(folder / RECORD), folder.resolve()
+    for name in record["files"]:
+        inside = (whole / name).resolve().parent == (whole / name).parent
+        if not (inside and MADE.fullmatch(name)):
+            raise DatasetError(f"{folder / RECORD} names {name}, which no run makes")
+    return record
 
 
 def is_kept(name: str) -> bool:
     """Return whether the baseline keeps a file: no PDF and no report."""
     return not name.endswith((".pdf", ".html"))
+
+
+def fault_of_kept(name: str, accepted: Mapping[str, Any], folder: Path) -> str:
+    """Return in words what is wrong with the copy of a file in the baseline, or nothing."""
+    if name not in accepted or not (folder / name).exists():
+        return "is missing"
+    told = accepted[name]
+    known = told if isinstance(told, str) else told["kept"]
+    same = hashes.of_bytes((folder / name).read_bytes()) == known
+    return "" if same else "was edited since it was accepted"
 
 
 def compare(
@@ -94,7 +118,8 @@ class _Comparison:
         was, now = record["environment"], environment()
         self.same_data, self.same_drawing = was.get("data") == now["data"], was == now
         sweeps = record["configuration"].get("sweeps", {})
-        known = {} if self._fault_of_kept(TRUST) else horizons(folder, sweeps)
+        unknown = fault_of_kept(TRUST, self.accepted, folder)
+        known = {} if unknown else horizons(folder, sweeps)
         self.chaos = Chaos(known, *map(tuple, rests_on_chaos))
         self.found: dict[str, Finding] = {}
 
@@ -112,18 +137,9 @@ class _Comparison:
             return Status.MISSING, "was not made"
         if name not in self.accepted:
             return Status.EXTRA, "is not in the baseline"
-        if is_kept(name) and (fault := self._fault_of_kept(name)):
+        if is_kept(name) and (fault := fault_of_kept(name, self.accepted, self.folder)):
             return Status.DAMAGED, f"in the baseline {fault}: restore it by git, or accept it again"
         return self._compare(name, self.made / name, self.folder / name, self.accepted[name])
-
-    def _fault_of_kept(self, name: str) -> str:
-        """Return in words what is wrong with the copy in the baseline, or nothing."""
-        if name not in self.accepted or not (self.folder / name).exists():
-            return "is missing"
-        told = self.accepted[name]
-        known = told if isinstance(told, str) else told["kept"]
-        same = hashes.of_bytes((self.folder / name).read_bytes()) == known
-        return "" if same else "was edited since it was accepted"
 
     def _compare(self, name: str, new: Path, kept: Path, accepted: Any) -> tuple[Status, str]:
         if name.endswith(".nc"):

@@ -8,10 +8,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import netCDF4
 import numpy as np
 import xarray as xr
 
-from pendula.datasets.netcdf import DatasetError, read
+from pendula.datasets.netcdf import LENGTH, MARK, DatasetError, read
 
 from . import Status, hashes
 from .chaos import ROUNDING, TOLERANCE, Chaos, are_coordinates
@@ -39,6 +40,8 @@ def compare(
         content = read(new)
     except DatasetError:
         return Status.DAMAGED, "cannot be read"
+    if fault := fault_of_form(new):
+        return Status.DAMAGED, fault
     if hashes.of(content).items() <= accepted.items():
         return Status.IDENTICAL, ""
     if kept is None:
@@ -50,6 +53,16 @@ def compare(
         count = sum(each.beyond for each in found)
         return Status.BEYOND, f"{count} numbers cannot be compared, because {'; '.join(beyond[:3])}"
     return Status.WITHIN, "; ".join([each.says for each in found][:3])
+
+
+def fault_of_form(path: Path) -> str:
+    """Return in words what xarray does not show and no dataset of a run has, or nothing."""
+    if not path.read_bytes()[-LENGTH:].startswith(MARK):
+        return "has lost the checksum in its last line: it was written by another program"
+    with netCDF4.Dataset(path) as file:
+        used = {name for variable in file.variables.values() for name in variable.dimensions}
+        hidden = [*file.groups, *(file.dimensions.keys() - used)]
+    return f"has a group or a dimension without a variable: {hidden[0]}" if hidden else ""
 
 
 def differences(
