@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pendula.ledger.claim import Origin
+from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import Ledger, load
-from pendula.ledger.tables import tally
+from pendula.ledger.tables import facts, tally
 from pendula.measures.confidence import CONFIDENCE
 from pendula.measures.levels import levelling
 from pendula.report.results import Results
@@ -107,17 +107,20 @@ def gather(results: Results) -> dict[str, Any]:
 
 
 def counts(rows: list[dict]) -> dict[str, str]:
-    """Return how many claims of the paper have each verdict, and how many controls there are."""
+    """Return how many claims of the paper are of each kind and have each verdict, and controls."""
     of_paper = Counter(tally(rows).get(Origin.PAPER, {}))
+    kinds = Counter(row["kind"] for row in facts(rows) if row["origin"] == Origin.PAPER)
+    controls = [one["passes"] for row in rows for one in row["controls"]]
+    of_all = "" if all(controls) else f"{controls.count(True)} of the"
     found = {
+        **{str(kind): kinds[kind] for kind in Kind},
         "papers": of_paper.total(),
         "held": of_paper[Verdict.CONFIRMED] + of_paper[Verdict.CAVEAT],
         "caveat": of_paper[Verdict.CAVEAT],
         "missed": of_paper[Verdict.NOT_REPRODUCED],
         "open": of_paper[Verdict.UNDECIDED],
         "resting": sum(bool(row["rests_on"]) for row in rows),
-        "controls": sum(len(row["controls"]) for row in rows),
-        "failed": sum(one["passes"] for row in rows for one in row["controls"]),
+        "as_required": f"{of_all or 'All'} {len(controls)}",
     }
     return {name: str(count) for name, count in found.items()}
 

@@ -31,7 +31,6 @@ def by_sentence(rows: Iterable[dict]) -> list[dict]:
 
 def _join(readings: list[dict]) -> dict:
     """Return one row: every number, reason and control with its reading, and the worst verdict."""
-    verdicts = {row["verdict"] for row in readings}
     parts = [_labelled(row) for row in readings]
     lists = [name for name, value in parts[0].items() if isinstance(value, list)]
     return {
@@ -41,7 +40,7 @@ def _join(readings: list[dict]) -> dict:
         "reading": ", ".join(row["reading"] for row in readings),
         "criterion": "; ".join(filter(None, (row["criterion"] for row in parts))),
         "because": "; ".join(filter(None, (row["because"] for row in parts))),
-        "verdict": next((str(one) for one in WORST_FIRST if one in verdicts), "confirmed"),
+        "verdict": min(readings, key=_from_the_worst)["verdict"],
     }
 
 
@@ -63,9 +62,21 @@ def _without_repeats(values: Iterable) -> list:
     return kept
 
 
+def facts(rows: Iterable[dict]) -> list[dict]:
+    """Return the rows, and of those on one fact only one with the worst of their verdicts."""
+    found: dict[str, dict] = {}
+    for row in sorted(rows, key=_from_the_worst):
+        found.setdefault(row["fact"] or row["name"], row)
+    return list(found.values())
+
+
+def _from_the_worst(row: dict) -> int:
+    return [*map(str, WORST_FIRST), row["verdict"]].index(row["verdict"])
+
+
 def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
-    """Return by origin how many rows have each verdict; what no row has is left out."""
-    counts = Counter((row["origin"], row["verdict"]) for row in rows)
+    """Return by origin how many facts have each verdict; what no fact has is left out."""
+    counts = Counter((row["origin"], row["verdict"]) for row in facts(rows))
     by_origin = {
         str(origin): {str(v): counts[origin, v] for v in Verdict if counts[origin, v]}
         for origin in Origin

@@ -241,6 +241,7 @@ def resonance(check) -> Finding:
             "checks/wrong/expansion",
         ),
     ),
+    fact="order of the expansion",
 )
 def slow_time(expansion) -> Finding:
     """What is a function of mu^2 t / 2 is one of mu^2 t, and of no other power of mu times t."""
@@ -261,6 +262,7 @@ def slow_time(expansion) -> Finding:
     controls=(
         Control("a drive of the opposite sign", changes.exchange("reading", RIGHT, OPPOSITE)),
     ),
+    fact="order of the expansion",
 )
 def drive_sign(expansion) -> Finding:
     order = expansion["order"].sel
