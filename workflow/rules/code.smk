@@ -43,12 +43,6 @@ def differs_of(wildcards, input):
     return list(concerning(DIFFERS, names, on).values())
 
 
-@cache
-def maker_of(path):
-    """Return the name of the rule that makes a dataset."""
-    return next(rule.name for rule in workflow.rules if rule.is_producer(path))
-
-
 def code_of_jobs():
     """Return the names of all files of code that jobs rest on."""
     files = {module for entries in CALLED.values() for module in modules_of(*entries)}

@@ -14,35 +14,24 @@ CHECKS, OF_WRONG_STATEMENTS = "checks/", "checks/wrong/"
 
 
 def decide_claims(
-    datasets: list[str],
-    makers: dict[str, str],
-    modules: list[str],
-    differs: dict[str, str],
-    part: str,
-    table: str,
+    datasets: list[str], names: list[str], modules: list[str], differs: dict[str, str], part: str
 ) -> None:
-    """Write the rows of the ledger on the claims in `modules`, and a table to read.
+    """Write the rows of the ledger on the claims in `modules`.
 
-    `makers` has the rule that makes each of `datasets`, in their order, by its name in the claims.
-    `differs` says where the configuration is not the paper's, as `configuration.paper` finds it.
+    `names` are those that the claims have for `datasets`, in their order. `differs` says where the
+    configuration is not the paper's, as `configuration.paper` finds it.
     """
-    absent = set(needed(*modules)) - set(makers)
-    if absent:
+    if absent := set(needed(*modules)) - set(names):
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
-    sources = {name: read(path) for name, path in zip(makers, datasets, strict=True)}
-    rows = [
-        row | {"rules": list(dict.fromkeys(makers[name] for name in row["decided_by"]))}
-        for row in evaluate(sources, differs, modules)
-    ]
+    sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
+    rows = evaluate(sources, differs, modules)
     checks = {
         name: data.to_dict()
         for name, data in sources.items()
         if name.startswith(CHECKS) and not name.startswith(OF_WRONG_STATEMENTS)
     }
-    lines = check_lines(checks)
-    told = {"sections": sections(*modules), "read": list(makers), "rows": rows, "checks": lines}
-    write_json(part, told)
-    write_markdown(table, *tables(by_sentence(rows), chain(*lines.values())))
+    told = {"sections": sections(*modules), "read": names, "rows": rows}
+    write_json(part, told | {"checks": check_lines(checks)})
     print(in_short(by_sentence(rows)))
     for name, check in checks.items():
         if broken(check):
@@ -50,14 +39,16 @@ def decide_claims(
 
 
 def join_claims(parts: list[str], ledger: str, table: str) -> None:
-    """Write the ledger as JSON and as Markdown, in the order of the paper.
+    """Write the ledger as JSON, and as a table, from files that `decide_claims` wrote."""
+    write_json(ledger, {"rows": tabulate_claims(parts, table)})
 
-    `parts` are files that decide_claims wrote.
-    """
+
+def tabulate_claims(parts: list[str], table: str) -> list[dict]:
+    """Write the rows in the order of the paper as Markdown, and return them."""
     read = [load_json(path) for path in parts]
     sections = {module: at for part in read for module, at in part["sections"].items()}
     rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
     checks = {name: lines for part in read for name, lines in part["checks"].items()}
-    write_json(ledger, {"rows": rows})
     write_markdown(table, *tables(rows, chain(*checks.values())))
     print(in_short(rows))
+    return rows
