@@ -125,14 +125,3 @@ def mutation(kept: dict) -> dict[str, str]:
     shares = {name: percent(kept[name], 3) for name in ("score", "low", "high", "confidence")}
     sizes = {name: f"{kept[name]:,}" for name in ("modules", "mutants", "sample")}
     return shares | sizes | {"date": kept["date"]}
-
-
-def needs(needed: dict[str, dict], reached: dict[str, dict]) -> dict[str, dict[str, str]]:
-    """Return the needed and the reached error of each part of a study, as two cells."""
-    return {
-        study: {
-            part: f"{number(needed[study][part])} | {number(error, 2)}"
-            for part, error in parts.items()
-        }
-        for study, parts in reached.items()
-    }

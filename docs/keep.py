@@ -12,7 +12,6 @@ import json
 import sys
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 import yaml
 
@@ -24,11 +23,9 @@ from pendula.configuration import paper  # noqa: E402
 from pendula.configuration.messages import STUDIES, load  # noqa: E402
 from pendula.datasets.netcdf import Variable, read, write  # noqa: E402
 from pendula.measures.confidence import mean_limits  # noqa: E402
-from pendula.measures.spreading import fit_exponent, fit_line  # noqa: E402
+from pendula.measures.spreading import fit_exponent  # noqa: E402
 from pendula.studies.breathers.fate_contents import TERMS  # noqa: E402
-from pendula.studies.breathers.fates import FATES  # noqa: E402
 from pendula.studies.breathers.figures import MAPS  # noqa: E402
-from pendula.studies.breathers.nearest import NEAR  # noqa: E402
 from pendula.studies.unbounded.bulk import mean_powers, slope_powers, thermal_powers  # noqa: E402
 from pendula.studies.unbounded.measured import BULK, FRONT, speeds  # noqa: E402
 
@@ -48,22 +45,20 @@ def keep_unbounded(results: Path, folder: Path) -> None:
         },
         **_omegas(read(long / "omegas.nc"), read(results / "unbounded/thermal.nc")),
     }
-    solver = GIVEN["long"]["solver"]
-    about = {"solver": solver["name"], "solver_rtol": solver["rtol"], "solver_atol": solver["rtol"]}
     title = "The long study of the infinite chain, reduced to what the documents quote"
-    _write(folder / "unbounded.nc", title, kept, epsilon=1.0, gamma=1.0, **about)
+    _write(folder / "unbounded.nc", title, kept, epsilon=1.0, gamma=1.0, **GIVEN["long"]["solver"])
 
 
 def _write(path: Path, title: str, variables: dict[str, Variable], **attributes) -> None:
     write(path, variables, {"title": title, **attributes, "version": __version__})
 
 
-PASSAGES = ("passage_median", "passage_rate", "passed")
+PASSAGES = ("passage_rate", "passed")
 """What is kept of first passages over the top, with confidence intervals; of `passed` the last."""
 
 
 def keep_passages(results: Path, folder: Path) -> None:
-    """Keep shares, rates and angles of the long study of pendula that go over the top."""
+    """Keep shares and rates of the long study of pendula that go over the top."""
     long = read(results / "long/pendula/over_the_top.nc")
     last, tau = long.isel(tau=-1), long["tau"].values
     names = [name for name in last if str(name).startswith(PASSAGES)]
@@ -71,11 +66,6 @@ def keep_passages(results: Path, folder: Path) -> None:
         str(name): Variable(("mu",), last[name].values, last[name].attrs["long_name"])
         for name in ["mu", *names]
     }
-    kept["turns"] = Variable(
-        ("mu",),
-        last["angle_so_far"].mean("member").values / (2.0 * np.pi),
-        "largest angle by the end in turns, mean over the members",
-    )
     about = {"members": long.sizes["member"], "end_time": tau[-1], "settled": long.attrs["settled"]}
     title = "The long study of pendula that go over the top, reduced to what the documents quote"
     _write(folder / "pendula.nc", title, kept, **about)
@@ -87,54 +77,36 @@ OCTAVES = 2
 
 
 def _exponent(run: xr.Dataset, variant: int = 0):
-    """Return the exponent of tau in l2, and what l2^2 gains meanwhile, both with confidence
-    intervals.
-
-    The line is fitted to one member, because members of a regular run are alike.
-    """
+    """Return the exponent of tau in l2 with its confidence interval."""
     values = run["l2"].isel(variant=variant).transpose("member", "tau").values
     tau = run["tau"].values
-    start = tau[-1] * 0.5**OCTAVES
-    return fit_exponent(tau, values, start), fit_line(tau, values[:1] ** 2, start).relative
+    return fit_exponent(tau, values, tau[-1] * 0.5**OCTAVES)
 
 
 def _case(run: xr.Dataset) -> dict[str, tuple[float, str]]:
     """Return the numbers of a case, each with what it is."""
-    exponent, gained = _exponent(run)
     # where the chain at rest is stable no front is pulled: the bulk itself spreads, without a delay
     pulled = bool(run["predicted_delay"][0] > 0)
     level = FRONT if pulled else BULK
     speed, error = speeds(run, level, corrected=pulled)
-    power, slope = mean_limits(mean_powers(run, level)[0]), slope_powers(run)[0]
-    limits = HALF
+    sites = 2 * int(run["front"].isel(piece_tau=-1).max()) + 1
+    predicted, tau = float(run["predicted_speed"][0]), float(run["tau"][-1])
+    measured = {
+        "exponent": (_exponent(run), "exponent of tau in the l2 norm over the last octaves"),
+        "bulk_power": (
+            mean_limits(mean_powers(run, level)[0]),
+            "mean of |A_n|^2 + |B_n|^2 on the sites behind the front",
+        ),
+        "slope_power": (slope_powers(run)[0], "the same mean, from the slope of l2^2"),
+    }
     return {
-        "end": (float(run["tau"][-1]), "slow time at the end"),
-        "members": (run.sizes["member"], "members of the ensemble"),
-        "sites": (
-            2 * int(run["front"].isel(piece_tau=-1).max()) + 1,
-            "sites that the front has passed at the end",
-        ),
-        "exponent": (exponent.value, "exponent of tau in the l2 norm over the last octaves"),
-        "exponent_error": (exponent.half, "half of its 95 % confidence interval by Student's t"),
-        "growth": (
-            0.5 * gained.value,
-            "relative growth of l2 over the last octaves, of a line through its square",
-        ),
-        "growth_error": (0.5 * gained.half, limits),
-        "linf": (
-            float(run["linf"].isel(variant=0, tau=-1).mean()),
-            "l-infinity norm at the end, mean over the members",
-        ),
+        "end": (tau, "slow time at the end"),
+        "sites": (sites, "sites that the front has passed at the end"),
         "speed": (speed[0], "speed of the front, sites per unit of tau"),
-        "speed_error": (error[0], "half of its 95 % confidence interval, or its resolution"),
-        "predicted_speed": (
-            float(run["predicted_speed"][0]),
-            "speed of linear spreading, sites per unit of tau",
-        ),
-        "bulk_power": (power.value, "mean of |A_n|^2 + |B_n|^2 on the sites behind the front"),
-        "bulk_power_error": (power.half, limits),
-        "slope_power": (slope.value, "the same mean, from the slope of l2^2"),
-        "slope_power_error": (slope.half, limits),
+        "speed_error": (error[0], f"{HALF}, or its resolution"),
+        "predicted_speed": (predicted, "speed of linear spreading, sites per unit of tau"),
+        **{name: (found.value, words) for name, (found, words) in measured.items()},
+        **{f"{name}_error": (found.half, HALF) for name, (found, _) in measured.items()},
     }
 
 
@@ -142,7 +114,7 @@ def _omegas(run: xr.Dataset, thermal: xr.Dataset) -> dict[str, Variable]:
     """Return the exponent and P of the bulk at each Omega, beside that of the thermal state."""
     omegas, along = run["omega"].values, ("varied_omega",)
     powers = mean_limits(mean_powers(run).T)
-    exponents = [_exponent(run, variant)[0].value for variant in range(len(omegas))]
+    exponents = [_exponent(run, variant).value for variant in range(len(omegas))]
     end = Variable((), float(run["tau"][-1]), "slow time at the end of the runs over Omega")
     return {
         "omega_end": end,
@@ -172,52 +144,21 @@ def keep_breathers(results: Path, folder: Path) -> None:
     kept = {
         **{name: _as_it_is(fates[name]) for name in whole},
         **{name: _as_it_is(spread[name]) for name in shares},
-        **_nearness(fates),
     }
     about = {name: fates.attrs[name] for name in TERMS}
     about |= {"points": fates.sizes["a0"], "phases": fates.sizes["phase"]}
-    about |= {"members": spread.attrs["members"], "margin": MARGIN}
+    about["members"] = spread.attrs["members"]
     title = "The long study of breathers, reduced to what the documents quote and a figure shows"
     _write(folder / "breathers.nc", title, kept, **about)
 
 
 AXES = ("a0", "b0", "turned_a0", "phase")
-MARGIN = 2.0
-"""By which factor the cut-off of P that does not return is changed, to see what depends on it."""
 
 
 def _as_it_is(values: xr.DataArray) -> Variable:
     others = {name: one for name, one in values.attrs.items() if name.startswith("flag_")}
     about = (values.attrs["long_name"], values.attrs.get("units", "1"), others)
     return Variable(values.dims, values.values, *about)
-
-
-def _nearness(fates: xr.Dataset) -> dict[str, Variable]:
-    """Return how much of what stays is periodic where A_0 and B_0 differ, by Omega, and how near.
-
-    Shares of none are NaN.
-    """
-    names = ["fate", "periodic", "unreturned", "breather_family", "family_distance"]
-    stays = (fates["a0"] != fates["b0"]) & (fates["fate"] == FATES.index("stays"))
-    here = fates[names].where(stays)
-    periodic, left, distance = here["periodic"] == 1, here["unreturned"], here["family_distance"]
-    shares = {
-        "periodic_share": ("share of what stays that is periodic", periodic, stays),
-        "periodic_if_less": (
-            f"the same with a cut-off {MARGIN:g} times lower", left <= 1.0 / MARGIN, stays
-        ),
-        "periodic_if_more": (
-            f"the same with a cut-off {MARGIN:g} times higher", left <= MARGIN, stays
-        ),
-        "alone": ("share of breathers nearest to the family A only", here["breather_family"] == 1,
-                  periodic),
-        "near": (f"share of these within {NEAR} of it",
-                 distance <= NEAR, distance.notnull()),
-    }  # fmt: skip
-    return {
-        name: Variable(("omega",), some.where(whole).mean(("a0", "b0")).values, words)
-        for name, (words, some, whole) in shares.items()
-    }
 
 
 SECTIONS = ("cases", "sweeps", "solvers")

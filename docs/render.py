@@ -1,7 +1,7 @@
 """Write the README and the pages of docs/ that quote results, from their templates.
 
-Run as `python docs/render.py` from anywhere. A template takes its numbers from facts.py and
-study_errors.py. A test fails where a page is not what its template gives.
+Run as `python docs/render.py` from anywhere. A template takes its numbers from facts.py. A
+test fails where a page is not what its template gives.
 """
 
 import sys
@@ -13,7 +13,6 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "docs"), str(ROOT)]
 
 import facts  # noqa: E402
-import study_errors  # noqa: E402
 from pendula.article import write  # noqa: E402
 from pendula.report.results import Results  # noqa: E402
 
@@ -42,13 +41,6 @@ class Accepted(Results):
         return facts.BASELINE / link.removeprefix(f"{write.KEPT}/")
 
 
-def known(baseline: facts.Baseline) -> dict[str, dict]:
-    """Return all that a template can name."""
-    reached = study_errors.errors(baseline)
-    needed = {study: study_errors.given(study)["needs"] for study in reached}
-    return facts.topics(baseline) | {"studies": facts.needs(needed, reached)}
-
-
 def render(values: dict[str, dict]) -> dict[Path, str]:
     """Return the text of each page that has a template."""
     environment = Environment(
@@ -63,7 +55,7 @@ def render(values: dict[str, dict]) -> dict[Path, str]:
 
 
 if __name__ == "__main__":
-    for page, text in render(known(facts.Baseline())).items():
+    for page, text in render(facts.topics(facts.Baseline())).items():
         if not page.exists() or page.read_text(encoding="utf-8") != text:
             page.write_text(text, encoding="utf-8")
             print(f"{page.relative_to(ROOT)} is new")

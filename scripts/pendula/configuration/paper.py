@@ -15,7 +15,7 @@ from typing import Any
 FILE = Path(__file__).with_suffix(".json")
 
 FREE = {
-    *("seed", "draw", "snapshot_step", "needs", "long"),
+    *("seed", "draw", "snapshot_step", "long"),
     *("count", "samples", "generations", "population", "starts", "sites", "points"),
 }
 """Keys that change no statement: other draws of a case, another look at it, longer studies, and how

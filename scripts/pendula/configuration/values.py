@@ -145,8 +145,6 @@ Positives = Annotated[list[Positive], Field(min_length=1), Distinct]
 Counts = Annotated[list[Count], Field(min_length=1), Distinct]
 Names = Annotated[list[Name], Field(min_length=1), Distinct]
 Window = tuple[Number, Number]
-Needs = dict[Name, Positive]
-"""The largest error that each part of a study may have, for docs/studies.md; no job reads them."""
 
 
 class Model(BaseModel):

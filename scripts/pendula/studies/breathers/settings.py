@@ -12,7 +12,6 @@ from pendula.configuration.values import (
     Model,
     Name,
     Natural,
-    Needs,
     Number,
     Numbers,
     Positive,
@@ -111,7 +110,6 @@ class Fates(Model):
 class Settings(Model):
     """Section `breathers` of the configuration."""
 
-    needs: Needs
     epsilon: Positive
     gamma: Positive
     steady: Steady

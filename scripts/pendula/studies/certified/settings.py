@@ -11,7 +11,6 @@ from pendula.configuration.values import (
     Model,
     Name,
     Names,
-    Needs,
     Number,
     Positive,
     Whole,
@@ -89,7 +88,6 @@ class Settings(Model):
     curves: model(cases=Names, wrong=WrongCurve)  # with a proven distance to the true ones
     frames: dict[Name, Frames]
     breathers: Breathers
-    needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield the cases that the configuration has not, and states that do not exist."""

@@ -14,7 +14,6 @@ from pendula.configuration.values import (
     Name,
     Names,
     Natural,
-    Needs,
     Positive,
     Tolerance,
     Whole,
@@ -96,7 +95,6 @@ class Settings(Model):
     ensembles: Ensembles
     members: Members
     lifetimes: Lifetimes
-    needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""

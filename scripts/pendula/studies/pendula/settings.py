@@ -16,7 +16,6 @@ from pendula.configuration.values import (
     Name,
     Names,
     Natural,
-    Needs,
     Numbers,
     Positive,
     Positives,
@@ -246,7 +245,6 @@ class Film(Followed):
 class Settings(Model):
     """Section `pendula` of the configuration."""
 
-    needs: Needs
     threshold: Threshold
     remainder: Remainder
     phases: Phases

@@ -14,7 +14,6 @@ from pendula.configuration.values import (
     Count,
     Model,
     Natural,
-    Needs,
     Number,
     Positive,
     Whole,
@@ -185,7 +184,6 @@ class Section(Model):
 Settings = create_model(
     "Settings",
     __base__=Section,
-    needs=(Needs, ...),
     wrong=(model(**dict.fromkeys(WRONG, Changes)), ...),
     **{name: (kind, ...) for checks in CHECKS.values() for name, kind in checks.items()},
 )

@@ -21,7 +21,6 @@ from pendula.configuration.values import (
     Name,
     Names,
     Natural,
-    Needs,
     Number,
     Numbers,
     Positive,
@@ -75,7 +74,6 @@ class Settings(Model):
     )
     short: Size
     long: Size
-    needs: Needs
 
     def faults(self, settings: Configuration) -> Faults:
         """Yield what does not fit the cases and sweeps of the configuration, or takes too long."""
