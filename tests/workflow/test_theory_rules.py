@@ -57,13 +57,11 @@ def test_other_cases_than_the_papers_decide_theorems_and_no_figure(full_run):
     assert verdicts["theorem_3_proof"] == Verdict.NOT_REPRODUCED
 
 
-def test_the_table_shows_every_claim_and_every_tolerance(full_run):
+def test_the_table_shows_every_claim(full_run):
     text = (full_run / "results/tables/claims.md").read_text()
     assert all(f"| {claim.place} |" in text for claim in all_claims())
-    assert all(f"| {name} |" in text for name in ("gradient", "worst", "chart"))
-    assert "| NO |" not in text.partition("# The checks")[2]
     rows = [line.replace("\\|", "") for line in text.splitlines() if line.startswith("|")]
-    assert {row.count("|") for row in rows} == {5, 7, 6}  # claims, controls, checks
+    assert {row.count("|") for row in rows} == {5}
     assert max(map(len, text.splitlines())) < 1000
 
 
@@ -87,7 +85,7 @@ def test_a_violated_check_is_made_and_named(monkeypatch, capsys):
     assert made["error"] == 2.0
 
 
-def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path, capsys):
+def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path):
     part = load_json(full_run / "results/claims/theory.json")
     paths = {name: str(full_run / f"results/{name}.nc") for name in needed("theory/claims")}
     check = xr.load_dataset(paths["checks/gradient"])
@@ -97,7 +95,6 @@ def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path, capsy
     made, table = str(tmp_path / "theory.json"), tmp_path / "theory.md"
     decide_claims(list(paths.values()), list(paths), ["theory/claims"], {}, made)
     tabulate_claims([made], str(table))
-    assert "CHECK VIOLATED: gradient: gradient_error is 1" in capsys.readouterr().out
     verdicts = (
         {row["name"]: row["verdict"] for row in one["rows"]} for one in (part, load_json(made))
     )
@@ -105,7 +102,7 @@ def test_a_violated_check_turns_its_claim_and_no_other(full_run, tmp_path, capsy
     applicable = [name for name in before if before[name] != Verdict.NOT_APPLICABLE]
     turned = {name: after[name] for name in applicable if after[name] != before[name]}
     assert turned == {"hamiltonian": Verdict.NOT_REPRODUCED}
-    assert "| NO |" in table.read_text()
+    assert "| not reproduced |" in table.read_text()
 
 
 def test_a_changed_byte_of_a_part_reaches_no_ledger(full_run, tmp_path):

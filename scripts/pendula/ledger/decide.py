@@ -1,16 +1,11 @@
 """Decide the claims of a part of the ledger by datasets, and join the parts."""
 
-from itertools import chain
-
-from pendula.datasets.checks import broken, describe
 from pendula.datasets.json_files import load_json, write_json
 from pendula.datasets.netcdf import read
 from pendula.report.words import write_markdown
 
-from .tables import by_sentence, check_lines, in_short, tables
+from .tables import by_sentence, in_short, tables
 from .verdicts import evaluate, in_order, needed, sections
-
-CHECKS, OF_WRONG_STATEMENTS = "checks/", "checks/wrong/"
 
 
 def decide_claims(
@@ -25,17 +20,8 @@ def decide_claims(
         raise ValueError(f"the claims rest on {', '.join(sorted(absent))}: not inputs of this job")
     sources = {name: read(path) for name, path in zip(names, datasets, strict=True)}
     rows = evaluate(sources, differs, modules)
-    checks = {
-        name: data.to_dict()
-        for name, data in sources.items()
-        if name.startswith(CHECKS) and not name.startswith(OF_WRONG_STATEMENTS)
-    }
-    told = {"sections": sections(*modules), "read": names, "rows": rows}
-    write_json(part, told | {"checks": check_lines(checks)})
+    write_json(part, {"sections": sections(*modules), "read": names, "rows": rows})
     print(in_short(by_sentence(rows)))
-    for name, check in checks.items():
-        if broken(check):
-            print(describe(name.removeprefix(CHECKS), check))
 
 
 def join_claims(parts: list[str], ledger: str, table: str) -> None:
@@ -48,7 +34,6 @@ def tabulate_claims(parts: list[str], table: str) -> list[dict]:
     read = [load_json(path) for path in parts]
     sections = {module: at for part in read for module, at in part["sections"].items()}
     rows = by_sentence(in_order([row for part in read for row in part["rows"]], sections))
-    checks = {name: lines for part in read for name, lines in part["checks"].items()}
-    write_markdown(table, *tables(rows, chain(*checks.values())))
+    write_markdown(table, *tables(rows))
     print(in_short(rows))
     return rows

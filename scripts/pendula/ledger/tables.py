@@ -1,4 +1,4 @@
-"""The ledger as a file, and as tables to read: claims, cut-offs, controls, and their checks.
+"""The ledger as a file, and as tables to read: claims and cut-offs.
 
 A sentence may be decided for a single run, for ensembles and for the infinite chain, by functions
 of several studies. They make one row, which holds where all of them hold.
@@ -6,9 +6,8 @@ of several studies. They make one row, which holds where all of them hold.
 
 import textwrap
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
-from pendula.datasets.checks import deciding
 from pendula.report.words import markdown
 
 from .claim import Origin
@@ -84,43 +83,20 @@ def tally(rows: Iterable[dict]) -> dict[str, dict[str, int]]:
     return {origin: counted for origin, counted in by_origin.items() if counted}
 
 
-def tables(rows: list[dict], checks: Iterable[list]) -> list[str]:
-    """Return the parts of a page on these rows of the ledger and these lines of checks."""
+def tables(rows: list[dict]) -> list[str]:
+    """Return the parts of a page on these rows of the ledger."""
     claims = [[row[key] for key in ("name", "place", "says", "verdict")] for row in rows]
     cutoffs = [
         _item(f"{value} ({origin}) decides {decides}{f'; it turns {rest}' if rest else ''}")
         for value, origin, decides, rest in cutoff_lines(rows)
     ]
-    passed = {True: "yes", False: "NO", None: "not applicable"}
-    keys = ("claim", "fed", "must", "verdict", "because")
-    controls = [(*(one[key] for key in keys), passed[one["passes"]]) for one in controls_of(rows)]
     return [
         "# What the paper says, and what the numbers say",
         "\n".join(f"- {line}" for line in counted(rows)),
         markdown(("name", "where", "claim", "verdict"), claims),
-        "# What decides each claim",
-        *map(_grounds, rows),
         "# The cut-offs, each moved by a third either way",
         "\n".join(cutoffs),
-        "# The controls",
-        markdown(("claim", "wrong case", "required", "verdict", "reason", "as required"), controls),
-        "# The checks",
-        markdown(("check", "quantity", "largest", "tolerance", "holds"), checks),
     ]
-
-
-def _grounds(row: dict) -> str:
-    """Return reason, numbers and criterion of a claim, and the command that makes its data."""
-    measured = [f"{k} = {v if isinstance(v, str) else f'{v:.4g}'}"
-                for k, v in row["measured"].items()]  # fmt: skip
-    lines = {
-        "reason": row["because"],
-        "measured": ", ".join(measured),
-        "criterion": row["criterion"],
-        "data": f"`snakemake {' '.join(files_of(row).values())}`",
-    }
-    items = [_item(f"{name}: {text}") for name, text in lines.items() if text]
-    return "\n".join([f"## {row['name']}: {row['verdict']}", "", *items])
 
 
 def files_of(row: dict) -> dict[str, str]:
@@ -156,20 +132,3 @@ def as_sentence(verdict: str, count: int) -> str:
     if verdict == Verdict.UNDECIDED:
         return verdict
     return f"{'is' if count == 1 else 'are'} {verdict}"
-
-
-def check_lines(checks: Mapping[str, dict]) -> dict[str, list[list[str]]]:
-    """Return by check a line for every number that has a tolerance."""
-    return {
-        name: [
-            [
-                name.removeprefix("checks/"),
-                f"{variable}: {check['data_vars'][variable]['attrs']['long_name']}",
-                f"{worst:.3g}",
-                f"{limit:.10g}",
-                "yes" if worst <= limit else "NO",
-            ]
-            for variable, (worst, limit) in deciding(check).items()
-        ]
-        for name, check in checks.items()
-    }
