@@ -15,7 +15,7 @@ from pendula.ledger.tables import facts, tally
 from pendula.measures.confidence import CONFIDENCE
 from pendula.measures.levels import levelling
 from pendula.report.results import Results
-from pendula.report.words import Quote, number, percent, span
+from pendula.report.words import Quote, number, percent, span, with_error
 
 KEPT = "../tests/baseline"
 """Where committed datasets lie, seen from the article."""
@@ -25,6 +25,8 @@ FRAMED = ("fig2_large", "fig3_large", "fig4_small", "fig4_large")
 """The cases whose proofs are committed; a full run proves the others."""
 VERDICTS = {Verdict.CONFIRMED: "confirmed", Verdict.CAVEAT: "with a caveat",
             Verdict.NOT_REPRODUCED: "not reproduced", Verdict.UNDECIDED: "open"}  # fmt: skip
+MARK = "†"
+"""It follows each result of a long study, which a full run does not make again."""
 UPWARD = 1.05
 """By so much a bound grows before two of its digits are printed: they are then no smaller."""
 
@@ -44,7 +46,7 @@ class Numbers:
         data = self.results[name].sel(labels)
         if f"{variable}_error" in data:
             value, error = (float(data[f"{variable}{part}"]) for part in ("", "_error"))
-            return self.results.quote_error(name, value, error)
+            return self.long(name, with_error(value, error))
         return self._say(name, data, variable, lambda one: number(one, digits))
 
     def share(self, name: str, variable: str, **labels) -> Quote:
@@ -60,7 +62,12 @@ class Numbers:
                 for end in (f"{variable}_low", f"{variable}_high") if end in data]  # fmt: skip
         told = write(float(given))
         interval = f" ({' to '.join(ends)})" if set(ends) - {told} else ""
-        return self.results.say(name, told + interval)
+        say = self.long if variable in data.data_vars else self.results.say
+        return say(name, told + interval)
+
+    def long(self, name: str, text: str) -> Quote:
+        """Return a result, with a mark if it is of a long study."""
+        return self.results.say(name, f"{text}{MARK if name.startswith(QUOTED) else ''}")
 
     def n(self, claim: str, key: str, digits: int = 3) -> Quote:
         """Return a number that decides a claim."""
@@ -96,9 +103,10 @@ def gather(results: Results) -> dict[str, Any]:
         "errors": {name: regular_error(results, name) for name in ("ode45", "taylor")},
         "cells": sum(results[f"checks/{one}"]["measured"].size for one in ("chart", "short_chart")),
         "runs_level": level_of_runs(results),
-        "exponents": results.say(LONG, span(study["omega_exponent"].values, 2)),
+        "mark": MARK,
+        "exponents": numbers.long(LONG, span(study["omega_exponent"].values, 2)),
         "omegas": results.quote(LONG, study.sizes["varied_omega"]),
-        "furthest": results.say(LONG, percent(ratio.max())),
+        "furthest": numbers.long(LONG, percent(ratio.max())),
         "largest_bound": largest_bound(results),
         "radius": upward(results["certified/breathers"]["radius"].max()),
         "peer": lambda name: numbers.of(f"{KEPT}/speed/work_precision", "mean_ratio", peer=name),

@@ -118,9 +118,13 @@ def horizons_in_words(trust, digits: int = 4) -> list[str]:
 
 
 def percent(part: float, digits: int = 2) -> str:
-    """Return a fraction in per cent: 13 %."""
+    """Return a fraction in per cent: 13 %. What is not the whole is not rounded to it: 99.5 %."""
     value = 100.0 * float(part)
-    rounded = f"{value:.0f}".replace("-", MINUS) if abs(value) >= 10 else number(value, digits)
+    if abs(value) < 10:
+        return f"{number(value, digits)}{FIRM}%"
+    texts = (f"{value:.{places}f}" for places in range(8))
+    rounded = next((one for one in texts if value == 100 or float(one) != 100), "100")
+    rounded = rounded.replace("-", MINUS)
     return f"{rounded}{FIRM}%"
 
 
