@@ -62,12 +62,7 @@ FIGURES = {
               "breathers/fates", "quoted/breathers"),
     "sensitivity": (breathers.draw_sensitivity, breathers.gather_sensitivity,
                     "breathers/sensitivity"),
-    "lyapunov": (chaos.draw_lyapunov, chaos.gather_lyapunov, "checks/lyapunov"),
-    "symmetry": (chaos.draw_symmetry, chaos.gather_symmetry, "checks/symmetry", "checks/lyapunov"),
-    "ensembles": (chaos.draw_ensembles, chaos.gather_ensembles,
-                  "checks/ensembles", "checks/ensemble_runs"),
-    "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes,
-                  "checks/lifetimes"),
+    "lifetimes": (chaos.draw_lifetimes, chaos.gather_lifetimes, "checks/lifetimes"),
     "pendula_over_the_top": (
         figures_phases.draw_over_the_top, figures_phases.gather_over_the_top,
         "pendula/sea", "pendula/over_the_top", "unbounded/thermal",

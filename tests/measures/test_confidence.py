@@ -62,17 +62,6 @@ def test_one_more_draw_has_every_chance_alike(stats):
     assert confidence.chance_of_draw(5.0, 2.0, 1.0, 8) == round(known, 6)
 
 
-def test_every_chance_of_an_exponential_law_is_alike_where_it_holds():
-    lives = np.random.default_rng(4).exponential(3.0, size=(1500, 30))
-    chances = [confidence.chance_of_law(draw, 1e9) for draw in lives]
-    for level in (0.05, 0.2, 0.5):
-        assert np.mean(np.array(chances) < level) == pytest.approx(level, abs=0.03)
-    assert confidence.chance_of_law(lives[0] + 1.5, 1e9) < 0.01
-    assert confidence.chance_of_law([np.inf, np.inf], 2.0) == 1.0
-    # one life is as far from the law as can be: Stephens's 1 + 0.12 + 0.11, and 10 % at 1.224
-    assert confidence.chance_of_law([3.0], 10.0) == pytest.approx(0.097, abs=1e-3)
-
-
 def test_limits_of_a_rate_are_those_of_chi_squared(stats):
     """Two of four lives end, after 1 and 2; with two of 3 and more that makes 9 lived in all."""
     found = confidence.event_rate([1.0, np.inf, 2.0, np.inf], 0.0, 3.0)

@@ -2,7 +2,14 @@
 
 import numpy as np
 import pytest
-from pendula.measures.growth import is_chaotic, local_exponents, mean_rate, mean_rate_error
+from pendula.measures.growth import (
+    amplification,
+    is_chaotic,
+    local_exponents,
+    mean_rate,
+    mean_rate_error,
+    predict,
+)
 
 
 def test_rates_are_slopes_of_the_logarithm_and_their_errors_those_of_its_parts():
@@ -70,3 +77,27 @@ def test_an_octave_that_begins_before_the_first_output_begins_there():
     x, known = np.linspace(np.log(3.0), np.log(4.0), 60), np.log(tau[1:4])
     bent = np.interp(x, known, 2.0 * np.log(tau[1:4] + 1.0))
     assert found == pytest.approx(np.polyfit(x, bent, 1)[0], rel=1e-9)
+
+
+# --- Divergence -----------------------------------------------------------------------------------
+
+TIMES = np.linspace(0.0, 20.0, 1001)
+
+
+@pytest.mark.parametrize(
+    ("rate", "size", "expected"),
+    [
+        (1.5, np.ones_like(TIMES), np.log(np.expm1(1.5 * TIMES[5:]) / 1.5)),
+        (1.5, np.exp(1.5 * TIMES), np.log(TIMES[5:])),  # the solution grows like its errors
+    ],
+)
+def test_errors_made_all_along_grow_to_their_integral(rate, size, expected):
+    log = amplification(TIMES, rate * TIMES, size)
+    np.testing.assert_allclose(log[5:], expected, atol=0.02)
+
+
+def test_a_thousandth_of_the_error_diverges_later_by_its_logarithm_over_the_rate():
+    log = amplification(TIMES, 2.0 * TIMES, np.ones_like(TIMES))
+    early, late = (predict(TIMES, log, error) for error in (1e-6, 1e-9))
+    assert late - early == pytest.approx(np.log(1e3) / 2.0, abs=0.02)
+    assert predict(TIMES, np.zeros_like(TIMES), 1e-6) == np.inf

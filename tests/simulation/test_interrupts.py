@@ -12,13 +12,13 @@ from helpers import HANGS, wait_for
 from oracle import SOLVERS as CONTROLS
 from pendula.integrators import INTERRUPTED
 from pendula.simulation import simulate as simulation
+from pendula.simulation import tangents
 from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, aligned, pack
 from pendula.simulation.models import make_chain
 from pendula.simulation.observables import blank_record
 from pendula.simulation.simulate import IntegrationError, simulate
 from pendula.simulation.solvers import SOLVERS
-from pendula.studies.chaos import tangent_dynamics
 from pendula.studies.unbounded import active_sites
 from problems import constants_of, problem_of
 
@@ -39,12 +39,8 @@ def test_a_solver_ends_where_the_flag_is_up(name, monkeypatch):
         simulate(problem)
 
 
-def odd_part(problem):
-    return tangent_dynamics.follow_odd_part(problem, problem.amplitudes, 0.25, 1e-9)
-
-
 def tangent(problem):
-    return tangent_dynamics.grow(problem, np.ones((1, *problem.amplitudes.shape), complex), 1.0)
+    return tangents.grow(problem, np.ones((1, *problem.amplitudes.shape), complex), 1.0)
 
 
 def piece_without_ends(problem):
@@ -54,7 +50,7 @@ def piece_without_ends(problem):
 
 @pytest.mark.parametrize(
     ("module", "run"),
-    [(tangent_dynamics, odd_part), (tangent_dynamics, tangent), (active_sites, piece_without_ends)],
+    [(tangents, tangent), (active_sites, piece_without_ends)],
 )
 def test_the_runs_that_studies_start_themselves_end_there_too(module, run, monkeypatch):
     problem = problem_of("fig2_small", solver=CONTROLS["dop853"], end_time=1.0)

@@ -17,9 +17,8 @@ def chaotic(lyapunov):
     return lyapunov["case"].values[lyapunov["chaotic"].values == 1]
 
 
-def rounding_makes_chaotic_runs_alone_uneven(symmetry, lyapunov):
-    uneven = np.isfinite(symmetry["rounded_time"])
-    return (uneven == symmetry["case"].isin(chaotic(lyapunov))).all()
+def chaotic_cases_alone_have_ensembles(lyapunov, ensembles):
+    return set(chaotic(lyapunov)) == set(ensembles["case"].values)
 
 
 def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
@@ -32,17 +31,6 @@ def every_solver_leaves_every_chaotic_trajectory(trust, lyapunov):
 def doubles_lead_away_from_printed_decimals(trust):
     first, visible = trust["decimal_horizon"].values
     return first < visible <= float(trust["tau"][-1])
-
-
-def finer_tolerances_and_evenness_change_no_rate_twofold(lifetimes):
-    """Each rate against each other one of the same tolerance or a finer one, limits included."""
-    fine = lifetimes["choice_tolerance"] <= 1.001 * lifetimes.attrs["solver_rtol"]
-    rates = lifetimes.isel(choice=fine.values)
-    log_of = {name: np.log(rates[name].values) for name in ("choice_rate_low", "choice_rate_high")}
-    half = 0.5 * (log_of["choice_rate_high"] - log_of["choice_rate_low"])
-    mean = 0.5 * (log_of["choice_rate_high"] + log_of["choice_rate_low"])
-    apart = abs(mean[:, None] - mean) + np.hypot(half[:, None], half)
-    return fine.sum() >= 3 and np.exp(apart[~np.eye(len(half), dtype=bool)]).max() < 2.0
 
 
 def rates_of_steady_states_lie_in_their_enclosures(proved, steady):
@@ -66,20 +54,12 @@ def reversed_cases(dataset):
     return dataset.assign_coords(case=dataset["case"].values[::-1])
 
 
-def of_coarsest(lifetimes):
-    """Return rates of which one is that of the coarsest tolerance."""
-    rates = [f"choice_rate{end}" for end in ("", "_low", "_high")]
-    return lifetimes.assign({name: lifetimes[name].roll(choice=1) for name in rates})
-
-
 STATEMENTS = [
-    (rounding_makes_chaotic_runs_alone_uneven, ("checks/symmetry", "checks/lyapunov"),
-     reversed_cases),
+    (chaotic_cases_alone_have_ensembles, ("checks/lyapunov", "checks/ensembles"), reversed_cases),
     (every_solver_leaves_every_chaotic_trajectory, ("checks/trust", "checks/lyapunov"),
      reversed_cases),
     (doubles_lead_away_from_printed_decimals, ("checks/trust",),
      lambda trust: trust.assign(decimal_horizon=2.0 * trust["decimal_horizon"])),
-    (finer_tolerances_and_evenness_change_no_rate_twofold, ("checks/lifetimes",), of_coarsest),
     (rates_of_steady_states_lie_in_their_enclosures, ("certified/breathers", "breathers/steady"),
      lambda proved: proved.assign(growth_high=0.5 * proved["growth_high"])),
 ]  # fmt: skip

@@ -5,7 +5,6 @@ import pytest
 import xarray as xr
 from accepted import dataset
 from pendula.configuration.schema import PAPER_CASES, PAPER_SWEEPS
-from pendula.studies.chaos.ensembles import compare_runs
 from pendula.studies.paper.solvers import compare_solvers
 from pendula.studies.theory.bounds import check_cases, check_sweeps
 
@@ -24,22 +23,8 @@ def solvers():
     return compare_solvers(runs, of("sweeps", PAPER_SWEEPS), of("sweeps", second)).drop_vars("kept")
 
 
-def ensemble_runs():
-    ensembles, drawn = dataset("checks/ensembles"), dataset("checks/ensemble_runs")
-    cases, sweeps = (ensembles[name].values.astype(str) for name in ("case", "sweep"))
-    return compare_runs(
-        ensembles,
-        dataset("checks/lyapunov"),
-        of("trajectories", cases),
-        of("reference", cases),
-        of("sweeps", sweeps),
-        dict(zip(sweeps, drawn["swept_window"].values, strict=True)),
-    ).drop_vars("true")  # the accepted references have fewer times
-
-
 MADE = {
     "checks/solvers": (solvers, 2e-5),
-    "checks/ensemble_runs": (ensemble_runs, 0.0),
     "checks/cases": (lambda: check_cases(of("trajectories", PAPER_CASES)), 0.0),
     "checks/sweeps": (lambda: check_sweeps(of("sweeps", PAPER_SWEEPS)), 0.0),
 }

@@ -100,7 +100,7 @@ EDITED = {
 """Edits of the paper's cases that once broke studies: they run on what the case has become."""
 RUN_ON_EDITED = (
     *("figures/fig3.png", "figures/front.png"),
-    *("checks/members.nc", "checks/lyapunov.nc", "checks/ensemble_runs.nc"),
+    *("checks/members.nc", "checks/lyapunov.nc", "checks/ensembles.nc"),
     *("breathers/sensitivity.nc", "unbounded/map_fig6_right.nc"),
     *("pendula/phases.nc", "pendula/over_the_top.nc"),
 )

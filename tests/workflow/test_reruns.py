@@ -12,8 +12,7 @@ from helpers import change, edit, planned
 
 SIMULATIONS = {"trajectory", "trajectory_by_solvers", "sweep", "sweep_by_second_solver"}
 MEASURES = {
-    *("measure_lyapunov", "measure_symmetry", "measure_ensembles"),
-    *("measure_lifetimes", "measure_members"),
+    *("measure_lyapunov", "measure_ensembles", "measure_lifetimes", "measure_members"),
 }
 
 
@@ -36,8 +35,8 @@ def test_a_new_omega_reruns_its_case_its_sweep_and_the_figures_that_show_them(fu
     assert jobs["trajectory"] == jobs["trajectory_by_solvers"] == 2
     assert jobs["sweep"] == jobs["sweep_by_second_solver"] == 1
     # the ensembles of all chaotic cases lie in one dataset, which Figs 3 to 6 show
-    shown_in = {"norms_by_half_width", "solver_figures", "solver_table", "chaos_figures"}
-    assert jobs.keys() >= {*shown_in, "ensembles"} | MEASURES
+    shown_in = {"norms_by_half_width", "solver_figures", "solver_table"}
+    assert jobs.keys() >= shown_in | MEASURES
     assert jobs["norms_in_time"] < 3 and "fig1" not in jobs
 
 
@@ -65,8 +64,7 @@ def test_the_equations_rerun_every_simulation_until_the_change_is_taken_back(ful
 def test_the_tangent_equations_rerun_what_follows_them_and_nothing_else(full_run, clone):
     change(clone / "scripts/pendula/models/tangent.py")
     jobs = planned(clone, full_run)
-    # lost evenness has the solver of the tangents
-    assert jobs.keys() & MEASURES == {"measure_lyapunov", "measure_symmetry"}
+    assert jobs.keys() & MEASURES == {"measure_lyapunov"}
     assert not jobs.keys() & SIMULATIONS
 
 

@@ -78,10 +78,7 @@ OWN_CASES = [case for case in SETTINGS.cases if case not in PAPER_CASES]
 OWN_SWEEPS = [sweep for sweep in SETTINGS.sweeps if sweep not in PAPER_SWEEPS]
 SPEED_FIGURES = [*(f"speed_{regime}" for regime in REGIMES), "cost_growth"]
 SOLVER_CHECKS = ["solvers", "second_solver", "trust"]
-CHAOS_CHECKS = [
-    *("lyapunov", "symmetry", "ensembles", "ensembles_uneven", "ensemble_runs"),
-    *("members", "lifetimes"),
-]
+CHAOS_CHECKS = ["lyapunov", "ensembles", "ensembles_uneven", "members", "lifetimes"]
 THEORY_CHECKS = [name for group in GROUPS.values() for name in group]
 CHECKS = [*THEORY_CHECKS, *OBSERVED]
 SHOWN = {n: [f"fig{n}_small", f"fig{n}_large"] for n in "234"}

@@ -254,7 +254,7 @@ def _check(name: str, on: tuple[str, ...]) -> tuple[str, ...]:
     return {
         "lifetimes": ("chaos.lifetimes", *lives),
         "members": ("chaos.members", *_of_all(cases, *FINITE)),
-        **{one: (f"chaos.{one}", *runs) for one in ("lyapunov", "symmetry")},
+        "lyapunov": ("chaos.lyapunov", *runs),
         **dict.fromkeys(("solvers", "trust", "second_solver"), ("solvers", *runs)),
         "cases": _of_all(cases, *FINITE, "end_time", "solver"),
     }.get(name, ())

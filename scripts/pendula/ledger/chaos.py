@@ -26,21 +26,21 @@ SURE = Cutoff(ERRORS, "three standard errors, which chance exceeds a few times i
 
 @once
 def chaotic(lyapunov: xr.Dataset) -> xr.DataArray:
-    """Return whether tangent vectors of either parity grow exponentially, (case).
+    """Return whether tangent vectors grow exponentially along any member of a case, (case).
 
     The dataset says it too, by the same limits; here they are cut-offs, which can move.
     """
-    growth = lyapunov["log_growth"].transpose("case", "parity", "tau")
-    size = lyapunov["l2"].transpose("case", "tau").values[:, None]
+    along = ("case", "member", "tau")
+    growth, size = (lyapunov[name].transpose(*along) for name in ("log_growth", "l2"))
     limits = {"many": MUCH_GROWTH.value, "errors": SURE.value}
-    found = is_chaotic(growth["tau"].values, growth.values, size, **limits)
+    found = is_chaotic(growth["tau"].values, growth.values, size.values, **limits)
     return lyapunov["case"].copy(data=found.any(axis=1)).rename("chaotic")
 
 
 def regular(lyapunov: xr.Dataset) -> xr.Dataset:
     """Return exponents of the same cases as if nothing grew, for controls."""
     size = lyapunov["l2"].copy(data=log(lyapunov["l2"].values))
-    return lyapunov.assign(log_growth=size + 0.0 * lyapunov["log_growth"])
+    return lyapunov.assign(log_growth=size)
 
 
 SENSITIVITY = "breathers/sensitivity"

@@ -25,7 +25,6 @@ SERIES = {
 NO_NUMBER = {
     "checks/lyapunov": "exponents*",  # beyond the last exponent of a shorter chain
     "checks/ensembles*": "l2_* linf_*",  # at a half-width without an ensemble
-    "checks/lifetimes": "rate*",  # where no member was ever localised
     "checks/members": "rms",  # beyond the ends of a shorter chain
     "checks/trust": "*horizon known_until",  # without a reference
     "breathers/steady": "*",  # where a family has no state

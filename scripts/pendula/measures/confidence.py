@@ -143,24 +143,5 @@ def event_rate(times, start: float, end: float, confidence: float = CONFIDENCE) 
     return Limits(events / watched, 0.5 * low / watched, 0.5 * high / watched)
 
 
-def chance_of_law(lives, watched: float) -> float:
-    """Return the chance of lives as far from an exponential law, by Kolmogorov's statistic.
-
-    `lives` is (member,), infinite where a life went on after the time `watched`. If the law holds,
-    the time that all members together lived until each end is uniform (Epstein, Technometrics 2
-    (1960) 83); the distribution of the statistic is Stephens's (J. R. Stat. Soc. B 32 (1970) 115).
-    Without an end the chance is one.
-    """
-    lives = np.asarray(lives, dtype=float)
-    ends = np.sort(lives[np.isfinite(lives)])
-    if not (count := len(ends)):
-        return 1.0
-    at_risk = np.minimum(lives, watched).sum()
-    share = np.array([np.minimum(lives, end).sum() for end in ends]) / at_risk
-    steps = np.arange(count + 1) / count
-    off = max((steps[1:] - share).max(), (share - steps[:-1]).max())
-    return _rounded(special.kolmogorov((sqrt(count) + 0.12 + 0.11 / sqrt(count)) * off))
-
-
 def _rounded(value: float) -> float:
     return float(f"{float(value):.6g}")

@@ -4,9 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from pendula.numerics.elementary import interpolated, log
+from pendula.numerics.elementary import exp, interpolated, log
 
 from .confidence import mean_limits
+from .difference import VISIBLE, first_above
 from .spreading import lay_line
 
 POINTS = 60
@@ -18,6 +19,8 @@ a factor of 64."""
 ERRORS = 3.0
 """A growth must exceed MANY by so many standard errors."""
 PARTS = 8
+ROUNDING = 2.0**-53
+"""Relative error of one rounded operation in double precision."""
 
 
 def local_exponents(tau: np.ndarray, values: np.ndarray, octaves: int) -> tuple[np.ndarray, list]:
@@ -74,3 +77,21 @@ def is_chaotic(
         rate = mean_rate(tau, relative, middle)
         error = mean_rate_error(tau, relative, middle)
     return (rate - errors * error) * (tau[-1] - middle) > many
+
+
+def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Return log of the relative error at each tau, per relative error made in a unit of tau.
+
+    Errors are made all along, each in proportion to the `size` of the solution at its time s, and
+    grown by exp(log_growth(tau) - log_growth(s)). All arguments are (time,), as is the result.
+    """
+    made = log(size[1:] * np.diff(tau)) - log_growth[1:]
+    peak = np.maximum.accumulate(made)
+    kept = [exp(made[: i + 1] - top).sum() for i, top in enumerate(peak)]
+    total = peak + log(np.array(kept)) + log_growth[1:] - log(size[1:])
+    return np.concatenate([[-np.inf], total])
+
+
+def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
+    """Return the first tau at which `error` a unit of tau has grown to VISIBLE; inf if at none."""
+    return first_above(tau, log_amplification, log(VISIBLE / error))

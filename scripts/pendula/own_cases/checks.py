@@ -20,7 +20,14 @@ from pendula.datasets.trajectories import trajectory_contents
 from pendula.feasibility import SMALLEST_ERROR
 from pendula.integrators import DONE, FAULTS
 from pendula.measures.difference import NORMS, at_times, difference, divergence_time
-from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
+from pendula.measures.growth import (
+    ROUNDING,
+    amplification,
+    is_chaotic,
+    mean_rate,
+    mean_rate_error,
+    predict,
+)
 from pendula.models.linear_chain import finite_rate, finite_threshold, gamma_0, infinite_rate
 from pendula.models.pendula import leading_angles
 from pendula.numerics.elementary import log, modulus, square_modulus
@@ -29,8 +36,7 @@ from pendula.simulation.interrupts import interruptible
 from pendula.simulation.lattice import WHOLE, find_reduction
 from pendula.simulation.models import model_of
 from pendula.simulation.simulate import IntegrationError, simulate
-from pendula.studies.chaos.lyapunov import ROUNDING, amplification, predict, random_tangent
-from pendula.studies.chaos.tangent_dynamics import STEP, TOLERANCE, Growth, grow
+from pendula.simulation.tangents import STEP, TOLERANCE, Growth, grow, random_tangent
 from pendula.studies.theory.bounds import NUMBERS, case_numbers
 from pendula.studies.theory.estimates import integrated_balance
 
@@ -93,8 +99,7 @@ FEWEST_STEPS, SEED = 64, 20170817
 def follow(problem: Problem) -> Growth:
     """Return the growth of a random tangent vector along the trajectory of a problem."""
     even = bool(find_reduction(problem.amplitudes).even)
-    rng = np.random.default_rng(SEED)
-    tangent = random_tangent(problem.sites, "even" if even else None, rng)
+    tangent = random_tangent(problem.sites, np.random.default_rng(SEED), even)
     step = min(STEP, problem.end_time / FEWEST_STEPS)
     return grow(problem, tangent[None], problem.end_time, even, step)
 

@@ -54,13 +54,13 @@ def test_a_breather_is_periodic_by_the_taylor_method_and_has_its_symmetry(consta
 
 
 @pytest.mark.parametrize("constants", [BELOW, ABOVE], ids=["below", "above"])
-def test_the_ends_of_a_family_close_as_well_as_the_study_needs(constants):
+def test_the_ends_of_a_family_close(constants):
     """The slowest breather has the longest tails, the fastest one the largest amplitude."""
     given = yaml.safe_load((CONFIG / "breathers.yaml").read_text())["breathers"]
-    widths, needed = given["periodic"]["half_widths"], given["needs"]["periodic"]
+    widths = given["periodic"]["half_widths"]
     for one in members(constants, "A = -B", 8.1, 20.0, **widths):
         missed = np.abs(after(one, 4).final - unfolded(one.data)).max()
-        assert missed < needed * np.abs(one.data).max()
+        assert missed < 1e-11 * np.abs(one.data).max()
 
 
 @pytest.mark.parametrize(("instant", "lowest"), [("both real", 36.29), ("both imaginary", 30.25)])

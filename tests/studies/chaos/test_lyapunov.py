@@ -1,12 +1,13 @@
-"""Lyapunov exponents and divergence times: what any Hamiltonian flow promises, and exact growth."""
+"""Lyapunov exponents: what any Hamiltonian flow promises, and means over members."""
 
 import numpy as np
 import pytest
+from pendula.datasets.netcdf import as_xarray
 from pendula.measures.confidence import Limits
-from pendula.measures.growth import is_chaotic, mean_rate, mean_rate_error
+from pendula.measures.growth import mean_rate, mean_rate_error
+from pendula.simulation.ensembles import draw_members
+from pendula.simulation.tangents import grow, random_tangent
 from pendula.studies.chaos import lyapunov
-from pendula.studies.chaos.lyapunov import PARITIES, random_tangent
-from pendula.studies.chaos.tangent_dynamics import grow
 from problems import problem_of
 
 SEED = 20170817
@@ -62,71 +63,45 @@ def test_published_spectra_are_those_of_each_short_chain_and_of_the_shortest_wit
         rest = np.full(20 - len(one.value), np.nan)
         for name, values in (("exponents", one.value), ("exponents_error", one.half)):
             np.testing.assert_array_equal(made[f"{name}{key}"].values[0][row], [*values, *rest])
-        if gamma:
-            vanishing = np.sum((one.low <= 0.0) & (one.high >= 0.0))
-            assert made["vanishing"].values[0, row] == vanishing > 0
 
 
-@pytest.mark.parametrize("parity", PARITIES)
-@pytest.mark.parametrize(
-    ("case", "exponent", "off", "chaotic"),
-    [("fig4_small", 1.7, 0.35, True), ("fig3_small", 0.0, 0.02, False)],
-)
-def test_the_chain_is_chaotic_at_omega_zero_and_regular_at_minus_four(
-    case, exponent, off, chaotic, parity
-):
-    growth = lyapunov.follow_parity(problem_of(case, half_width=15), parity, 60.0, SEED)
-    rate = mean_rate(growth.tau, growth.log_growth, 20.0)[0]
-    assert rate == pytest.approx(exponent, abs=off)
-    assert is_chaotic(growth.tau, growth.log_growth[0], growth.size) == chaotic
+@pytest.fixture(scope="module")
+def short_cases():
+    """Return the growth along three members of a chaotic and of a regular case, on short chains."""
+    changes = {"half_width": 15, "solver": {"name": "dop853", "rtol": 1e-8, "atol": 1e-8}}
+    cases = {name: problem_of(name, **changes) for name in ("fig4_small", "fig3_small")}
+    return cases, as_xarray(
+        *lyapunov.largest_exponents(cases, [(5.0, 20.0), (20.0, 60.0)], 3, 1e-7, SEED)
+    )
 
 
-@pytest.mark.parametrize("parity", PARITIES)
-@pytest.mark.parametrize("site", [0, 1])
-def test_the_vectors_are_drawn_by_one_seed_and_the_place_of_their_parity(parity, site):
-    """Along data that are not even the whole chain is followed."""
-    problem = problem_of("fig3_small", half_width=2, initial={site: (1.0, 0.1)})
-    vector = random_tangent(5, parity, np.random.default_rng([SEED, PARITIES.index(parity)]))
-    known = grow(problem, vector[None], 1.0, even=parity == "even" and site == 0)
-    found = lyapunov.follow_parity(problem, parity, 1.0, SEED)
-    np.testing.assert_array_equal(found.log_growth, known.log_growth)
+def test_the_chain_is_chaotic_at_omega_zero_and_regular_at_minus_four(short_cases):
+    _, found = short_cases
+    late = found["exponent"].sel(span="[20, 60]")
+    assert found["chaotic"].values.tolist() == [1, 0]
+    assert late.values == pytest.approx([1.7, 0.0], abs=0.2)
+    assert (found["exponent_low"] < found["exponent"]).all()
 
 
-# --- Divergence -----------------------------------------------------------------------------------
-
-TAU = np.linspace(0.0, 20.0, 1001)
-
-
-@pytest.mark.parametrize(
-    ("rate", "size", "expected"),
-    [
-        (1.5, np.ones_like(TAU), np.log(np.expm1(1.5 * TAU[5:]) / 1.5)),
-        (1.5, np.exp(1.5 * TAU), np.log(TAU[5:])),  # the solution grows like its errors
-    ],
-)
-def test_errors_made_all_along_grow_to_their_integral(rate, size, expected):
-    log = lyapunov.amplification(TAU, rate * TAU, size)
-    np.testing.assert_allclose(log[5:], expected, atol=0.02)
+def test_an_exponent_and_its_limits_are_those_of_the_members_on_its_span(short_cases):
+    cases, found = short_cases
+    runs = lyapunov.follow_members(cases["fig4_small"], 60.0, 3, 1e-7, SEED)
+    growths = np.array([run.log_growth[0] for run in runs])
+    np.testing.assert_array_equal(growths, found["log_growth"].sel(case="fig4_small"))
+    assert found["tau"].values.tolist() == list(range(61))
+    rates = (growths[:, 20] - growths[:, 5]) / 15.0
+    assert len(set(rates)) == 3
+    one = found.sel(case="fig4_small", span="[5, 20]")
+    assert float(one["exponent"]) == pytest.approx(rates.mean())
+    off = 4.30265 * rates.std(ddof=1) / np.sqrt(3.0)  # Student's t of two degrees of freedom
+    assert float(one["exponent_high"] - one["exponent"]) == pytest.approx(off, rel=1e-4)
 
 
-def test_a_thousandth_of_the_error_diverges_later_by_its_logarithm_over_the_rate():
-    log = lyapunov.amplification(TAU, 2.0 * TAU, np.ones_like(TAU))
-    early, late = (lyapunov.predict(TAU, log, error) for error in (1e-6, 1e-9))
-    assert late - early == pytest.approx(np.log(1e3) / 2.0, abs=0.02)
-    assert lyapunov.predict(TAU, np.zeros_like(TAU), 1e-6) == np.inf
-
-
-def test_chaotic_runs_diverge_when_predicted_and_regular_ones_do_not():
-    changes = {"half_width": 4, "end_time": 16.0, "output_step": 0.25}
-    cases = {name: problem_of(name, **changes) for name in ("fig3_small", "fig4_large")}
-    growth, _ = lyapunov.largest_exponents(cases, 16.0, SEED)
-    assert growth["chaotic"].values.tolist() == [0, 1]
-    found = lyapunov.divergence_times(cases, [1e-4, 1e-7], growth)
-    regular, chaotic = found["divergence_predicted"].values
-    assert np.isinf(regular).all() and np.isinf(found["divergence_measured"].values[0]).all()
-    assert chaotic[0] < chaotic[1] < found["divergence_rounding"].values[1]
-    np.testing.assert_allclose(found["divergence_measured"].values[1], chaotic, atol=3.0)
-    one = lyapunov.follow_parity(cases["fig4_large"], "odd", 16.0, SEED, tolerance=1e-12)
-    np.testing.assert_array_equal(growth["log_growth"].values[1, 1], one.log_growth[0])
-    for name, reduce in (("exponent", mean_rate), ("exponent_error", mean_rate_error)):
-        assert growth[name].values[1, 1] == reduce(one.tau, one.log_growth[0], 8.0)
+def test_every_member_and_its_tangent_vector_have_draws_of_their_own():
+    problem = problem_of("fig3_small", half_width=2, initial={1: (1.0, 0.1)})
+    runs = lyapunov.follow_members(problem, 2.0, 2, 1e-3, SEED)
+    first, second = draw_members(problem, 1e-3, 2, SEED)
+    for number, (member, run) in enumerate(zip((first, second), runs, strict=True)):
+        vector = random_tangent(5, np.random.default_rng([SEED, number]))
+        known = grow(member, vector[None], 2.0, step=1.0, tolerance=problem.solver["rtol"])
+        np.testing.assert_array_equal(run.log_growth, known.log_growth)

@@ -7,13 +7,10 @@ draw as well is the distribution.
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 
-from pendula.datasets.checks import describe
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.registry import NAMES
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.difference import is_of_same_case
 from pendula.measures.levels import bands, moments
 from pendula.problem import Problem, by_name, name_window
 from pendula.simulation.ensembles import draw_members
@@ -21,7 +18,8 @@ from pendula.simulation.simulate import simulate
 from pendula.simulation.sweep import QUANTITIES, STATISTICS, pair_l2, pair_linf, sweep
 
 NORMS = {"l2": pair_l2, "linf": pair_linf}
-QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+QUANTILES = (0.05, 0.5, 0.95)
+"""The ends of the band of an ensemble, and its middle."""
 MOMENTS = {
     "mean": "ensemble mean",
     "deviation": "standard deviation over the ensemble",
@@ -64,7 +62,7 @@ def measure_ensembles(
     shared, variables = describe_cases(own)[1], {}
     if problems:
         variables, shared = describe_cases(problems)
-        shared["members"] = members
+        shared |= {"members": members, "band_share": QUANTILES[-1] - QUANTILES[0]}
         drawn = [run_members(one, size, members, seed, kind) for one in problems.values()]
         tau = next(iter(problems.values())).times
         variables["quantile"] = Variable(
@@ -117,95 +115,3 @@ def sweep_moments(
             for (norm, key), each in values.items()
         },
     }
-
-
-# --- The paper's runs among them ------------------------------------------------------------------
-
-BAND = (0.05, 0.95)
-"""The quantiles that bound the band of an ensemble."""
-
-COMPARED = {
-    "run": "l2 norm of the pair in the paper's run",
-    "true": "l2 norm of the pair in the true run",
-    "run_inside": "part of the later half of the time that the paper's run is within the band",
-    "band_width": "mean width of the band from 5 to 95 % over the median, later half",
-    "band_middle": "mean of the ensemble's median, later half",
-    "band_share": "part of the ensemble in the band",
-    "swept_run": "maximum of the l2 norm of the pair in the paper's run",
-    "deviations": "maximum of the paper's run minus the mean, in standard deviations",
-    "swept_window": "time window of the maximum",
-    "swept_omega": "detuning Omega",
-    "swept_initial": "initial {site: [A, B]}",
-}
-"""What is compared: of the cases the norms over time, of the sweeps the maxima over M."""
-
-
-def compare_runs(
-    ensembles: xr.Dataset,
-    lyapunov: xr.Dataset,
-    runs: Mapping[str, xr.Dataset],
-    references: Mapping[str, xr.Dataset],
-    sweeps: Mapping[str, xr.Dataset],
-    windows: Mapping[str, str],
-) -> xr.Dataset:
-    """Return the paper's runs and the references of the same cases beside the ensembles.
-
-    `ensembles` holds what `measure_ensembles` returns; `runs` and `references` are by case, the
-    others by sweep; `windows` names time windows, such as "[10, 50]". All is dimensionless: see
-    COMPARED, and `l2_mean`, `l2_deviation` of the ensembles over the same maxima.
-    """
-    pair = ensembles.sel(quantity="pair", drop=True)
-    known = [
-        references[case].where(is_of_same_case(run, references[case])) for case, run in runs.items()
-    ]
-    run, true = (norms_at(pair["tau"], list(runs), data) for data in (runs.values(), known))
-    cases = pair[["omega", "initial"]].assign(run=run, true=true)
-    late = pair["l2"].sel(tau=slice(float(pair["tau"].max()) / 2, None))
-    low, high = (late.sel(quantile=quantile, drop=True) for quantile in BAND)
-    run, middle = run.sel(tau=late["tau"]), late.median("quantile")
-    cases["run_inside"] = ((run >= low) & (run <= high)).where(run.notnull()).mean("tau")
-    cases["band_width"] = ((high - low) / middle).mean("tau")
-    cases["band_middle"] = middle.mean("tau")
-    cases["band_share"] = BAND[1] - BAND[0]
-    swept = [_compare_sweep(pair, name, sweeps[name], window) for name, window in windows.items()]
-    found = xr.merge([cases, xr.concat(swept, xr.Variable("sweep", list(windows)))])
-    for name, long_name in COMPARED.items():
-        found[name].attrs = {"long_name": long_name}
-    title = "The paper's runs among ensembles from almost equal data"
-    others = {str(run.attrs["solver"]) for run in (*runs.values(), *sweeps.values())} - {"ode45"}
-    by = {"other_solvers": ", ".join(sorted(others))} if others else {}
-    found = found.assign_attrs({**ensembles.attrs, **by, "title": title})
-    found["mismatched"] = mismatched(ensembles["case"].values, lyapunov)
-    print(describe("ensembles of the chaotic cases", found.to_dict()))
-    return found
-
-
-def norms_at(tau: xr.DataArray, cases: list[str], runs) -> xr.DataArray:
-    """Return the l2 norm of the pair in each run at `tau`, (case, tau); NaN beyond its end."""
-    norms = [np.sqrt((run["l2"] ** 2).sum("component", skipna=False)) for run in runs]
-    joined = xr.concat(norms, xr.Variable("case", cases), join="outer")
-    return joined.reindex(tau=tau, method="nearest", tolerance=1e-9)
-
-
-def _compare_sweep(pair: xr.Dataset, name: str, own: xr.Dataset, window: str) -> xr.Dataset:
-    at = {"statistic": "max", "window": window, "drop": True}
-    data = pair[["l2_mean", "l2_deviation"]].sel(sweep=name, **at)
-    run = own["l2"].sel(quantity="pair", **at).reindex(half_width=data["half_width"])
-    return data.assign(
-        swept_run=run,
-        deviations=(run - data["l2_mean"]) / data["l2_deviation"],
-        swept_window=window,
-        swept_omega=float(own.attrs["omega"]),
-        swept_initial=str(own.attrs["initial"]),
-    )
-
-
-def mismatched(cases, lyapunov: xr.Dataset) -> xr.Variable:
-    """Return how many cases are chaotic without an ensemble, or have one without being chaotic.
-
-    Which cases get ensembles must be configured before any run; what is chaotic is measured. None
-    may differ.
-    """
-    chaotic = {str(case) for case in lyapunov["case"].values[lyapunov["chaotic"].values == 1]}
-    about = {"long_name": "cases that have an ensemble or are chaotic, but not both", "units": "1"}
-    return xr.Variable((), len(chaotic ^ set(map(str, cases))), {**about, "tolerance": 0.0})

@@ -1,45 +1,80 @@
-"""Lyapunov exponents, and the divergence times that follow from them.
+"""Lyapunov exponents: how fast small perturbations of a solution grow, on average over a time span.
 
-A Lyapunov exponent is the mean rate at which a small perturbation of a solution grows. Those of a
-Hamiltonian flow come in pairs of opposite sign, sum to zero, and two of them vanish: those along
-the flow and across the energy. The growth also predicts when the errors that a solver makes become
-visible, which is measured as well.
+The largest exponent of a case is that of random tangent vectors along an ensemble of its runs: its
+limits are Student's t over the members. On the span of the paper's figures the motion may not have
+filled the chain yet, so that exponents differ from those of later spans.
+
+All exponents are computed on short chains. Those of a Hamiltonian flow come in pairs of opposite
+sign, sum to zero, and two of them vanish: those along the flow and across the energy.
 """
 
 import numpy as np
 
 from pendula.datasets.netcdf import Variable
 from pendula.datasets.trajectories import Contents, describe_cases
-from pendula.measures.confidence import Limits, student
-from pendula.measures.difference import VISIBLE, first_above, norm_difference
+from pendula.measures.confidence import Limits, mean_limits, student
 from pendula.measures.growth import PARTS, is_chaotic, mean_rate, mean_rate_error
-from pendula.numerics.draws import complex_normal
-from pendula.numerics.elementary import exp, log
-from pendula.problem import Problem
-from pendula.simulation.lattice import find_reduction
-from pendula.simulation.simulate import simulate
+from pendula.problem import Problem, name_window
+from pendula.simulation.ensembles import draw_members
+from pendula.simulation.tangents import Growth, grow, random_tangent
 
-from .tangent_dynamics import Growth, grow
-
-PARITIES = ("even", "odd")
+Span = tuple[float, float]
+STEP = 1.0
+"""Units of tau between two values of a growth that is kept."""
 
 
-def random_tangent(sites: int, parity: str | None, rng: np.random.Generator) -> np.ndarray:
-    """Return complex Gaussian amplitudes (2, N), of the parity asked for to the last bit."""
-    z = complex_normal(rng, (2, sites))
-    return {None: z, "even": z + z[:, ::-1], "odd": z - z[:, ::-1]}[parity]
+def follow_members(
+    problem: Problem, end_time: float, members: int, size: float, seed: int
+) -> list[Growth]:
+    """Carry a random tangent vector along each of `members` runs from perturbed data."""
+    tolerance, found = problem.solver["rtol"], []
+    for number, member in enumerate(draw_members(problem, size, members, seed)):
+        tangent = random_tangent(problem.sites, np.random.default_rng([seed, number]))
+        found.append(grow(member, tangent[None], end_time, step=STEP, tolerance=tolerance))
+    return found
 
 
-def follow_parity(problem: Problem, parity: str, end_time: float, seed: int, **controls) -> Growth:
-    """Carry one random tangent vector of this parity along a case.
+def largest_exponents(
+    problems: dict[str, Problem], spans: list[Span], members: int, size: float, seed: int
+) -> Contents:
+    """Return the growth of tangent vectors along members of each case, and its mean rates.
 
-    Along even data the kernels keep the parity to the last bit, so that the vector turns to the
-    fastest direction among those of its parity. Along others it turns to the fastest of all.
+    `problems` are given by case, and integrated at the tolerance of their solver up to the end of
+    the last of the `spans`.
     """
-    rng = np.random.default_rng([seed, PARITIES.index(parity)])
-    tangent = random_tangent(problem.sites, parity, rng)
-    half = parity == "even" and find_reduction(problem.amplitudes).even
-    return grow(problem, tangent[None], end_time, half, **controls)
+    end_time = max(end for _, end in spans)
+    runs = [follow_members(one, end_time, members, size, seed) for one in problems.values()]
+    tau = runs[0][0].tau
+    log_growth = np.array([[run.log_growth[0] for run in some] for some in runs])
+    l2 = np.array([[run.size for run in some] for some in runs])
+    found = [[_exponent(tau, one, span) for span in spans] for one in log_growth]
+    value, low, high = np.moveaxis(np.array(found), -1, 0)
+    described, shared = describe_cases(problems)
+    by_member, by_span = ("case", "member", "tau"), ("case", "span")
+    says = "largest Lyapunov exponent on the span, per unit of tau"
+    variables = {
+        **described,
+        "span": Variable(("span",), [name_window(span) for span in spans], "span of time"),
+        "tau": Variable(("tau",), tau),
+        "log_growth": Variable(by_member, log_growth, "logarithm of a tangent vector's growth"),
+        "l2": Variable(by_member, l2, "l2 norm over the chain, of A and B together"),
+        "exponent": Variable(by_span, value, says),
+        "exponent_low": Variable(by_span, low, f"{says}, lower confidence limit"),
+        "exponent_high": Variable(by_span, high, f"{says}, upper confidence limit"),
+        "chaotic": Variable(
+            ("case",), is_chaotic(tau, log_growth, l2).any(axis=1).astype(int),
+            "one where tangent vectors grow exponentially",
+        ),
+    }  # fmt: skip
+    about = {"end_time": end_time, "perturbation": size, "members": members, "seed": seed}
+    return variables, {"title": "Lyapunov exponents of the cases", **shared, **about}
+
+
+def _exponent(tau: np.ndarray, log_growth: np.ndarray, span: Span) -> Limits:
+    """Return the mean rate on a span of growths (member, time), with its limits."""
+    start, end = span
+    until = tau <= end
+    return mean_limits(mean_rate(tau[until], log_growth[:, until], start))
 
 
 def follow_many(problem: Problem, count: int, end_time: float, seed: int, **controls) -> Growth:
@@ -49,130 +84,8 @@ def follow_many(problem: Problem, count: int, end_time: float, seed: int, **cont
     but by the steps that the solver takes.
     """
     rng = np.random.default_rng(seed)
-    basis = np.array([random_tangent(problem.sites, None, rng) for _ in range(count)])
+    basis = np.array([random_tangent(problem.sites, rng) for _ in range(count)])
     return grow(problem, basis, end_time, **controls)
-
-
-# --- Divergence -----------------------------------------------------------------------------------
-
-ROUNDING = 2.0**-53
-"""Relative error of one rounded operation in double precision."""
-FINEST = 1e-15
-EARLY = 2.0
-"""Time at which the errors that a run makes are read off, before chaos has grown them far."""
-
-
-def amplification(tau: np.ndarray, log_growth: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Return log of the relative error at each tau, per relative error made in a unit of tau.
-
-    Errors are made all along, each in proportion to the `size` of the solution at its time s, and
-    grown by exp(log_growth(tau) - log_growth(s)). All arguments are (time,), as is the result.
-    """
-    made = log(size[1:] * np.diff(tau)) - log_growth[1:]
-    peak = np.maximum.accumulate(made)
-    kept = [exp(made[: i + 1] - top).sum() for i, top in enumerate(peak)]
-    total = peak + log(np.array(kept)) + log_growth[1:] - log(size[1:])
-    return np.concatenate([[-np.inf], total])
-
-
-def predict(tau: np.ndarray, log_amplification: np.ndarray, error: float) -> float:
-    """Return the first tau at which `error` a unit of tau has grown to VISIBLE; inf if at none."""
-    return first_above(tau, log_amplification, log(VISIBLE / error))
-
-
-def measure_divergence(problem: Problem, tolerances: list[float]) -> tuple[np.ndarray, np.ndarray]:
-    """Return by tolerance when dop853 has diverged from another method at FINEST, and how far.
-
-    The times are infinite where the runs do not diverge; the differences are those at EARLY.
-    """
-    finest, *runs = (
-        simulate(
-            problem.changed(solver={"name": name, "rtol": rtol, "atol": rtol}, snapshot_every=0),
-            energy=False,
-        )
-        for name, rtol in [("taylor", FINEST), *(("dop853", each) for each in tolerances)]
-    )
-    apart = [norm_difference(run.linf, run.l2, finest.linf, finest.l2) for run in runs]
-    early = np.array([one[early_index(finest.tau)] for one in apart])
-    return first_above(finest.tau, np.array(apart), VISIBLE), early
-
-
-def early_index(tau: np.ndarray) -> int:
-    """Return where EARLY is among increasing times."""
-    return int(np.argmin(np.abs(tau - EARLY)))
-
-
-# --- Datasets -------------------------------------------------------------------------------------
-
-
-def largest_exponents(problems: dict[str, Problem], end_time: float, seed: int) -> Contents:
-    """Return the growth of an even and of an odd tangent vector of each case, and its mean rate.
-
-    `problems` are given by case, and integrated at the tolerance of their solver; rates are over
-    the second half of time.
-    """
-    runs = [
-        [
-            follow_parity(p, parity, end_time, seed, tolerance=p.solver["rtol"])
-            for parity in PARITIES
-        ]
-        for p in problems.values()
-    ]
-    tau, middle = runs[0][0].tau, end_time / 2
-    log_growth = np.array([[run.log_growth[0] for run in pair] for pair in runs])
-    l2 = np.array([[run.size for run in pair] for pair in runs])
-    # one at a time, since NumPy adds in another order along an axis of more
-    errors = np.apply_along_axis(lambda one: mean_rate_error(tau, one, middle), -1, log_growth)
-    chaotic = is_chaotic(tau, log_growth, l2).any(axis=1).astype(int)
-    by_parity, parity = ("case", "parity"), "parity of the tangent vector in n"
-    if not all(find_reduction(p.amplitudes).even for p in problems.values()):
-        parity += ", which uneven data do not keep"
-    described, shared = describe_cases(problems)
-    variables = {
-        **described,
-        "parity": Variable(("parity",), list(PARITIES), parity),
-        "tau": Variable(("tau",), tau),
-        "log_growth": Variable(
-            (*by_parity, "tau"), log_growth, "logarithm of the growth of a tangent vector"
-        ),
-        "l2": Variable(("case", "tau"), l2[:, 0], "l2 norm over the chain, of A and B together"),
-        "exponent": Variable(
-            by_parity, mean_rate(tau, log_growth, middle),
-            "largest Lyapunov exponent, per unit of tau",
-        ),
-        "exponent_error": Variable(by_parity, errors, "standard error of the exponent"),
-        "chaotic": Variable(("case",), chaotic, "one where tangent vectors grow exponentially"),
-    }  # fmt: skip
-    title = "Lyapunov exponents of the cases, and when runs leave the solution"
-    return variables, {"title": title, **shared, "end_time": end_time, "seed": seed}
-
-
-def divergence_times(problems: dict[str, Problem], tolerances, growth: dict) -> dict[str, Variable]:
-    """Return the divergence times of dop853 at each tolerance, predicted and measured.
-
-    `growth` holds the variables of `largest_exponents`. Errors are predicted to grow as the even
-    tangent vector does, those that the run is seen to make up to EARLY or those of rounding.
-    """
-    tau, even = growth["tau"].values, growth["log_growth"].values[:, PARITIES.index("even")]
-    early = early_index(tau)
-    seen, measured, rounding = [], [], []
-    for problem, log_growth, l2 in zip(problems.values(), even, growth["l2"].values, strict=True):
-        amplified = amplification(tau, log_growth, l2)
-        times, apart = measure_divergence(problem, tolerances)
-        seen.append([predict(tau, amplified, made) for made in apart / exp(amplified[early])])
-        measured.append(times)
-        rounding.append(predict(tau, amplified, ROUNDING))
-    grid = ("case", "rtol")
-    return {
-        "rtol": Variable(("rtol",), np.asarray(tolerances), "tolerance of dop853"),
-        "divergence_predicted": Variable(
-            grid, seen, "divergence time predicted from errors made early"
-        ),
-        "divergence_measured": Variable(grid, measured, "divergence time from a run at 1e-15"),
-        "divergence_rounding": Variable(
-            ("case",), rounding, "divergence time by one rounding a unit of tau"
-        ),
-    }
 
 
 def spectra(
@@ -188,7 +101,7 @@ def spectra(
     most = 4 * (2 * max(end_times) + 1)
     ends = [*end_times.values(), undriven_end]  # the last row is that without a drive
     rates = np.full((len(problems), len(ends), most), np.nan)
-    errors, vanishing = rates.copy(), np.zeros(rates.shape[:2], int)
+    errors = rates.copy()
     for i, problem in enumerate(problems.values()):
         chains = [problem.changed(half_width=half_width) for half_width in end_times]
         chains.append(problem.changed(half_width=min(end_times), gamma=0.0))
@@ -197,7 +110,6 @@ def spectra(
             run = follow_many(chain, count // 2, end_time, seed, tolerance=tolerance)
             found = in_pairs(spectrum_of(run, end_time / 4))
             rates[i, j, :count], errors[i, j, :count] = found.value, found.half
-            vanishing[i, j] = ((found.low <= 0.0) & (found.high >= 0.0)).sum()
     case, chain, index = ("spectrum_case", "spectrum_half_width", "index")
     words = "all Lyapunov exponents of a short chain, per unit of tau"
     alone = "all Lyapunov exponents of the shortest chain at gamma = 0, per unit of tau"
@@ -211,9 +123,6 @@ def spectra(
         ),
         "exponents": Variable((case, chain, index), rates[:, :-1], words),
         "exponents_error": Variable((case, chain, index), errors[:, :-1], f"{words}: {half}"),
-        "vanishing": Variable(
-            (case, chain), vanishing[:, :-1], "exponents that cannot be told from zero"
-        ),
         "exponents_undriven": Variable((case, index), rates[:, -1], alone),
         "exponents_error_undriven": Variable((case, index), errors[:, -1], f"{alone}: {half}"),
     }
@@ -237,20 +146,13 @@ def in_pairs(upper: Limits) -> Limits:
 
 
 def measure_lyapunov(
-    problems: dict[str, Problem],
-    end_time: float,
-    tolerances: list[float],
-    short_problems: dict[str, Problem],
-    short_end_times: dict[int, float],
-    undriven_end: float,
-    seed: int,
-) -> Contents:
-    """Return exponents of `problems` to `end_time`, and all exponents on short chains.
+    problems: dict[str, Problem], spans: list[Span], members: int, size: float, seed: int,
+    short_problems: dict[str, Problem], short_end_times: dict[int, float], undriven_end: float,
+) -> Contents:  # fmt: skip
+    """Return the largest exponents of `problems` on `spans`, and all exponents on short chains.
 
     `short_end_times` gives the end time for each half-width. The shortest chain is also followed
-    without a drive, to `undriven_end`. `seed` draws the tangent vectors.
+    without a drive, to `undriven_end`. `seed` draws perturbations and tangent vectors.
     """
-    growth, attributes = largest_exponents(problems, end_time, seed)
-    times = divergence_times(problems, tolerances, growth)
-    short = spectra(short_problems, short_end_times, undriven_end, seed)
-    return growth | times | short, attributes
+    growth, attributes = largest_exponents(problems, spans, members, size, seed)
+    return growth | spectra(short_problems, short_end_times, undriven_end, seed), attributes

@@ -1,6 +1,6 @@
 """Section `chaos` of the configuration: cases, lengths of runs, tolerances and seeds."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
@@ -34,20 +34,16 @@ class Spectrum(Model):
     lengths: Annotated[dict[Natural, Positive], Field(min_length=1)]
 
 
-# The largest exponents of every case; `lengths` multiplies the end time of the longest.
-Lyapunov = model(
-    lengths=Positive,
-    tolerance=Tolerance,
-    diverging_tolerances=Annotated[list[Tolerance], Field(min_length=1), Distinct],
-    spectrum=Spectrum,
-    seed=Natural,
-)
-
 RANDOM = {"tolerance": Tolerance, "size": Positive, "seed": Natural}
 """What all ensembles have: the solver's tolerance, the size of a change, and the seed."""
 
-# How even data lose their evenness.
-Symmetry = model(output_step=Positive, members=Count, **RANDOM)
+# The largest exponents of every case, on spans of time.
+Lyapunov = model(
+    spans=Annotated[list[Window], Field(min_length=2, max_length=2), Distinct],
+    members=Annotated[Whole, Field(ge=2)],
+    spectrum=Spectrum,
+    **RANDOM,
+)
 
 # The ensembles of sweeps: so many members on chains of each half-width.
 Swept = Annotated[
@@ -79,19 +75,13 @@ class Lifetimes(Model):
     tolerance: Tolerance
     end_time: Positive
     output_step: Positive
-    settled: Positive
     seed: Natural
-    compared: model(
-        amplitude=Positive,  # again, by other tolerances and kinds of ensembles
-        choices=Annotated[list[tuple[Tolerance, Literal["even", "uneven"]]], Field(min_length=1)],
-    )
 
 
 class Settings(Model):
     """Section `chaos` of the configuration."""
 
     lyapunov: Lyapunov
-    symmetry: Symmetry
     ensembles: Ensembles
     members: Members
     lifetimes: Lifetimes
@@ -106,9 +96,11 @@ class Settings(Model):
             *settings.absent("cases", "lifetimes.case", [self.lifetimes.case]),
         ]
         yield from absent
-        for i, (start, end) in enumerate(self.members.windows):
-            if not 0 <= start < end:
-                yield f"members.windows.{i}", f"[{start:g}, {end:g}] does not run forward"
+        spans = {"lyapunov.spans": self.lyapunov.spans, "members.windows": self.members.windows}
+        for key, given in spans.items():
+            for i, (start, end) in enumerate(given):
+                if not 0 <= start < end:
+                    yield f"{key}.{i}", f"[{start:g}, {end:g}] does not run forward"
         if not absent:
             yield from self._too_long(settings)
 
@@ -121,9 +113,9 @@ class Settings(Model):
         longest = max((settings.cases[case].end_time for case in paper), default=1.0)
         runs = [estimate(settings.problem(case, end_time=longest)) for case in paper]
         drawn = [estimate(settings.problem(case)) for case in self.ensembles.cases]
-        yield from settings.excess("lyapunov.lengths", runs, 2.0 * self.lyapunov.lengths)
+        followed = max(end for _, end in self.lyapunov.spans) / longest
+        yield from settings.excess("lyapunov.members", runs, 2.0 * followed * self.lyapunov.members)
         yield from settings.excess("lyapunov.spectrum.lengths", self._spectra(settings))
-        yield from settings.excess("symmetry.members", runs, 2.0 * self.symmetry.members)
         yield from settings.excess("ensembles.members", drawn, self.ensembles.members)
         for kind in ("sweeps", "uneven"):
             for name, drawn in getattr(self.ensembles, kind).items():

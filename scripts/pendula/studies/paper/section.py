@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from pendula.datasets.registry import SOLVER_NAMES
 from pendula.ledger.claim import CHANGE, CONSTANT
 from pendula.ledger.criterion import Verdict
 from pendula.ledger.section import CONFIRMED, Ledger, badge
@@ -33,7 +32,7 @@ OF_WIDTH = {which: [f"fig{which}_{side}" for side in ("left", "right")] for whic
 DRAWN = {5: ("l2", "linf"), 6: ("l2",)}
 """The norms that the paper's figures of sweeps draw."""
 
-SAMPLES, ENSEMBLES, TRUST = "checks/ensemble_runs", "checks/ensembles", "checks/trust"
+ENSEMBLES, TRUST = "checks/ensembles", "checks/trust"
 
 
 def gather_figures(results: Results, ledger: Ledger) -> dict[str, Any]:
@@ -99,7 +98,7 @@ def _norms(results: Results, which: int) -> dict[str, Any]:
         "perturbed ensemble with the band that contains {share} of its runs. In panels without a "
         "line, run and reference agree as far as both are known.",
         visible=visible,
-        share=results.say(SAMPLES, percent(float(results[SAMPLES]["band_share"]))),
+        share=results.say(ENSEMBLES, percent(float(results[ENSEMBLES].attrs["band_share"]))),
     )
     head = ["case", "ℓ² of the pair", "its mean, second half", f"error {visible} at τ",
             "bounded by", "largest P over that bound", "steps"]  # fmt: skip
@@ -167,7 +166,6 @@ def _sweeps(results: Results, which: int) -> dict[str, Any]:
     return {
         "figure": results.figure(f"fig{which}", long_caption if which == 5 else caption),
         "numbers": Table(f"Fig {which}", head, rows),
-        "samples": _samples(results, which),
     }
 
 
@@ -206,30 +204,6 @@ def levelled(level: float) -> str:
     if not np.isfinite(level):
         return "not level by the end"
     return f"level from M{FIRM}={FIRM}{number(level)}"
-
-
-def _samples(results: Results, which: int) -> Table:
-    """Return what perturbed ensembles give on their longest chain, beside the run of the figure."""
-    data, rows = results[SAMPLES], []
-    for name in map(str, data["sweep"].values):
-        known = data.sel(sweep=name).dropna("half_width", subset=["l2_mean"])
-        if not (name in OF_WIDTH[which] and known.sizes["half_width"]):
-            continue
-        last = known.isel(half_width=-1)
-        members = int(results[ENSEMBLES]["swept_members"].sel(sweep=name))
-        rows.append([
-            case_in_words(float(last["swept_omega"]), str(last["swept_initial"].values)),
-            results.quote(SAMPLES, int(last["half_width"]), 6),
-            results.quote(ENSEMBLES, members),
-            results.say(SAMPLES, measured(float(last["l2_mean"]))),
-            results.quote(SAMPLES, float(last["l2_deviation"]), 2),
-            SOLVER_NAMES[str(results[f"sweeps/{name}"].attrs["solver"])],
-            results.say(SAMPLES, measured(float(last["swept_run"]))),
-            results.quote(SAMPLES, float(last["deviations"]), 2),
-        ])  # fmt: skip
-    head = ["case", "M", "runs", "mean of ℓ²", "standard deviation", "solver of the figure",
-            "its ℓ²", "distance from the mean, standard deviations"]  # fmt: skip
-    return Table("Perturbed ensembles on the longest chain for which they were run", head, rows)
 
 
 # --- Space-time pictures --------------------------------------------------------------------------

@@ -12,17 +12,16 @@ import numpy as np
 
 from pendula.compiled import kernel
 from pendula.integrators import DONE, FAULTS, dop853
-from pendula.models.amplitudes import Chain
 from pendula.models.chain import MIRROR
 from pendula.models.tangent import ROWS, bundle_rates
+from pendula.numerics.draws import complex_normal
 from pendula.numerics.elementary import log
 from pendula.problem import Problem, output_times
-from pendula.simulation.interrupts import interruptible
-from pendula.simulation.lattice import WHOLE, Reduction, aligned, pack
-from pendula.simulation.models import make_chain
-from pendula.simulation.simulate import IntegrationError
 
-from .asymmetric import asymmetric_rates, odd_part
+from .interrupts import interruptible
+from .lattice import Reduction, aligned, pack
+from .models import make_chain
+from .simulate import IntegrationError
 
 
 @kernel
@@ -87,49 +86,33 @@ class Growth(NamedTuple):
     size: np.ndarray  # (time,), l2 norm of the solution itself
 
 
-class Motion(NamedTuple):
-    """What is integrated: a solution and its tangent vectors, or a solution in asymmetric sums.
-
-    The two share one solver, since a second one would take as long to compile.
-    """
-
-    chain: Chain
-    asymmetric: bool
-
-
 @kernel
-def motion_rates(motion, bundle, slopes):
-    """Write the rates of a bundle, or those of a solution alone in an arithmetic that is uneven."""
-    if motion.asymmetric:
-        asymmetric_rates(motion.chain, bundle, slopes)
-    else:
-        bundle_rates(motion.chain, bundle, slopes)
-
-
-@kernel
-def observe_nothing(motion, bundle, i, record):
+def observe_nothing(chain, bundle, i, record):
     """Keep nothing: the bundle at the end of each span of time has all that is wanted."""
 
 
-solve = dop853.build(motion_rates, observe_nothing)
+solve = dop853.build(bundle_rates, observe_nothing)
 
 
 @kernel
-def carry(motion, bundle, span, controls, work, record, lengths, sizes, odd, stop):
+def carry(chain, bundle, span, controls, work, record, lengths, sizes, stop):
     """Carry the bundle over as many spans of time as `lengths` (span, vector) has rows.
 
-    Write `sizes` and, in asymmetric sums, the `odd` parts of the solution; return the status of the
-    solver.
+    Write `sizes` of the solution; return the status of the solver.
     """
     for i in range(lengths.shape[0]):
-        outcome = solve(motion, bundle, span, controls, work, record, stop)
+        outcome = solve(chain, bundle, span, controls, work, record, stop)
         if outcome.status != DONE:
             return outcome.status
-        orthonormalise(motion.chain, bundle, lengths[i])
-        sizes[i] = sqrt(inner(motion.chain, bundle[:ROWS], bundle[:ROWS]))
-        if motion.asymmetric:
-            odd[i] = odd_part(bundle)
+        orthonormalise(chain, bundle, lengths[i])
+        sizes[i] = sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
     return DONE
+
+
+def random_tangent(sites: int, rng: np.random.Generator, even: bool = False) -> np.ndarray:
+    """Return complex Gaussian amplitudes (2, N), even in n to the last bit if that is wanted."""
+    z = complex_normal(rng, (2, sites))
+    return z + z[:, ::-1] if even else z
 
 
 def grow(
@@ -146,37 +129,17 @@ def grow(
     Raises IntegrationError where dop853 gives up.
     """
     reduction = Reduction(even, synchronised=False)
-    motion = Motion(make_chain(problem.constants, problem.boundary, reduction), asymmetric=False)
+    chain = make_chain(problem.constants, problem.boundary, reduction)
     bundle = np.concatenate([pack(state, reduction) for state in (problem.amplitudes, *tangents)])
     tau = output_times(end_time, step)
     lengths, sizes = np.empty((tau.size, len(tangents))), np.empty(tau.size)
-    orthonormalise(motion.chain, bundle, lengths[0])
+    orthonormalise(chain, bundle, lengths[0])
     lengths[0] = 1.0
-    sizes[0] = np.sqrt(inner(motion.chain, bundle[:ROWS], bundle[:ROWS]))
-    _carry(motion, bundle, tau, tolerance, lengths, sizes, np.empty(tau.size))
-    return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)
-
-
-def follow_odd_part(
-    problem: Problem, amplitudes: np.ndarray, step: float, tolerance: float
-) -> np.ndarray:
-    """Return the relative size of the odd part at steps of time, (time,), from data (2, N).
-
-    Sums over neighbours are asymmetric. Raises IntegrationError where dop853 gives up.
-    """
-    motion = Motion(make_chain(problem.constants, problem.boundary, WHOLE), asymmetric=True)
-    tau, y = output_times(problem.end_time, step), pack(amplitudes, WHOLE)
-    odd = np.empty(tau.size)
-    odd[0] = odd_part(y)
-    _carry(motion, y, tau, tolerance, np.empty((tau.size, 0)), np.empty(tau.size), odd)
-    return odd
-
-
-def _carry(motion: Motion, bundle, tau, tolerance: float, lengths, sizes, odd) -> None:
-    """Carry a bundle to each later time, and write what `carry` says behind the first entries."""
+    sizes[0] = np.sqrt(inner(chain, bundle[:ROWS], bundle[:ROWS]))
     record, controls = np.empty(0), (tolerance, tolerance)
     work = aligned((dop853.WORK, *bundle.shape))
-    later = lengths[1:], sizes[1:], odd[1:]
-    status = interruptible(carry, motion, bundle, tau[:2], controls, work, record, *later)
+    later = lengths[1:], sizes[1:]
+    status = interruptible(carry, chain, bundle, tau[:2], controls, work, record, *later)
     if status != DONE:
         raise IntegrationError(f"the motion could not be followed: {FAULTS[status]}")
+    return Growth(tau, log(lengths).cumsum(axis=0).T, sizes)

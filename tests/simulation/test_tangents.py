@@ -1,4 +1,4 @@
-"""The variational equations against differences of equation (4), Lemma 1, and lost evenness."""
+"""The variational equations against differences of equation (4), and Lemma 1."""
 
 import hashlib
 
@@ -10,18 +10,15 @@ from pendula.models.linear_chain import finite_rate
 from pendula.models.tangent import ROWS, tangent_rates
 from pendula.simulation.lattice import Reduction, choose_ends, pack, unpack
 from pendula.simulation.simulate import simulate
-from pendula.studies.chaos.asymmetric import asymmetric_rates, odd_part
-from pendula.studies.chaos.lyapunov import random_tangent
-from pendula.studies.chaos.symmetry import break_symmetry
-from pendula.studies.chaos.tangent_dynamics import (
-    follow_odd_part,
+from pendula.simulation.tangents import (
     grow,
     inner,
     orthonormalise,
+    random_tangent,
     scale,
     subtract,
 )
-from problems import problem_from, problem_of
+from problems import problem_from
 
 CONSTANTS = (0.7, 1.3, -2.1)
 WHOLE = Reduction(even=False, synchronised=False)
@@ -108,6 +105,13 @@ def test_products_and_sums_leave_the_ghosts_beside_the_chain_alone():
         np.testing.assert_array_equal(found[:, [0, -1]], u[:, [0, -1]])
 
 
+def test_a_random_vector_is_even_to_the_last_bit_if_that_is_wanted():
+    drawn = [random_tangent(7, np.random.default_rng(1), even=even) for even in (True, False)]
+    np.testing.assert_array_equal(drawn[0], drawn[0][:, ::-1])
+    np.testing.assert_array_equal(drawn[0], drawn[1] + drawn[1][:, ::-1])
+    assert not np.array_equal(drawn[1], drawn[1][:, ::-1])
+
+
 HASH = "669dfa1c71eb6f7b"
 """Of the bits that every machine must get of the growth below."""
 
@@ -118,63 +122,3 @@ def test_the_bits_of_growth_are_those_of_every_machine():
     assert growth.tau.tolist() == [0.25 * step for step in range(13)]
     bits = growth.log_growth.tobytes() + growth.size.tobytes()
     assert hashlib.sha256(bits).hexdigest()[:16] == HASH
-
-
-# --- Lost evenness --------------------------------------------------------------------------------
-
-
-def problem(case, **changes):
-    return problem_of(case, **{"half_width": 10, "end_time": 6.0, "output_step": 0.25} | changes)
-
-
-def asymmetric(z, boundary):
-    y = pack(z, WHOLE)
-    dy = np.zeros_like(y)
-    asymmetric_rates(Chain(*CONSTANTS, *choose_ends(boundary, WHOLE)), y, dy)
-    return unpack(dy, WHOLE)
-
-
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_the_asymmetric_rates_are_equation_4(boundary):
-    z = random_chain(4)
-    expected = slope(z, CONSTANTS, boundary)
-    np.testing.assert_allclose(asymmetric(z, boundary), expected, rtol=1e-13, atol=1e-13)
-
-
-def test_the_asymmetric_rates_of_even_data_are_even_but_for_rounding():
-    rate = asymmetric(random_chain(30, even=True), "dirichlet")
-    assert 0 < np.abs(rate - rate[:, ::-1]).max() < 1e-13
-
-
-def test_the_odd_part_is_measured_relative_to_the_whole():
-    even, odd = random_chain(3, even=True), random_chain(3, seed=1)
-    odd = odd - odd[:, ::-1]
-    sizes = [odd_part(pack(z, WHOLE)) for z in (even, odd, even + 0.5 * odd)]
-    mixed = 0.5 * np.linalg.norm(odd) / np.linalg.norm(even + 0.5 * odd)
-    np.testing.assert_allclose(sizes, [0.0, 1.0, mixed], rtol=1e-13)
-
-
-def test_an_odd_perturbation_grows_as_the_tangent_dynamics_says():
-    case, size = problem("fig4_small"), 1e-7
-    vector = random_tangent(21, "odd", np.random.default_rng(0))
-    vector *= size / np.linalg.norm(vector)
-    odd = follow_odd_part(case, case.amplitudes + vector, 0.25, 1e-12)
-    growth = grow(case, vector[None], 6.0)
-    expected = size * np.exp(growth.log_growth[0]) / growth.size
-    np.testing.assert_allclose(odd, expected, rtol=2e-3)
-
-
-def test_evenness_is_lost_by_rounding_where_the_chain_is_chaotic_only():
-    cases = (problem(name, end_time=12.0) for name in ("fig4_small", "fig3_small"))
-    chaotic, regular = (follow_odd_part(case, case.amplitudes, 0.25, 1e-12) for case in cases)
-    assert chaotic[0] == regular[0] == 0.0
-    assert regular[-1] < 1e-13 < 1e-11 < chaotic[-1]
-
-
-def test_members_are_perturbed_by_the_required_size_and_seeded():
-    case = problem("fig3_small", end_time=1.0)
-    drawn = (break_symmetry(case, 1e-6, 2, seed, 0.25) for seed in (1, 1, 2))
-    (_, one), (_, same), (_, other) = drawn
-    np.testing.assert_allclose(one[:, 0], 1e-6, rtol=1e-6)
-    np.testing.assert_array_equal(one, same)
-    assert not np.array_equal(one, other) and not np.array_equal(*one)
