@@ -1,8 +1,6 @@
 """The accepted results as the data of tests: datasets by name, and wrong changes of them."""
 
-import json
 import math
-import re
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
@@ -10,15 +8,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 import yaml
-from pendula.configuration.files import gather
-from pendula.configuration.messages import STUDIES, load
 from pendula.datasets.netcdf import read
 from pendula.ledger.changes import exchange, keep, put, scale, shift
-from pendula.ledger.section import Ledger
-from pendula.report.document import all_sections, write
-from pendula.report.page import Picture
-from pendula.report.results import Results, Section, Table
-from pendula.report.sections import Measured, gather_speed
 
 ROOT = Path(__file__).parents[1]
 BASELINE = ROOT / "tests/baseline"
@@ -101,91 +92,3 @@ def check_words(row: dict, right: str, wrong: str) -> None:
         if words:
             assert words in here
             assert words not in elsewhere
-
-
-class Report(Results):
-    """The accepted results as the report reads them; some datasets may be changed.
-
-    References stand in the place of the trajectories that a run makes of them, and a dot in that of
-    each picture.
-    """
-
-    def __init__(self, changes: Mapping[str, xr.Dataset] = {}, differs: Mapping[str, str] = {}):
-        super().__init__([], "", settings(), dict(differs))
-        files = [path for path in BASELINE.rglob("*") if path.is_file()]
-        self._paths = {path.relative_to(BASELINE).as_posix(): path for path in files}
-        self.changes = changes
-
-    def __getitem__(self, name: str) -> xr.Dataset:
-        return self.changes[name] if name in self.changes else dataset(_accepted(name))
-
-    def __contains__(self, name: str) -> bool:
-        return super().__contains__(_accepted(name))
-
-    def path(self, link: str) -> Path:
-        return super().path(_accepted(link))
-
-    def picture(self, name: str, alt: str) -> Picture:
-        return Picture("data:,", 1, 1, alt, f"figures/{name}.png")
-
-
-def _accepted(name: str) -> str:
-    return name.replace("truth/", "reference/")
-
-
-@cache
-def settings(*over: str) -> dict:
-    """Return the configuration as the sections read it, with the files of these names over it."""
-    names = ("config", *STUDIES, *over)
-    given = load(gather([ROOT / f"config/{name}.yaml" for name in names], {}))
-    swept = {
-        name: {**sweep.model_dump(), "drawn": sweep.drawn.model_dump()}
-        for name, sweep in given.sweeps.items()
-    }
-    return {"sweeps": swept} | {name: getattr(given, name).model_dump() for name in STUDIES}
-
-
-SPEED = Measured("speed/work_precision.nc", "speed/work_precision.md", [], False)
-
-
-def sections() -> dict[str, Section]:
-    """Return the sections of all studies, and that on speed, by name; the ledger has own files."""
-    speed = Section("speed", "Speed", lambda results, _: gather_speed(results, SPEED))
-    return {one.name: one for one in (speed, *all_sections()) if one.name != "claims"}
-
-
-def facts(name: str, results: Results) -> dict[str, str]:
-    """Return the texts of a section of the report, by their places."""
-    return texts(sections()[name].gather(results, Ledger(results)))
-
-
-def texts(found: Mapping, place: str = "") -> dict[str, str]:
-    """Return the texts of a section's parts by their places, each row of a table as one text."""
-    said = {}
-    for name, part in found.items():
-        if isinstance(part, Mapping):
-            said |= texts(part, f"{place}{name}.")
-        elif isinstance(part, Table):
-            rows = {"title": [part.title], "head": part.head} | dict(enumerate(part.rows))
-            said |= {f"{place}{name}.{key}": " | ".join(map(str, row)) for key, row in rows.items()}
-        else:
-            said[f"{place}{name}"] = str(getattr(part, "caption", part))
-    return {at: re.sub(r"<[/a-z][^>]*>", "", text) for at, text in said.items()}
-
-
-def page_of(name: str, results: Results) -> str:
-    """Return all words of a page of the report that has this section alone."""
-    html = write(results, [sections()[name]])
-    told = re.sub(r"<(style|script)>.*?</\1>|<[^>]*>", " ", html, flags=re.DOTALL)
-    return " ".join(told.split())
-
-
-FACTS = BASELINE / "quoted/sections.json"
-"""What all sections say of the accepted results, written by
-
-    PYTHONPATH=scripts python tests/accepted.py
-"""
-
-if __name__ == "__main__":
-    told = {name: facts(name, Report()) for name in sections()}
-    FACTS.write_text(json.dumps(told, indent=0, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -1,28 +1,20 @@
-"""Claims, controls and sections of the report, from the accepted datasets.
+"""Claims and their controls, from the accepted datasets.
 
 What is compared tells that something changed. That it is right is told by wrong changes, which must
 turn verdicts, and by the exact cases beside each study.
 """
 
-import json
 import re
 from functools import cache
 
 import pytest
 from accepted import (
     BASELINE,
-    FACTS,
-    Report,
     changed,
-    check_words,
     datasets,
     differing,
-    facts,
-    page_of,
-    sections,
     wrong_changes,
 )
-from held_digits import unlike
 from pendula.datasets.json_files import load_json
 from pendula.ledger.verdicts import all_claims, decide, evaluate, needed
 
@@ -78,11 +70,6 @@ def accepted_finding(name: str):
     return decide(CLAIM[name], datasets(CLAIM[name].needs))
 
 
-@cache
-def accepted_page(section: str) -> str:
-    return page_of(section, Report())
-
-
 WRONG = wrong_changes("claims")
 VERBS = {"scale", "shift", "set"}
 
@@ -97,20 +84,3 @@ def test_a_wrong_change_turns_the_verdict(row):
     assert after.verdict == row.get("is", claim.refuted), after
     assert row.get("because", "") in after.because
     assert (before.verdict, before.because) != (after.verdict, after.because)
-
-
-@pytest.mark.parametrize("name", sections())
-def test_a_section_says_what_is_accepted(name):
-    """Each text and row of a table; tests/accepted.py says how to accept other ones."""
-    accepted, told = json.loads(FACTS.read_text())[name], facts(name, Report())
-    assert told.keys() == accepted.keys()
-    assert {at: pair for at in told if unlike(*(pair := (accepted[at], told[at])))} == {}
-
-
-@pytest.mark.parametrize(
-    "row", wrong_changes("sections"), ids=lambda row: f"{row['section']}-{row.get('in', '')}"
-)
-def test_a_section_tells_what_is_changed(row):
-    right = accepted_page(row["section"])
-    wrong = page_of(row["section"], Report(changed(row), row.get("differs", {})))
-    check_words(row, right, wrong)

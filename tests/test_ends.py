@@ -8,7 +8,6 @@ from pendula.ends import ENDS, neighbours
 from pendula.models.bounds import best_bound, proven_region
 from pendula.models.linear_chain import curvatures, flow, modes
 from pendula.own_cases.figures import name_data_and_ends
-from pendula.own_cases.section import parameters
 from pendula.problem import PENDULA
 from pendula.simulation.lattice import WHOLE
 from pendula.simulation.simulate import simulate
@@ -60,7 +59,6 @@ NAMED = {
     "polynomials": lambda boundary: polynomials.find_curve(problem(boundary)).terms,
     "PT form": lambda boundary: pt_rates(problem("free").constants, boundary, Z),
     "title": lambda boundary: described(boundary, name_data_and_ends),
-    "table": lambda boundary: dict(described(boundary, parameters))["ends of the chain"],
 }
 READERS = BY_THE_TABLE | TAUGHT | NAMED
 

@@ -18,15 +18,13 @@ class Ends(NamedTuple):
     `sees` gives the sites, counted as Python does, whose values stand beyond the first site and
     beyond the last; nothing where sites at rest stand there. Mode k of N sites has the eigenvalue
     -4 sin^2(half_angle(k, N)) of the lattice Laplacian, and mode(k, j, N) are its values on the
-    sites j, orthonormal. `label` stands in the titles of figures, `words` in tables, with a place
-    for the components.
+    sites j, orthonormal. `label` stands in the titles of figures.
     """
 
     sees: tuple[int, int] | None
     half_angle: Callable
     mode: Callable
     label: str
-    words: str
 
 
 def _sine(k, j, sites: int):
@@ -54,21 +52,18 @@ ENDS = {
         half_angle=lambda k, sites: np.pi * (k + 1) / (2 * (sites + 1)),
         mode=_sine,
         label="ends at rest",
-        words="{} = 0 beyond them",
     ),
     "free": Ends(
         sees=(0, -1),
         half_angle=lambda k, sites: np.pi * k / (2 * sites),
         mode=_cosine,
         label="free ends",
-        words="free",
     ),
     "periodic": Ends(
         sees=(-1, 0),
         half_angle=lambda k, sites: np.pi * k / sites,
         mode=_wave,
         label="ring",
-        words="joined to a ring",
     ),
 }
 """The kinds of ends that a person can choose, by the name in the configuration."""

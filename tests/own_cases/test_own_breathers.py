@@ -6,7 +6,7 @@ from pendula import Case, Model, check, draw_breather
 from pendula.model import abs2, lap
 from pendula.models import amplitudes
 from pendula.models.pairs import FAMILIES
-from pendula.own_cases import section
+from pendula.own_cases import answers
 from pendula.own_cases.breathers import check_breather, exponents, find_state
 from pendula.problem import Problem
 from pendula.simulation.simulate import simulate
@@ -97,7 +97,7 @@ def shaken(p, x):
 )  # fmt: skip
 def test_the_page_and_the_figure_say_what_is_found(model, data, said):
     found = check_breather(problem(model, data))
-    assert said in section._localised(found)[1]
+    assert said in answers.localised(found)
     figure = draw_breather(found.assign(divergence_time=1.0))
     assert len(figure.axes) == (2 if "breather" in found else 0)
 

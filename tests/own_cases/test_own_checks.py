@@ -5,7 +5,7 @@ import pytest
 from pendula import Case, check, simulate
 from pendula.models.bounds import best_bound, extent, theorem_1_bound, widened_bound
 from pendula.models.linear_chain import gamma_0, infinite_rate
-from pendula.own_cases import checks, section
+from pendula.own_cases import answers, checks
 from pendula.problem import Problem
 from pendula.studies.theory.equations import total_energy
 from problems import constants_of
@@ -71,13 +71,13 @@ def test_data_whose_errors_have_vanishing_squares_are_checked_all_the_same():
     found = checks.check_run(*made(TINY))
     assert found.attrs["second_name"] == "dop853" and "second_refusal" not in found.attrs
     assert float(found["largest_difference"]) < 1e-8 and float(found["balance_error"]) < 1e-12
-    assert section._decided(found)["balanced"]
+    assert answers.decided(found)["balanced"]
 
 
 def test_data_that_no_second_method_takes_leave_a_reason_and_no_balance():
     found = checks.check_run(*made(TINY.changed(initial={0: ("5e-152", 0)})))
     assert "smaller than the absolute tolerance 1e-150" in found.attrs["second_refusal"]
-    assert np.isnan(found["balance_error"]) and not section._decided(found)["balanced"]
+    assert np.isnan(found["balance_error"]) and not answers.decided(found)["balanced"]
 
 
 def test_a_wrong_run_breaks_lemma_2_and_its_bound():
@@ -89,9 +89,9 @@ def test_a_wrong_run_breaks_lemma_2_and_its_bound():
 
 def test_lemma_2_does_not_hold_of_a_run_that_is_too_steep_in_between():
     found = checks.check_run(*made(STILL))
-    assert not section._decided(found)["too_steep"]
+    assert not answers.decided(found)["too_steep"]
     found["steepest"] = found["steepest"] * 0 + 7.0  # as of ode45 at a tolerance of 0.9
-    assert found["from_start"] < 1 and section._decided(found)["too_steep"]
+    assert found["from_start"] < 1 and answers.decided(found)["too_steep"]
 
 
 def test_the_numbers_of_lemma_1_and_of_the_balance(still):
@@ -137,7 +137,7 @@ def test_a_negative_coupling_is_that_of_the_staggered_chain():
 def test_how_steep_growth_is_beside_its_bound_is_said_of_driven_chains_alone(gamma, driven):
     """Without a drive the bound is flat, and nothing is a multiple of it."""
     found = checks.check_run(*made(STILL.changed(gamma=gamma)))
-    assert section._decided(found)["driven"] == driven and section._decided(found)["growth_holds"]
+    assert answers.decided(found)["driven"] == driven and answers.decided(found)["growth_holds"]
 
 
 def made(case):

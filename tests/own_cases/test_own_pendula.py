@@ -7,10 +7,10 @@ from pendula.configuration import cost
 from pendula.configuration.files import ConfigurationError
 from pendula.configuration.solvers import OF_AMPLITUDES, OF_PENDULA
 from pendula.models.pendula import leading_angles
-from pendula.own_cases import section
+from pendula.own_cases import answers
 from pendula.own_cases.checks import check_sweep
+from pendula.own_cases.figures import gather_norms, gather_spacetime
 from pendula.problem import Problem
-from pendula.report.page import Picture
 from pendula.simulation import simulate as simulation
 from pendula.simulation.models import MODELS
 from simulate_own import as_the_workflow_writes
@@ -89,17 +89,21 @@ def test_its_figures_are_in_radians(run, checks):
     assert "x_n" in picture[0].get_title("left") and "rad" in picture[2].get_ylabel()
 
 
-@pytest.mark.parametrize(("case", "said"), [(SWING, "fewer than eight"), (OVER, "over the top")])
-def test_its_page_says_what_has_a_meaning(case, said, tmp_path, monkeypatch):
-    folder = tmp_path / "trajectories"
-    folder.mkdir()
-    run = as_the_workflow_writes(case, "mine", folder / "mine.nc")
-    found = {"trajectories/mine.nc": run, "own/cases/mine.checks.nc": check(case, simulate(case))}
-    monkeypatch.setattr(section, "read", lambda path: found[path.relative_to(tmp_path).as_posix()])
-    monkeypatch.setattr(section, "picture", lambda path, alt, link: Picture("", 1, 1, alt, link))
-    page = section.write(["mine"], {}, tmp_path)
-    assert said in page and "Newton&#39;s equations (1)" in page and "x = y = 0" in page
-    assert "Lemma 1" not in page and "The energy H" not in page
+def test_what_its_checks_say_has_a_meaning(run, checks):
+    calm, over = (dict(answers.of_case(one, True)) for one in (checks, check(OVER)))
+    top = "a pendulum has gone over the top"
+    assert calm[top] == "no" and over[top].startswith("yes") and "Lemma 1" not in str(calm)
+    assert calm["the expansion (3) could be followed"] == "yes"
+    assert answers.of_case(checks, False) == [("motion", "the chain is at rest and stays so")]
+
+
+def test_its_captions_say_what_is_drawn_and_where_outputs_are_too_few(run):
+    captions = (gather(run).attrs["caption"] for gather in (gather_norms, gather_spacetime))
+    norms, amplitudes = captions
+    assert norms.startswith("Norms of x (red) and y (blue) against τ")
+    assert "fewer than eight outputs" in norms and amplitudes.startswith("Amplitudes √(x²")
+    fine = gather_norms(run.assign_attrs(output_step=1e-4)).attrs["caption"]
+    assert "fewer than eight" not in fine
 
 
 @pytest.fixture(scope="module")
@@ -122,6 +126,8 @@ def test_chains_of_a_sweep_that_go_over_the_top_are_counted(swept):
     assert int(found["swept_over"]) == 2 and float(found["swept_angle"].min()) > np.pi
     calm = check_sweep("mine", sweep(SWING, [2, 4], [(0, 1)]))
     assert int(calm["swept_over"]) == 0 and float(calm["swept_angle"].max()) < 0.3
+    over = "chains on which a pendulum goes over the top"
+    assert answers.of_sweep(swept, found) == [(over, "2")]
 
 
 def test_the_configuration_knows_the_solvers_of_each_model():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from markupsafe import escape
+from pendula.report.results import ReportError, Results
 from pendula.report.words import (
     Quote,
     case_in_words,
@@ -58,10 +58,17 @@ def test_numbers_and_cases_are_written(found, expected):
     assert found.replace("\N{NO-BREAK SPACE}", " ") == expected
 
 
-def test_a_quote_is_a_link_to_its_dataset_and_is_escaped():
-    assert escape(Quote("1 < 2", "checks/a.nc")) == '<a class="n" href="checks/a.nc">1 &lt; 2</a>'
-    text = told("{n} &lt; <b>{m}</b>", n=Quote("1", "a.nc"), m="<2>")
-    assert text == '<a class="n" href="a.nc">1</a> &lt; <b>&lt;2&gt;</b>'
+def test_values_in_a_text_of_markup_are_escaped():
+    text = told("{n} &lt; <b>{m}</b>", n="1", m="<2>")
+    assert text == "1 &lt; <b>&lt;2&gt;</b>"
+
+
+def test_links_are_seen_from_the_page():
+    results = Results(["out/checks/a.nc", "out/claims.json"], "out/report.html")
+    assert results.say("checks/a", "1") == Quote("1", "checks/a.nc")
+    assert results.say("claims.json", "1").link == "claims.json"
+    with pytest.raises(ReportError, match=r"needs checks/b.*add it to the inputs"):
+        results.say("checks/b", "1")
 
 
 def test_a_table_keeps_its_texts_and_escapes_bars():

@@ -1,92 +1,142 @@
-"""The page itself: typed numbers, templates, pictures, links, and colours that can be read."""
+"""The page itself: what it says first, what it folds, that text is escaped, and its colours."""
 
-import ast
 import base64
-import io
+import hashlib
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
+from accepted import BASELINE
+from html_tags import Tags
 from jinja2 import UndefinedError
-from pendula.report import page
-from pendula.report.page import PictureError, picture
-from pendula.report.results import ReportError, Results
-from PIL import Image
+from pendula.datasets.json_files import load_json, sealed
+from pendula.report import document, page
+from pendula.report.described import Figure
 
 HERE = Path(page.__file__).parent
-LIBRARY = HERE.parents[1]
-SECTIONS = [*LIBRARY.glob("studies/*/section*.py"), LIBRARY / "ledger/section.py",
-            LIBRARY / "report/sections.py"]  # fmt: skip
-NAMES = (
-    r"Figs? \d( (and|to) \d)?|\(\d\)|Theorems? \d( to \d)?|Lemma \d|ode45|DOP853|SHA-256|"
-    r"[A-Zγμℓ)|][²³⁵₀]|C₀δ|\(1 \+ \|n\|\)"
+ROWS = [{"kind": "observation"} | row for row in load_json(BASELINE / "claims.json")["rows"]]
+NASTY = "<script>alert(1)</script> {0.__class__} & {{ 7 }}"
+
+
+@pytest.fixture
+def written(tmp_path, monkeypatch):
+    """Return a function: the page on rows of the ledger and captions, without datasets."""
+    monkeypatch.setattr(document, "figure", lambda path, folder: Figure(
+        f"figures/{path.stem}", NASTY if path.stem == "extra" else f"{path.stem} is shown.",
+        [8.0], 30, 20,
+    ))  # fmt: skip
+
+    def write(rows, differs=()):
+        (tmp_path / "claims.json").write_text(sealed({"rows": list(rows)}))
+        names = [*document.PAPERS, "extra"]
+        path = tmp_path / "report.html"
+        document.write_report([], names, str(tmp_path / "claims.json"), dict(differs), str(path))
+        return path.read_text(encoding="utf-8")
+
+    return write
+
+
+def plain(html: str) -> str:
+    text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", html, flags=re.DOTALL)
+    return " ".join(text.replace("\N{NO-BREAK SPACE}", " ").split())
+
+
+def row(name: str) -> dict:
+    return next(one for one in ROWS if one["name"] == name)
+
+
+def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
+    held = row("fig5_decreases") | {"verdict": "confirmed"}
+    text = plain(written([held, held | {"name": "other", "verdict": "not reproduced"}]))
+    assert "Of 2 claims of the paper, 1 is confirmed, 1 is not reproduced." in text
+    table = text[text.index("figure verdict claims") :]
+    assert "Fig 1 : fig1 is shown, Ω = 8 a drawing none" in table
+    assert "reproduced, except for 1 of the claims 1 confirmed , 1 not reproduced" in table
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "said"),
+    [
+        (("confirmed",), "reproduced 1 confirmed"),
+        (("confirmed with a caveat",), "reproduced with a caveat 1"),
+        (("not reproduced",), "not reproduced 1"),
+        (("cannot be decided",), "not reproduced 1 cannot"),
+        (("confirmed", "not applicable"), "not applicable 1 confirmed"),
+    ],
 )
+def test_a_figure_has_the_verdict_of_its_claims(written, verdicts, said):
+    rows = [row("fig5_decreases") | {"name": f"row{n}", "verdict": one}
+            for n, one in enumerate(verdicts)]  # fmt: skip
+    (line,) = re.findall(r'<a href="#figure_fig5">.*?</tr>', written(rows), re.DOTALL)
+    assert f"fig5 is shown, Ω = 8 {said}" in plain(line)
 
 
-def typed_numbers(text: str) -> list[str]:
-    """Return the numbers in a text for readers, without names and what expressions fill in."""
-    text = re.sub(r"<[^>]*>|\{[^}]*\}", " ", text)
-    return re.findall(r"\S*[\d²³⁵₀]\S*", re.sub(NAMES, " ", text))
+def test_claims_on_a_figure_are_those_of_the_paper_alone():
+    one = row("fig5_decreases")
+    own = one | {"name": "own", "place": "Beyond the paper, Fig 5", "origin": "of this project"}
+    both = one | {"name": "both", "place": "Section 5, Figs 2 and 5 left"}
+    found = [[each["name"] for each in document.on_figure([one, own, both], n)] for n in (2, 5, 6)]
+    assert found == [["both"], ["fig5_decreases", "both"], []]
 
 
-@pytest.mark.parametrize("path", SECTIONS, ids=lambda path: f"{path.parent.name}-{path.stem}")
-def test_no_number_is_typed_and_none_is_that_of_a_figure(path):
-    """Texts have spaces and names have none; figures only draw, so that no page quotes them."""
-    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    described = (ast.Module, ast.ClassDef, ast.FunctionDef)
-    docstrings = {
-        ast.get_docstring(one, clean=False) for one in nodes if isinstance(one, described)
-    }
-    constants = {one.value for one in nodes if isinstance(one, ast.Constant)}
-    texts = {one for one in constants - docstrings if isinstance(one, str)}
-    assert not [text for text in texts if text.startswith("figures/")]
-    shown = [text for text in texts if " " in text]
-    assert shown and [text for text in shown if typed_numbers(text)] == []
+def test_each_claim_is_shown_once_and_the_confirmed_ones_are_folded(written):
+    html = written(ROWS)
+    tags = Tags(html)
+    assert tags.faults == [] and tags.open == []
+    assert sorted(re.findall(r'class="claim" id="claim_(\w+)"', html)) == sorted(
+        one["name"] for one in ROWS
+    )
+    opened = re.sub(r"<section[^>]*>\s*<details>.*?</section>", "", html, flags=re.DOTALL)
+    shown = set(re.findall(r'id="claim_(\w+)"', opened))
+    assert shown == {one["name"] for one in ROWS if "confirmed" not in one["verdict"]}
 
 
-@pytest.mark.parametrize("text", ["of 6 cases", "to τ = 50", "10⁻⁶ of P²³", "1 % off"])
-def test_a_typed_number_is_found(text):
-    assert typed_numbers(text) and not typed_numbers("Figs 2 to 4, γ₀ of Lemma 1, |A|² in {n}")
+def test_a_claim_has_its_numbers_its_controls_and_its_data(written):
+    one = row("hamiltonian")
+    text = plain(written([one]))
+    assert "energy drift = 9.379 × 10⁻¹⁰" in text and "Criterion:" in text
+    assert all(f"must {control['must']}; {control['verdict']}" in text
+               for control in one["controls"])  # fmt: skip
+    assert all(f"data_{name}.nc" in written([one]) for name in one["decided_by"])
 
 
-def test_a_missing_value_is_an_error_and_text_is_escaped(tmp_path):
-    (tmp_path / "a.j2").write_text("{{ value }}")
-    assert page.render("a.j2", tmp_path, value="<b>") == "&lt;b&gt;"
+def test_what_files_say_is_never_markup(written):
+    """Captions and sentences are values: nothing in them is a tag, a field or a template."""
+    hostile = row("fig5_decreases") | {"says": NASTY, "because": NASTY, "criterion": NASTY}
+    hostile |= {"measured": {NASTY: NASTY}, "verdict": "not reproduced"}
+    html = written([hostile], {"omega": NASTY})
+    assert "<script" not in html and html.count("&lt;script&gt;alert(1)") >= 6
+    assert html.count("{0.__class__} &amp; {{ 7 }}") >= 3
+
+
+def test_another_configuration_is_told_first(written):
+    html = written([row("fig5_decreases")], {"omega": "fig2_small.omega (7)"})
+    assert "with other settings" in html and "differs in fig2_small.omega (7)." in html
+    assert "differs in" not in written([row("fig5_decreases")])
+
+
+def test_the_page_allows_its_own_style_and_pictures_beside_it_alone(written):
+    html = written([row("fig5_decreases")])
+    (policy,) = (tag["content"] for tag in Tags(html).all("meta") if "http-equiv" in tag)
+    (style,) = re.findall(r"<style>(.*?)</style>", html, re.DOTALL)
+    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    assert policy.startswith(f"default-src 'none'; style-src 'sha256-{digest}'; img-src 'self'")
+    assert "style=" not in html
+
+
+def test_a_missing_value_is_an_error():
     with pytest.raises(UndefinedError):
-        page.render("a.j2", tmp_path)
+        page.render("report.html.j2", title="", sections=[])
 
 
-def test_a_picture_holds_its_pixels_in_few_colours(tmp_path):
-    steps = Image.linear_gradient("L").resize((300, 200))
-    turned = steps.transpose(Image.Transpose.ROTATE_180)
-    Image.merge("RGB", [steps, turned, steps]).save(tmp_path / "a.png")
-    shown = picture(tmp_path / "a.png", "words", "own/cases/a.png")
-    assert shown[1:] == (300, 200, "words", "own/cases/a.png") and shown.name == "own-cases-a"
-    kind, _, content = shown.address.partition(",")
-    read = Image.open(io.BytesIO(base64.b64decode(content)))
-    assert kind == "data:image/png;base64" and len(read.getcolors()) <= page.COLOURS
-    was = np.asarray(Image.open(tmp_path / "a.png"), dtype=int)
-    assert abs(was - np.asarray(read.convert("RGB"))).max() < 16
-
-
-def test_a_picture_that_is_none_is_named(tmp_path):
-    whole = io.BytesIO()
-    Image.effect_noise((99, 99), 50).save(whole, "PNG")
-    for content in (b"text", b"\x89PNG\r\n\x1a\n" + bytes(100), whole.getvalue()[:3000]):
-        (tmp_path / "a.png").write_bytes(content)
-        with pytest.raises(PictureError, match=r"a\.png is not a complete PNG: delete it and run"):
-            picture(tmp_path / "a.png", "", "")
-    with pytest.raises(PictureError, match=r"b\.png is missing: run snakemake"):
-        picture(tmp_path / "b.png", "", "")
-
-
-def test_links_are_seen_from_the_page():
-    results = Results(["out/checks/a.nc", "out/claims.json"], "out/report.html")
-    assert results.say("checks/a", "1").link == "checks/a.nc"
-    assert results.say("claims.json", "1").link == "claims.json"
-    with pytest.raises(ReportError, match=r"needs checks/b.*add it to the inputs"):
-        results.say("checks/b", "1")
+def test_run_times_are_read_from_the_last_lines_of_logs(tmp_path):
+    (tmp_path / "checks").mkdir()
+    (tmp_path / "checks/a.log").write_text("said much\nwall time: 1.5 s, largest memory: 9 MB\n")
+    (tmp_path / "b.log").write_text("wall time: 12.0 s, largest memory: 80 MB\n")
+    (tmp_path / "old.log").write_text("nothing\n")
+    (tmp_path / "empty.log").write_text("")
+    assert document.run_times(tmp_path) == [("b", 12.0, "80"), ("checks/a", 1.5, "9")]
+    assert document.run_times(tmp_path / "absent") == []
 
 
 def luminance(colour: str) -> float:

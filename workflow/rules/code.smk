@@ -2,7 +2,7 @@
 # Snakemake does not see a change in a module that a script imports. So what a job calls stands among
 # its parameters with a hash of all code that it rests on.
 
-CODE_OF_STUDIES, CALLED = {}, {}
+CALLED = {}
 
 
 def digest(script):
@@ -13,17 +13,13 @@ def digest(script):
 def function(*names, parts=()):
     """Return the names of functions, and a hash of their code: what a job calls.
 
-    `parts` names modules that they find by the list of studies, such as "section", or "paper/claims".
+    `parts` names modules that they find by the list of studies, such as "paper/claims".
     """
     files = [file for name in names for file in files_of_module(name.rpartition(".")[0])]
     found = [file for part in parts for file in files_of_part(part)]
     files += [path for file in found for path in (file.with_name("__init__.py"), file)]
     CALLED[(*names, *parts)] = files
-    code = digest_of_code(*files)
-    told = [name for name in names if "studies." in name]
-    told += [part for part in parts if "claims" in part]
-    CODE_OF_STUDIES.update(dict.fromkeys(told, code))
-    return [*names, code]
+    return [*names, digest_of_code(*files)]
 
 
 def name_of(path):

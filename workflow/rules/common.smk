@@ -198,9 +198,6 @@ def references(*names):
     return [f"tests/baseline/reference/{name}.nc" for name in names]
 
 
-REFERENCES = references(*PAPER_CASES, "fig4_small.double")
-
-
 def fine_maps(wildcards):
     """Return the maps of `snakemake fates` as they are committed, for all but these themselves."""
     return {} if wildcards.size else committed(fine="tests/baseline/quoted/breathers.nc")
@@ -210,21 +207,6 @@ def committed_proofs():
     """Return the proofs that are kept; that of a case new in the configuration is made first."""
     proofs = [f"tests/baseline/proofs/{case}.nc" for case in SETTINGS.certified.frames]
     return [proof for proof in proofs if (PROJECT / proof).exists()]
-
-
-def speed_measured():
-    """Return where the solvers' times are: those of this machine, or else those of the project.
-
-    They are no inputs: else an edit would start the timing anew, which is no part of a full run.
-    """
-    measured = ("work_precision.nc", "work_precision.md")
-    here = [f"results/speed/{name}" for name in measured]
-    here += [f"results/figures/{name}.png" for name in SPEED_FIGURES]
-    if all(map(os.path.exists, here)):
-        given = {"speed": here, "digests": [digest_of(Path(path)) for path in here]}
-        return {"speed_is_fresh": True, **given, "committed": committed(references=REFERENCES)}
-    kept = [f"tests/baseline/speed/{name}" for name in (*measured, "speed_regular.png")]
-    return {"speed_is_fresh": False, "committed": committed(speed=kept, references=REFERENCES)}
 
 
 def some_own_files(wildcards):

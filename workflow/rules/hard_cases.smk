@@ -21,4 +21,4 @@ use rule job as hard_cases_table with:
     pathvars:
         made="tables/hard_cases",
     params:
-        call=function("pendula.studies.hard_cases.section.tabulate_hard_cases"),
+        call=function("pendula.studies.hard_cases.table.tabulate_hard_cases"),

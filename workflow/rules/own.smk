@@ -64,6 +64,6 @@ use rule job as own with:
     pathvars:
         made="own/report",
     params:
-        call=function("pendula.own_cases.section.write_report"),
+        call=function("pendula.own_cases.page.write_report"),
         cases=OWN_CASES,
         sweeps={sweep: SETTINGS.sweeps[sweep].case for sweep in OWN_SWEEPS},

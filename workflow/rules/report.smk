@@ -1,21 +1,18 @@
-# One page on the whole run, that opens anywhere.
+# One page on the whole run, and one that runs the paper's solver in a browser.
 
 
 use rule job as report with:
     "results/report.html: what the run found, figure by figure and claim by claim, on one page"
     input:
         datasets=DATASETS,
-        pictures=expand("<results>/figures/{name}.png", name=FIGURES),
+        figures=expand("<results>/figures/{name}.nc", name=FIGURES),
         ledger="<results>/claims.json",
     output:
         html="<results>/report.html",
     pathvars:
         made="report",
     params:
-        **speed_measured(),
-        call=function("pendula.report.document.write_report", parts=["section"]),
-        made_by=lambda wildcards: CODE_OF_STUDIES,
-        settings=settings_in_words(),
+        call=function("pendula.report.document.write_report"),
         differs=DIFFERS,
 
 

@@ -118,13 +118,3 @@ def reference_problem(case):
     drawn = [sweep.drawn for sweep in sweeps if sweep.case == case]
     ends = [end for windows in drawn for _, end in (windows.max, windows.mean)]
     return SETTINGS.problem(case, end_time=max([SETTINGS.cases[case].end_time, *ends]))
-
-
-def settings_in_words():
-    """Return the configuration of the paper's cases and sweeps as text."""
-    told = {name: getattr(SETTINGS, name).model_dump() for name in STUDIES}
-    told["cases"] = {case: SETTINGS.problem(case) for case in PAPER_CASES}
-    sweeps = {name: SETTINGS.sweeps[name] for name in PAPER_SWEEPS}
-    drawn = {name: {"drawn": sweep.drawn.model_dump()} for name, sweep in sweeps.items()}
-    told["sweeps"] = {name: sweep.model_dump() | drawn[name] for name, sweep in sweeps.items()}
-    return json.dumps(told, sort_keys=True, default=str)

@@ -10,7 +10,7 @@ import xarray as xr
 
 from pendula.ledger.claim import Kind, Origin
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.section import Ledger, load
+from pendula.ledger.rows import Ledger, load, on_figure
 from pendula.ledger.tables import facts, tally
 from pendula.measures.confidence import CONFIDENCE
 from pendula.measures.levels import levelling
@@ -79,7 +79,7 @@ class Numbers:
 
     def verdicts(self, figure: int) -> str:
         """Return how many of the paper's claims on a figure have each verdict."""
-        found = Counter(row["verdict"] for row in self.ledger.on(figure))
+        found = Counter(row["verdict"] for row in on_figure(self.ledger.rows, figure))
         told = [f"{found[one]} {words}" for one, words in VERDICTS.items() if found[one]]
         return ", ".join(told) or "none"
 

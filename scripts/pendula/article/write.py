@@ -18,7 +18,7 @@ from pendula.configuration.paper import in_short
 from pendula.datasets import complete_or_absent
 from pendula.ledger.claim import Origin
 from pendula.ledger.criterion import Verdict
-from pendula.ledger.section import load
+from pendula.ledger.rows import load
 from pendula.report.results import Results
 from pendula.report.words import FIRM, Quote
 

@@ -15,6 +15,7 @@ from pendula.drawing import panels, strips, style
 from pendula.drawing.strips import NORMS, Strip
 from pendula.ends import ends_of
 from pendula.measures.difference import VISIBLE
+from pendula.models.pendula import frequency
 from pendula.problem import PENDULA, read_initial
 from pendula.studies.theory.bounds import check_sweeps
 
@@ -23,10 +24,36 @@ from .checks import check_sweep
 FEW = 8
 """Ticks for so many half-widths fit below a panel."""
 
+COLOURS = ("red", "blue")
 RUNS = [Strip("", "the run"), Strip("second_", "second run, by another method")]
 DIVERGED = f"from here on the runs differ by {100 * VISIBLE:g} %"
 LONGEST = 46
 """A formula with more characters leaves no room for the rest of a title."""
+EIGHT = 8.0
+"""Outputs in a period of the pendula that show how they swing."""
+NORMS_CAPTION = (
+    "Norms of {fields} against τ: ℓ∞ on the left and ℓ² on the right. Where a run by another "
+    "method differs visibly, a dashed line marks the time and the other run is shown below."
+)
+FEW_OUTPUTS = (
+    " There are fewer than eight outputs in a period of the pendula: use the upper edge of the "
+    "curves, or give a shorter output_step."
+)
+SPACETIME_CAPTION = "Moduli of {fields} over time and sites, from left to right."
+SWING_CAPTION = (
+    "Amplitudes √(x² + (dx/dt / ω)²) of the angles over time and sites: xₙ on the left and yₙ on "
+    "the right."
+)
+BREATHER_CAPTION = (
+    "A localised state of these equations, continued from the site where the initial amplitudes "
+    "are largest (left), and its Floquet multipliers (right): it is unstable where one lies off "
+    "the circle. A steady state has exponents instead, and is unstable where one lies to the "
+    "right of zero."
+)
+SWEEP_CAPTION = (
+    "Norms of {fields} against the half-width M: ℓ∞ on the left and ℓ² on the right. Filled marks "
+    "are maxima over {filled}, hollow marks averages over {hollow}."
+)
 
 
 def name_parameters(attributes: Mapping) -> str:
@@ -57,11 +84,22 @@ def name_data_and_ends(attributes: Mapping) -> str:
 
 def gather_norms(run: xr.Dataset, checks: xr.Dataset | None = None) -> xr.Dataset:
     """Return the norms of a trajectory, beside the second run that its checks hold."""
-    drawn = run[["linf", "l2"]]
+    drawn = run[["linf", "l2"]].assign_attrs(caption=_caption_of_norms(run))
     if checks is None:
         return drawn
     second = {f"second_{name}": checks[f"second_{name}"] for name in NORMS}
     return drawn.assign(second | {"divergence_time": checks["divergence_time"]})
+
+
+def _caption_of_norms(run: xr.Dataset) -> str:
+    names, about = [str(name) for name in run["component"].values], run.attrs
+    colours = zip(names, COLOURS, strict=True) if names in (["A", "B"], ["x", "y"]) else ()
+    fields = " and ".join(f"{name} ({colour})" for name, colour in colours) or ", ".join(names)
+    caption = NORMS_CAPTION.format(fields=fields)
+    if about.get("model") != PENDULA:
+        return caption
+    period = np.pi * about["mu"] ** 2 / frequency(about["omega"], about["mu"])
+    return caption + FEW_OUTPUTS * bool(about["output_step"] > period / EIGHT)
 
 
 @style.styled
@@ -80,7 +118,10 @@ def draw_norms(data: xr.Dataset) -> Figure:
 
 def gather_spacetime(run: xr.Dataset) -> xr.Dataset:
     """Return the moduli of a trajectory over the times of its snapshots."""
-    return panels.over_time(run)
+    names = map(str, run["component"].values)
+    caption = SPACETIME_CAPTION.format(fields=", ".join(f"{name}ₙ" for name in names))
+    of_pendula = run.attrs.get("model") == PENDULA
+    return panels.over_time(run).assign_attrs(caption=SWING_CAPTION if of_pendula else caption)
 
 
 @style.styled
@@ -99,7 +140,8 @@ def draw_spacetime(data: xr.Dataset) -> Figure:
 
 def gather_breather(checks: xr.Dataset) -> xr.Dataset:
     """Return the localised state that the checks of a model of one's own hold, if they hold one."""
-    return checks[[name for name in checks.data_vars if name.startswith("breather")]]
+    shown = checks[[name for name in checks.data_vars if name.startswith("breather")]]
+    return shown.assign_attrs(caption=BREATHER_CAPTION)
 
 
 @style.styled
@@ -138,7 +180,11 @@ def gather_sweep(
     """
     first = str(sweep["window"].values[0])
     windows = max_window or first, mean_window or first
-    return panels.join_sweeps({"sweep": sweep}, *windows, list(NORMS)).assign_attrs(sweep.attrs)
+    drawn = panels.join_sweeps({"sweep": sweep}, *windows, list(NORMS)).assign_attrs(sweep.attrs)
+    names = [str(name) for name in sweep["quantity"].values if name != "pair"]
+    fields = "all fields" if "model_text" in sweep.attrs else f"the pair ({', '.join(names)})"
+    caption = SWEEP_CAPTION.format(fields=fields, filled=windows[0], hollow=windows[1])
+    return drawn.assign_attrs(caption=caption)
 
 
 @style.styled

@@ -5,7 +5,6 @@ and reports the first time at which a bit differs.
 """
 
 import base64
-import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,7 +23,7 @@ from pendula.problem import read_initial
 from pendula.simulation.solvers import SOLVERS
 from pendula.simulation.webassembly import webassembly
 
-from .page import HERE, render
+from .page import HERE, digest, render
 from .words import case_of
 
 OFFSET, PRIME = np.uint32(2166136261), np.uint32(16777619)
@@ -60,8 +59,8 @@ def write_live(runs: list[str], trust: str, html: str) -> None:
         data=Markup(json.dumps(data, ensure_ascii=False)),
         live_style=Markup(style + more),
         live_script=Markup(script),
-        style_hash=_digest(style + more),
-        script_hash=_digest(script),
+        style_hash=digest(style + more),
+        script_hash=digest(script),
     )
     with complete_or_absent(html) as partial:
         Path(partial).write_text(page, encoding="utf-8")
@@ -112,8 +111,3 @@ def _case(name: str, run: xr.Dataset, trust: xr.Dataset) -> dict[str, Any]:
 
 def _text(content: bytes) -> str:
     return base64.b64encode(content).decode()
-
-
-def _digest(text: str) -> str:
-    """Return the hash by which a Content-Security-Policy allows a style or a script."""
-    return _text(hashlib.sha256(text.encode()).digest())

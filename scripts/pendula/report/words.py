@@ -17,8 +17,6 @@ MINUS, TIMES = "−", "×"
 FIRM = "\N{NO-BREAK SPACE}"
 SMALL = 1e-3
 """Smaller numbers are written with a power of ten."""
-NORMS = {"l2": "ℓ²", "linf": "ℓ∞"}
-STATISTICS = {"max": "maximum", "mean": "average"}
 SYMBOLS = {
     "Omega": "Ω",
     "A_0": "A₀",
@@ -45,20 +43,17 @@ _NAMES = re.compile(r"(?<![A-Za-z])(?<![a-z]\.)(" + "|".join(SYMBOLS) + r")(?![A
 
 
 class Quote(NamedTuple):
-    """A text made from a dataset, and where that is, seen from the page; a link in templates."""
+    """A text made from a dataset, and where that is, seen from the page."""
 
     text: str
     link: str
-
-    def __html__(self) -> str:
-        return Markup('<a class="n" href="{}">{}</a>').format(self.link, self.text)
 
     def __str__(self) -> str:
         return self.text
 
 
 def told(text: str, /, **values) -> Markup:
-    """Return a text of HTML with values in place of their names; quotes in it are links."""
+    """Return a text of HTML with values, which are escaped, in place of their names."""
     return Markup(text).format(**values)
 
 

@@ -6,8 +6,8 @@ from accepted import BASELINE, dataset
 from helpers import chosen
 from pendula.studies.hard_cases import errors
 from pendula.studies.hard_cases.outcomes import evaluate
-from pendula.studies.hard_cases.section import page
 from pendula.studies.hard_cases.settings import MEASURES
+from pendula.studies.hard_cases.table import page
 
 CASES = chosen("hard_cases").plain()
 SHORTER = {"drift_of_energy": {"tau": 200.0}, "miss_of_short_chain": {"half_width": 500}}

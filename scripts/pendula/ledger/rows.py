@@ -1,0 +1,45 @@
+"""The rows of a run's ledger, and the numbers that others quote from them."""
+
+import re
+from typing import TYPE_CHECKING
+
+from pendula.datasets.json_files import load_json
+
+from .claim import Origin
+
+if TYPE_CHECKING:
+    from pendula.report.results import Results
+    from pendula.report.words import Quote
+
+LEDGER = "claims.json"
+
+
+def load(results: "Results") -> list[dict]:
+    """Return the rows of the ledger of a run."""
+    return load_json(results.path(LEDGER))["rows"]
+
+
+def on_figure(rows: list[dict], figure: int) -> list[dict]:
+    """Return the rows of the paper's claims on a figure, whose place may be "Figs 2 and 6"."""
+    named = re.compile(rf"Figs? [\d, and]*{figure}")
+    found = (row for row in rows if named.search(row["place"]))
+    return [row for row in found if row["origin"] == Origin.PAPER]
+
+
+class Ledger:
+    """The numbers of the ledger by claim, each linked to a dataset that decides the claim."""
+
+    def __init__(self, results: "Results"):
+        self._results = results
+        self.rows = load(results)
+        self._by_name = {name: row for row in self.rows for name in row["names"]}
+
+    def value(self, claim: str, key: str) -> float:
+        """Return a measured number, NaN if the claim was not decided or is not applicable."""
+        measured = self._by_name[claim]["measured"].get(key, "nan")
+        return float(str(measured).replace("none", "nan"))
+
+    def quote(self, claim: str, key: str, digits: int = 3) -> "Quote":
+        """Return a measured number as a page shows it."""
+        source = self._by_name[claim]["decided_by"][0]
+        return self._results.quote(source, self.value(claim, key), digits)

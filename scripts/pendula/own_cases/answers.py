@@ -1,0 +1,145 @@
+"""What the checks of a user's case or sweep say, as questions with answers in words."""
+
+import numpy as np
+import xarray as xr
+
+from pendula.datasets.registry import SOLVER_NAMES
+from pendula.measures.difference import VISIBLE
+from pendula.problem import PENDULA
+from pendula.report.words import number, percent
+
+from .breathers import LOCALISED
+
+# ASSUME: a bound counts as broken where the norms exceed it by more than their own error, and by
+# more than this.
+SLACK = 1e-6
+STEEPEST = 1.01
+"""Growth of P that is steeper than its bound by more than this is seen in the digits shown."""
+WEAKEST = 1e-6
+"""A drive that lets P grow by less over a whole run cannot be distinguished from rounding."""
+TOO_LARGE = "broken: the errors of the run are too large"
+Answers = list[tuple[str, str]]
+
+
+def of_case(checks: xr.Dataset, moves: bool) -> Answers:
+    """Return questions and answers on a case; `moves` says whether any site does."""
+    if checks.attrs.get("model") == PENDULA:
+        specific, at_rest = _of_pendula, []
+    elif "model_text" in checks.attrs:
+        specific, at_rest = _of_own_model, []
+    else:
+        specific, at_rest = _of_amplitudes, _lemma_1(checks)
+    if not moves:
+        return [("motion", "the chain is at rest and stays so"), *at_rest]
+    return [_trust(checks), *at_rest, *specific(checks)]
+
+
+def of_sweep(swept: xr.Dataset, checks: xr.Dataset) -> Answers:
+    """Return questions and answers on a sweep over half-widths."""
+    if swept.attrs.get("model") == PENDULA:
+        return [("chains on which a pendulum goes over the top", number(checks["swept_over"]))]
+    if "model_text" in swept.attrs:
+        return []
+    holds = bool(checks["swept_ratio"] <= 1.0 + SLACK)
+    return [("Theorems 1 to 3", "hold" if holds else TOO_LARGE)]
+
+
+def _trust(checks: xr.Dataset) -> tuple[str, str]:
+    """Return until when the run agrees with one by another method."""
+    question = f"agrees with {SOLVER_NAMES[str(checks.attrs['second_name'])]}"
+    if reason := checks.attrs.get("second_refusal"):
+        return question, f"unknown: that run was rejected, {reason}"
+    level, parted = percent(VISIBLE), float(checks["divergence_time"])
+    if not np.isfinite(parted):
+        return question, f"to the end, to {number(checks['largest_difference'])} of full scale"
+    if checks.attrs.get("model") == PENDULA:
+        then = "each may show another motion of the same kind from there on"
+    elif checks.get("chaotic", 0):
+        then = "from there on it is one of many solutions of the same kind: use its statistics"
+    else:
+        then = "the motion is not chaotic, and a smaller tolerance or step moves this time on"
+    return question, f"to τ = {number(parted, 4)}, within {level} of full scale; {then}"
+
+
+def _of_pendula(checks: xr.Dataset) -> Answers:
+    over, followed = (
+        bool(np.isfinite(checks[name])) for name in ("over_the_top", "expansion_error")
+    )
+    top = "yes: from there on the expansion (3) and the amplitude equations (4) do not apply"
+    return [
+        ("a pendulum has gone over the top", top if over else "no"),
+        ("the expansion (3) could be followed", "yes" if followed else "no"),
+    ]
+
+
+def _of_own_model(checks: xr.Dataset) -> Answers:
+    drifts = checks.get("conserved_drift", [])
+    return [
+        _chaotic(checks),
+        ("a localised state", localised(checks)),
+        *((f"change of {one['conserved_quantity'].item()}, over its largest size", number(one))
+          for one in drifts),
+    ]  # fmt: skip
+
+
+def localised(checks: xr.Dataset) -> str:
+    """Return what the localised state of a model is like, or why there is none."""
+    if reason := checks.attrs.get("breather_refusal"):
+        return f"none: {reason}"
+    frequency, growth = (float(checks[f"breather_{name}"]) for name in ("frequency", "growth"))
+    what = f"turns at the frequency {number(frequency)}" if frequency else "is steady"
+    if checks["breather_end"] > LOCALISED:
+        return f"{what}, but reaches the ends of the chain"
+    grows = f"a perturbation grows at the rate {number(growth)}"
+    return f"{what}; {grows if growth else 'no perturbation grows'}"
+
+
+def _chaotic(checks: xr.Dataset) -> tuple[str, str]:
+    lost = checks.attrs.get("sensitivity_refusal", "")
+    return "chaotic", f"unknown: {lost}" if lost else "yes" if checks["chaotic"] else "no"
+
+
+def _lemma_1(checks: xr.Dataset) -> Answers:
+    """Return whether the chain at rest is stable, and of which chain the statements are."""
+    stable = {True: "unstable", False: "no growing mode"}
+    rows = [
+        ("Lemma 1, infinite chain at rest", stable[bool(checks["infinite_rate"] > 0)]),
+        ("Lemma 1, this chain at rest", stable[bool(checks["finite_rate"] > 0)]),
+    ]
+    if checks.attrs["epsilon"] < 0:
+        rows.append(("ε < 0", "the statements are on the equivalent chain with −ε and Ω − 4ε, of "
+                     "which every other site has the opposite sign"))  # fmt: skip
+    return rows
+
+
+def _of_amplitudes(checks: xr.Dataset) -> Answers:
+    found = decided(checks)
+    growth = "holds"
+    if not found["growth_holds"]:
+        growth = TOO_LARGE
+    elif found["too_steep"]:
+        growth = "holds from the start on, but not between outputs: the errors of the run are large"
+    region = str(checks["region"].values)
+    covered = "only Theorem 3 covers" if region == "none" else f"{region.capitalize()} covers"
+    bound = "the smallest bound holds" if found["bound_holds"] else f"the bound is {TOO_LARGE}"
+    balance = "followed" if found["balanced"] else "could not be followed by the second method"
+    return [
+        _chaotic(checks),
+        ("Lemma 2, growth of P" + ("" if found["driven"] else " (not driven)"), growth),
+        ("Lemma 2, balance of P", balance),
+        ("Theorems 1 to 3, these initial conditions", f"{covered} them; {bound}"),
+    ]
+
+
+def decided(checks: xr.Dataset) -> dict[str, bool]:
+    """Return which statements hold of a case of the amplitude equations."""
+    driven = 4.0 * abs(checks.attrs["gamma"]) * checks.attrs["end_time"] > WEAKEST
+    error = np.nan_to_num(float(checks["largest_difference"]))
+    limit = 1.0 + max(SLACK, 4.0 * error)  # P is a square, and both its values may be off
+    return {
+        "driven": driven,
+        "growth_holds": bool(checks["from_start"] <= limit),
+        "too_steep": bool(driven and checks["steepest"] > STEEPEST),
+        "bound_holds": bool(checks["ratio"] <= limit),
+        "balanced": bool(np.isfinite(checks["balance_error"])),
+    }

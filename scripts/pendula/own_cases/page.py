@@ -1,0 +1,52 @@
+"""The report on a user's cases and sweeps: figures, what the checks say, and all datasets."""
+
+from pathlib import Path
+
+from pendula.datasets.netcdf import read
+from pendula.report.described import dataset, figure
+from pendula.report.document import Section, Table, write_page
+
+from . import answers
+
+TITLE = "Cases of your own"
+PARTS = ("", ".spacetime", ".breather")
+
+
+def write_report(html: str, cases: list[str], sweeps: dict[str, str], files: list[str]) -> None:
+    """Write the page `html` on `cases`, and on `sweeps` with the case of each.
+
+    Their `files` lie below its folder.
+    """
+    folder, made = Path(html).parent, set(files)
+    sections = [_case(name, folder, made) for name in cases]
+    sections += [_sweep(name, case, folder) for name, case in sweeps.items()]
+    write_page(html, "own.html.j2", TITLE, sections)
+
+
+def _case(name: str, folder: Path, made: set[str]) -> Section:
+    run, checks = folder / f"trajectories/{name}.nc", folder / f"own/cases/{name}.checks.nc"
+    drawn = [folder / f"own/cases/{name}{part}.nc" for part in PARTS]
+    moves = bool(read(run)["linf"].any())
+    return Section(
+        f"case-{name}", f"The case {name}",
+        tables=[_answers(answers.of_case(read(checks), moves))],
+        figures=[figure(path, folder) for path in drawn if str(path) in made],
+        datasets={"Datasets": [dataset(run, folder), dataset(checks, folder)]},
+    )  # fmt: skip
+
+
+def _sweep(name: str, case: str, folder: Path) -> Section:
+    swept, drawn, checks = (
+        folder / path
+        for path in (f"sweeps/{name}.nc", f"own/sweeps/{name}.nc", f"own/sweeps/{name}.checks.nc")
+    )
+    return Section(
+        f"sweep-{name}", f"The sweep {name} over the case {case}",
+        tables=[_answers(answers.of_sweep(read(swept), read(checks)))],
+        figures=[figure(drawn, folder)],
+        datasets={"Datasets": [dataset(path, folder) for path in (swept, drawn, checks)]},
+    )  # fmt: skip
+
+
+def _answers(rows: answers.Answers) -> Table:
+    return Table("What the checks say", ("question", "answer"), rows)

@@ -1,0 +1,113 @@
+"""What files of a run say of themselves: captions of figures, and contents of datasets."""
+
+import re
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import netCDF4
+import numpy as np
+
+from pendula.datasets.netcdf import readable
+
+from .words import number
+
+MOST = 40
+"""Of so many values a page shows all, else their range."""
+WORDS = 300
+"""The page shows the beginning of a longer text, such as a model's."""
+SIZE_OF_PNG = slice(16, 24)
+"""The bytes that hold width and height."""
+SHARED = {"Conventions", "version", "history"}
+"""Attributes that are the same in every dataset of a run."""
+
+
+class Figure(NamedTuple):
+    """A figure; `stem` is where its files are, seen from the page, without their endings."""
+
+    stem: str
+    caption: str
+    omegas: list[float]
+    width: int
+    height: int
+
+    @property
+    def place(self) -> str:
+        """The name of its place on the page, such as figure_fig5 for figures/fig5."""
+        return f"figure_{self.stem.removeprefix('figures/').replace('/', '-')}"
+
+    @property
+    def headline(self) -> str:
+        """How the caption begins, with the detunings that the figure shows."""
+        shown = " and ".join(map(number, self.omegas))
+        return re.split(r"[.:] ", self.caption)[0].rstrip(".") + (f", Ω = {shown}" if shown else "")
+
+
+class Variable(NamedTuple):
+    """A variable of a dataset in words."""
+
+    name: str
+    says: str
+    units: str
+    dimensions: str
+    values: str
+
+
+class Dataset(NamedTuple):
+    """A dataset in words; `link` is where it is, seen from the page."""
+
+    link: str
+    title: str
+    attributes: dict[str, str]
+    variables: list[Variable]
+
+
+def figure(path: Path, page: Path) -> Figure:
+    """Return the figure whose dataset is at `path`, beside its picture, for a page in `page`."""
+    with readable(path), netCDF4.Dataset(path) as data:
+        omegas = data["omega"][...].ravel().tolist() if "omega" in data.variables else []
+        caption = data.caption
+    with path.with_suffix(".png").open("rb") as picture:
+        size = struct.unpack(">II", picture.read(SIZE_OF_PNG.stop)[SIZE_OF_PNG])
+    stem = path.relative_to(page).with_suffix("").as_posix()
+    return Figure(stem, caption, list(dict.fromkeys(omegas)), *size)
+
+
+def dataset(path: Path, page: Path) -> Dataset:
+    """Return what the dataset at `path` says, for a page in the folder `page`."""
+    with readable(path), netCDF4.Dataset(path) as data:
+        data.set_auto_mask(False)
+        about = {name: value for name, value in vars(data).items() if name not in SHARED}
+        told = {name: _in_words(value) for name, value in about.items()}
+        variables = [*_variables(data)]
+    title = told.pop("title", "")
+    return Dataset(path.relative_to(page).as_posix(), title, told, variables)
+
+
+def _variables(data: netCDF4.Dataset) -> Iterator[Variable]:
+    for name, one in data.variables.items():
+        about = vars(one)
+        dimensions = " × ".join(f"{k} {n}" for k, n in zip(one.dimensions, one.shape, strict=True))
+        units = about.get("units", "1")
+        yield Variable(
+            name, about.get("long_name", ""), "" if units == "1" else units, dimensions,
+            _values(np.asarray(one[...])),
+        )  # fmt: skip
+
+
+def _values(values: np.ndarray) -> str:
+    """Return all of a few values, of many numbers their range, of many words the first ones."""
+    if values.size > MOST and values.dtype.kind in "fiu":
+        known = values[np.isfinite(values)]
+        return f"{number(known.min())} to {number(known.max())}" if known.size else "none"
+    shown = ", ".join(_in_words(value) for value in values.ravel()[:MOST])
+    return f"{shown}, ..." if values.size > MOST else shown
+
+
+def _in_words(value: Any) -> str:
+    if isinstance(value, str):
+        return value if len(value) <= WORDS else f"{value[:WORDS]} ..."
+    if np.ndim(value):
+        return _values(np.asarray(value))
+    return str(value) if isinstance(value, int | np.integer) else number(value, 5)
