@@ -8,7 +8,7 @@ import yaml
 from facts import BASELINE
 from held_digits import blurred, unlike
 from pendula.article import write
-from pendula.ledger.section import load
+from pendula.ledger.rows import load
 from render import Accepted
 
 

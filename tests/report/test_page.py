@@ -14,7 +14,9 @@ from pendula.report import document, page
 from pendula.report.described import Figure
 
 HERE = Path(page.__file__).parent
-ROWS = [{"kind": "observation"} | row for row in load_json(BASELINE / "claims.json")["rows"]]
+ROWS = [
+    {"kind": "observation", "fact": ""} | row for row in load_json(BASELINE / "claims.json")["rows"]
+]
 NASTY = "<script>alert(1)</script> {0.__class__} & {{ 7 }}"
 
 

@@ -99,11 +99,6 @@ def tables(rows: list[dict]) -> list[str]:
     ]
 
 
-def files_of(row: dict) -> dict[str, str]:
-    """Return the dataset files that decide a claim, by name; `snakemake <file>` makes each."""
-    return {name: f"results/{name}.nc" for name in row["decided_by"]}
-
-
 def _item(text: str) -> str:
     return textwrap.fill(f"- {text}", 100, subsequent_indent="  ", break_long_words=False,
                          break_on_hyphens=False)  # fmt: skip
