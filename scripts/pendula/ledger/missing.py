@@ -6,7 +6,6 @@ a dataset is unknown, and a line through two points is no law.
 """
 
 from collections.abc import Iterable, Mapping
-from fnmatch import fnmatchcase
 
 import numpy as np
 import xarray as xr
@@ -15,28 +14,13 @@ from .cutoff import once
 
 FEWEST = 3
 """So many samples at least: any two of them make a line."""
-SERIES = {
-    "*": "tau piece_tau long_tau end output generation step half_width sites gamma frequency size "
-    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus",
-    "checks/*": "mu",  # an order in mu takes three of them
-}
-"""The coordinates along which a claim is on many samples, by dataset."""
-
-NO_NUMBER = {
-    "checks/lyapunov": "exponents*",  # beyond the last exponent of a shorter chain
-    "checks/ensembles*": "l2_* linf_*",  # at a half-width without an ensemble
-    "checks/members": "rms",  # beyond the ends of a shorter chain
-    "checks/trust": "*horizon known_until",  # without a reference
-    "breathers/steady": "*",  # where a family has no state
-    "breathers/periodic": "*",  # where a family has no breather, or nothing grows or collides
-    "breathers/fates": "*frequency *distance *unreturned",  # of what does not stay
-    "pendula/over_the_top": "passage_rate*",  # where nobody waited
-    "pendula/phases": "larger_modulus",  # beyond the ends of a shorter chain
-    "pendula/remainder": "error* order* largest_angle",  # beyond the end of a run
-    "pendula/threshold": "gamma_0_finite",  # where no drive makes the chain unstable
-    "unbounded/*": "bulk_maximum",  # of more neighbours than the bulk has
-}
-"""The variables in which NaN has a meaning; the functions that read these look at it themselves."""
+SERIES = (
+    "tau piece_tau long_tau end output generation step half_width sites gamma frequency size "
+    "initial start_amplitude a0 b0 distance decay sample point proof wave modulus mu"
+)
+"""The coordinates along which a claim is on many samples; along mu those that find an order."""
+MEANT = "NaN: "
+"""Long names with these words say what NaN means; the functions that read these variables know."""
 
 
 def missing(
@@ -59,16 +43,12 @@ def _missing(name: str, dataset: xr.Dataset, on: tuple[str, ...]) -> list[str]:
     several = [along for along in ("case", "sweep") if along in dataset.indexes]
     read = {along: [one for one in dataset[along].values if one in on] for along in several}
     dataset = dataset.sel(read) if any(read.values()) else dataset
-    spared = _words_on(name, NO_NUMBER)
     unknown = [
         f"{variable} is unknown in part"
         for variable, values in dataset.data_vars.items()
-        if not any(fnmatchcase(str(variable), pattern) for pattern in spared)
-        if values.dtype.kind in "fc" and np.isnan(values.values).any()
+        if MEANT not in values.attrs.get("long_name", "") and values.dtype.kind in "fc"
+        if np.isnan(values.values).any()
     ]
-    few = [one for one in _words_on(name, SERIES) if dataset.sizes.get(one, FEWEST) < FEWEST]
+    series = [one for one in SERIES.split() if name.startswith("checks/") or one != "mu"]
+    few = [one for one in series if dataset.sizes.get(one, FEWEST) < FEWEST]
     return [*unknown, *(f"{along} has fewer than {FEWEST} samples" for along in few)]
-
-
-def _words_on(name: str, by_dataset: Mapping[str, str]) -> list[str]:
-    return " ".join(w for like, w in by_dataset.items() if fnmatchcase(name, like)).split()

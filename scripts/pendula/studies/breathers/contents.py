@@ -23,7 +23,11 @@ BESIDE = 0.05
 
 
 def kept(dimensions, values, words: str, digits: int | None = DIGITS) -> Variable:
-    """Return a variable rounded to so many significant digits, or as it is if they are None."""
+    """Return a variable rounded to so many significant digits, or as it is if they are None.
+
+    NaN stands where a family has no state, or no state that the words speak of.
+    """
+    words += "; NaN: there is none" if np.isnan(values).any() else ""
     if digits is None:
         return Variable(dimensions, values, words)
     about = {"significant_digits": digits}

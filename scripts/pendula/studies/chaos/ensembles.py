@@ -111,7 +111,7 @@ def sweep_moments(
             ("sweep",), [one["members"] for one in swept.values()], "members at each half-width"
         ),
         **{
-            f"{norm}_{key}": Variable(grid, each, f"{MOMENTS[key]} of the {NAMES[norm]}")
+            f"{norm}_{key}": Variable(grid, each, f"{MOMENTS[key]} of the {NAMES[norm]}; NaN: none")
             for (norm, key), each in values.items()
         },
     }

@@ -22,7 +22,10 @@ REDUCED = {
     "l2_level": (("quantity", "window"), "mean of the l2 norm over the time window"),
     "linf_level": (("quantity", "window"), "mean of the l-infinity norm over the time window"),
     "norm_correlation": (("window",), "correlation in time of the squared l2 norms of A and B"),
-    "rms": (("window", "component", "site"), "root mean square of an amplitude over the window"),
+    "rms": (
+        ("window", "component", "site"),
+        "root mean square of an amplitude over the window; NaN: no site",
+    ),
 }
 """What each member is reduced to: dimensions after kind, case and member, and in words."""
 

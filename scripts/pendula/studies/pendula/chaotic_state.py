@@ -158,7 +158,7 @@ def measure_over_the_top(
         ("passage_median", (), [median_limits(row) for row in times],
          "median time of the first passage, from order statistics"),
         ("passage_rate", (), [event_rate(row, settled, problem.end_time) for row in times],
-         "rate of first passages after the settled time, per unit of tau"),
+         "rate of first passages after the settled time, per unit of tau; NaN: none was left"),
     ):  # fmt: skip
         value, low, high = (np.array(one) for one in zip(*found, strict=True))
         over = ("mu", *rest)

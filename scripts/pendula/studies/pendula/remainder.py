@@ -51,6 +51,7 @@ RUNS = {
 A run is told by whether G moves the amplitudes, from the corrected start, and by their slow time
 over mu^2 t / 2.
 """
+LOST = "; NaN: beyond the end of a run"
 RIGHT = ("leading", "corrected")
 WRONG = (
     "the slow time mu^2 t",
@@ -326,12 +327,12 @@ def remainder_contents(
         "omega": Variable(("case",), [float(one.constants.omega) for one in problems.values()]),
         "pendula_end": Variable(("case", "mu"), last, "end of the run of the pendula"),
         "error": Variable(over, errors.transpose(2, 0, 1, 3),
-                          "error of an angle, the largest up to the end", "rad"),
-        "order": Variable(reduced, order, "order in mu of the error as mu goes to zero"),
-        "order_uncertainty": Variable(reduced, off, "what the order in mu may be off by"),
+                          f"error of an angle, the largest up to the end{LOST}", "rad"),
+        "order": Variable(reduced, order, f"order in mu of the error as mu goes to zero{LOST}"),
+        "order_uncertainty": Variable(reduced, off, f"what the order in mu may be off by{LOST}"),
         "error_constant": Variable(
-            reduced, constant, "error over mu^3, of the corrected expansion mu^5, at the least mu",
-            "rad"),
+            reduced, constant,
+            f"error over mu^3, of the corrected expansion mu^5, at the least mu{LOST}", "rad"),
         "largest_angle": Variable(("case", "mu", "end"), np.array([one.angles for one in found]),
                                   "largest angle up to the end", "rad"),
         "visible_from": Variable(

@@ -105,7 +105,7 @@ def run_variables(problems: list[Problem], runs: list[list[LongRun]]) -> dict[st
         "bulk_maximum": of_runs(
             series("maxima"),
             ("piece_tau", "neighbours"),
-            "largest |A_n| or |B_n| of a block, mean over the blocks of the old half of the bulk",
+            "largest |A_n| or |B_n| of a block, mean over blocks of the old bulk; NaN: none",
         ),
         "state": of_runs(
             np.array(states), ("row", "site"), "Re A, Im A, Re B, Im B at the end, zero beyond W"
