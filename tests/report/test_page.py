@@ -53,16 +53,16 @@ def test_the_page_begins_with_the_verdicts_and_the_papers_figures(written):
     assert "Of 2 claims of the paper, 1 is confirmed, 1 is not reproduced." in text
     table = text[text.index("figure verdict claims") :]
     assert "Fig 1 : fig1 is shown, Ω = 8 a drawing none" in table
-    assert "reproduced, except for 1 of the claims 1 confirmed , 1 not reproduced" in table
+    assert "holds, except for 1 of the claims 1 confirmed , 1 not reproduced" in table
 
 
 @pytest.mark.parametrize(
     ("verdicts", "said"),
     [
-        (("confirmed",), "reproduced 1 confirmed"),
-        (("confirmed with a caveat",), "reproduced with a caveat 1"),
-        (("not reproduced",), "not reproduced 1"),
-        (("cannot be decided",), "not reproduced 1 cannot"),
+        (("confirmed",), "holds 1 confirmed"),
+        (("confirmed with a caveat",), "holds with a caveat 1"),
+        (("not reproduced",), "does not hold 1"),
+        (("cannot be decided",), "does not hold 1 cannot"),
         (("confirmed", "not applicable"), "not applicable 1 confirmed"),
     ],
 )

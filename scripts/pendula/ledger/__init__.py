@@ -6,7 +6,7 @@
 `criterion`  what decides, and prints itself
 `cutoff`     the numbers that decide, where each comes from, and what follows if one moves
 `missing`    what is missing from a dataset, and confirms nothing
-`section`    the ledger's part of the report
+`rows`       the rows of a run, and the numbers that others quote from them
 `tables`     the readings of a sentence as one row, counts of rows, and the ledger as files
 `verdicts`   all claims, and the verdict on each with what its controls say
 

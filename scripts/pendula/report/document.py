@@ -91,7 +91,7 @@ def verdict(rows: list[dict]) -> str:
 def _overview(rows: list[dict], figures: list[Figure]) -> Table:
     """Return Figs 1 to 6 with the verdicts on the paper's claims about them, all with links."""
     return Table(
-        "Each figure with its verdict, and the claims of the paper on it",
+        "Whether what the paper says of each figure holds for our curves, and its claims",
         ("figure", "verdict", "claims"),
         [_verdict(which, one, on_figure(rows, which)) for which, one in enumerate(figures, 1)],
     )
@@ -112,13 +112,13 @@ def _verdict(which: int, shown: Figure, rows: list[dict]) -> tuple:
     if by_verdict[Verdict.NOT_APPLICABLE]:
         found = badge(Verdict.NOT_APPLICABLE, "not applicable")
     elif failing == len(rows):
-        found = badge(Verdict.NOT_REPRODUCED, "not reproduced")
+        found = badge(Verdict.NOT_REPRODUCED, "does not hold")
     elif failing:
-        found = badge(Verdict.CAVEAT, f"reproduced, except for {failing} of the claims")
+        found = badge(Verdict.CAVEAT, f"holds, except for {failing} of the claims")
     elif by_verdict[Verdict.CAVEAT]:
-        found = badge(Verdict.CAVEAT, "reproduced with a caveat")
+        found = badge(Verdict.CAVEAT, "holds with a caveat")
     else:
-        found = badge(Verdict.CONFIRMED, "reproduced")
+        found = badge(Verdict.CONFIRMED, "holds")
     return name, found, counts
 
 
