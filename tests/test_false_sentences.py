@@ -6,17 +6,12 @@ import shutil
 
 import pytest
 import xarray as xr
-from false_sentences import SENTENCES, false_sentences
+from false_sentences import false_sentences
 
 
 def rewritten(path, text: str) -> None:
     path.unlink()  # else the shared run would change, to whose file this is a link
     path.write_text(text, encoding="utf-8")
-
-
-def said(sentence: str):
-    """Return what writes a sentence into the report."""
-    return replaced("report.html", '<main id="main">', f'<main id="main"><p>{sentence}</p>')
 
 
 def replaced(name: str, old: str, new: str):
@@ -65,28 +60,18 @@ def failed(row):
 
 
 PLANTED = [
-    ((run_with("fig2_small", omega=7.0),), "the report says: Fig 2: norms against time, Ω = 8"),
-    ((run_with("fig3_small", omega=7.0),), "the report says: Fig 5, norms against half-width"),
-    ((run_with("fig4_small", gamma=0.5),
-      replaced("report.html", "not applicable</span></td>", "reproduced</span></td>")),
-     "Ω = 0reproduced"),
-    ((said("so that no run can follow them for long"),), "that numbers of pendula are known"),
-    ((said("At Ω = 3, (A₀, B₀) = (1, 0.1) nothing moves."),), "names Ω = 3"),
     ((run_with("fig2_small", boundary="periodic"),), "does not begin with fig2_small.boundary"),
     ((run_with("fig2_small", boundary="periodic"),), "of fig2 do not say that fig2_small.boundary"),
     ((run_with("fig3_small", gamma=0.5),), "of fig5 do not say that fig3_small.gamma"),
-    ((run_with("fig3_large", gamma=0.5),), "of lyapunov do not say that fig3_large.gamma"),
+    ((run_with("fig3_large", gamma=0.5),), "of energy_drift do not say that fig3_large.gamma"),
     ((replaced("report.html", "fig2_small.end_time (4 in", "fig2_small.end_time (5 in"),),
      "fig2_small.end_time (5 in place of 50), which was not run"),
     ((replaced("report.html", "with other settings", "replicated"),), "The title".lower()),
     ((row_of("fig2_bounded", lambda row: row.update(verdict="confirmed")),),
      "the claim fig2_bounded is confirmed, and fig2_small is edited"),
-    ((row_of("hamiltonian", lambda row: row.update(verdict="not reproduced")),),
-     "the report has another verdict on hamiltonian"),
-    ((row_of("hamiltonian", lambda row: row.update(verdict="not reproduced")),),
-     "claims.md has another verdict on hamiltonian"),
-    ((row_of("inherited", failed),), "inherited is confirmed, and its control"),
-    ((row_of("inherited", failed),), "does not say that 1 controls came out wrong"),
+    ((row_of("theorem_1", lambda row: row.update(verdict="not reproduced")),),
+     "claims.md has another verdict on theorem_1"),
+    ((row_of("theorem_3", failed),), "theorem_3 is confirmed, and its control"),
     ((run_with("fig3_large", gamma=0.5), row_of("ends_near_stable", lambda row: [
         one.update(verdict="not reproduced") for one in row["controls"]])),
      "ends_near_stable was fed the large case at Omega = -4"),
@@ -128,8 +113,3 @@ def test_nothing_is_false_of_the_quick_run(full_run):
 @pytest.mark.parametrize("number", range(len(PLANTED)), ids=[found for _, found in PLANTED])
 def test_a_false_sentence_is_found(said_of, number):
     assert [one for one in said_of[number % 2] if PLANTED[number][1] in one] != []
-
-
-def test_every_sentence_of_the_list_is_planted():
-    planted = [found for _, found in PLANTED]
-    assert len(set(planted)) == len(planted) >= len(SENTENCES) + 15
